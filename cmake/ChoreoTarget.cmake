@@ -1,0 +1,36 @@
+# One CMake target a folder. choreo_library(NAME SOURCES ... LINK ...) makes the library `choreo_NAME`, with warnings as errors and
+# includes from the root of the repository ("model/motion/skeleton.h").
+
+add_library(choreo_options INTERFACE)
+target_compile_options(choreo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror)
+target_include_directories(choreo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+
+# Folders that do not exist yet are passed over.
+function(choreo_add_folder folder)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/CMakeLists.txt)
+    add_subdirectory(${folder})
+  endif()
+endfunction()
+
+function(choreo_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK;PRIVATE_LINK")
+  add_library(choreo_${name} STATIC ${ARG_SOURCES})
+  add_library(choreo::${name} ALIAS choreo_${name})
+  set_target_properties(choreo_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+  target_link_libraries(choreo_${name} PRIVATE $<BUILD_INTERFACE:choreo_options> ${ARG_PRIVATE_LINK} PUBLIC ${ARG_LINK})
+  target_include_directories(choreo_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+endfunction()
+
+function(choreo_executable name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE choreo_options ${ARG_LINK})
+endfunction()
+
+# choreo_test(NAME SOURCES ... LINK ...): a GoogleTest program, its cases registered one by one with ctest.
+function(choreo_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE choreo_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

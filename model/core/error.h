@@ -1,0 +1,45 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace choreo {
+
+/// Why something failed, in the vocabulary that server/status.cpp maps one to one onto gRPC's.
+enum class ErrorCode {
+  kInvalidArgument,     ///< a value that can never be used
+  kOutOfRange,          ///< a value that comes at the wrong moment (a gap in the audio)
+  kNotFound,            ///< a model, device or file that does not exist
+  kFailedPrecondition,  ///< a continuation of another model or build
+  kResourceExhausted,   ///< every slot is taken
+  kUnimplemented,       ///< a control that this model does not have
+  kUnavailable,         ///< draining
+  kCancelled,
+  kDeadlineExceeded,
+  kInternal,
+};
+
+/// The one exception type of this project. `field()` is the path of the offending value as its sender knows it, as in
+/// "keyframes[3].rotations[16]"; empty where there is none. `what()` names the field, the value and the limit.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorCode code, std::string field, const std::string& message)
+      : std::runtime_error(field.empty() ? message : field + ": " + message),
+        code_(code),
+        field_(std::move(field)) {}
+
+  ErrorCode code() const noexcept { return code_; }
+  const std::string& field() const noexcept { return field_; }
+
+ private:
+  ErrorCode code_;
+  std::string field_;
+};
+
+/// Shorthand for the commonest kind.
+inline Error InvalidArgument(std::string field, const std::string& message) {
+  return Error(ErrorCode::kInvalidArgument, std::move(field), message);
+}
+
+}  // namespace choreo

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// World placement of every joint of one pose.
+struct JointPlacement {
+  Eigen::Matrix3Xd positions;              ///< [3, joints] metres
+  std::vector<Eigen::Matrix3d> rotations;  ///< [joints] global rotations
+};
+
+/// Forward kinematics. Throws Error(kInvalidArgument) if the pose's joint count is not the skeleton's.
+JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose);
+
+/// Positions alone, [3, joints].
+Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose);
+
+/// How far apart two poses are: the largest joint distance (metres) and the largest angle of a local joint rotation (degrees).
+/// Degrees of freedom outside `mask` do not count; with any joint masked only the angles of the others count.
+struct PoseError {
+  double position_m = 0;
+  double angle_deg = 0;
+};
+PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b, const PoseMask& mask = {});
+
+/// The neutral stance of DESIGN's "no history": rest pose, feet on the floor, at the origin, facing +Z.
+Pose RestPose(const Skeleton& skeleton);
+
+}  // namespace choreo

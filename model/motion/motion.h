@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace choreo {
+
+/// One frame of a skeleton, in a world frame: right-handed, Y up, floor y = 0.
+struct Pose {
+  Eigen::Vector3d root_position = Eigen::Vector3d::Zero();  ///< of the pelvis (joint 0), metres
+  Eigen::Matrix3Xd rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
+};
+
+/// Frames at a constant rate. Exponential-map branches are continuous from frame to frame.
+struct Motion {
+  double fps = 30;
+  std::vector<Pose> frames;
+};
+
+/// Which of a pose's degrees of freedom a key asks for. An empty joint mask means every joint.
+struct PoseMask {
+  bool root_position = true;
+  std::vector<bool> joints;  ///< [joints] or empty
+};
+
+}  // namespace choreo
