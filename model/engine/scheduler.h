@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,47 +11,81 @@
 
 namespace choreo {
 
-/// One transition as the scheduler sees it. The scheduler calls every method from the worker thread that owns the job's slot, one
-/// at a time; none may block. Implemented by dance/ (and by fakes in tests).
+/// One transition as the scheduler sees it. All calls but Cancelled come from a worker thread, one
+/// at a time, with no lock of the scheduler held: a job may call Submit, Wake, Stop and stats from
+/// inside them. None may block. Implemented by dance/ (and by fakes in tests).
+/// What spec, NextInput or OnFrame throw ends this job alone, as a failure.
 class StepJob {
  public:
   virtual ~StepJob() = default;
+
+  /// Read once, when the job gets its slot.
   virtual const TransitionSpec& spec() const = 0;
-  /// The next frame's input but for `slot`; false while it can't be made yet (its audio has not arrived): the job then sleeps
-  /// until Scheduler::Wake.
+
+  /// The next frame's input but for `slot`; false while it can't be made yet (its audio has not
+  /// arrived): the job then sleeps until Scheduler::Wake. After true the step follows at once; what
+  /// the input points to must live until OnFrame or OnDone.
   virtual bool NextInput(StepInput* input) = 0;
+
   /// Takes the model's frame. Returns true while more frames are wanted.
   virtual bool OnFrame(const StepOutput& raw) = 0;
-  /// Once, last: after the final frame (nullptr), after cancellation or when something failed.
+
+  /// Once, last: after the final frame (nullptr), after cancellation (kCancelled), or when
+  /// something failed. The slot is free by then. The first job submitted from inside OnDone
+  /// inherits that slot: it goes before all that wait, is never refused for want of room, and steps
+  /// with the next batch.
   virtual void OnDone(const Error* failure) noexcept = 0;
-  /// When this job's next frame is due on its listener's clock, seconds; earliest goes first when not all fit.
+
+  /// When this job's next frame is due on its listener's clock, seconds; earliest goes first when
+  /// not all fit into one step.
   virtual double NextDeadline() const = 0;
-  /// Read before each step; a cancelled job frees its slot at once.
+
+  /// Read before each step; a cancelled job frees its slot at once. May be called from any worker
+  /// thread at any time, so it must be thread-safe (an atomic flag).
   virtual bool Cancelled() const = 0;
 };
 
-/// Feeds engines: one worker thread per engine; ready jobs step together; earliest deadline first; no added delay.
-/// Thread-safe. Admission is bounded: Submit never blocks.
+/// Feeds engines: one worker thread per engine; ready jobs step together; earliest deadline first;
+/// no added delay. A job goes to the engine with most free slots, or waits, in order of submission,
+/// until some slot is free. Admission is bounded: Submit never blocks. Thread-safe. A job is held
+/// from Submit until its OnDone has returned.
 class Scheduler {
  public:
   struct Options {
-    int max_waiting = 64;   ///< jobs beyond the engines' slots that may wait for one
-    int max_batch = 64;     ///< most slots stepped at once
+    int max_waiting = 64;  ///< jobs beyond the engines' slots that may wait for one, >= 0
+    int max_batch = 64;    ///< most slots of one engine stepped at once, >= 1
   };
   struct Stats {
-    int active = 0, waiting = 0, slots = 0;
-    uint64_t frames = 0, steps = 0;  ///< frames / steps = mean batch
+    int active = 0;   ///< jobs that hold a slot
+    int waiting = 0;  ///< jobs that wait for one
+    int slots = 0;    ///< of all engines
+    uint64_t frames = 0;
+    uint64_t steps = 0;  ///< frames / steps = mean batch
   };
 
+  /// Throws Error(kInvalidArgument) for options out of range, for no engines, and for engines whose
+  /// fingerprints differ: a job's bits must not depend on which of them is free.
   Scheduler(std::vector<std::unique_ptr<StepEngine>> engines, Options options);
-  ~Scheduler();  ///< Stop(), then joins
 
-  /// Throws Error(kResourceExhausted) when full, Error(kUnavailable) after Stop.
+  /// Stop(false), then joins. Not from inside a job's call.
+  ~Scheduler();
+
+  /// Throws Error(kResourceExhausted) when full, Error(kUnavailable) after Stop,
+  /// Error(kInvalidArgument) for a null job and for one that is submitted already and not yet done.
   void Submit(std::shared_ptr<StepJob> job);
-  /// The job may have become ready, or was cancelled. Cheap, from any thread, also for jobs already done.
+
+  /// The job may have become ready, or was cancelled. Cheap, from any thread. `job` is compared and
+  /// never read: it may be done, destroyed, or not yet submitted. A call too many does no harm.
   void Wake(const StepJob* job);
-  /// No new jobs; jobs in progress run to their end (drain = true) or end as kUnavailable (false). Idempotent.
+
+  /// No new jobs. drain = true: accepted jobs run to their end, also those that wait, and so do the
+  /// jobs that inherit their slots; false: all end now, as kUnavailable. Returns at once (see
+  /// WaitUntilIdle); may be called again, and then only from true to false changes anything.
   void Stop(bool drain) noexcept;
+
+  /// Waits until no job is active or waiting; false if that took longer. Not from inside a job's
+  /// call.
+  bool WaitUntilIdle(std::chrono::milliseconds limit) const;
 
   const ModelInfo& model() const;
   std::vector<std::string> devices() const;

@@ -11,7 +11,8 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// What stands between the dance and a network: poses in, poses out, one frame at a time. No torch, no gRPC.
+/// What stands between the dance and a network: poses in, poses out, one frame at a time. No torch,
+/// no gRPC.
 namespace choreo {
 
 /// What a loaded model is. Fixed for the life of an engine.
@@ -21,9 +22,9 @@ struct ModelInfo {
   std::string licence;      ///< terms of the weights
   std::string card;         ///< the model card, JSON
   Skeleton skeleton;
-  double fps = 30;           ///< rate at which the model runs
-  int history_frames = 10;   ///< tau
-  int audio_features = 40;   ///< MFCC rows' width
+  double fps = 30;          ///< rate at which the model runs
+  int history_frames = 10;  ///< tau
+  int audio_features = 40;  ///< MFCC rows' width
   int max_transition_frames = 1800;
   double default_temperature = 0.3;
 };
@@ -34,35 +35,41 @@ struct Target {
   PoseMask mask;
 };
 
-/// Everything that a transition is a function of, but the music of its own frames, which arrives with them.
-/// All poses stand in the transition's canonical frame (motion/canonical.h).
+/// Everything that a transition is a function of, but the music of its own frames, which arrives
+/// with them. All poses stand in the transition's canonical frame (motion/canonical.h).
 struct TransitionSpec {
-  int frames = 0;                ///< N >= 1; with a target, frame N-1 is the key's
-  std::vector<Pose> history;     ///< tau poses, oldest first; the last one stands right before frame 0
+  int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
+  std::vector<Pose> history;  ///< tau poses, oldest first; the last one stands right before frame 0
   std::optional<Target> target;  ///< none: music alone
   bool has_audio = false;        ///< false: audio rows are ignored, the model dances without music
-  Eigen::MatrixXf audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first
+  Eigen::MatrixXf
+      audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first
   uint64_t seed = 0;
   uint32_t candidate = 0;
-  int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate, absolute frame, dimension)
+  int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,
+                            ///< absolute frame, dimension)
   float temperature = 0.3F;
 };
 
 /// One slot's share of a step.
 struct StepInput {
   int slot = 0;
-  const Pose* previous = nullptr;    ///< what was emitted for the frame before (feeds the history); null on a slot's first step
+  const Pose* previous = nullptr;    ///< what was emitted for the frame before (feeds the history);
+                                     ///< null on a slot's first step
   std::span<const float> audio_row;  ///< MFCC row of this frame; empty where the spec has no audio
 };
 
 struct StepOutput {
   Pose pose;  ///< canonical frame, as the model has it: arrival and post-processing come after
-  std::array<float, 4> contacts = {};  ///< left ankle, left toes, right ankle, right toes; probability-like, [0, 1]
-  float log_likelihood = 0;            ///< of this frame, nats (model's standardised space, log-determinants included)
+  std::array<float, 4> contacts =
+      {};  ///< left ankle, left toes, right ankle, right toes; probability-like, [0, 1]
+  float log_likelihood =
+      0;  ///< of this frame, nats (model's standardised space, log-determinants included)
 };
 
-/// A network on one device with a fixed number of slots. Each slot holds one transition in progress.
-/// Not thread-safe: one worker owns an engine. A slot's outputs do not depend on which other slots step with it.
+/// A network on one device with a fixed number of slots. Each slot holds one transition in
+/// progress. Not thread-safe: one worker owns an engine. A slot's outputs do not depend on which
+/// other slots step with it.
 class StepEngine {
  public:
   virtual ~StepEngine() = default;
@@ -70,8 +77,9 @@ class StepEngine {
   virtual std::string device() const = 0;  ///< "cpu", "cuda:0"
   virtual int slots() const = 0;
   virtual int free_slots() const = 0;
-  /// Takes a slot and computes what is known before the loop (the plan, hoisted condition columns). Throws
-  /// Error(kResourceExhausted) with no slot free, Error(kInvalidArgument) for a spec of the wrong shape.
+  /// Takes a slot, numbered 0 to slots() - 1, and computes what is known before the loop (the plan,
+  /// hoisted condition columns). Throws Error(kResourceExhausted) with no slot free,
+  /// Error(kInvalidArgument) for a spec of the wrong shape.
   virtual int Admit(const TransitionSpec& spec) = 0;
   /// Steps every named slot by one frame; a slot is named at most once. `out` has the size of `in`.
   virtual void Step(std::span<const StepInput> in, std::span<StepOutput> out) = 0;
