@@ -1,0 +1,45 @@
+# `make` alone explains itself. Binaries appear in build/release/bin/.
+.DEFAULT_GOAL := help
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+
+PRESET ?= release
+BUILD := build/$(PRESET)
+JOBS ?= $(shell nproc)
+# ccache, where there is one, makes a second build quick.
+export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
+
+SOURCES = $(shell git ls-files '*.cpp' '*.h')
+
+.PHONY: help demo test build packages bench verify format lint
+
+help:  ## Show this list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-9s %s\n", $$1, $$2}'
+
+demo: build  ## Install, build, serve, and dance 24 s to a real song; results in out/demo/
+	@scripts/demo.sh $(BUILD)/bin out/demo
+
+test: build  ## Install, build and run every test (a few minutes)
+	@scripts/run_tests.sh $(BUILD)
+
+build: packages  ## Install what is missing and compile everything (PRESET=release|debug|asan|tsan)
+	@cmake --preset $(PRESET) $(if $(wildcard $(BUILD)/build.ninja),>/dev/null,)
+	@cmake --build $(BUILD) -j $(JOBS)
+
+packages:  ## Install the Debian packages that are missing
+	@scripts/install_packages.sh
+
+bench: build  ## Run the benchmarks
+	@scripts/bench.sh $(BUILD)/bin
+
+verify: build  ## Everything too long for `make test`: sanitizers, the installed package, a fresh consumer
+	@scripts/verify.sh $(BUILD)
+
+format:  ## Format all sources in place
+	@scripts/install_packages.sh lint
+	@clang-format -i $(SOURCES)
+
+lint: build  ## Check formatting, and run clang-tidy over our sources
+	@scripts/install_packages.sh lint
+	@clang-format --dry-run -Werror $(SOURCES)
+	@git ls-files '*.cpp' | xargs -P $(JOBS) -n 4 clang-tidy --quiet -p $(BUILD)

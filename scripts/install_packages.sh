@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that this project needs. The one place that names them.
+#
+#   scripts/install_packages.sh [GROUP...]     groups: build run demo test lint; default: build run demo test
+#
+# Runs as root, or through sudo. Quick when everything is there already: it asks dpkg first and touches apt only for what is missing.
+set -euo pipefail
+
+# To compile everything.
+build=(
+  cmake ninja-build g++ pkg-config ccache git
+  libtorch-dev libopenblas0-pthread
+  libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
+  libeigen3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+  libsndfile1-dev libzip-dev libxxhash-dev libcairo2-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+# To run what was compiled elsewhere. Debian's LibTorch has only a slow BLAS of its own: libopenblas0-pthread takes its place.
+run=(
+  libtorch1.13 libopenblas0-pthread libgrpc++1.51 libprotobuf32
+  libspdlog1.10 libsndfile1 libzip4 libxxhash0 libcairo2
+)
+# Free songs to dance to.
+demo=(fretsonfire-songs-sectoid)
+# An independent reader of the files that we write.
+test=(python3-numpy)
+lint=(clang-format clang-tidy)
+
+groups=("$@")
+[[ ${#groups[@]} -gt 0 ]] || groups=(build run demo test)
+
+wanted=()
+for group in "${groups[@]}"; do
+  case $group in
+    build) wanted+=("${build[@]}") ;;
+    run) wanted+=("${run[@]}") ;;
+    demo) wanted+=("${demo[@]}") ;;
+    test) wanted+=("${test[@]}") ;;
+    lint) wanted+=("${lint[@]}") ;;
+    *) echo "install_packages.sh: unknown group '$group' (build run demo test lint)" >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "install_packages.sh: this is not Debian; install by hand: ${wanted[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | head -c 9 || true)
+  [[ $status == installed ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "install_packages.sh: must run as root or with sudo to install: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends)
+# The lists may be old or absent: refresh them once if the first attempt fails.
+if ! "${install[@]}" "${missing[@]}" >/dev/null 2>&1; then
+  "${as_root[@]}" apt-get update -qq
+  "${install[@]}" "${missing[@]}" >/dev/null
+fi

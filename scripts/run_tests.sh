@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Runs every test of a build directory and ends with one line: "N passed, N failed, N skipped".
+#   scripts/run_tests.sh BUILD_DIRECTORY
+set -euo pipefail
+build=$1
+report=$(mktemp)
+trap 'rm -f "$report"' EXIT
+
+# Each test program gets one thread of BLAS: ctest already uses every core.
+export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+rc=0
+ctest --test-dir "$build" --output-on-failure --progress -j "$(nproc)" --no-tests=error \
+  --output-junit "$report" || rc=$?
+
+# The first line with these attributes belongs to the <testsuite>, which counts all.
+attribute() { grep -oE -m1 "$1=\"[0-9]+\"" "$report" | head -1 | tr -dc 0-9 || true; }
+total=$(attribute tests)
+failed=$(attribute failures)
+skipped=$(($(attribute skipped) + $(attribute disabled)))
+if [[ -z $total ]]; then
+  echo "run_tests.sh: ctest wrote no report" >&2
+  exit 1
+fi
+echo "$((total - failed - skipped)) passed, $failed failed, $skipped skipped"
+exit "$rc"
