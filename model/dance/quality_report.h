@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/dance/transition.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// One key of the report.
+struct KeyReport {
+  std::string id;
+  int64_t frame = 0;
+  ArrivalResult arrival;
+  /// Largest joint acceleration (m/s^2) of the frames within two of the key's; less where the dance
+  /// ends earlier.
+  double max_acceleration = 0;
+};
+
+/// What a dance is worth, in figures. All at the model's rate, before resampling for output.
+struct QualityReport {
+  int64_t first_frame = 0;
+  int64_t frames = 0;
+  std::vector<KeyReport> keys;
+  double mean_log_likelihood = 0;  ///< nats a frame
+  /// Share of the steps (pairs of successive frames) in which either foot skates: its toe joint is
+  /// below 5 cm in both frames and moves faster than 0.2 m/s over the floor.
+  double skate_ratio = 0;
+  /// Paper F, 4.5.1: of the kinematic beats (local maxima of the mean joint speed), the share with
+  /// a music beat at most two frames away. Absent without music beats, or without kinematic ones.
+  std::optional<double> beat_hit_rate;
+  std::optional<double> beat_coverage;  ///< kinematic beats / music beats, over the dance's frames
+  double max_key_acceleration = 0;      ///< over all keys, m/s^2
+  /// 95th percentile over the frames of the largest joint acceleration, m/s^2: what to hold
+  /// max_key_acceleration against.
+  double p95_acceleration = 0;
+};
+
+/// Gathers a QualityReport while a dance goes by, in a few numbers a frame. Frames come in order.
+/// Not thread-safe.
+class QualityMeter {
+ public:
+  QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame);
+
+  void Add(const DanceFrame& frame);
+  /// The key at the frame that was added last.
+  void AddKey(std::string id, const ArrivalResult& arrival);
+  /// `music_beats`: frames (fractions allowed), ascending; empty: no beat figures. Those outside
+  /// the dance do not count.
+  QualityReport Report(std::span<const double> music_beats = {}) const;
+
+ private:
+  Skeleton skeleton_;
+  double fps_;
+  int64_t first_frame_;
+  std::vector<KeyReport> keys_;
+  double log_likelihood_sum_ = 0;
+  int64_t skating_steps_ = 0;
+  std::deque<Eigen::Matrix3Xd> last_positions_;  // [3, joints] of the last two frames
+  std::vector<float> speed_;         // mean joint speed of step i (frame i -> i + 1), m/s
+  std::vector<float> acceleration_;  // largest joint acceleration at frame i + 1, m/s^2
+  int64_t frames_ = 0;
+};
+
+/// Frames of the kinematic beats of a curve of mean joint speeds: its local maxima (a plateau
+/// counts once, at its start). `speed[i]` belongs to frame i + 1.
+std::vector<int64_t> KinematicBeats(std::span<const float> speed);
+
+/// Shorthand for whole motions (evaluation). Contacts and likelihood are not judged.
+QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion,
+                            std::span<const double> music_beats = {});
+
+}  // namespace choreo

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <variant>
+
+#include "model/motion/motion.h"
+
+/// Keys on the grid of the model's frames, and how they cut a dance into transitions.
+namespace choreo {
+
+/// Limits of the API (DESIGN section 7) that the timeline enforces.
+inline constexpr int kMaxKeys = 1000;  ///< accepted in one stream, removed ones included
+inline constexpr int kMaxTransitionFrames = 1800;    ///< one transition; one minute at 30 fps
+inline constexpr int64_t kMaxDanceFrames = 108'000;  ///< absolute; one hour at 30 fps
+inline constexpr int kMinKeyDistance = 2;            ///< frames between two keys
+/// Length of a transition with no target, frames.
+inline constexpr int kFreeTransitionFrames = 60;
+
+/// When a key is due. Times round to the nearest frame; the frame and its time are reported with
+/// the key.
+struct AtFrame {
+  int64_t frame = 0;  ///< absolute, frame 0 at time 0
+};
+struct AtTime {
+  double seconds = 0;  ///< absolute
+};
+struct AfterPrevious {
+  double seconds =
+      0;  ///< after the key of the keyframe message before this one (after time 0 for the first)
+};
+using KeyMoment = std::variant<AtFrame, AtTime, AfterPrevious>;
+
+/// A key pose at a frame. World frame.
+struct Key {
+  std::string id;
+  int64_t frame = 0;
+  Pose pose;
+  PoseMask mask;
+};
+
+/// A message about a key came too late: the frames that it would change are frozen. Nothing
+/// changed.
+struct KeyRejection {
+  std::string id;
+  int64_t frame = 0;           ///< asked for; of a removal, where the key stands
+  int64_t earliest_frame = 0;  ///< first frame that a new key could have now
+  std::string reason;
+};
+
+/// One transition to dance: frames [from, to). With a key, its frame is to - 1.
+struct Segment {
+  int64_t from = 0;
+  int64_t to = 0;
+  std::optional<Key> key;
+};
+
+/// The keys of one dance, the frozen frontier, and the plan that follows from them.
+///
+/// What is planned depends on the order of the calls alone, never on when Next is called: each call
+/// plans, before it returns, every transition that may start by then. A transition may start when
+/// all of it is granted:
+/// - `GenerateUntil(f)` grants (and freezes) the frames before f. Keys before f are late.
+/// - As long as it has never been called, each accepted key grants up to and with itself, so such
+/// keys come in order of time.
+///   A client that wants to edit keys sends GenerateUntil(first frame) before its first key.
+/// - `Complete()` grants everything.
+/// The next transition leads from where the last ended to the next key. Where no key stands ahead,
+/// or one further than the longest transition, a transition of kFreeTransitionFrames without target
+/// comes first.
+///
+/// Not thread-safe.
+class Timeline {
+ public:
+  struct Options {
+    double fps = 30;
+    int64_t first_frame = 0;  ///< where the dance starts (a continuation's frame)
+    std::optional<int64_t>
+        end_frame;  ///< the dance is frames [first_frame, end_frame); no key at or after it
+    int max_transition_frames = kMaxTransitionFrames;  ///< of the model
+  };
+  explicit Timeline(Options options);
+
+  /// Adds a key, or moves (replaces) the one with this id. `field` is the sender's path for errors,
+  /// as in "keyframes[3]". Returns a rejection if the key, or the one it replaces, stands in frozen
+  /// frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame that
+  /// another id has, one closer than kMinKeyDistance to another key, for more than kMaxKeys, and
+  /// after Complete. The pose is taken as it is: see validation.h.
+  std::optional<KeyRejection> Set(const std::string& id, const KeyMoment& when, const Pose& pose,
+                                  const PoseMask& mask, const std::string& field);
+
+  /// Throws Error(kNotFound) for an id that is not on the timeline, Error(kInvalidArgument) after
+  /// Complete.
+  std::optional<KeyRejection> Remove(const std::string& id, const std::string& field);
+
+  /// Absolute, exclusive. Throws Error(kInvalidArgument) if it shrinks or is out of range.
+  void GenerateUntil(int64_t frame);
+
+  /// No more keys. Throws Error(kInvalidArgument) the second time.
+  void Complete();
+
+  /// The music ends before `frame`.
+  void SetAudioEnd(int64_t frame);
+
+  /// The next transition, once: nullopt while none may start. After Complete with music that has
+  /// not ended it never runs dry, so callers ask when they need one.
+  std::optional<Segment> Next();
+
+  /// Where the dance ends (exclusive): after Complete, and for dances with music after SetAudioEnd.
+  /// Given end_frame, that; else the end of the music or the last key, whichever is later.
+  std::optional<int64_t> End() const;
+
+  bool complete() const { return complete_; }
+  /// Frames before it are frozen.
+  int64_t frontier() const { return frontier_; }
+  /// First frame at or after the frontier that a new key could have.
+  int64_t EarliestFrame() const;
+  /// True if some planned or plannable transition with a target starts at or after `frame`.
+  bool HasKeyAtOrAfter(int64_t frame) const { return keys_.lower_bound(frame) != keys_.end(); }
+
+ private:
+  int64_t Resolve(const KeyMoment& when, const std::string& field) const;
+  void CheckOpen(const std::string& field) const;
+  void CheckNeighbours(const Key& key, const std::string& field) const;
+  void Plan();
+  std::optional<Segment> PlanOne();
+
+  Options options_;
+  int free_frames_;
+  std::map<int64_t, Key> keys_;  // by frame; danced ones included
+  std::unordered_map<std::string, int64_t> frame_of_;
+  int accepted_ = 0;
+  int64_t previous_frame_ = 0;  // of the last keyframe message, for AfterPrevious
+  int64_t frontier_;
+  bool explicit_grants_ = false;
+  bool complete_ = false;
+  std::optional<int64_t> audio_end_;
+  int64_t planned_to_;
+  std::deque<Segment> planned_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/dance/arrival.h"
+#include "model/engine/step_engine.h"
+#include "model/motion/canonical.h"
+#include "model/motion/motion.h"
+
+namespace choreo {
+
+/// A pose to reach, in the world.
+struct WorldTarget {
+  Pose pose;
+  PoseMask mask;
+};
+
+/// One transition as its caller knows it: everything in the world frame, at the model's rate.
+struct TransitionRequest {
+  int frames = 0;             ///< N, 1..max; with a target, frame N - 1 is the key's
+  std::vector<Pose> history;  ///< oldest first; any number: the last tau count, fewer are filled by
+                              ///< holding the earliest, none is the neutral stance at the origin
+  std::optional<WorldTarget> target;  ///< none: music alone
+  std::optional<Pose>
+      after;  ///< one frame after the key, where the motion that follows stands already
+  bool has_audio = false;
+  Eigen::MatrixXf audio_history;  ///< [audio_features, tau] rows of the frames before the first;
+                                  ///< unread without audio
+  uint64_t seed = 0;
+  uint32_t candidate = 0;
+  int64_t first_frame = 0;  ///< absolute
+  float temperature = 0.3F;
+  Arrival::Options arrival;  ///< frames = 0 measures the model alone
+};
+
+/// One finished frame.
+struct DanceFrame {
+  Pose pose;  ///< world; every number is a float's, as it is sent, and the chain goes on from these
+  std::array<float, 4> contacts =
+      {};  ///< as the model has them: left ankle, left toes, right ankle, right toes
+  float log_likelihood = 0;  ///< nats
+};
+
+/// How a transition met its key. Distances over all joints (see ComparePoses), outside the mask
+/// nothing counts.
+struct ArrivalResult {
+  double raw_error_m = 0;    ///< the model's own frame at the key, before arrival
+  double final_error_m = 0;  ///< the emitted frame at the key
+  double final_error_deg = 0;
+  double correction_m = 0;  ///< furthest that arrival moved a joint away from the model's frame,
+                            ///< over its whole window
+};
+
+/// Speeds that the way to a key asks for on average. Paper F, Section 5.2: too short an interval
+/// for too large a change fails.
+struct RequiredSpeed {
+  double root_m_per_s = 0;
+  double joint_rad_per_s = 0;  ///< of the fastest joint
+  int joint = 0;
+  /// Limits beyond which the stream warns: a sprint, and the fastest limbs of real dances.
+  static constexpr double kRootLimit = 5.0;
+  static constexpr double kJointLimit = 15.0;
+  bool TooFast() const { return root_m_per_s > kRootLimit || joint_rad_per_s > kJointLimit; }
+};
+
+/// One transition in progress: makes what the engine needs and turns what it gives into the dance.
+/// A pure function of the request, the audio rows and the model; the same code serves streams,
+/// single transitions, training and evaluation. Not thread-safe.
+class TransitionRun {
+ public:
+  /// Throws Error(kInvalidArgument) for a request of the wrong shape ("frames",
+  /// "history[2].rotations", ...).
+  TransitionRun(const ModelInfo& model, const TransitionRequest& request);
+
+  const TransitionSpec& spec() const { return spec_; }
+  int frames() const { return spec_.frames; }
+  /// How many frames have been taken.
+  int done() const { return done_; }
+  /// What was emitted last, in the canonical frame: StepInput::previous. Null before the first
+  /// frame.
+  const Pose* previous() const { return done_ == 0 ? nullptr : &emitted_; }
+
+  /// The model's next frame → the dance's. Throws Error(kInternal) if the model gave a value that
+  /// is not finite.
+  DanceFrame Take(const StepOutput& raw);
+
+  /// After the last frame of a transition with a target.
+  const std::optional<ArrivalResult>& arrival() const { return arrival_result_; }
+  /// None without a target.
+  std::optional<RequiredSpeed> required_speed() const;
+
+ private:
+  void CheckFinite(const StepOutput& raw) const;
+  void MeasureCorrection(const Pose& raw);
+
+  Skeleton skeleton_;
+  double fps_;
+  TransitionSpec spec_;
+  std::optional<WorldTarget> world_target_;
+  GroundFrame ground_;
+  std::optional<Arrival> arrival_;
+  int arrival_window_ = 0;
+  std::optional<ArrivalResult> arrival_result_;
+  double correction_m_ = 0;
+  Pose emitted_;  // canonical
+  Pose world_;    // last emitted, for continuous branches
+  int done_ = 0;
+};
+
+/// The history that a transition has when it is given `poses`: exactly tau poses, each number a
+/// float's.
+std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses);
+
+/// Rounds every number to float precision: what a client that got the frames as floats knows of
+/// them.
+Pose RoundToFloat(const Pose& pose);
+
+/// Runs one transition on an engine by itself, in the calling thread (training, evaluation).
+/// `audio_rows` is [audio_features, frames]; unread without audio. The engine must have a free
+/// slot.
+std::vector<DanceFrame> RunTransition(StepEngine& engine, const TransitionRequest& request,
+                                      const Eigen::MatrixXf& audio_rows,
+                                      std::optional<ArrivalResult>* arrival = nullptr);
+
+}  // namespace choreo
