@@ -6,14 +6,16 @@
 
 namespace choreo {
 
-/// A frame on the floor: origin below a dancer's root, +Z along her heading. The canonical frame of a transition is that of its
-/// last history pose, so that moving or turning the scene moves the dance and changes nothing else.
+/// A frame on the floor: origin below a dancer's root, +Z along her heading. The canonical frame of
+/// a transition is that of its last history pose, so that moving or turning the scene moves the
+/// dance and changes nothing else.
 struct GroundFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< y = 0
   double heading = 0;                                ///< radians about +Y, 0 = +Z
 
   static GroundFrame Of(const Pose& pose);
-  /// World → this frame. Rotations keep the branch of a continuous motion only up to the root's; see NearestBranch.
+  /// World → this frame. Rotations keep the branch of a continuous motion only up to the root's;
+  /// see NearestBranch.
   Pose ToLocal(const Pose& world) const;
   /// This frame → world.
   Pose ToWorld(const Pose& local) const;

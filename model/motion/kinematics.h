@@ -14,21 +14,30 @@ struct JointPlacement {
   std::vector<Eigen::Matrix3d> rotations;  ///< [joints] global rotations
 };
 
-/// Forward kinematics. Throws Error(kInvalidArgument) if the pose's joint count is not the skeleton's.
+/// Forward kinematics. Throws Error(kInvalidArgument) if the pose's joint count is not the
+/// skeleton's.
 JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose);
 
 /// Positions alone, [3, joints].
 Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose);
 
-/// How far apart two poses are: the largest joint distance (metres) and the largest angle of a local joint rotation (degrees).
-/// Degrees of freedom outside `mask` do not count; with any joint masked only the angles of the others count.
+/// The same without allocation where `placement` already has the skeleton's size.
+void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement);
+
+/// How far apart two poses are: the largest joint distance (metres) and the largest angle of a
+/// local joint rotation (degrees). Degrees of freedom outside `mask` do not count: without the
+/// root's position, joint distances are taken with both roots in one place; with any joint masked
+/// out, the distance is the root's alone (0 if that is masked too) and the angles are those of the
+/// other joints.
 struct PoseError {
   double position_m = 0;
   double angle_deg = 0;
 };
-PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b, const PoseMask& mask = {});
+PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
+                       const PoseMask& mask = {});
 
-/// The neutral stance of DESIGN's "no history": rest pose, feet on the floor, at the origin, facing +Z.
+/// The neutral stance of DESIGN's "no history": rest pose, feet on the floor, at the origin, facing
+/// +Z.
 Pose RestPose(const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -8,7 +8,8 @@ namespace choreo {
 /// One frame of a skeleton, in a world frame: right-handed, Y up, floor y = 0.
 struct Pose {
   Eigen::Vector3d root_position = Eigen::Vector3d::Zero();  ///< of the pelvis (joint 0), metres
-  Eigen::Matrix3Xd rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
+  Eigen::Matrix3Xd
+      rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
 };
 
 /// Frames at a constant rate. Exponential-map branches are continuous from frame to frame.
@@ -16,6 +17,13 @@ struct Motion {
   double fps = 30;
   std::vector<Pose> frames;
 };
+
+/// Puts every rotation on the branch nearest to `previous`'s. The rotations themselves do not
+/// change.
+void MakeContinuous(Pose& pose, const Pose& previous);
+
+/// The same from frame to frame; the first frame stays as it is.
+void MakeContinuous(Motion& motion);
 
 /// Which of a pose's degrees of freedom a key asks for. An empty joint mask means every joint.
 struct PoseMask {

@@ -3,11 +3,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-/// Rotations: exponential map (axis-angle), matrix, quaternion, and the continuous 6D form of Zhou et al. 2019. Double precision,
-/// radians. All functions are pure and thread-safe; `w` is an axis-angle vector, its norm the angle.
+/// Rotations: exponential map (axis-angle), matrix, quaternion, and the continuous 6D form of Zhou
+/// et al. 2019. Double precision, radians. All functions are pure and thread-safe; `w` is an
+/// axis-angle vector, its norm the angle.
 namespace choreo {
 
-/// Rodrigues' formula; accurate to 1e-12 down to the zero vector. Grassia 1998, paper F's reference [47].
+/// Rodrigues' formula; accurate to 1e-12 down to the zero vector. Grassia 1998, paper F's reference
+/// [47].
 Eigen::Matrix3d ExpMap(const Eigen::Vector3d& w);
 
 /// The inverse of ExpMap with angle in [0, pi]; accurate near 0 and near pi.
@@ -16,7 +18,8 @@ Eigen::Vector3d LogMap(const Eigen::Matrix3d& r);
 Eigen::Quaterniond QuaternionFromExp(const Eigen::Vector3d& w);
 Eigen::Vector3d ExpFromQuaternion(const Eigen::Quaterniond& q);
 
-/// The vector that stands for the same rotation as `w` and lies nearest to `previous` (adds turns of 2 pi about the axis).
+/// The vector that stands for the same rotation as `w` and lies nearest to `previous` (adds turns
+/// of 2 pi about the axis).
 Eigen::Vector3d NearestBranch(const Eigen::Vector3d& w, const Eigen::Vector3d& previous);
 
 /// Shortest-arc interpolation, t in [0, 1]; t outside extrapolates.
@@ -34,8 +37,12 @@ Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r);
 Eigen::Matrix3d MatrixFromSixD(const Eigen::Matrix<double, 6, 1>& d);
 
 /// Angle of the horizontal direction of r's +Z axis: 0 faces +Z, pi/2 faces +X. In (-pi, pi].
+/// Meaningless, though finite, where that axis is vertical.
 double Heading(const Eigen::Matrix3d& r);
 /// The rotation by `heading` about +Y.
 Eigen::Matrix3d HeadingRotation(double heading);
+
+/// The same angle in (-pi, pi].
+double WrapAngle(double angle);
 
 }  // namespace choreo

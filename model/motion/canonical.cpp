@@ -1,0 +1,30 @@
+#include "model/motion/canonical.h"
+
+#include "model/motion/rotation.h"
+
+namespace choreo {
+
+GroundFrame GroundFrame::Of(const Pose& pose) {
+  GroundFrame frame;
+  frame.origin = {pose.root_position.x(), 0.0, pose.root_position.z()};
+  frame.heading = Heading(ExpMap(pose.rotations.col(0)));
+  return frame;
+}
+
+Pose GroundFrame::ToLocal(const Pose& world) const {
+  const Eigen::Matrix3d turn = HeadingRotation(-heading);
+  Pose local = world;
+  local.root_position = turn * (world.root_position - origin);
+  local.rotations.col(0) = LogMap(turn * ExpMap(world.rotations.col(0)));
+  return local;
+}
+
+Pose GroundFrame::ToWorld(const Pose& local) const {
+  const Eigen::Matrix3d turn = HeadingRotation(heading);
+  Pose world = local;
+  world.root_position = turn * local.root_position + origin;
+  world.rotations.col(0) = LogMap(turn * ExpMap(local.rotations.col(0)));
+  return world;
+}
+
+}  // namespace choreo

@@ -1,0 +1,73 @@
+#include "model/motion/kinematics.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "model/core/error.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+
+void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement) {
+  const int joints = skeleton.joints();
+  if (pose.rotations.cols() != joints) {
+    throw InvalidArgument("pose.rotations", std::to_string(pose.rotations.cols()) +
+                                                " joints, the skeleton '" + skeleton.name +
+                                                "' has " + std::to_string(joints));
+  }
+  placement.positions.resize(3, joints);
+  placement.rotations.resize(joints);
+  placement.positions.col(0) = pose.root_position;
+  placement.rotations[0] = ExpMap(pose.rotations.col(0));
+  for (int joint = 1; joint < joints; ++joint) {
+    const int parent = skeleton.parents[joint];
+    const Eigen::Matrix3d& frame = placement.rotations[parent];
+    placement.positions.col(joint) =
+        placement.positions.col(parent) + frame * skeleton.offsets.col(joint);
+    placement.rotations[joint].noalias() = frame * ExpMap(pose.rotations.col(joint));
+  }
+}
+
+JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose) {
+  JointPlacement placement;
+  ForwardKinematics(skeleton, pose, placement);
+  return placement;
+}
+
+Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose) {
+  return ForwardKinematics(skeleton, pose).positions;
+}
+
+PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
+                       const PoseMask& mask) {
+  const int joints = skeleton.joints();
+  if (!mask.joints.empty() && static_cast<int>(mask.joints.size()) != joints) {
+    throw InvalidArgument("mask.joints", std::to_string(mask.joints.size()) +
+                                             " joints, must be 0 or " + std::to_string(joints));
+  }
+  Eigen::Matrix3Xd difference = JointPositions(skeleton, a) - JointPositions(skeleton, b);
+  PoseError error;
+  const bool every_joint =
+      std::find(mask.joints.begin(), mask.joints.end(), false) == mask.joints.end();
+  if (every_joint) {
+    if (!mask.root_position) difference.colwise() -= difference.col(0).eval();
+    error.position_m = difference.colwise().norm().maxCoeff();
+  } else if (mask.root_position) {
+    error.position_m = difference.col(0).norm();
+  }
+  for (int joint = 0; joint < joints; ++joint) {
+    if (!mask.joints.empty() && !mask.joints[joint]) continue;
+    const double angle = RotationDifference(a.rotations.col(joint), b.rotations.col(joint)).norm();
+    error.angle_deg = std::max(error.angle_deg, angle * 180.0 / std::numbers::pi);
+  }
+  return error;
+}
+
+Pose RestPose(const Skeleton& skeleton) {
+  Pose pose;
+  pose.root_position.y() = skeleton.pelvis_height;
+  pose.rotations = Eigen::Matrix3Xd::Zero(3, skeleton.joints());
+  return pose;
+}
+
+}  // namespace choreo

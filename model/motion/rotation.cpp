@@ -1,0 +1,121 @@
+#include "model/motion/rotation.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
+  Eigen::Matrix3d k;
+  k << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return k;
+}
+
+}  // namespace
+
+Eigen::Matrix3d ExpMap(const Eigen::Vector3d& w) {
+  const double angle = w.norm();
+  const Eigen::Matrix3d k = CrossMatrix(w);
+  // Below this angle the quadratic term is under 1e-16 and the quotients below could underflow.
+  if (angle < 1e-8) return Eigen::Matrix3d::Identity() + k + 0.5 * k * k;
+  const double half_sine = std::sin(0.5 * angle) / angle;
+  return Eigen::Matrix3d::Identity() + (std::sin(angle) / angle) * k +
+         (2.0 * half_sine * half_sine) * k * k;
+}
+
+Eigen::Vector3d LogMap(const Eigen::Matrix3d& r) {
+  // The quaternion's largest component is found first, which keeps the axis exact near pi.
+  return ExpFromQuaternion(Eigen::Quaterniond(r));
+}
+
+Eigen::Quaterniond QuaternionFromExp(const Eigen::Vector3d& w) {
+  const double angle = w.norm();
+  const double scale = angle < 1e-8 ? 0.5 : std::sin(0.5 * angle) / angle;
+  return {std::cos(0.5 * angle), scale * w.x(), scale * w.y(), scale * w.z()};
+}
+
+Eigen::Vector3d ExpFromQuaternion(const Eigen::Quaterniond& q) {
+  const double sine = q.vec().norm();
+  // atan2 needs no unit length and is accurate at both ends; q and -q are the same rotation.
+  const double sign = q.w() < 0 ? -1.0 : 1.0;
+  if (sine < 1e-150) return Eigen::Vector3d::Zero();
+  return (sign * 2.0 * std::atan2(sine, sign * q.w()) / sine) * q.vec();
+}
+
+Eigen::Vector3d NearestBranch(const Eigen::Vector3d& w, const Eigen::Vector3d& previous) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double angle = w.norm();
+  if (angle < 1e-12) {
+    // Whole turns about any axis are the identity: take the previous vector's axis.
+    const double turns = std::round(previous.norm() / kTurn);
+    if (turns == 0) return w;
+    return w + previous.normalized() * (turns * kTurn);
+  }
+  const Eigen::Vector3d axis = w / angle;
+  const double turns = std::round((axis.dot(previous) - angle) / kTurn);
+  if (turns == 0) return w;
+  return axis * (angle + turns * kTurn);
+}
+
+Eigen::Vector3d Slerp(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double t) {
+  return RotationCompose(a, t * RotationDifference(a, b));
+}
+
+Eigen::Vector3d RotationDifference(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return ExpFromQuaternion(QuaternionFromExp(a).conjugate() * QuaternionFromExp(b));
+}
+
+Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d& delta) {
+  return NearestBranch(ExpFromQuaternion(QuaternionFromExp(a) * QuaternionFromExp(delta)), a);
+}
+
+Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r) {
+  Eigen::Matrix<double, 6, 1> d;
+  d << r.col(0), r.col(1);
+  return d;
+}
+
+Eigen::Matrix3d MatrixFromSixD(const Eigen::Matrix<double, 6, 1>& d) {
+  const Eigen::Vector3d first = d.head<3>();
+  const Eigen::Vector3d second = d.tail<3>();
+  const double length = first.norm();
+  // Written so that NaN fails too.
+  if (!(length > 1e-9)) {
+    throw InvalidArgument(
+        "six_d", "the first column's length is " + std::to_string(length) + ", must exceed 1e-9");
+  }
+  const Eigen::Vector3d x = first / length;
+  const Eigen::Vector3d rest = second - x.dot(second) * x;
+  const double rest_length = rest.norm();
+  if (!(rest_length > 1e-9 * std::max(1.0, second.norm()))) {
+    throw InvalidArgument("six_d", "the two columns are parallel, or the second one is zero");
+  }
+  Eigen::Matrix3d r;
+  r.col(0) = x;
+  r.col(1) = rest / rest_length;
+  r.col(2) = r.col(0).cross(r.col(1));
+  return r;
+}
+
+double Heading(const Eigen::Matrix3d& r) {
+  const double heading = std::atan2(r(0, 2), r(2, 2));
+  return heading <= -std::numbers::pi ? std::numbers::pi : heading;
+}
+
+Eigen::Matrix3d HeadingRotation(double heading) {
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  Eigen::Matrix3d r;
+  r << c, 0, s, 0, 1, 0, -s, 0, c;
+  return r;
+}
+
+double WrapAngle(double angle) {
+  const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
+  return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
+}
+
+}  // namespace choreo

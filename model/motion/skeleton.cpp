@@ -1,0 +1,158 @@
+#include "model/motion/skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <set>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kSmplToeHeight = 0.02;
+
+struct RestJoint {
+  const char* name;
+  int parent;
+  double x, y, z;
+};
+
+// Names as SMPL's authors use them; offsets of the neutral body.
+constexpr RestJoint kSmplJoints[] = {
+    {"pelvis", -1, 0, 0, 0},
+    {"left_hip", 0, 0.05858135, -0.08228004, -0.01766408},
+    {"right_hip", 0, -0.06030973, -0.09051332, -0.01354254},
+    {"spine1", 0, 0.00443945, 0.12440352, -0.03838522},
+    {"left_knee", 1, 0.04345142, -0.38646945, 0.00803700},
+    {"right_knee", 2, -0.04325663, -0.38368791, -0.00484304},
+    {"spine2", 3, 0.00448844, 0.13795640, 0.02682033},
+    {"left_ankle", 4, -0.01479032, -0.42687458, -0.03742800},
+    {"right_ankle", 5, 0.01905555, -0.42004550, -0.03456167},
+    {"spine3", 6, -0.00226458, 0.05603239, 0.00285505},
+    {"left_foot", 7, 0.04105436, -0.06028581, 0.12204243},
+    {"right_foot", 8, -0.03483987, -0.06210566, 0.13032329},
+    {"neck", 9, -0.01339020, 0.21163553, -0.03346758},
+    {"left_collar", 9, 0.07170245, 0.11399969, -0.01889817},
+    {"right_collar", 9, -0.08295366, 0.11247234, -0.02370739},
+    {"head", 12, 0.01011321, 0.08893734, 0.05040987},
+    {"left_shoulder", 13, 0.12292141, 0.04520509, -0.01904600},
+    {"right_shoulder", 14, -0.11322832, 0.04685326, -0.00847207},
+    {"left_elbow", 16, 0.25533190, -0.01564902, -0.02294649},
+    {"right_elbow", 17, -0.26012748, -0.01436928, -0.03126873},
+    {"left_wrist", 18, 0.26570925, 0.01269811, -0.00737473},
+    {"right_wrist", 19, -0.26910836, 0.00679372, -0.00602676},
+    {"left_hand", 20, 0.08669055, -0.01063603, -0.01559429},
+    {"right_hand", 21, -0.08875370, -0.00865157, -0.01010708},
+};
+
+Skeleton MakeSmpl24() {
+  Skeleton skeleton;
+  skeleton.name = "smpl24";
+  skeleton.offsets.resize(3, std::size(kSmplJoints));
+  for (const RestJoint& joint : kSmplJoints) {
+    skeleton.offsets.col(skeleton.joints()) << joint.x, joint.y, joint.z;
+    skeleton.joint_names.emplace_back(joint.name);
+    skeleton.parents.push_back(joint.parent);
+  }
+  skeleton.AssignRoles();
+  skeleton.StandOnFloor(kSmplToeHeight);
+  skeleton.Validate();
+  return skeleton;
+}
+
+std::string Index(int joint) {
+  // In one expression GCC 12 sees an overlap in operator+ that is not there (-Wrestrict).
+  std::string index = "[";
+  index.append(std::to_string(joint)).append("]");
+  return index;
+}
+
+int FindAny(const Skeleton& skeleton, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (const int joint = skeleton.Find(name); joint >= 0) return joint;
+  }
+  return -1;
+}
+
+}  // namespace
+
+int Skeleton::Find(const std::string& joint_name) const {
+  const auto found = std::find(joint_names.begin(), joint_names.end(), joint_name);
+  return found == joint_names.end() ? -1 : static_cast<int>(found - joint_names.begin());
+}
+
+void Skeleton::AssignRoles() {
+  left_hip = Find("left_hip");
+  right_hip = Find("right_hip");
+  left_knee = Find("left_knee");
+  right_knee = Find("right_knee");
+  left_shoulder = Find("left_shoulder");
+  right_shoulder = Find("right_shoulder");
+  left_elbow = Find("left_elbow");
+  right_elbow = Find("right_elbow");
+  feet = {Find("left_ankle"), FindAny(*this, {"left_foot", "left_toes", "left_toe"}),
+          Find("right_ankle"), FindAny(*this, {"right_foot", "right_toes", "right_toe"})};
+}
+
+void Skeleton::StandOnFloor(double clearance) {
+  std::vector<double> heights(parents.size(), 0.0);
+  double lowest = 0;
+  for (int joint = 1; joint < joints(); ++joint) {
+    heights[joint] = heights[parents[joint]] + offsets(1, joint);
+    lowest = std::min(lowest, heights[joint]);
+  }
+  pelvis_height = clearance - lowest;
+}
+
+void Skeleton::Validate() const {
+  if (parents.empty()) throw InvalidArgument("skeleton.parents", "0 joints, at least 1 is needed");
+  if (joint_names.size() != parents.size()) {
+    throw InvalidArgument(
+        "skeleton.joint_names",
+        std::to_string(joint_names.size()) + " names for " + std::to_string(joints()) + " joints");
+  }
+  if (offsets.cols() != joints()) {
+    throw InvalidArgument("skeleton.offsets", std::to_string(offsets.cols()) + " offsets for " +
+                                                  std::to_string(joints()) + " joints");
+  }
+  std::set<std::string> seen;
+  for (int joint = 0; joint < joints(); ++joint) {
+    const std::string index = Index(joint);
+    if (joint_names[joint].empty() || !seen.insert(joint_names[joint]).second) {
+      throw InvalidArgument("skeleton.joint_names" + index,
+                            "'" + joint_names[joint] + "' is empty or names a second joint");
+    }
+    const bool is_root = joint == 0;
+    if (is_root ? parents[joint] != -1 : parents[joint] < 0 || parents[joint] >= joint) {
+      throw InvalidArgument("skeleton.parents" + index,
+                            std::to_string(parents[joint]) +
+                                (is_root ? ", the root's must be -1"
+                                         : ", must be at least 0 and below the joint's own index"));
+    }
+    if (!offsets.col(joint).allFinite()) {
+      throw InvalidArgument("skeleton.offsets" + index, "not finite");
+    }
+  }
+  if (!offsets.col(0).isZero()) throw InvalidArgument("skeleton.offsets[0]", "must be zero");
+  if (!(pelvis_height >= 0) || !std::isfinite(pelvis_height)) {
+    throw InvalidArgument("skeleton.pelvis_height",
+                          std::to_string(pelvis_height) + " m, must be finite and at least 0");
+  }
+  const int roles[] = {left_hip,      right_hip,      left_knee,  right_knee,
+                       left_shoulder, right_shoulder, left_elbow, right_elbow,
+                       feet[0],       feet[1],        feet[2],    feet[3]};
+  for (const int role : roles) {
+    if (role < -1 || role >= joints()) {
+      throw InvalidArgument("skeleton", "a role names joint " + std::to_string(role) +
+                                            ", must be -1 or below " + std::to_string(joints()));
+    }
+  }
+}
+
+const Skeleton& Skeleton::Smpl24() {
+  static const Skeleton skeleton = MakeSmpl24();
+  return skeleton;
+}
+
+}  // namespace choreo
