@@ -1,0 +1,110 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/motion/fit_sources.h"
+#include "model/motion/motion.h"
+#include "model/motion/position_clip.h"
+#include "model/motion/skeleton.h"
+
+/// Joint positions → rotations of our skeleton. Two steps: the source is bone-normalised (its
+/// directions, our lengths), then each frame's rotations are the damped least-squares solution that
+/// puts our landmarks there, started from the frame before.
+namespace choreo {
+
+/// The source's size, measured once per subject.
+struct SourceSize {
+  double scale = 1;  ///< our leg length over the source's: multiplies the root's travel
+  std::vector<double>
+      lengths;  ///< [landmarks] source metres from the parent landmark (median over a clip)
+};
+
+/// Turns source positions into the places where our landmarks belong. Immutable after construction.
+class BoneNormaliser {
+ public:
+  /// Throws Error(kInvalidArgument) for a landmark whose joints `joint_names` or the skeleton lack.
+  BoneNormaliser(const Skeleton& skeleton, const SourceMapping& mapping,
+                 const std::vector<std::string>& joint_names);
+
+  /// Median landmark distances of a clip, and the scale from hip-knee-ankle lengths.
+  SourceSize Measure(const PositionClip& clip) const;
+
+  /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. `targets` is
+  /// resized on first use only.
+  void Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
+             Eigen::Matrix3Xd& targets) const;
+
+  int landmarks() const { return static_cast<int>(mapping_.landmarks.size()); }
+
+ private:
+  SourceMapping mapping_;
+  std::vector<std::vector<std::pair<int, double>>>
+      source_;                        ///< mapping_.landmarks[i].source by index
+  std::vector<double> rest_lengths_;  ///< [landmarks] of our skeleton
+  double our_leg_ = 1;
+  int left_hip_ = -1, right_hip_ = -1;  ///< landmark indices
+};
+
+/// How hard what pulls. Standard deviations of the least-squares terms.
+struct FitOptions {
+  double position_m = 0.004;      ///< landmark positions
+  double rest_rad = 1.2;          ///< every joint towards its rest rotation
+  double hinge_side_rad = 0.35;   ///< knees and elbows off their hinge axis
+  double hinge_limit_rad = 0.01;  ///< knees and elbows beyond straight
+  double spine_rad = 0.5;         ///< spine, collars, neck and head towards rest
+  double change_rad = 0.12;       ///< change from the frame before, at 30 fps
+  int iterations = 3;             ///< per warm-started frame
+  int first_iterations = 60;      ///< of a frame without a predecessor
+};
+
+/// Fits frame after frame, causally: a frame's result depends on it and the frames before. Not
+/// thread-safe; one per stream.
+class PositionFitter {
+ public:
+  PositionFitter(const Skeleton& skeleton, const SourceMapping& mapping,
+                 const FitOptions& options = {}, double fps = 30);
+  ~PositionFitter();
+  PositionFitter(PositionFitter&&) noexcept;
+  PositionFitter& operator=(PositionFitter&&) noexcept;
+
+  /// Landmark targets [3, landmarks] → the pose, on the exp-map branch nearest to the frame before.
+  const Pose& Next(const Eigen::Matrix3Xd& targets);
+
+  /// Where our landmarks stand in the pose that Next returned last, [3, landmarks].
+  const Eigen::Matrix3Xd& landmarks() const;
+
+  /// Forgets the frame before.
+  void Reset();
+  /// Goes on from this pose, as if it had been the frame before.
+  void Reset(const Pose& previous);
+
+ private:
+  class Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+struct FitReport {
+  double mean_error_m = 0;  ///< over frames and landmarks, against the bone-normalised source
+  double p95_error_m = 0;
+  double max_error_m = 0;
+  std::vector<std::string> landmark_names;
+  std::vector<double> landmark_error_m;  ///< [landmarks] mean
+  double scale = 1;                      ///< SourceSize::scale
+  double ground_shift_m = 0;             ///< what was added to every height
+};
+
+struct FitResult {
+  Motion motion;  ///< at the clip's fps
+  FitReport report;
+};
+
+/// A whole clip: measure, normalise, fit forwards, refine once with both neighbours known (zero
+/// phase), and ground: the 5th percentile of the lowest foot joint's height above its rest height
+/// becomes 0. About 1 ms a frame.
+FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
+                  const FitOptions& options = {});
+
+}  // namespace choreo

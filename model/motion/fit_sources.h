@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/motion/skeleton.h"
+
+/// How the joints of source skeletons tell where ours are.
+namespace choreo {
+
+/// A weighted sum of named joints; the weights sum to 1.
+using JointBlend = std::vector<std::pair<std::string, double>>;
+
+/// A point that both skeletons have: a joint, or a place between joints such as the middle of the
+/// hips. Landmarks form a tree; the first one is its root.
+struct Landmark {
+  std::string name;
+  JointBlend source;  ///< in terms of the source's joints
+  JointBlend ours;    ///< in terms of our skeleton's joints
+  int parent = -1;    ///< index of an earlier landmark, -1 for the first
+  /// true: the source's direction from the parent with our rest length (a bone). false: the
+  /// source's vector scaled by the ratio of our rest length to the source's median one (several
+  /// bones in between, so the distance may change).
+  bool rigid = true;
+  double weight = 1;  ///< confidence, multiplies the residual in metres
+  /// Radians by which the source's direction is turned about the dancer's right-to-left hip axis
+  /// (positive: a forward direction goes down), where the two rest poses disagree on the direction
+  /// of a bone.
+  double pitch = 0;
+};
+
+/// A source skeleton as the fit sees it.
+struct SourceMapping {
+  std::string name;
+  std::vector<Landmark> landmarks;
+  /// Source joints that touch the floor (for levelling and grounding).
+  std::vector<std::string> feet;
+};
+
+/// Our own skeleton, every joint given: what a model that predicts positions uses.
+SourceMapping IdentitySource(const Skeleton& skeleton);
+
+/// "Dance with Melody" (Tang et al. 2018): 23 joints. `Tang2018JointNames` names them in file order
+/// (row 0 of the .npy, the world centre, is not among them).
+const std::vector<std::string>& Tang2018JointNames();
+SourceMapping Tang2018Source();
+
+/// A BVH hierarchy by its joint names: Hips/LeftUpLeg/LeftLeg/LeftFoot/LeftToeBase... (dancedb,
+/// LAFAN1, Mixamo with or without prefix, CMU conversions) and hip/lThigh/lShin/lFoot...
+/// (Poser-style cmu_dance). End sites are named after their parent + "_end". Throws
+/// Error(kInvalidArgument) naming the first needed joint that is missing: hips, knees, ankles,
+/// shoulders, elbows, wrists and a neck.
+SourceMapping BvhSource(const std::vector<std::string>& joint_names);
+
+}  // namespace choreo
