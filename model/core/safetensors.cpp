@@ -1,0 +1,135 @@
+#include "model/core/safetensors.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <bit>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "safetensors are little-endian");
+
+// The header of a real checkpoint is a few tens of KiB; a larger length is a foreign or damaged
+// file.
+constexpr uint64_t kMaxHeaderBytes = 16U << 20U;
+
+int64_t ElementCount(const std::vector<int64_t>& shape) {
+  int64_t count = 1;
+  for (const int64_t extent : shape) {
+    if (extent < 0 || (extent > 0 && count > (int64_t{1} << 40) / extent)) return -1;
+    count *= extent;
+  }
+  return count;
+}
+
+}  // namespace
+
+Safetensors ReadSafetensors(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "no such file, or it can't be read");
+  const auto fail = [&](const std::string& why) -> Error {
+    return InvalidArgument(path.string(), "not a usable safetensors file: " + why);
+  };
+  const uint64_t file_bytes = std::filesystem::file_size(path);
+  uint64_t header_bytes = 0;
+  if (!file.read(reinterpret_cast<char*>(&header_bytes), 8)) throw fail("shorter than 8 bytes");
+  if (header_bytes > kMaxHeaderBytes || header_bytes + 8 > file_bytes) {
+    throw fail("header of " + std::to_string(header_bytes) + " bytes in a file of " +
+               std::to_string(file_bytes));
+  }
+  std::string header(header_bytes, '\0');
+  file.read(header.data(), static_cast<std::streamsize>(header_bytes));
+  const uint64_t data_bytes = file_bytes - 8 - header_bytes;
+
+  Safetensors content;
+  try {
+    for (const auto& [name, entry] : nlohmann::json::parse(header).items()) {
+      if (name == "__metadata__") {
+        content.metadata = entry.get<std::map<std::string, std::string>>();
+        continue;
+      }
+      if (entry.at("dtype") != "F32") throw fail("tensor " + name + " is not F32");
+      NamedTensor tensor;
+      tensor.shape = entry.at("shape").get<std::vector<int64_t>>();
+      const auto begin = entry.at("data_offsets").at(0).get<uint64_t>();
+      const auto end = entry.at("data_offsets").at(1).get<uint64_t>();
+      const int64_t count = ElementCount(tensor.shape);
+      if (count < 0 || begin > end || end > data_bytes ||
+          end - begin != static_cast<uint64_t>(count) * sizeof(float)) {
+        throw fail("tensor " + name + " at bytes " + std::to_string(begin) + " to " +
+                   std::to_string(end) + " of " + std::to_string(data_bytes) +
+                   " does not fit its shape (truncated?)");
+      }
+      tensor.data.resize(static_cast<size_t>(count));
+      file.seekg(static_cast<std::streamoff>(8 + header_bytes + begin));
+      file.read(reinterpret_cast<char*>(tensor.data.data()),
+                static_cast<std::streamsize>(end - begin));
+      if (!file) throw fail("tensor " + name + " can't be read");
+      content.tensors.emplace(name, std::move(tensor));
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw fail(std::string("its header is not the expected JSON (") + error.what() + ")");
+  }
+  return content;
+}
+
+void WriteSafetensors(const std::filesystem::path& path, const Safetensors& content) {
+  nlohmann::json header;
+  if (!content.metadata.empty()) header["__metadata__"] = content.metadata;
+  uint64_t offset = 0;
+  for (const auto& [name, tensor] : content.tensors) {
+    const uint64_t bytes = tensor.data.size() * sizeof(float);
+    header[name] = {
+        {"dtype", "F32"}, {"shape", tensor.shape}, {"data_offsets", {offset, offset + bytes}}};
+    offset += bytes;
+  }
+  std::string text = header.dump();
+  text.append((8 - text.size() % 8) % 8, ' ');  // tensors start 8-byte aligned
+  const uint64_t header_bytes = text.size();
+
+  const std::filesystem::path partial = path.string() + ".partial";
+  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(&header_bytes), 8);
+  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  for (const auto& [name, tensor] : content.tensors) {
+    file.write(reinterpret_cast<const char*>(tensor.data.data()),
+               static_cast<std::streamsize>(tensor.data.size() * sizeof(float)));
+  }
+  file.close();
+  if (!file) throw Error(ErrorCode::kInternal, path.string(), "can't be written (disk full?)");
+  std::filesystem::rename(partial, path);
+}
+
+std::string ContentHash(const Safetensors& content, const std::string& without) {
+  XXH3_state_t* state = XXH3_createState();
+  XXH3_128bits_reset(state);
+  const auto add = [&](const void* data, size_t bytes) {
+    const uint64_t length = bytes;  // lengths keep neighbouring fields apart
+    XXH3_128bits_update(state, &length, sizeof(length));
+    XXH3_128bits_update(state, data, bytes);
+  };
+  for (const auto& [key, value] : content.metadata) {
+    if (key == without) continue;
+    add(key.data(), key.size());
+    add(value.data(), value.size());
+  }
+  for (const auto& [name, tensor] : content.tensors) {
+    add(name.data(), name.size());
+    add(tensor.shape.data(), tensor.shape.size() * sizeof(int64_t));
+    add(tensor.data.data(), tensor.data.size() * sizeof(float));
+  }
+  const XXH128_hash_t hash = XXH3_128bits_digest(state);
+  XXH3_freeState(state);
+  char hex[33];
+  std::snprintf(hex, sizeof(hex), "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return hex;
+}
+
+}  // namespace choreo

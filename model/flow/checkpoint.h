@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "model/core/safetensors.h"
+#include "model/flow/flow_model.h"
+
+/// Checkpoints: safetensors with everything inside that is needed to dance - weights,
+/// configuration, skeleton, normalisation - and the model card (data, terms, training command,
+/// figures). A content hash guards the whole.
+namespace choreo {
+
+struct Checkpoint {
+  FlowModel model{nullptr};  ///< in eval mode, on the CPU
+  std::string card;          ///< JSON text
+  std::string hash;          ///< 128-bit content hash, hex
+};
+
+/// Throws Error(kNotFound) or Error(kInvalidArgument): no such file, truncated, another format
+/// version, wrong hash, or tensors that do not fit the configuration; the message says which.
+Checkpoint LoadCheckpoint(const std::filesystem::path& path);
+
+/// Writes atomically; returns the content hash. `card` is JSON.
+std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
+                           const nlohmann::json& card);
+
+/// Parameters and buffers by name, and back. `prefix` keeps several modules apart in one file.
+void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
+                   Safetensors* content);
+void ImportTensors(const Safetensors& content, const std::string& prefix,
+                   torch::nn::Module* module);
+
+nlohmann::json SkeletonToJson(const Skeleton& skeleton);
+Skeleton SkeletonFromJson(const nlohmann::json& json);
+
+}  // namespace choreo

@@ -1,0 +1,57 @@
+#include "model/flow/flow_config.h"
+
+#include <nlohmann/json.hpp>
+
+#include "model/core/error.h"
+
+namespace choreo {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlannerConfig, width, layers, heads)
+
+// One list serves both directions, so that a field can't be written and not read.
+#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                    \
+  apply(preset) apply(history_frames) apply(audio_features) apply(flow_steps) apply(hidden) \
+      apply(recurrent) apply(condition_width) apply(planner) apply(max_transition_frames)   \
+          apply(temperature) apply(keys) apply(key_loss) apply(time_embedding)              \
+              apply(forward_embedding) apply(history_dropout) apply(history_noise)
+
+void to_json(nlohmann::json& json, const FlowConfig& config) {
+  json = nlohmann::json::object();
+#define CHOREO_WRITE(field) json[#field] = config.field;
+  CHOREO_FLOW_CONFIG_FIELDS(CHOREO_WRITE)
+#undef CHOREO_WRITE
+}
+
+void from_json(const nlohmann::json& json, FlowConfig& config) {
+#define CHOREO_READ(field) json.at(#field).get_to(config.field);
+  CHOREO_FLOW_CONFIG_FIELDS(CHOREO_READ)
+#undef CHOREO_READ
+}
+
+FlowConfig FlowConfig::Preset(const std::string& name) {
+  FlowConfig config;
+  config.preset = name;
+  if (name == "paper") return config;
+  if (name == "default") {
+    config.flow_steps = 4;
+    config.hidden = 192;
+    config.recurrent = false;
+    config.condition_width = 256;
+    config.planner = {.width = 192, .layers = 4, .heads = 6};
+    config.max_transition_frames = 150;
+    config.temperature = 0.3;
+    config.history_dropout = 0.2;
+    config.history_noise = 0.2;
+    return config;
+  }
+  if (name == "ablation") {
+    config.flow_steps = 4;
+    config.hidden = 64;
+    config.condition_width = 96;
+    config.history_noise = 0.1;
+    return config;
+  }
+  throw InvalidArgument("preset", "'" + name + "' is not one of paper, default, ablation");
+}
+
+}  // namespace choreo

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace choreo {
+
+/// The planner: a transformer that proposes the whole transition once, from history and key (its
+/// mean); width 0 means none.
+struct PlannerConfig {
+  int width = 0;
+  int layers = 4;
+  int heads = 6;
+};
+
+/// Shape and training-time switches of the flow model (paper F, Section 3.2). Stored in every
+/// checkpoint.
+struct FlowConfig {
+  std::string preset = "default";
+  int history_frames = 10;  ///< tau
+  int audio_features = 40;  ///< MFCCs a row
+  int flow_steps = 16;      ///< K
+  int hidden = 512;         ///< width of each coupling's network
+  bool recurrent = true;    ///< coupling network: 2-layer LSTM (the paper's) or 2-layer perceptron
+  int condition_width = 0;  ///< 0: the raw condition goes to every coupling (the paper); else one
+                            ///< shared encoding of this width
+  PlannerConfig planner;
+  int max_transition_frames = 1800;
+  double temperature = 1.0;  ///< served by default
+
+  /// Switches of the ablations.
+  bool keys = true;
+  bool key_loss = true;
+  bool time_embedding = true;
+  bool forward_embedding = false;  ///< count frames from the start instead of frames left
+
+  double history_dropout = 0.7;  ///< probability that a whole past frame is dropped in training
+  double history_noise =
+      0.0;  ///< standard deviation added to past frames in training, in standardised units
+
+  /// `paper` | `default` | `ablation`. Throws Error(kInvalidArgument) for another name.
+  static FlowConfig Preset(const std::string& name);
+};
+
+void to_json(nlohmann::json& json, const FlowConfig& config);
+void from_json(const nlohmann::json& json, FlowConfig& config);
+
+}  // namespace choreo

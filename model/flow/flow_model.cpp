@@ -1,0 +1,172 @@
+#include "model/flow/flow_model.h"
+
+#include <torch/torch.h>
+
+#include <cmath>
+
+#include "model/flow/torch_kinematics.h"
+
+namespace choreo {
+
+using torch::Tensor;
+
+namespace {
+
+// Past frames and music beyond this many standard deviations are outliers that training never saw:
+// keep them in range.
+constexpr double kFeatureClamp = 6.0;
+
+// paper F 3.2.1: root 3, rotations, velocities 3, contacts 4.
+int FeatureWidth(const Skeleton& skeleton) { return 3 + 3 * skeleton.joints() + 3 + 4; }
+
+}  // namespace
+
+FlowModelImpl::FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton)
+    : config_(config), skeleton_(skeleton), width_(FeatureWidth(skeleton)) {
+  feature_mean_ = register_buffer("feature_mean", torch::zeros({width_}));
+  feature_std_ = register_buffer("feature_std", torch::ones({width_}));
+  audio_mean_ = register_buffer("audio_mean", torch::zeros({config.audio_features}));
+  audio_std_ = register_buffer("audio_std", torch::ones({config.audio_features}));
+  if (config.planner.width > 0) {
+    planner_ = register_module("planner", Planner(skeleton.joints(), config.planner));
+  }
+  const int joints = skeleton.joints();
+  const int past = config.history_frames * width_;
+  const int audio = (config.history_frames + 1) * config.audio_features + 1;
+  // Key: position, 6D rotations, mask. Then Eq. 9's embedding at the width of the motion, and the
+  // planner's hidden state.
+  const int fixed = 3 + 6 * joints + joints + 1 + width_ + config.planner.width;
+  int condition = past + audio + fixed;
+  if (config.condition_width > 0) {
+    condition = config.condition_width;
+    encode_past_ = register_module("encode_past", torch::nn::Linear(past, condition));
+    encode_static_ = register_module("encode_static", torch::nn::Linear(fixed, condition));
+    encode_audio_ = register_module("encode_audio", torch::nn::Linear(audio, condition));
+    encode_ = register_module("encode", torch::nn::Linear(condition, condition));
+  }
+  flow_ = register_module("flow", CouplingFlow(width_, condition, config));
+}
+
+int FlowModelImpl::static_width() const {
+  const int joints = skeleton_.joints();
+  return config_.condition_width > 0 ? config_.condition_width
+                                     : 3 + 6 * joints + joints + 1 + width_ + config_.planner.width;
+}
+
+TransitionContext FlowModelImpl::Begin(const TransitionTensors& transition) {
+  const int64_t batch = transition.target_position.size(0), frames = transition.frames;
+  const int64_t joints = skeleton_.joints();
+  TransitionContext context;
+  Tensor hidden;
+  if (has_planner()) {
+    PlannerImpl::Plan plan = planner_(transition);
+    context.reference = plan.trajectory;
+    hidden = plan.hidden;
+  }
+  const Tensor mask =
+      config_.keys ? transition.target_mask : torch::zeros_like(transition.target_mask);
+  const Tensor present = mask.amax(1, true);  // [batch, 1]
+  const Tensor key = torch::cat(
+      {transition.target_position * mask.narrow(1, joints, 1),
+       (SixDBatch(transition.target_rotation) * mask.narrow(1, 0, joints).unsqueeze(-1)).flatten(1),
+       mask},
+      1);
+  const Tensor since = torch::arange(frames, mask.options());
+  const Tensor count = config_.forward_embedding ? since : (frames - 1) - since;
+  const Tensor embedding =
+      TimeEmbedding(count, width_).unsqueeze(0).expand({batch, frames, width_});
+  std::vector<Tensor> parts = {
+      key.unsqueeze(1).expand({batch, frames, key.size(1)}),
+      config_.time_embedding ? embedding * present.unsqueeze(1) : torch::zeros_like(embedding)};
+  if (has_planner()) parts.push_back(hidden);
+  context.static_condition = torch::cat(parts, -1);
+  if (config_.condition_width > 0) {
+    context.static_condition = encode_static_(context.static_condition);
+  }
+  return context;
+}
+
+Tensor FlowModelImpl::Standardise(const Tensor& features) const {
+  return (features - feature_mean_) / feature_std_;
+}
+
+Tensor FlowModelImpl::StandardiseAudio(const Tensor& audio, const Tensor& has_audio) const {
+  return ((audio - audio_mean_) / audio_std_).clamp(-kFeatureClamp, kFeatureClamp) *
+         has_audio.unsqueeze(-1);
+}
+
+Tensor FlowModelImpl::Condition(const Tensor& past, const Tensor& audio,
+                                const Tensor& static_condition) {
+  if (config_.condition_width == 0) return torch::cat({past, audio, static_condition}, -1);
+  const Tensor sum = encode_past_(past) + encode_audio_(audio) + static_condition;
+  return torch::silu(encode_(torch::silu(sum)));
+}
+
+FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& audio,
+                                              const Tensor& has_audio,
+                                              const Tensor& static_condition, const Tensor& noise,
+                                              const std::vector<Tensor>& inverse_weights,
+                                              FlowState* state) {
+  const Tensor clamped = Standardise(past).clamp(-kFeatureClamp, kFeatureClamp).flatten(1);
+  const Tensor rows = torch::cat({StandardiseAudio(audio, has_audio).flatten(1), has_audio}, 1);
+  const Tensor condition = Condition(clamped, rows, static_condition).unsqueeze(1);
+  Tensor log_det = torch::zeros({noise.size(0), 1}, noise.options());
+  const Tensor x =
+      flow_->Inverse(noise.unsqueeze(1), condition, inverse_weights, state, &log_det).squeeze(1);
+  const double log_two_pi = std::log(2 * M_PI);
+  const Tensor base = -0.5 * (noise.square().sum(1) + log_two_pi * width_);
+  return {x.clamp(-kFeatureClamp, kFeatureClamp) * feature_std_ + feature_mean_,
+          base + log_det.squeeze(1)};
+}
+
+std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const Tensor& audio,
+                                                 const Tensor& has_audio,
+                                                 const TransitionContext& context) {
+  const int64_t tau = config_.history_frames, batch = features.size(0);
+  const int64_t frames = features.size(1) - tau;
+  const Tensor standard = Standardise(features);
+  const Tensor clamped = standard.clamp(-kFeatureClamp, kFeatureClamp);
+  // unfold: [batch, N + 1, width, tau], of which the last window has no frame behind it.
+  Tensor past = clamped.unfold(1, tau, 1).narrow(1, 0, frames).transpose(2, 3);
+  if (is_training()) {
+    if (config_.history_noise > 0) past = past + config_.history_noise * torch::randn_like(past);
+    // Whole frames are dropped, and the rest is not scaled up: at sampling time all are there (the
+    // encoder sees both).
+    const Tensor keep =
+        (torch::rand({batch, frames, tau, 1}, past.options()) >= config_.history_dropout)
+            .to(past.dtype());
+    past = past * keep;
+  }
+  const Tensor rows =
+      StandardiseAudio(audio, has_audio).unfold(1, tau + 1, 1).transpose(2, 3).flatten(2);
+  const Tensor flag = has_audio.unsqueeze(1).expand({batch, frames, 1});
+  return {standard.narrow(1, tau, frames),
+          Condition(past.reshape({batch, frames, tau * width_}), torch::cat({rows, flag}, -1),
+                    context.static_condition)};
+}
+
+Tensor FlowModelImpl::LogLikelihood(const Tensor& features, const Tensor& audio,
+                                    const Tensor& has_audio, const TransitionContext& context) {
+  const auto [x, condition] = Windows(features, audio, has_audio, context);
+  FlowState state = flow_->InitialState(x.size(0));
+  Tensor log_det = torch::zeros({x.size(0), x.size(1)}, x.options());
+  const Tensor z = flow_->Forward(x, condition, &state, &log_det);
+  return -0.5 * (z.square().sum(-1) + std::log(2 * M_PI) * width_) + log_det;
+}
+
+void FlowModelImpl::InitialiseActNorm(const Tensor& features, const Tensor& audio,
+                                      const Tensor& has_audio, const TransitionContext& context) {
+  torch::NoGradGuard no_grad;
+  const auto [x, condition] = Windows(features, audio, has_audio, context);
+  flow_->InitialiseActNorm(x, condition);
+}
+
+void FlowModelImpl::SetNormalisation(const Normalisation& normalisation) {
+  torch::NoGradGuard no_grad;
+  feature_mean_.copy_(normalisation.feature_mean);
+  feature_std_.copy_(normalisation.feature_std);
+  audio_mean_.copy_(normalisation.audio_mean);
+  audio_std_.copy_(normalisation.audio_std);
+}
+
+}  // namespace choreo

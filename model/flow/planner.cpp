@@ -1,0 +1,140 @@
+#include "model/flow/planner.h"
+
+#include <torch/torch.h>
+
+#include <cmath>
+
+#include "model/flow/torch_kinematics.h"
+
+namespace choreo {
+
+using torch::Tensor;
+using torch::indexing::None;
+using torch::indexing::Slice;
+
+namespace {
+
+constexpr int64_t kMaxDistance = 96;     // frames; farther apart counts as this far
+constexpr int64_t kEmbeddingWidth = 32;  // of each of the two frame counts
+constexpr double kRampFrames = 6;        // frames over which the residual grows from a fixed end
+constexpr double kBasis = 10000;         // Eq. 9
+
+}  // namespace
+
+TrajectoryTensors Interpolate(const TransitionTensors& transition) {
+  const int64_t joints = transition.target_rotation.size(1);
+  const Tensor u = torch::arange(1, transition.frames + 1, transition.target_position.options()) /
+                   static_cast<double>(transition.frames);
+  const Tensor from_position = transition.history_position.select(1, -1);
+  const Tensor from_rotation = transition.history_rotation.select(1, -1);
+  const Tensor joint_mask = transition.target_mask.narrow(1, 0, joints);
+  const Tensor root_mask = transition.target_mask.narrow(1, joints, 1);
+  const Tensor move = (transition.target_position - from_position) * root_mask;
+  const Tensor turn =
+      LogMapBatch(torch::matmul(from_rotation.transpose(-1, -2), transition.target_rotation)) *
+      joint_mask.unsqueeze(-1);
+  return {from_position.unsqueeze(1) + u.view({1, -1, 1}) * move.unsqueeze(1),
+          torch::matmul(from_rotation.unsqueeze(1),
+                        ExpMapBatch(u.view({1, -1, 1, 1}) * turn.unsqueeze(1)))};
+}
+
+Tensor TimeEmbedding(const Tensor& counts, int64_t width) {
+  const Tensor pair = torch::arange(0, (width + 1) / 2, counts.options());
+  const Tensor rate = torch::exp(pair * (-2.0 * std::log(kBasis) / static_cast<double>(width)));
+  const Tensor phase = counts.unsqueeze(-1) * rate;
+  return torch::stack({phase.sin(), phase.cos()}, -1).flatten(-2).narrow(-1, 0, width);
+}
+
+PlannerBlockImpl::PlannerBlockImpl(int width, int heads) : heads_(heads) {
+  using torch::nn::LayerNormOptions;
+  attention_norm_ =
+      register_module("attention_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
+  mlp_norm_ = register_module("mlp_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
+  qkv_ = register_module("qkv", torch::nn::Linear(width, 3 * width));
+  out_ = register_module("out", torch::nn::Linear(width, width));
+  up_ = register_module("up", torch::nn::Linear(width, 2 * width));
+  down_ = register_module("down", torch::nn::Linear(2 * width, width));
+  distance_bias_ = register_parameter("distance_bias", torch::zeros({2 * kMaxDistance + 1, heads}));
+}
+
+Tensor PlannerBlockImpl::forward(const Tensor& x, const Tensor& distance) {
+  const int64_t batch = x.size(0), time = x.size(1), width = x.size(2);
+  const Tensor qkv = qkv_(attention_norm_(x))
+                         .view({batch, time, 3, heads_, width / heads_})
+                         .permute({2, 0, 3, 1, 4});  // [3, batch, heads, time, head width]
+  const Tensor bias = distance_bias_.index_select(0, distance.flatten())
+                          .view({time, time, heads_})
+                          .permute({2, 0, 1});
+  const double scale = 1 / std::sqrt(static_cast<double>(width / heads_));
+  const Tensor attention =
+      torch::softmax(torch::matmul(qkv[0] * scale, qkv[1].transpose(-1, -2)) + bias, -1);
+  const Tensor mixed =
+      torch::matmul(attention, qkv[2]).transpose(1, 2).reshape({batch, time, width});
+  const Tensor attended = x + out_(mixed);
+  return attended + down_(torch::gelu(up_(mlp_norm_(attended))));
+}
+
+PlannerImpl::PlannerImpl(int joints, const PlannerConfig& config)
+    : joints_(joints), width_(config.width) {
+  // Token: root 3, rotations 6 a joint, key mask (joints + root), is-history, is-key, two frame
+  // counts.
+  const int64_t features = 3 + 6 * joints + joints + 1 + 2 + 2 * kEmbeddingWidth;
+  embed_ = register_module("embed", torch::nn::Linear(features, width_));
+  blocks_ = register_module("blocks", torch::nn::ModuleList());
+  for (int i = 0; i < config.layers; ++i) blocks_->push_back(PlannerBlock(width_, config.heads));
+  norm_ = register_module("norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({width_})));
+  head_ = register_module("head", torch::nn::Linear(width_, 3 + 6 * joints));
+  torch::nn::init::zeros_(head_->weight);
+  torch::nn::init::zeros_(head_->bias);
+}
+
+PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
+  const int64_t batch = transition.target_position.size(0), frames = transition.frames;
+  const int64_t history = transition.history_position.size(1), time = history + frames;
+  const auto options = transition.target_position.options();
+  const TrajectoryTensors line = Interpolate(transition);
+
+  const Tensor line_six_d = SixDBatch(line.rotation).flatten(2);
+  const Tensor position = torch::cat({transition.history_position, line.position}, 1);
+  const Tensor six_d =
+      torch::cat({SixDBatch(transition.history_rotation).flatten(2), line_six_d}, 1);
+  const Tensor is_history = torch::zeros({1, time, 1}, options);
+  is_history.narrow(1, 0, history).fill_(1);
+  const Tensor is_key = torch::zeros({1, time, 1}, options);
+  is_key.narrow(1, time - 1, 1).fill_(1);
+  const Tensor present = transition.target_mask.amax(1).view({batch, 1, 1});
+  const Tensor since = torch::arange(-history, frames, options).view({1, time});
+  const Tensor left = (frames - 1) - since;
+  const Tensor tokens = torch::cat(
+      {position, six_d, transition.target_mask.unsqueeze(1).expand({batch, time, joints_ + 1}),
+       is_history.expand({batch, time, 1}), is_key * present,
+       TimeEmbedding(since, kEmbeddingWidth).expand({batch, time, kEmbeddingWidth}),
+       // Without a key nothing is awaited: the frames left must not matter.
+       TimeEmbedding(left, kEmbeddingWidth).expand({batch, time, kEmbeddingWidth}) * present},
+      -1);
+
+  const Tensor steps =
+      torch::arange(time, torch::TensorOptions().dtype(torch::kLong).device(options.device()));
+  const Tensor distance =
+      (steps.unsqueeze(0) - steps.unsqueeze(1)).clamp(-kMaxDistance, kMaxDistance) + kMaxDistance;
+  Tensor x = embed_(tokens);
+  for (const auto& block : *blocks_) x = block->as<PlannerBlock>()->forward(x, distance);
+  const Tensor hidden = norm_(x).narrow(1, history, frames);
+
+  // The residual grows from zero behind the history and, for what the key fixes, shrinks to zero at
+  // the key.
+  const Tensor from_start = ((since.narrow(1, history, frames) + 1) / kRampFrames).clamp_max(1);
+  const Tensor to_key = (left.narrow(1, history, frames) / kRampFrames).clamp_max(1);
+  const Tensor mask = transition.target_mask.unsqueeze(1);  // [batch, 1, joints + 1]
+  const Tensor ramp = from_start.unsqueeze(-1) *
+                      (1 - mask + mask * to_key.unsqueeze(-1));  // [batch, N, joints + 1]
+  const Tensor residual = head_(hidden);
+  const Tensor move = residual.narrow(2, 0, 3) * ramp.narrow(2, joints_, 1);
+  const Tensor turn = residual.narrow(2, 3, 6 * joints_).view({batch, frames, joints_, 6}) *
+                      ramp.narrow(2, 0, joints_).unsqueeze(-1);
+  return {{line.position + move,
+           MatrixFromSixDBatch(line_six_d.view({batch, frames, joints_, 6}) + turn)},
+          hidden};
+}
+
+}  // namespace choreo

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include "model/motion/skeleton.h"
+
+/// The motion mathematics of model/motion on batches, differentiable. "..." is any leading shape.
+/// Float32 or float64.
+namespace choreo {
+
+/// [..., 3] axis-angle → [..., 3, 3]
+torch::Tensor ExpMapBatch(const torch::Tensor& w);
+/// [..., 3, 3] → [..., 3], angle in [0, pi]. Its gradient is not defined at 0 and pi: use it on
+/// data, not inside a loss.
+torch::Tensor LogMapBatch(const torch::Tensor& r);
+/// [..., 3, 3] → [..., 6]: the first two columns, stacked.
+torch::Tensor SixDBatch(const torch::Tensor& r);
+/// [..., 6] → [..., 3, 3] by Gram-Schmidt.
+torch::Tensor MatrixFromSixDBatch(const torch::Tensor& d);
+
+/// Forward kinematics of one skeleton, level by level of its tree.
+class TorchKinematics {
+ public:
+  explicit TorchKinematics(const Skeleton& skeleton);
+  /// root [M, 3] metres, local rotations [M, joints, 3, 3] → joint positions [M, joints, 3].
+  torch::Tensor Positions(const torch::Tensor& root, const torch::Tensor& rotations) const;
+
+ private:
+  struct Level {
+    std::vector<int64_t> joints;   ///< in tree order
+    std::vector<int64_t> parents;  ///< their places within the level above
+  };
+  std::vector<Level> levels_;
+  std::vector<int64_t> order_;  ///< joint → its place in the concatenated levels
+  torch::Tensor offsets_;       ///< [joints, 3]
+};
+
+}  // namespace choreo
