@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace choreo {
+
+/// NumPy's `.npy` arrays, in files and in memory (the members of an `.npz`). Reads format versions
+/// 1 to 3, little-endian float32, float64, int32 and int64, 0 to 4 dimensions, C or Fortran order;
+/// writes version 1.0 in C order. Values are held in C order (last index fastest), whatever the
+/// file's order was. Not shared between threads while it changes.
+struct NpyArray {
+  using Values = std::variant<std::vector<float>, std::vector<double>, std::vector<int32_t>,
+                              std::vector<int64_t>>;
+
+  std::vector<int64_t> shape;  ///< empty: one number
+  Values values;
+
+  int64_t size() const;  ///< product of the shape
+  /// The values as T, converted as static_cast does.
+  template <typename T>
+  std::vector<T> As() const {
+    return std::visit([](const auto& held) { return std::vector<T>(held.begin(), held.end()); },
+                      values);
+  }
+};
+
+/// Throws Error(kInvalidArgument) whose field is `name` for bytes that are not such an array, that
+/// are too few for the shape that the header states, or that go on after it.
+NpyArray ParseNpy(std::span<const std::byte> bytes, const std::string& name);
+/// As ParseNpy; Error(kNotFound) where the file cannot be opened.
+NpyArray ReadNpy(const std::filesystem::path& path);
+
+/// Throws Error(kInvalidArgument) where the number of values is not the product of the shape.
+std::string SerializeNpy(const NpyArray& array);
+/// As SerializeNpy; Error(kInternal) where the file cannot be written.
+void WriteNpy(const std::filesystem::path& path, const NpyArray& array);
+
+}  // namespace choreo
