@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace choreo {
+
+/// Where a dancer would count.
+struct BeatTrack {
+  double tempo_bpm = 0;         ///< 0 where nothing was heard
+  std::vector<int64_t> frames;  ///< ascending, in steps of kOnsetHop samples at 22 050 Hz
+
+  std::vector<double> Seconds() const;
+};
+
+/// The tempo in beats a minute of an onset envelope, as librosa.feature.tempo (0.10.2):
+/// autocorrelation within windows of 8 s, averaged, weighed by a log-normal prior around 120, below
+/// 320. 0 for an envelope without onsets.
+double EstimateTempo(std::span<const float> onset_strength);
+
+/// The beats of an onset envelope, as librosa.beat.beat_track (0.10.2; Ellis 2007): dynamic
+/// programming for the frames that are strong and keep the tempo (tightness 100); weak beats at
+/// either end are dropped. Needs the whole envelope.
+BeatTrack TrackBeats(std::span<const float> onset_strength);
+
+/// The beats of mono samples at 22 050 Hz, from their median onset strength. Errors as
+/// OnsetStrength.
+BeatTrack FindBeats(std::span<const float> mono);
+
+}  // namespace choreo

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/audio/format.h"
+
+namespace choreo {
+
+class ByteSource;
+
+/// A sound file read from its beginning to its end, in pieces: WAV, FLAC, Ogg (Vorbis, Opus) and
+/// MP3, from a file or from memory, within the limits of format.h. Not thread-safe; readers of
+/// different files are independent.
+///
+/// Errors are Error(kInvalidArgument), or kNotFound for a file that cannot be opened. Their field
+/// begins with the path, or the name given for memory; the message states value and limit. Refused
+/// are: empty input, what is not such audio, a sample rate, number of channels or duration beyond
+/// the limits, no samples, samples that are NaN or infinite, and truncated files as far as the
+/// format lets one know (WAV and FLAC state their length, Ogg marks its last page, MP3 only where
+/// it has a Xing header).
+class AudioReader {
+ public:
+  static AudioReader OpenFile(const std::filesystem::path& path);
+  /// `bytes` must outlive the reader.
+  static AudioReader OpenMemory(std::span<const std::byte> bytes,
+                                const std::string& name = "audio");
+  ~AudioReader();
+  AudioReader(AudioReader&&) noexcept;
+  AudioReader& operator=(AudioReader&&) noexcept;
+
+  int sample_rate() const;  ///< Hz
+  int channels() const;
+  /// Samples (of each channel) as the header states them: exact for WAV and FLAC, an estimate for
+  /// MP3; 0 where unknown.
+  int64_t stated_samples() const;
+
+  /// Fills `interleaved`, whose size is a multiple of channels(), from its beginning, and returns
+  /// how many samples of each channel were read. 0: the end. Full scale is -1 to 1.
+  int64_t Read(std::span<float> interleaved);
+
+ private:
+  struct State;
+  AudioReader(std::unique_ptr<ByteSource> source, std::string name);
+
+  std::unique_ptr<State> state_;
+};
+
+struct DecodedAudio {
+  std::vector<float> interleaved;  ///< full scale is -1 to 1
+  int sample_rate = 0;             ///< Hz
+  int channels = 0;
+
+  int64_t samples() const { return static_cast<int64_t>(interleaved.size()) / channels; }
+  double seconds() const { return static_cast<double>(samples()) / sample_rate; }
+};
+
+/// All of a sound file at once. Errors as AudioReader.
+DecodedAudio DecodeAudioFile(const std::filesystem::path& path);
+DecodedAudio DecodeAudioMemory(std::span<const std::byte> bytes, const std::string& name = "audio");
+
+/// As mono samples at 22 050 Hz, the whole: what Mfcc, OnsetStrength and FindBeats take.
+std::vector<float> ToModelRate(const DecodedAudio& audio);
+
+}  // namespace choreo

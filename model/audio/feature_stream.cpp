@@ -1,0 +1,130 @@
+#include "model/audio/feature_stream.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "model/audio/format.h"
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+constexpr int64_t kHalfWindow = kFftSize / 2;
+
+/// Frames of interleaved samples handled at a time, so that a long push needs no more memory than a
+/// short one.
+constexpr size_t kBlock = 8192;
+
+int64_t CeilDivide(int64_t value, int64_t by) { return (value + by - 1) / by; }
+
+}  // namespace
+
+FeatureStream::FeatureStream(double sample_rate, int channels, int64_t first_sample)
+    : sample_rate_(sample_rate),
+      channels_(channels),
+      first_sample_(first_sample),
+      resampler_(sample_rate, channels, first_sample),
+      mono_start_(resampler_.first_output()),
+      window_(kFftSize, 0.0f) {
+  if (mono_start_ == 0) {
+    mono_.assign(kHalfWindow, 0.0f);
+    mono_start_ = -kHalfWindow;
+  }
+  first_row_ = CeilDivide(mono_start_ + kHalfWindow, kFeatureHop);
+  silence_ = ComputeRow();
+}
+
+void FeatureStream::Push(std::span<const float> interleaved) {
+  const size_t channels = static_cast<size_t>(channels_);
+  if (interleaved.size() % channels != 0) {
+    throw InvalidArgument("audio.data", std::to_string(interleaved.size()) +
+                                            " samples are not a multiple of the " +
+                                            std::to_string(channels) + " channels");
+  }
+  if (finished_) {
+    throw Error(ErrorCode::kOutOfRange, "audio.data",
+                "samples after the end of the audio at sample " + std::to_string(next_sample()));
+  }
+  CheckFinite(interleaved, channels_, next_sample());
+  while (!interleaved.empty()) {
+    const size_t count = std::min(kBlock * channels, interleaved.size());
+    resampler_.Push(interleaved.first(count));
+    resampler_.Pull(mono_);
+    ComputeRows();
+    interleaved = interleaved.subspan(count);
+    pushed_ += static_cast<int64_t>(count / channels);
+  }
+}
+
+void FeatureStream::Finish() {
+  if (finished_) return;
+  finished_ = true;
+  resampler_.Finish();
+  resampler_.Pull(mono_);
+  // Silence as far as the last window that holds any audio; the rows behind it are all the same.
+  mono_.insert(mono_.end(), kFftSize + kFeatureHop, 0.0f);
+  ComputeRows();
+}
+
+void FeatureStream::ComputeRows() {
+  const int64_t end = mono_start_ + static_cast<int64_t>(mono_.size());
+  int64_t start = 0;
+  for (;;) {
+    start = (first_row_ + static_cast<int64_t>(rows_.size())) * kFeatureHop - kHalfWindow;
+    if (start + kFftSize > end) break;
+    std::copy_n(mono_.begin() + (start - mono_start_), kFftSize, window_.begin());
+    rows_.push_back(ComputeRow());
+  }
+  const int64_t done = std::min(start, end) - mono_start_;
+  if (done > 0) {
+    mono_.erase(mono_.begin(), mono_.begin() + done);
+    mono_start_ += done;
+  }
+}
+
+FeatureStream::RowValues FeatureStream::ComputeRow() {
+  std::array<double, kMelBands> db{};
+  const auto power = spectrum_.Power(window_);
+  std::transform(power.begin(), power.end(), db.begin(), PowerToDb);
+  RowValues row{};
+  MfccOfMelDb(db, row);
+  return row;
+}
+
+int64_t FeatureStream::final_rows() const {
+  if (finished_) return std::numeric_limits<int64_t>::max();
+  return first_row_ + static_cast<int64_t>(rows_.size());
+}
+
+int64_t FeatureStream::audio_rows() const {
+  if (next_sample() == 0) return 0;
+  const int64_t mono =
+      CeilDivide(next_sample() * kModelSampleRate, static_cast<int64_t>(sample_rate_));
+  return 1 + mono / kFeatureHop;
+}
+
+std::span<const float> FeatureStream::Row(int64_t row) const {
+  if (row < first_row_ || row >= final_rows()) {
+    throw Error(ErrorCode::kOutOfRange, "audio row",
+                std::to_string(row) + " is not within " + std::to_string(first_row_) + " to " +
+                    std::to_string(final_rows() - 1) + ", the rows that are final");
+  }
+  const int64_t index = row - first_row_;
+  return index < static_cast<int64_t>(rows_.size()) ? rows_[static_cast<size_t>(index)] : silence_;
+}
+
+int FeatureStream::latency_samples() const {
+  return static_cast<int>(kHalfWindow + resampler_.latency());
+}
+
+int64_t FeatureStream::FirstSampleFor(int64_t row, double sample_rate) {
+  const int64_t first_mono = row * kFeatureHop - kHalfWindow;
+  if (first_mono <= 0) return 0;
+  const int64_t rate = static_cast<int64_t>(sample_rate);
+  const int64_t before = std::max<int64_t>(Resampler(sample_rate, 1).half_length() - 1, 0);
+  return std::max<int64_t>(first_mono * rate / kModelSampleRate - before, 0);
+}
+
+}  // namespace choreo

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "model/audio/mel.h"
+#include "model/audio/mfcc.h"
+#include "model/audio/resample.h"
+
+namespace choreo {
+
+/// Music as the models hear it, while it arrives: push samples of any format, read MFCC rows at 30
+/// a second.
+///
+/// Row r is centred at second r / 30 of the absolute audio clock, that is at sample 735 r of 22 050
+/// Hz; it is that of Mfcc() without top_db. Audio before 0 and after the end is silence. A row's
+/// bits depend on the samples near it alone, neither on how they are chunked nor on where the
+/// stream starts. Memory: 40 floats a row, and of the samples only what the next rows need. Not
+/// thread-safe.
+class FeatureStream {
+ public:
+  /// Half an analysis window and, at the lowest input rate, half the resampling filter, in samples
+  /// at 22 050 Hz. No row waits for audio further ahead of its centre than this.
+  static constexpr int kMaxLatencySamples = kFftSize / 2 + 188;
+
+  /// `first_sample`: absolute index, at `sample_rate`, of the first sample that will be pushed, for
+  /// a stream that goes on where another one ended. Errors as Resampler.
+  FeatureStream(double sample_rate, int channels, int64_t first_sample = 0);
+
+  /// Appends interleaved samples. Throws Error(kInvalidArgument) for a number that is no multiple
+  /// of the channels and for NaN and infinite samples, naming the first one's index;
+  /// Error(kOutOfRange) after Finish. A refused call changes nothing.
+  void Push(std::span<const float> interleaved);
+  /// The audio ends here: every row becomes final. May be called again.
+  void Finish();
+
+  /// Row r can be read if first_row() <= r < final_rows(). After Finish that is every row: those
+  /// beyond the audio are silence's, and this is the largest int64_t. Use audio_rows() to size a
+  /// buffer.
+  int64_t final_rows() const;
+  /// 0, or, where the stream starts later, the first row whose whole window lies in the stream.
+  int64_t first_row() const { return first_row_; }
+  /// Rows from 0 on whose centre lies within the audio so far: 1 + samples / 735 at 22 050 Hz, as
+  /// librosa counts; 0 before any.
+  int64_t audio_rows() const;
+  /// kMfccCount values, valid as long as this object. Throws Error(kOutOfRange) for a row that is
+  /// not final or before first_row().
+  std::span<const float> Row(int64_t row) const;
+
+  /// Samples (of each channel) pushed so far.
+  int64_t samples_pushed() const { return pushed_; }
+  /// Absolute index of the sample that Push expects next.
+  int64_t next_sample() const { return first_sample_ + pushed_; }
+  bool finished() const { return finished_; }
+  /// How far, in samples at 22 050 Hz, audio must reach beyond a row's centre for it to be final at
+  /// this input rate.
+  int latency_samples() const;
+
+  /// The latest `first_sample` for which a stream's first_row() is at most `row`: from where to
+  /// send a song again to resume it.
+  static int64_t FirstSampleFor(int64_t row, double sample_rate);
+
+ private:
+  using RowValues = std::array<float, kMfccCount>;
+
+  void ComputeRows();
+  RowValues ComputeRow();  // of window_
+
+  double sample_rate_;
+  int channels_;
+  int64_t first_sample_;
+  Resampler resampler_;
+  MelSpectrum spectrum_;
+  int64_t pushed_ = 0;
+  bool finished_ = false;
+  std::vector<float> mono_;  // at 22 050 Hz; what future rows still need
+  int64_t mono_start_ = 0;   // absolute index of mono_[0]
+  std::vector<float> window_;
+  int64_t first_row_ = 0;
+  std::deque<RowValues> rows_;  // a deque, so that rows stay where they are
+  RowValues silence_{};
+};
+
+}  // namespace choreo

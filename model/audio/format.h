@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace choreo {
+
+/// The rate, in Hz, of everything behind the resampler: mono samples, mel spectra, rows, beats.
+inline constexpr int kModelSampleRate = 22050;
+
+// What is accepted as audio, from files and from streams alike.
+inline constexpr int kMinSampleRate = 8000;    ///< Hz
+inline constexpr int kMaxSampleRate = 192000;  ///< Hz
+inline constexpr int kMaxChannels = 8;
+inline constexpr int kMaxAudioSeconds = 600;
+
+/// Throws Error(kInvalidArgument) unless `sample_rate` is a whole number of Hz, and it and
+/// `channels` are within the limits above. The fields are `name`.sample_rate and `name`.channels.
+void CheckAudioFormat(double sample_rate, int channels, const std::string& name = "audio");
+
+/// Throws Error(kInvalidArgument) where an interleaved sample is NaN or infinite. `first_sample` is
+/// the absolute index (one a channel set) of the first of them; the message names that of the
+/// offender.
+void CheckFinite(std::span<const float> interleaved, int channels, int64_t first_sample,
+                 const std::string& name = "audio");
+
+}  // namespace choreo

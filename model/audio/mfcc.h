@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "model/audio/mel.h"
+
+namespace choreo {
+
+inline constexpr int kMfccCount = 40;
+/// Samples at 22 050 Hz from one row to the next: 30 rows a second, one a frame of motion.
+inline constexpr int kFeatureHop = 735;
+
+/// One row of cepstral coefficients: the first kMfccCount of the orthonormal DCT-II of a mel
+/// spectrum in dB.
+void MfccOfMelDb(std::span<const double, kMelBands> db, std::span<float, kMfccCount> row);
+
+/// [row, coefficient]
+using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, kMfccCount, Eigen::RowMajor>;
+
+/// MFCC-40 of mono samples at 22 050 Hz as librosa 0.10.2 computes them with n_fft 2048 and centred
+/// windows; row r is centred at sample r * hop, and there are 1 + samples / hop. `top_db`: none, as
+/// the models and FeatureStream have it, since no stream can know its loudest frame in advance;
+/// librosa's default is 80. Errors as MelSpectrogramDb.
+FeatureMatrix Mfcc(std::span<const float> mono, std::optional<double> top_db = std::nullopt,
+                   int hop = kFeatureHop);
+
+}  // namespace choreo

@@ -1,0 +1,218 @@
+#include "model/audio/resample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "model/audio/format.h"
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+/// Zero crossings of the sinc on either side, and the window's shape: 100 dB of attenuation, and
+/// with this cutoff the stop band begins at the Nyquist frequency (Kaiser's formulas: transition =
+/// (100 - 8) / (2.285 * length) rad).
+constexpr int kZeroCrossings = 64;
+constexpr double kKaiserBeta = 10.06;
+constexpr double kCutoff = 0.95;  ///< of the lower Nyquist frequency
+
+/// Steps a zero crossing in the table of the prototype; linear interpolation between them errs by
+/// less than 3e-8.
+constexpr int kTableSteps = 4096;
+
+/// Coefficients kept for all phases of a ratio at most (2 MiB). Ratios with more phases compute
+/// each phase when it comes.
+constexpr int64_t kMaxKeptCoefficients = int64_t{1} << 18;
+
+/// Input samples taken in at a time, so that a long push needs no more memory than a short one.
+constexpr size_t kBlock = 8192;
+
+double BesselI0(double x) {
+  double term = 1, sum = 1;
+  for (int k = 1; term > 1e-17 * sum; ++k) {
+    term *= (x / (2 * k)) * (x / (2 * k));
+    sum += term;
+  }
+  return sum;
+}
+
+/// sinc times the window at x zero crossings from the centre, |x| <= kZeroCrossings, from a table
+/// that all resamplers share.
+double Prototype(double x) {
+  static const std::vector<double> table = [] {
+    std::vector<double> values(kZeroCrossings * kTableSteps + 2, 0.0);
+    for (int i = 0; i <= kZeroCrossings * kTableSteps; ++i) {
+      const double t = static_cast<double>(i) / kTableSteps;
+      const double u = t / kZeroCrossings;
+      const double window = BesselI0(kKaiserBeta * std::sqrt(1 - u * u)) / BesselI0(kKaiserBeta);
+      const double angle = std::numbers::pi * t;
+      values[static_cast<size_t>(i)] = window * (i == 0 ? 1.0 : std::sin(angle) / angle);
+    }
+    return values;
+  }();
+  const double position = std::abs(x) * kTableSteps;
+  if (position > kZeroCrossings * kTableSteps) return 0;
+  const size_t index = static_cast<size_t>(position);
+  const double rest = position - static_cast<double>(index);
+  return table[index] + rest * (table[index + 1] - table[index]);
+}
+
+/// Four running sums in a fixed order: fast, and the same bits whatever the address of the samples.
+double Dot(const double* a, const double* b, size_t size) {
+  double sum[4] = {0, 0, 0, 0};
+  for (size_t i = 0; i < size; i += 4) {
+    for (size_t lane = 0; lane < 4; ++lane) sum[lane] += a[i + lane] * b[i + lane];
+  }
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+}  // namespace
+
+/// The filter of one ratio of rates, by phase.
+class PolyphaseKernel {
+ public:
+  PolyphaseKernel(int64_t in_per_period, int64_t phases) : phases_(phases) {
+    const double ratio = static_cast<double>(phases) / static_cast<double>(in_per_period);
+    cutoff_ = kCutoff * std::min(1.0, ratio);
+    // Even, so that the number of taps is a multiple of Dot's four lanes.
+    half_length_ = 2 * static_cast<int64_t>(std::ceil(kZeroCrossings / cutoff_ / 2));
+    if (phases * taps() <= kMaxKeptCoefficients) {
+      kept_.resize(static_cast<size_t>(phases * taps()));
+      for (int64_t phase = 0; phase < phases; ++phase) {
+        Compute(phase, kept_.data() + phase * taps());
+      }
+    }
+  }
+
+  int64_t half_length() const { return half_length_; }
+  int64_t taps() const { return 2 * half_length_; }
+
+  /// The taps of one phase; `scratch` holds them where they are not kept.
+  const double* Phase(int64_t phase, std::vector<double>& scratch) const {
+    if (!kept_.empty()) return kept_.data() + phase * taps();
+    scratch.resize(static_cast<size_t>(taps()));
+    Compute(phase, scratch.data());
+    return scratch.data();
+  }
+
+ private:
+  /// Scaled to sum 1, so that every phase passes a constant unchanged.
+  void Compute(int64_t phase, double* out) const {
+    const double offset = static_cast<double>(phase) / static_cast<double>(phases_);
+    double sum = 0;
+    for (int64_t k = 0; k < taps(); ++k) {
+      out[k] = Prototype(cutoff_ * (offset + static_cast<double>(half_length_ - 1 - k)));
+      sum += out[k];
+    }
+    for (int64_t k = 0; k < taps(); ++k) out[k] /= sum;
+  }
+
+  int64_t phases_;
+  double cutoff_ = 0;  // of the input's Nyquist frequency
+  int64_t half_length_ = 0;
+  std::vector<double> kept_;
+};
+
+Resampler::Resampler(double sample_rate, int channels, int64_t first_sample)
+    : channels_(channels), input_start_(first_sample) {
+  CheckAudioFormat(sample_rate, channels);
+  if (first_sample < 0) {
+    throw InvalidArgument("audio.first_sample", std::to_string(first_sample) + " is below 0");
+  }
+  const int64_t rate = static_cast<int64_t>(sample_rate);
+  if (rate == kModelSampleRate) {
+    first_output_ = first_sample;
+  } else {
+    const int64_t divisor = std::gcd(rate, int64_t{kModelSampleRate});
+    in_per_period_ = rate / divisor;
+    out_per_period_ = kModelSampleRate / divisor;
+    kernel_ = std::make_shared<PolyphaseKernel>(in_per_period_, out_per_period_);
+    const int64_t before =
+        kernel_->half_length() - 1;  // samples that output 0 needs before sample 0
+    if (first_sample == 0) {
+      input_.assign(static_cast<size_t>(before), 0.0);
+      input_start_ = -before;
+    } else {
+      // The first n with floor(n * in / out) - before >= first_sample.
+      const int64_t position = (first_sample + before) * out_per_period_;
+      first_output_ = (position + in_per_period_ - 1) / in_per_period_;
+    }
+  }
+  next_output_ = first_output_;
+}
+
+Resampler::~Resampler() = default;
+Resampler::Resampler(Resampler&&) noexcept = default;
+Resampler& Resampler::operator=(Resampler&&) noexcept = default;
+
+int64_t Resampler::half_length() const { return kernel_ ? kernel_->half_length() : 0; }
+
+int64_t Resampler::latency() const {
+  return (half_length() * out_per_period_ + in_per_period_ - 1) / in_per_period_;
+}
+
+void Resampler::Push(std::span<const float> interleaved) {
+  const size_t channels = static_cast<size_t>(channels_);
+  while (!interleaved.empty()) {
+    const size_t frames = std::min(kBlock, interleaved.size() / channels);
+    for (size_t frame = 0; frame < frames; ++frame) {
+      double sum = 0;
+      for (size_t c = 0; c < channels; ++c) sum += interleaved[frame * channels + c];
+      input_.push_back(sum / static_cast<double>(channels));
+    }
+    interleaved = interleaved.subspan(frames * channels);
+    Produce();
+  }
+}
+
+void Resampler::Finish() {
+  if (finished_) return;
+  finished_ = true;
+  const int64_t end = input_start_ + static_cast<int64_t>(input_.size());
+  input_.insert(input_.end(), static_cast<size_t>(half_length()), 0.0);
+  Produce();
+  const int64_t outputs = (end * out_per_period_ + in_per_period_ - 1) / in_per_period_;
+  const int64_t beyond = std::min(next_output_ - outputs, static_cast<int64_t>(ready_.size()));
+  if (beyond > 0) ready_.resize(ready_.size() - static_cast<size_t>(beyond));
+}
+
+void Resampler::Produce() {
+  if (!kernel_) {
+    for (const double sample : input_) ready_.push_back(static_cast<float>(sample));
+    input_start_ += static_cast<int64_t>(input_.size());
+    next_output_ = input_start_;
+    input_.clear();
+    return;
+  }
+  const int64_t end = input_start_ + static_cast<int64_t>(input_.size());
+  const int64_t half = kernel_->half_length();
+  const size_t taps = static_cast<size_t>(kernel_->taps());
+  std::vector<double> scratch;
+  int64_t first = 0;
+  for (;; ++next_output_) {
+    const int64_t position = next_output_ * in_per_period_;
+    first = position / out_per_period_ - half + 1;
+    if (first + static_cast<int64_t>(taps) > end) break;
+    const double* coefficients = kernel_->Phase(position % out_per_period_, scratch);
+    ready_.push_back(
+        static_cast<float>(Dot(coefficients, input_.data() + (first - input_start_), taps)));
+  }
+  const int64_t done = std::min(first, end) - input_start_;
+  if (done > 0) {
+    input_.erase(input_.begin(), input_.begin() + done);
+    input_start_ += done;
+  }
+}
+
+int64_t Resampler::Pull(std::vector<float>& mono) {
+  const int64_t count = static_cast<int64_t>(ready_.size());
+  mono.insert(mono.end(), ready_.begin(), ready_.end());
+  ready_.clear();
+  return count;
+}
+
+}  // namespace choreo

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace choreo {
+
+class PolyphaseKernel;
+
+/// Any sample rate and channel count -> mono at 22 050 Hz, as a stream: push interleaved samples,
+/// pull what is ready.
+///
+/// Channels are averaged. The filter is a Kaiser-windowed sinc of finite length: flat to 0.01 dB
+/// below 0.9 of the lower of the two Nyquist frequencies, below -95 dB from that Nyquist frequency
+/// on. Output sample n lies at input position n * sample_rate / 22 050, counted from absolute
+/// sample 0, and is computed from the `half_length()` input samples on either side alone. So its
+/// bits depend neither on how the input is chunked nor on where the stream starts. Audio before
+/// sample 0 and after the end is silence. At 22 050 Hz samples pass unfiltered. Not thread-safe.
+class Resampler {
+ public:
+  /// `first_sample`: absolute index of the first sample that will be pushed. Throws
+  /// Error(kInvalidArgument) for formats that CheckAudioFormat refuses and for a negative first
+  /// sample.
+  Resampler(double sample_rate, int channels, int64_t first_sample = 0);
+  ~Resampler();
+  Resampler(Resampler&&) noexcept;
+  Resampler& operator=(Resampler&&) noexcept;
+
+  /// Whole interleaved frames, all finite: the caller has checked them.
+  void Push(std::span<const float> interleaved);
+  /// Nothing more comes. The last output sample is the last one that lies within the audio.
+  void Finish();
+  /// Appends every output sample that is ready to `mono`, in order, and returns how many.
+  int64_t Pull(std::vector<float>& mono);
+
+  /// Absolute index, at 22 050 Hz, of the first output sample: 0, or, where the stream starts
+  /// later, the first whose whole support lies in the stream.
+  int64_t first_output() const { return first_output_; }
+  /// Half length of the filter in input samples: output at input position p is ready with sample
+  /// floor(p) + half_length().
+  int64_t half_length() const;
+  /// Half length of the filter in samples at 22 050 Hz, rounded up.
+  int64_t latency() const;
+
+ private:
+  void Produce();
+
+  int channels_;
+  std::shared_ptr<const PolyphaseKernel> kernel_;  // none where samples pass through
+  int64_t in_per_period_ = 1;                      // input / output rate, in lowest terms
+  int64_t out_per_period_ = 1;
+  std::vector<double> input_;  // downmixed; what future outputs still need
+  int64_t input_start_ = 0;    // absolute index of input_[0]
+  int64_t first_output_ = 0;
+  int64_t next_output_ = 0;
+  bool finished_ = false;
+  std::vector<float> ready_;
+};
+
+}  // namespace choreo
