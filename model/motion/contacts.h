@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// Foot contacts c_t of paper F, Section 3.2.1: left ankle, left toes, right ankle, right toes; 1
+/// on the floor, 0 off it. A model's may lie in between.
+using Contacts = std::array<float, 4>;
+
+/// A foot joint touches down when it is both lower and slower than the first pair, and stays down
+/// until it is higher or faster than the second. Heights are above the joint's own height in the
+/// rest pose, so an ankle and a toe share them.
+struct ContactThresholds {
+  double down_height_m = 0.04;
+  double up_height_m = 0.07;
+  double down_speed = 0.30;  ///< m/s: 1 cm a frame at 30 fps
+  double up_speed = 0.50;    ///< m/s
+};
+
+/// Contacts frame by frame; holds the hysteresis. A frame's contacts depend on it and the frames
+/// before it. Not thread-safe.
+class ContactDetector {
+ public:
+  /// Throws Error(kInvalidArgument) if the skeleton lacks a foot joint.
+  explicit ContactDetector(const Skeleton& skeleton, const ContactThresholds& thresholds = {});
+
+  /// Joint positions of two consecutive frames, [3, joints].
+  const Contacts& Next(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later, double fps);
+
+  const Contacts& contacts() const { return contacts_; }
+  /// Goes on from these contacts (at or above 0.5 counts as down).
+  void Reset(const Contacts& contacts = {}) { contacts_ = contacts; }
+
+ private:
+  std::array<int, 4> joints_;
+  std::array<double, 4> rest_heights_;
+  ContactThresholds thresholds_;
+  Contacts contacts_ = {};
+};
+
+/// Contacts of every frame. The first frame takes its speed from the step that follows it; a single
+/// frame counts as standing still.
+std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& motion,
+                                     const ContactThresholds& thresholds = {});
+
+}  // namespace choreo

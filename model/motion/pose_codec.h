@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/motion/contacts.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// The pose feature vector x_t of paper F, Section 3.2.1: root position 3 | rotations 3 a joint |
+/// forward, sideways, yaw velocity 3 | contacts 4 (82 for SMPL's 24 joints). Metres, radians, m/s,
+/// rad/s; not standardised.
+///
+/// Position and rotations are relative to a reference pose, such as an interpolation: position
+/// minus the reference's, rotations log(R_ref^T R) with an angle in [0, pi]. Without a reference
+/// they are the pose's own, rotations on the branch nearest to the previous pose's. Immutable,
+/// hence safe to share between threads; nothing below allocates when its output has the right size.
+class PoseCodec {
+ public:
+  explicit PoseCodec(const Skeleton& skeleton) : joints_(skeleton.joints()) {}
+
+  int joints() const { return joints_; }
+  int width() const { return contacts_at() + 4; }
+  static constexpr int position_at() { return 0; }
+  static constexpr int rotations_at() { return 3; }
+  int velocity_at() const { return rotations_at() + 3 * joints_; }
+  int contacts_at() const { return velocity_at() + 3; }
+
+  /// `previous` is the frame before, 1 / fps earlier (for the first frame of all, the frame
+  /// itself). Throws Error(kInvalidArgument) for a joint count other than the skeleton's, or `out`
+  /// of another size than width().
+  void Encode(const Pose& pose, const Pose& previous, const Pose* reference,
+              const Contacts& contacts, double fps, Eigen::Ref<Eigen::VectorXf> out) const;
+  Eigen::VectorXf Encode(const Pose& pose, const Pose& previous, const Pose* reference,
+                         const Contacts& contacts, double fps) const;
+
+  struct Decoded {
+    Pose pose;
+    Contacts contacts = {};  ///< as they stand in the vector: a model's may leave [0, 1]
+  };
+  /// The inverse, with the same reference. The velocity is not used: it follows from the poses.
+  /// Rotations come on the branch nearest to the reference's, or as they stand in the vector.
+  void Decode(Eigen::Ref<const Eigen::VectorXf> x, const Pose* reference, Decoded& out) const;
+  Decoded Decode(Eigen::Ref<const Eigen::VectorXf> x, const Pose* reference) const;
+
+ private:
+  void CheckJoints(const Pose& pose, const char* field) const;
+
+  int joints_;
+};
+
+}  // namespace choreo

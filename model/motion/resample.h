@@ -1,0 +1,23 @@
+#pragma once
+
+#include "model/motion/motion.h"
+
+namespace choreo {
+
+/// Seconds from the first frame to the last.
+double Duration(const Motion& motion);
+
+/// The pose `t` (0 to 1, outside extrapolates) of the way from a to b: root along the line, joints
+/// along the shortest arc, on the branches nearest to a's.
+Pose InterpolatePoses(const Pose& a, const Pose& b, double t);
+
+/// The pose at `time` seconds after the first frame; before it and after the last frame the end
+/// poses hold. Throws Error(kInvalidArgument) for a motion without frames.
+Pose PoseAt(const Motion& motion, double time);
+
+/// The same motion at another rate (1e-3 to 1e4 fps): frame i is PoseAt(i / fps), as many as fit
+/// into the duration. Branches stay continuous, and frames that fall on source frames are those, up
+/// to whole turns. Throws Error(kInvalidArgument) for a rate outside the limits.
+Motion Resample(const Motion& motion, double fps);
+
+}  // namespace choreo

@@ -1,0 +1,20 @@
+#include "model/motion/velocity.h"
+
+#include "model/motion/rotation.h"
+
+namespace choreo {
+
+RootVelocity RootVelocityBetween(const Pose& earlier, const Pose& later, double fps) {
+  const double heading = Heading(ExpMap(earlier.rotations.col(0)));
+  const double turn = WrapAngle(Heading(ExpMap(later.rotations.col(0))) - heading);
+  const Eigen::Vector3d step =
+      HeadingRotation(-heading) * (later.root_position - earlier.root_position);
+  return {.forward = step.z() * fps, .sideways = step.x() * fps, .yaw = turn * fps};
+}
+
+Eigen::Matrix3Xd JointVelocities(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later,
+                                 double fps) {
+  return (later - earlier) * fps;
+}
+
+}  // namespace choreo

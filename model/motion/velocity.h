@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/motion/motion.h"
+
+namespace choreo {
+
+/// Velocity of the root along the ground (paper F, Section 3.2.1), seen from the earlier pose's
+/// heading.
+struct RootVelocity {
+  double forward = 0;   ///< m/s, towards the earlier heading
+  double sideways = 0;  ///< m/s, positive to the dancer's left
+  double yaw = 0;       ///< rad/s about +Y, of the heading; the shorter way round
+};
+
+RootVelocity RootVelocityBetween(const Pose& earlier, const Pose& later, double fps);
+
+/// Velocities of joints from their positions in two consecutive frames, m/s. All matrices are [3,
+/// joints].
+Eigen::Matrix3Xd JointVelocities(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later,
+                                 double fps);
+
+}  // namespace choreo
