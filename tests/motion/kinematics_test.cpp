@@ -1,0 +1,195 @@
+#include "model/motion/kinematics.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "model/core/error.h"
+#include "model/motion/canonical.h"
+#include "model/motion/mirror.h"
+#include "model/motion/rotation.h"
+#include "tests/motion/motion_fixtures.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Skeleton Chain() {
+  Skeleton chain;
+  chain.name = "chain";
+  chain.joint_names = {"a", "b", "c"};
+  chain.parents = {-1, 0, 1};
+  chain.offsets.setZero(3, 3);
+  chain.offsets.col(1) << 1, 0, 0;
+  chain.offsets.col(2) << 2, 0, 0;
+  chain.Validate();
+  return chain;
+}
+
+TEST(Kinematics, PlanarChainInClosedForm) {
+  const Skeleton chain = Chain();
+  for (const double first : {0.0, 0.3, -1.2}) {
+    for (const double second : {0.0, 0.7, 2.5}) {
+      Pose pose;
+      pose.root_position = {0.5, 1, -2};
+      pose.rotations.setZero(3, 3);
+      pose.rotations(2, 0) = first;
+      pose.rotations(2, 1) = second;
+      const JointPlacement placement = ForwardKinematics(chain, pose);
+      const Eigen::Vector3d elbow(0.5 + std::cos(first), 1 + std::sin(first), -2);
+      const Eigen::Vector3d tip =
+          elbow + 2 * Eigen::Vector3d(std::cos(first + second), std::sin(first + second), 0);
+      EXPECT_LT((placement.positions.col(1) - elbow).norm(), 1e-12);
+      EXPECT_LT((placement.positions.col(2) - tip).norm(), 1e-12);
+      EXPECT_LT((placement.rotations[2] - ExpMap({0, 0, first + second})).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Kinematics, SmplStandsOnTheFloorAtRest) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  const Eigen::Matrix3Xd rest = JointPositions(smpl, RestPose(smpl));
+  EXPECT_NEAR(rest.row(1).minCoeff(), 0.02, 1e-9);
+  for (const int foot : smpl.feet) EXPECT_LT(rest(1, foot), 0.1);
+  EXPECT_GT(rest(1, smpl.Find("head")), 1.4);
+  EXPECT_GT(rest(0, smpl.left_hip), 0);
+  EXPECT_GT(rest(2, smpl.feet[1]), rest(2, smpl.feet[0]));
+  EXPECT_EQ(smpl.joints(), 24);
+}
+
+TEST(Kinematics, BonesKeepTheirLengths) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  std::mt19937 generator(1);
+  const Eigen::Matrix3Xd positions =
+      JointPositions(smpl, fixtures::RandomPose(smpl, generator, 2.0));
+  for (int joint = 1; joint < smpl.joints(); ++joint) {
+    EXPECT_NEAR((positions.col(joint) - positions.col(smpl.parents[joint])).norm(),
+                smpl.offsets.col(joint).norm(), 1e-12);
+  }
+}
+
+TEST(Kinematics, RefusesAPoseOfAnotherSkeleton) {
+  std::mt19937 generator(1);
+  EXPECT_THROW(JointPositions(Chain(), fixtures::RandomPose(Skeleton::Smpl24(), generator)), Error);
+}
+
+TEST(Kinematics, ComparePosesMeasuresWhatTheMaskAsksFor) {
+  const Skeleton chain = Chain();
+  Pose a;
+  a.rotations.setZero(3, 3);
+  Pose b = a;
+  b.rotations(2, 1) = kPi / 2;
+  b.root_position.x() = 0.25;
+  // The tip moves by (-2, 2) and by the root's 0.25.
+  PoseError error = ComparePoses(chain, a, b);
+  EXPECT_NEAR(error.position_m, std::hypot(1.75, 2.0), 1e-12);
+  EXPECT_NEAR(error.angle_deg, 90, 1e-9);
+  error = ComparePoses(chain, a, b, {.root_position = false, .joints = {}});
+  EXPECT_NEAR(error.position_m, std::sqrt(8.0), 1e-12);
+  error = ComparePoses(chain, a, b, {.root_position = true, .joints = {true, false, true}});
+  EXPECT_NEAR(error.position_m, 0.25, 1e-12);
+  EXPECT_NEAR(error.angle_deg, 0, 1e-9);
+  error = ComparePoses(chain, a, b, {.root_position = false, .joints = {false, true, false}});
+  EXPECT_EQ(error.position_m, 0);
+  EXPECT_NEAR(error.angle_deg, 90, 1e-9);
+  EXPECT_THROW(ComparePoses(chain, a, b, {.root_position = true, .joints = {true}}), Error);
+}
+
+TEST(Skeleton, ValidateNamesTheFirstOffender) {
+  Skeleton broken = Chain();
+  broken.parents[1] = 2;
+  try {
+    broken.Validate();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.field(), "skeleton.parents[1]");
+  }
+  broken = Chain();
+  broken.joint_names[2] = "a";
+  EXPECT_THROW(broken.Validate(), Error);
+  broken = Chain();
+  broken.offsets(0, 0) = 1;
+  EXPECT_THROW(broken.Validate(), Error);
+  broken = Chain();
+  broken.offsets(0, 1) = std::nan("");
+  EXPECT_THROW(broken.Validate(), Error);
+  broken = Chain();
+  broken.left_knee = 3;
+  EXPECT_THROW(broken.Validate(), Error);
+}
+
+// Moving and turning the scene.
+Pose Moved(const Pose& pose, double turn, const Eigen::Vector3d& shift) {
+  return GroundFrame{.origin = shift, .heading = turn}.ToWorld(pose);
+}
+
+TEST(GroundFrame, LocalPoseDoesNotChangeWhenTheSceneIsMovedAndTurned) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  std::mt19937 generator(2);
+  for (int repeat = 0; repeat < 30; ++repeat) {
+    const Pose base = fixtures::RandomPose(smpl, generator);
+    const Pose other = fixtures::RandomPose(smpl, generator);
+    const double turn = 3 * fixtures::RandomVector(generator, 1).x();
+    Eigen::Vector3d shift = fixtures::RandomVector(generator, 5);
+    shift.y() = 0;
+    const Pose local = GroundFrame::Of(base).ToLocal(other);
+    const Pose moved_local =
+        GroundFrame::Of(Moved(base, turn, shift)).ToLocal(Moved(other, turn, shift));
+    EXPECT_LT((JointPositions(smpl, local) - JointPositions(smpl, moved_local)).norm(), 1e-9);
+    EXPECT_LT((ExpMap(local.rotations.col(0)) - ExpMap(moved_local.rotations.col(0))).norm(), 1e-9);
+  }
+}
+
+TEST(GroundFrame, WorldAndLocalAreInverse) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  std::mt19937 generator(3);
+  const GroundFrame frame = GroundFrame::Of(fixtures::RandomPose(smpl, generator));
+  const Pose pose = fixtures::RandomPose(smpl, generator);
+  const Pose back = frame.ToWorld(frame.ToLocal(pose));
+  EXPECT_LT((JointPositions(smpl, back) - JointPositions(smpl, pose)).norm(), 1e-9);
+}
+
+TEST(GroundFrame, ItsOwnPoseStandsAtTheOriginAndFacesZ) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  Pose pose = RestPose(smpl);
+  pose.root_position += Eigen::Vector3d(3, 0.2, -4);
+  pose.rotations.col(0) = Eigen::Vector3d(0, 2.2, 0);
+  const Pose local = GroundFrame::Of(pose).ToLocal(pose);
+  EXPECT_LT((local.root_position - Eigen::Vector3d(0, smpl.pelvis_height + 0.2, 0)).norm(), 1e-12);
+  EXPECT_LT(local.rotations.norm(), 1e-12);
+}
+
+TEST(Mirror, IsAnInvolution) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  std::mt19937 generator(4);
+  const Pose pose = fixtures::RandomPose(smpl, generator);
+  const Pose twice = Mirror(smpl, Mirror(smpl, pose));
+  EXPECT_EQ(twice.root_position, pose.root_position);
+  EXPECT_EQ(twice.rotations, pose.rotations);
+}
+
+TEST(Mirror, CommutesWithForwardKinematics) {
+  const Skeleton skeleton = fixtures::SymmetricSmpl();
+  const std::vector<int> pairs = MirrorPairs(skeleton);
+  std::mt19937 generator(5);
+  const Pose pose = fixtures::RandomPose(skeleton, generator);
+  const Eigen::Matrix3Xd positions = JointPositions(skeleton, pose);
+  const Eigen::Matrix3Xd mirrored = JointPositions(skeleton, Mirror(skeleton, pose));
+  for (int joint = 0; joint < skeleton.joints(); ++joint) {
+    const Eigen::Vector3d expected =
+        positions.col(pairs[joint]).cwiseProduct(Eigen::Vector3d(-1, 1, 1));
+    EXPECT_LT((mirrored.col(joint) - expected).norm(), 1e-12) << skeleton.joint_names[joint];
+  }
+  EXPECT_NE(pairs[skeleton.left_hip], skeleton.left_hip);
+}
+
+TEST(Mirror, RefusesASideWithoutCounterpart) {
+  Skeleton skeleton = Chain();
+  skeleton.joint_names[2] = "left_hand";
+  EXPECT_THROW(MirrorPairs(skeleton), Error);
+}
+
+}  // namespace
+}  // namespace choreo
