@@ -3,6 +3,8 @@
 #include <sndfile.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <utility>
 
 #include "model/audio/byte_source.h"
@@ -18,6 +20,10 @@ constexpr const char* kFormats = "WAV, FLAC, Ogg or MP3";
 /// Where libsndfile is in a ByteSource.
 struct Cursor {
   ByteSource* source;
+  /// Asked for the end of an MP3 file, libmpg123 guesses its length from the first frame's bit rate
+  /// and libsndfile stops there: a song of varying bit rate and without a Xing header would lose
+  /// its end. Unable to seek there, they read on to the last frame.
+  bool can_seek_from_end = true;
   int64_t position = 0;
 };
 
@@ -25,6 +31,7 @@ sf_count_t CursorSize(void* user) { return static_cast<Cursor*>(user)->source->s
 
 sf_count_t CursorSeek(sf_count_t offset, int whence, void* user) {
   Cursor& cursor = *static_cast<Cursor*>(user);
+  if (whence == SEEK_END && !cursor.can_seek_from_end) return -1;
   const int64_t base = whence == SEEK_SET   ? 0
                        : whence == SEEK_CUR ? cursor.position
                                             : cursor.source->size();
@@ -43,6 +50,14 @@ sf_count_t CursorRead(void* data, sf_count_t count, void* user) {
 sf_count_t CursorTell(void* user) { return static_cast<Cursor*>(user)->position; }
 
 sf_count_t NoWrite(const void*, sf_count_t, void*) { return 0; }
+
+/// Begins with an ID3 tag or the eleven set bits of a frame header.
+bool LooksLikeMp3(ByteSource& source) {
+  std::array<std::byte, 3> head{};
+  source.ReadAt(0, head);
+  const bool is_tag = std::memcmp(head.data(), "ID3", 3) == 0;
+  return is_tag || (head[0] == std::byte{0xff} && (head[1] & std::byte{0xe0}) == std::byte{0xe0});
+}
 
 bool IsReadableFormat(int format) {
   switch (format & SF_FORMAT_TYPEMASK) {
@@ -88,6 +103,7 @@ AudioReader::AudioReader(std::unique_ptr<ByteSource> source, std::string name)
   if (s.source->size() == 0) throw InvalidArgument(s.name, "0 bytes of audio");
   CheckNotTruncated(*s.source, s.name);
   s.cursor.source = s.source.get();
+  s.cursor.can_seek_from_end = !LooksLikeMp3(*s.source);
   SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, NoWrite, CursorTell};
   s.file.reset(sf_open_virtual(&io, SFM_READ, &s.info, &s.cursor));
   if (!s.file) {
@@ -136,8 +152,8 @@ int64_t AudioReader::Read(std::span<float> interleaved) {
   const int64_t wanted = static_cast<int64_t>(interleaved.size() / channels_count);
   const int64_t got = sf_readf_float(s.file.get(), interleaved.data(), wanted);
   if (const int error = sf_error(s.file.get()); error != SF_ERR_NO_ERROR) {
-    throw InvalidArgument(s.name, "damaged after sample " + std::to_string(s.read + got) + ": " +
-                                      sf_error_number(error));
+    throw InvalidArgument(s.name, "truncated or damaged after sample " +
+                                      std::to_string(s.read + got) + ": " + sf_error_number(error));
   }
   CheckFinite(interleaved.first(static_cast<size_t>(got) * channels_count), s.info.channels, s.read,
               s.name);

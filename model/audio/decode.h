@@ -22,8 +22,8 @@ class ByteSource;
 /// begins with the path, or the name given for memory; the message states value and limit. Refused
 /// are: empty input, what is not such audio, a sample rate, number of channels or duration beyond
 /// the limits, no samples, samples that are NaN or infinite, and truncated files as far as the
-/// format lets one know (WAV and FLAC state their length, Ogg marks its last page, MP3 only where
-/// it has a Xing header).
+/// format lets one know (WAV and FLAC state their length, Ogg marks its last page, MP3 ends with
+/// a whole frame).
 class AudioReader {
  public:
   static AudioReader OpenFile(const std::filesystem::path& path);
@@ -36,8 +36,8 @@ class AudioReader {
 
   int sample_rate() const;  ///< Hz
   int channels() const;
-  /// Samples (of each channel) as the header states them: exact for WAV and FLAC, an estimate for
-  /// MP3; 0 where unknown.
+  /// Samples (of each channel) as the header states them; 0 where it does not (MP3 without a
+  /// Xing header).
   int64_t stated_samples() const;
 
   /// Fills `interleaved`, whose size is a multiple of channels(), from its beginning, and returns

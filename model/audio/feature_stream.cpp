@@ -120,10 +120,11 @@ int FeatureStream::latency_samples() const {
 }
 
 int64_t FeatureStream::FirstSampleFor(int64_t row, double sample_rate) {
+  const int64_t before =
+      std::max<int64_t>(Resampler(sample_rate, 1).half_length() - 1, 0);  // checks the rate
   const int64_t first_mono = row * kFeatureHop - kHalfWindow;
   if (first_mono <= 0) return 0;
   const int64_t rate = static_cast<int64_t>(sample_rate);
-  const int64_t before = std::max<int64_t>(Resampler(sample_rate, 1).half_length() - 1, 0);
   return std::max<int64_t>(first_mono * rate / kModelSampleRate - before, 0);
 }
 

@@ -20,9 +20,9 @@ class PolyphaseKernel;
 /// sample 0 and after the end is silence. At 22 050 Hz samples pass unfiltered. Not thread-safe.
 class Resampler {
  public:
-  /// `first_sample`: absolute index of the first sample that will be pushed. Throws
-  /// Error(kInvalidArgument) for formats that CheckAudioFormat refuses and for a negative first
-  /// sample.
+  /// `first_sample`: absolute index of the first sample that will be pushed, within
+  /// kMaxAudioSeconds. Throws Error(kInvalidArgument) for that and for formats that
+  /// CheckAudioFormat refuses.
   Resampler(double sample_rate, int channels, int64_t first_sample = 0);
   ~Resampler();
   Resampler(Resampler&&) noexcept;

@@ -1,0 +1,257 @@
+#include "model/audio/decode.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sndfile.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "model/core/error.h"
+#include "tests/audio/signals.h"
+
+namespace choreo {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct FileFormat {
+  const char* name;
+  int format;
+  int rate;
+  int channels;
+  double snr_db;  // of what comes back; infinite: the samples themselves
+};
+
+std::ostream& operator<<(std::ostream& out, const FileFormat& format) { return out << format.name; }
+
+constexpr double kExact = std::numeric_limits<double>::infinity();
+/// libsndfile writes it with a varying bit rate.
+constexpr int kMp3 = SF_FORMAT_MPEG | SF_FORMAT_MPEG_LAYER_III;
+
+const FileFormat kFormats[] = {
+    {"wav8", SF_FORMAT_WAV | SF_FORMAT_PCM_U8, 8000, 1, 35},
+    {"wav16", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 44100, 2, 85},
+    {"wav24", SF_FORMAT_WAVEX | SF_FORMAT_PCM_24, 96000, 6, 120},
+    {"wav32float", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 192000, 8, kExact},
+    {"flac16", SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 44100, 2, 85},
+    {"flac24", SF_FORMAT_FLAC | SF_FORMAT_PCM_24, 48000, 1, 120},
+    {"vorbis", SF_FORMAT_OGG | SF_FORMAT_VORBIS, 44100, 2, 20},
+    {"opus", SF_FORMAT_OGG | SF_FORMAT_OPUS, 48000, 1, 15},
+    {"mp3", kMp3, 44100, 2, 20},
+};
+
+/// A folder of its own for each test process.
+class DecodeTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("choreo_decode_test_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path Write(int format, int rate, int channels,
+                              std::span<const float> wave) const {
+    const auto path = folder_ / "sound";
+    SF_INFO info{};
+    info.samplerate = rate;
+    info.channels = channels;
+    info.format = format;
+    SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
+    EXPECT_NE(file, nullptr) << sf_strerror(nullptr);
+    const sf_count_t frames = static_cast<sf_count_t>(wave.size()) / channels;
+    EXPECT_EQ(sf_writef_float(file, wave.data(), frames), frames);
+    sf_close(file);
+    return path;
+  }
+
+  std::filesystem::path WriteBytes(const std::string& bytes) const {
+    const auto path = folder_ / "bytes";
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+  }
+
+  static std::string Bytes(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  static DecodedAudio Decode(const std::string& bytes) {
+    return DecodeAudioMemory(std::as_bytes(std::span(bytes)), "song");
+  }
+
+  static std::string Refusal(const std::string& bytes) {
+    try {
+      Decode(bytes);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      EXPECT_THAT(error.field(), ::testing::StartsWith("song"));
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+};
+
+class DecodeFormatTest : public DecodeTest, public ::testing::WithParamInterface<FileFormat> {
+ protected:
+  /// Two seconds, another tone in each channel.
+  std::vector<float> Wave() const {
+    const auto& format = GetParam();
+    const size_t channels = static_cast<size_t>(format.channels);
+    std::vector<float> wave(channels * static_cast<size_t>(2 * format.rate));
+    for (size_t c = 0; c < channels; ++c) {
+      const auto tone =
+          Sine(300.0 + 100.0 * static_cast<double>(c), format.rate, 2 * format.rate, 0.6);
+      for (size_t i = 0; i < tone.size(); ++i) wave[i * channels + c] = tone[i];
+    }
+    return wave;
+  }
+  std::filesystem::path WriteWave() const {
+    return Write(GetParam().format, GetParam().rate, GetParam().channels, Wave());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Formats, DecodeFormatTest, ::testing::ValuesIn(kFormats),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST_P(DecodeFormatTest, GivesBackWhatWasWritten) {
+  const FileFormat& format = GetParam();
+  const std::vector<float> wave = Wave();
+  const auto path = WriteWave();
+  const DecodedAudio audio = DecodeAudioFile(path);
+  EXPECT_EQ(audio.sample_rate, format.rate);
+  EXPECT_EQ(audio.channels, format.channels);
+  ASSERT_EQ(audio.samples(), 2 * format.rate);
+  EXPECT_DOUBLE_EQ(audio.seconds(), 2.0);
+  double squares = 0, errors = 0;
+  for (size_t i = 0; i < wave.size(); ++i) {
+    squares += static_cast<double>(wave[i]) * wave[i];
+    errors += std::pow(static_cast<double>(wave[i]) - audio.interleaved[i], 2);
+  }
+  EXPECT_GE(10 * std::log10(squares / errors), format.snr_db);
+
+  EXPECT_EQ(Decode(Bytes(path)).interleaved, audio.interleaved);
+  EXPECT_EQ(static_cast<int64_t>(ToModelRate(audio).size()), 2 * kModelSampleRate);
+}
+
+TEST_P(DecodeFormatTest, ReadsInPieces) {
+  const auto path = WriteWave();
+  const DecodedAudio whole = DecodeAudioFile(path);
+  AudioReader reader = AudioReader::OpenFile(path);
+  EXPECT_EQ(reader.stated_samples(), whole.samples());
+  std::vector<float> pieces, piece(static_cast<size_t>(777 * reader.channels()));
+  while (const int64_t got = reader.Read(piece)) {
+    pieces.insert(pieces.end(), piece.begin(), piece.begin() + got * reader.channels());
+  }
+  EXPECT_EQ(pieces, whole.interleaved);
+  if (reader.channels() > 1) {
+    EXPECT_THROW(reader.Read(std::span(piece).first(static_cast<size_t>(reader.channels() + 1))),
+                 Error);
+  }
+}
+
+TEST_P(DecodeFormatTest, TruncatedFilesAreRefused) {
+  const std::string bytes = Bytes(WriteWave());
+  ASSERT_EQ(Refusal(bytes), "accepted");
+  for (const double share : {0.3, 0.6, 0.9}) {
+    const size_t size = static_cast<size_t>(share * static_cast<double>(bytes.size()));
+    EXPECT_THAT(Refusal(bytes.substr(0, size)), HasSubstr("truncated")) << share;
+  }
+  EXPECT_THAT(Refusal(bytes.substr(0, bytes.size() - 2)), HasSubstr("truncated"));
+  EXPECT_NE(Refusal(bytes.substr(0, 20)), "accepted");
+}
+
+TEST_P(DecodeFormatTest, NoSamplesAreRefused) {
+  const std::string bytes =
+      Bytes(Write(GetParam().format, GetParam().rate, GetParam().channels, {}));
+  EXPECT_NE(Refusal(bytes), "accepted");
+}
+
+TEST_F(DecodeTest, WhatIsNotSuchAudioIsRefused) {
+  EXPECT_THAT(Refusal(""), HasSubstr("song: 0 bytes"));
+  EXPECT_THAT(Refusal("Dance, dance, wherever you may be."),
+              HasSubstr("not WAV, FLAC, Ogg or MP3"));
+  EXPECT_THAT(Refusal(std::string(10000, '\0')), HasSubstr("not WAV"));
+  EXPECT_THAT(Refusal("RIFF\x10\0\0\0WAVE"), HasSubstr("song"));
+  std::string noise;
+  for (const float value : Noise(20000, 77)) noise += static_cast<char>(127 * value);
+  EXPECT_THAT(Refusal(noise), HasSubstr("not WAV"));
+  const auto aiff = Write(SF_FORMAT_AIFF | SF_FORMAT_PCM_16, 44100, 1, Noise(1000, 1));
+  EXPECT_THAT(Refusal(Bytes(aiff)), AllOf(HasSubstr("AIFF"), HasSubstr("is not WAV")));
+}
+
+TEST_F(DecodeTest, FilesThatCannotBeOpenedAreNamed) {
+  for (const auto& path : {folder_ / "absent.wav", folder_}) {
+    try {
+      DecodeAudioFile(path);
+      FAIL() << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kNotFound);
+      EXPECT_EQ(error.field(), path.string());
+    }
+  }
+  try {
+    DecodeAudioFile(WriteBytes("text"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.field(), (folder_ / "bytes").string());
+  }
+}
+
+TEST_F(DecodeTest, LimitsAreHeld) {
+  const int u8 = SF_FORMAT_WAV | SF_FORMAT_PCM_U8;
+  const std::vector<float> noise = Noise(1800, 1);
+  EXPECT_THAT(Refusal(Bytes(Write(u8, 7999, 1, noise))),
+              AllOf(HasSubstr("song.sample_rate: 7999"), HasSubstr("8000 to 192000")));
+  EXPECT_THAT(Refusal(Bytes(Write(u8, 192001, 1, noise))), HasSubstr("song.sample_rate: 192001"));
+  EXPECT_THAT(Refusal(Bytes(Write(u8, 8000, 9, noise))),
+              AllOf(HasSubstr("song.channels: 9"), HasSubstr("1 to 8")));
+  std::vector<float> ten_minutes(8000 * 600, 0.25f);
+  EXPECT_EQ(Refusal(Bytes(Write(u8, 8000, 1, ten_minutes))), "accepted");
+  ten_minutes.push_back(0.25f);
+  EXPECT_THAT(Refusal(Bytes(Write(u8, 8000, 1, ten_minutes))),
+              AllOf(HasSubstr("600 s"), HasSubstr("at most")));
+}
+
+TEST_F(DecodeTest, SamplesThatAreNoNumbersAreRefusedByIndex) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    std::vector<float> wave = Noise(2 * 100000, 1);
+    wave[2 * 70001 + 1] = bad;
+    EXPECT_THAT(Refusal(Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_FLOAT, 44100, 2, wave))),
+                AllOf(HasSubstr("song.data"), HasSubstr("sample 70001 of channel 1")));
+  }
+}
+
+TEST_F(DecodeTest, Mp3OfVaryingBitRateIsReadToItsEndWithoutAnIndex) {
+  // Loud noise, then a faint tone: the first frames' bit rate says little about the length.
+  std::vector<float> wave = Noise(44100 * 3, 1, 0.3);
+  const std::vector<float> tone = Sine(200, 44100, 44100 * 3, 0.05);
+  wave.insert(wave.end(), tone.begin(), tone.end());
+  const std::string bytes = Bytes(Write(kMp3, 44100, 1, wave));
+  ASSERT_EQ(Decode(bytes).samples(), 44100 * 6);
+  const size_t index = bytes.find("Xing");
+  ASSERT_NE(index, std::string::npos);
+  const size_t second_frame = bytes.find(bytes.substr(0, 2), index);
+  const std::string without = bytes.substr(second_frame);
+  EXPECT_NEAR(Decode(without).seconds(), 6.0, 0.1);
+  EXPECT_THAT(Refusal(without.substr(0, without.size() / 2)), HasSubstr("truncated"));
+}
+
+TEST_F(DecodeTest, WavOfUnknownLengthIsReadToItsEnd) {
+  std::string bytes = Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 44100, 1, Noise(5000, 1)));
+  const size_t data = bytes.find("data");
+  bytes.replace(4, 4, "\xff\xff\xff\xff");
+  bytes.replace(data + 4, 4, "\xff\xff\xff\xff");
+  EXPECT_EQ(Decode(bytes).samples(), 5000);
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,229 @@
+#include "model/audio/feature_stream.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "model/audio/format.h"
+#include "model/core/error.h"
+#include "tests/audio/signals.h"
+
+namespace choreo {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<float> RowsOf(const FeatureStream& stream, int64_t from, int64_t to) {
+  std::vector<float> rows;
+  for (int64_t r = from; r < to; ++r) {
+    const auto row = stream.Row(r);
+    EXPECT_EQ(row.size(), static_cast<size_t>(kMfccCount));
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  return rows;
+}
+
+FeatureStream Whole(std::span<const float> wave, int rate, int channels) {
+  FeatureStream stream(rate, channels);
+  stream.Push(wave);
+  stream.Finish();
+  return stream;
+}
+
+struct Format {
+  int rate;
+  int channels;
+};
+
+class FeatureStreamFormatTest : public ::testing::TestWithParam<Format> {
+ protected:
+  int rate() const { return GetParam().rate; }
+  int channels() const { return GetParam().channels; }
+  std::vector<float> Wave(int64_t samples) const { return Noise(samples * channels(), 21, 0.5); }
+};
+INSTANTIATE_TEST_SUITE_P(Formats, FeatureStreamFormatTest,
+                         ::testing::Values(Format{22050, 1}, Format{44100, 2}, Format{48000, 1},
+                                           Format{8000, 1}, Format{192000, 8}, Format{44101, 2}));
+
+TEST_P(FeatureStreamFormatTest, ChunksDoNotChangeABit) {
+  const std::vector<float> wave = Wave(rate() / 2);
+  const FeatureStream whole = Whole(wave, rate(), channels());
+  const int64_t count = whole.audio_rows() + 5;
+  ASSERT_GE(count, 20);
+  const std::vector<float> expected = RowsOf(whole, 0, count);
+  std::mt19937 random(11);
+  for (const int longest : {40, 700, 20000}) {
+    FeatureStream stream(rate(), channels());
+    int64_t final_rows = 0;
+    for (size_t at = 0; at < wave.size();) {
+      const size_t frames = random() % static_cast<unsigned>(longest + 1);
+      const size_t size = std::min(frames * static_cast<size_t>(channels()), wave.size() - at);
+      stream.Push(std::span(wave).subspan(at, size));
+      at += size;
+      EXPECT_GE(stream.final_rows(), final_rows);
+      final_rows = stream.final_rows();
+    }
+    // What was final before the end stays as it was.
+    const std::vector<float> early = RowsOf(stream, 0, final_rows);
+    EXPECT_TRUE(std::equal(early.begin(), early.end(), expected.begin()));
+    stream.Finish();
+    EXPECT_EQ(RowsOf(stream, 0, count), expected) << longest;
+    EXPECT_EQ(stream.samples_pushed(), rate() / 2);
+  }
+}
+
+TEST_P(FeatureStreamFormatTest, RowsAreTheMfccOfTheResampledWhole) {
+  const std::vector<float> wave = Wave(rate() / 2);
+  Resampler resampler(rate(), channels());
+  std::vector<float> mono;
+  resampler.Push(wave);
+  resampler.Finish();
+  resampler.Pull(mono);
+  const FeatureMatrix rows = Mfcc(mono);
+  const FeatureStream stream = Whole(wave, rate(), channels());
+  ASSERT_EQ(stream.audio_rows(), rows.rows());
+  EXPECT_EQ(RowsOf(stream, 0, rows.rows()),
+            std::vector<float>(rows.data(), rows.data() + rows.size()));
+}
+
+TEST_P(FeatureStreamFormatTest, WhereTheStreamStartsDoesNotChangeABit) {
+  const std::vector<float> wave = Wave(rate());
+  const FeatureStream whole = Whole(wave, rate(), channels());
+  for (const int64_t row : {0, 1, 2, 3, 10, 19}) {
+    const int64_t first = FeatureStream::FirstSampleFor(row, rate());
+    FeatureStream stream(rate(), channels(), first);
+    EXPECT_LE(stream.first_row(), row);
+    // One sample later would have been too late.
+    EXPECT_TRUE(first == 0 || FeatureStream(rate(), channels(), first + 1).first_row() > row);
+    EXPECT_EQ(stream.final_rows(), stream.first_row());
+    stream.Push(std::span(wave).subspan(static_cast<size_t>(first * channels())));
+    stream.Finish();
+    EXPECT_EQ(stream.audio_rows(), whole.audio_rows());
+    EXPECT_EQ(RowsOf(stream, row, 35), RowsOf(whole, row, 35)) << row;
+    if (stream.first_row() > 0) {
+      EXPECT_THROW(stream.Row(stream.first_row() - 1), Error);
+    }
+  }
+}
+
+TEST_P(FeatureStreamFormatTest, RowsAreFinalAtTheDeclaredLatency) {
+  FeatureStream stream(rate(), channels());
+  EXPECT_LE(stream.latency_samples(), FeatureStream::kMaxLatencySamples);
+  const std::vector<float> wave = Wave(rate() / 3);
+  const size_t step = static_cast<size_t>(channels());
+  int64_t final_rows = 0;
+  for (size_t at = 0; at < wave.size(); at += step) {
+    stream.Push(std::span(wave).subspan(at, step));
+    if (stream.final_rows() == final_rows) continue;
+    ASSERT_EQ(stream.final_rows(), final_rows + 1);
+    const double centre = static_cast<double>(kFeatureHop * final_rows);
+    const double heard = static_cast<double>(stream.samples_pushed()) * kModelSampleRate / rate();
+    EXPECT_LE(heard - centre, stream.latency_samples() + 2.0 * kModelSampleRate / rate());
+    EXPECT_GE(heard - centre, kFftSize / 2);  // not before its window is heard
+    ++final_rows;
+  }
+  EXPECT_GE(final_rows, 8);
+}
+
+TEST(FeatureStreamTest, NoRateHasMoreThanTheLargestLatency) {
+  int largest = 0;
+  for (int rate = kMinSampleRate; rate <= kMaxSampleRate; rate += 1000) {
+    largest = std::max(largest, FeatureStream(rate, 1).latency_samples());
+  }
+  EXPECT_EQ(largest, FeatureStream::kMaxLatencySamples);
+}
+
+TEST(FeatureStreamTest, RowsBeyondTheEndAreThoseOfSilence) {
+  FeatureStream silence(22050, 1);
+  silence.Finish();
+  EXPECT_EQ(silence.audio_rows(), 0);
+  const std::vector<float> silent = RowsOf(silence, 0, 1);
+  EXPECT_NEAR(silent[0], -100 * std::sqrt(128.0), 1e-3);
+  EXPECT_EQ(RowsOf(silence, 1000000, 1000001), silent);
+
+  const std::vector<float> wave = Noise(22050, 3);
+  const FeatureStream stream = Whole(wave, 22050, 1);
+  EXPECT_EQ(stream.final_rows(), std::numeric_limits<int64_t>::max());
+  EXPECT_EQ(stream.audio_rows(), 31);
+  // Row 31 still hears the end: its window begins at sample 21 761. Row 32's begins at 22 496.
+  EXPECT_NE(RowsOf(stream, 31, 32), silent);
+  for (const int64_t row : {32, 33, 34, 50, 1 << 30}) {
+    EXPECT_EQ(RowsOf(stream, row, row + 1), silent) << row;
+  }
+}
+
+TEST(FeatureStreamTest, RowsThatAreNotFinalAreRefused) {
+  FeatureStream stream(22050, 1);
+  stream.Push(Noise(5000, 3));
+  EXPECT_EQ(stream.final_rows(), 6);
+  EXPECT_EQ(stream.audio_rows(), 7);
+  EXPECT_NO_THROW(stream.Row(5));
+  for (const int64_t row : {int64_t{-1}, int64_t{6}}) {
+    try {
+      stream.Row(row);
+      FAIL() << row;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kOutOfRange);
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(std::to_string(row)), HasSubstr("0 to 5")));
+    }
+  }
+}
+
+TEST(FeatureStreamTest, ARowStaysWhereItIs) {
+  FeatureStream stream(22050, 1);
+  stream.Push(Noise(2000, 3));
+  const std::span<const float> row = stream.Row(0);
+  const std::vector<float> before(row.begin(), row.end());
+  stream.Push(Noise(500000, 4));
+  EXPECT_EQ(stream.Row(0).data(), row.data());
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), row.begin()));
+}
+
+TEST(FeatureStreamTest, NanAndInfinityAreRefusedAndChangeNothing) {
+  const std::vector<float> wave = Noise(2 * 30000, 5);
+  const FeatureStream whole = Whole(wave, 44100, 2);
+  FeatureStream stream(44100, 2);
+  stream.Push(std::span(wave).first(20000));
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+        -std::numeric_limits<float>::infinity()}) {
+    std::vector<float> broken(wave.begin() + 20000, wave.begin() + 40000);
+    broken[2 * 4321 + 1] = bad;
+    try {
+      stream.Push(broken);
+      FAIL() << bad;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      EXPECT_EQ(error.field(), "audio.data");
+      EXPECT_THAT(error.what(), HasSubstr("sample 14321 of channel 1"));
+    }
+  }
+  EXPECT_EQ(stream.samples_pushed(), 10000);
+  stream.Push(std::span(wave).subspan(20000));
+  stream.Finish();
+  EXPECT_EQ(RowsOf(stream, 0, 25), RowsOf(whole, 0, 25));
+}
+
+TEST(FeatureStreamTest, PartialFramesAndSamplesAfterTheEndAreRefused) {
+  FeatureStream stream(44100, 2);
+  EXPECT_THROW(stream.Push(std::vector<float>(3, 0.0f)), Error);
+  stream.Push(std::vector<float>(4, 0.0f));
+  stream.Finish();
+  stream.Finish();
+  try {
+    stream.Push(std::vector<float>(2, 0.0f));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kOutOfRange);
+    EXPECT_THAT(error.what(), HasSubstr("sample 2"));
+  }
+  EXPECT_THROW(FeatureStream(4000, 1), Error);
+  EXPECT_THROW(FeatureStream(44100, 9), Error);
+}
+
+}  // namespace
+}  // namespace choreo

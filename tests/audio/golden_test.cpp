@@ -1,0 +1,128 @@
+// Agreement with what librosa 0.10.2 itself computed. Skipped where the files are absent:
+// CHOREO_GOLDEN names their folder (default: ../shared/golden beside the repository).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "model/audio/beats.h"
+#include "model/audio/decode.h"
+#include "model/audio/feature_stream.h"
+#include "model/audio/mfcc.h"
+#include "model/audio/onset.h"
+#include "model/core/npy.h"
+
+namespace choreo {
+namespace {
+
+std::filesystem::path GoldenFolder() {
+  const char* named = std::getenv("CHOREO_GOLDEN");
+  const std::filesystem::path root =
+      named ? std::filesystem::path(named)
+            : std::filesystem::path(CHOREO_SOURCE_DIR) / ".." / "shared" / "golden";
+  return root / "audio";
+}
+
+struct Difference {
+  double largest = 0;
+  double relative_rms = 0;  // of the RMS of what is expected
+};
+
+Difference Compare(std::span<const float> values, std::span<const float> expected) {
+  double squares = 0, reference = 0;
+  Difference difference;
+  for (size_t i = 0; i < expected.size(); ++i) {
+    const double error = static_cast<double>(values[i]) - expected[i];
+    difference.largest = std::max(difference.largest, std::abs(error));
+    squares += error * error;
+    reference += static_cast<double>(expected[i]) * expected[i];
+  }
+  difference.relative_rms = std::sqrt(squares / reference);
+  return difference;
+}
+
+class GoldenTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(GoldenFolder())) {
+      GTEST_SKIP() << GoldenFolder() << " is absent (CHOREO_GOLDEN names it)";
+    }
+    const DecodedAudio audio = DecodeAudioFile(File(".wav"));
+    ASSERT_EQ(audio.sample_rate, kModelSampleRate);
+    mono_ = ToModelRate(audio);
+  }
+
+  std::filesystem::path File(const std::string& suffix) const {
+    return GoldenFolder() / (GetParam() + suffix);
+  }
+
+  static void Report(const std::string& what, const Difference& difference) {
+    std::cout << "  " << GetParam() << " " << what << ": largest difference " << difference.largest
+              << ", relative RMS " << difference.relative_rms << "\n";
+  }
+
+  void ExpectMfcc(const std::string& file, const FeatureMatrix& rows) const {
+    const NpyArray golden = ReadNpy(File(file));
+    ASSERT_EQ(golden.shape, (std::vector<int64_t>{rows.rows(), kMfccCount}));
+    const Difference difference =
+        Compare({rows.data(), static_cast<size_t>(rows.size())}, golden.As<float>());
+    Report(file, difference);
+    EXPECT_LT(difference.largest, 0.05);
+    EXPECT_LT(difference.relative_rms, 1e-3);
+  }
+
+  std::vector<float> mono_;
+};
+
+TEST_P(GoldenTest, MfccWithTopDb) { ExpectMfcc(".mfcc40_hop735.npy", Mfcc(mono_, 80.0)); }
+
+TEST_P(GoldenTest, MfccWithoutTopDb) { ExpectMfcc(".mfcc40_hop735_notopdb.npy", Mfcc(mono_)); }
+
+TEST_P(GoldenTest, FeatureStream) {
+  FeatureStream stream(kModelSampleRate, 1);
+  stream.Push(mono_);
+  stream.Finish();
+  FeatureMatrix rows(stream.audio_rows(), kMfccCount);
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    std::copy_n(stream.Row(r).begin(), kMfccCount, rows.row(r).data());
+  }
+  ExpectMfcc(".mfcc40_hop735_notopdb.npy", rows);
+}
+
+TEST_P(GoldenTest, OnsetStrength) {
+  const NpyArray golden = ReadNpy(File(".onset_hop512.npy"));
+  const std::vector<float> strength = OnsetStrength(mono_);
+  ASSERT_EQ(golden.shape, std::vector<int64_t>{static_cast<int64_t>(strength.size())});
+  const Difference difference = Compare(strength, golden.As<float>());
+  Report("onset strength", difference);
+  EXPECT_LT(difference.relative_rms, 1e-3);
+}
+
+TEST_P(GoldenTest, TempoAndBeats) {
+  std::ifstream file(File(".beats.json"));
+  const nlohmann::json golden = nlohmann::json::parse(file);
+  const auto expected = golden.at("beat_frames_hop512").get<std::vector<int64_t>>();
+  const BeatTrack track = FindBeats(mono_);
+  EXPECT_DOUBLE_EQ(track.tempo_bpm, golden.at("tempo_bpm").get<double>());
+  std::vector<int64_t> common;
+  std::set_intersection(track.frames.begin(), track.frames.end(), expected.begin(), expected.end(),
+                        std::back_inserter(common));
+  const double share = static_cast<double>(common.size()) /
+                       static_cast<double>(std::max(expected.size(), track.frames.size()));
+  std::cout << "  " << GetParam() << " beats: " << common.size() << " of " << expected.size()
+            << " on the same frame, " << track.frames.size() << " found\n";
+  EXPECT_GE(share, 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Librosa, GoldenTest,
+                         ::testing::Values("clicks_22050", "feelings_30s_22050"));
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,110 @@
+#include "model/audio/mel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/audio/fourier.h"
+#include "model/core/error.h"
+#include "tests/audio/signals.h"
+
+namespace choreo {
+namespace {
+
+/// Edges and centres of the bands on Slaney's scale: mel m of 0 to 15 is 200 m / 3 Hz, above it
+/// 1000 * 6.4^((m - 15) / 27) Hz.
+double CornerHz(int corner) {
+  const double top = 15 + 27 * std::log(11.025) / std::log(6.4);
+  const double mel = top * corner / 129;
+  return mel < 15 ? mel * 200 / 3 : 1000 * std::pow(6.4, (mel - 15) / 27);
+}
+
+std::vector<double> PowerOfSine(double hz, double amplitude) {
+  MelSpectrum spectrum;
+  const auto power = spectrum.Power(Sine(hz, 22050, kFftSize, amplitude));
+  return {power.begin(), power.end()};
+}
+
+TEST(MelSpectrumTest, ASinePeaksInTheBandAroundItsFrequency) {
+  for (const int band : {5, 20, 40, 64, 100, 126}) {
+    const std::vector<double> power = PowerOfSine(CornerHz(band + 1), 0.5);
+    const auto peak = std::max_element(power.begin(), power.end());
+    // Low bands are narrower than the window's resolution: the neighbour may win there.
+    EXPECT_NEAR(static_cast<double>(peak - power.begin()), band, band < 30 ? 1 : 0);
+  }
+}
+
+// Bands times half their width are a partition of unity between the first centre and the last, and
+// a sine in the middle of a bin has under a Hann window the squared magnitudes (A N / 4)^2 (1/4, 1,
+// 1/4).
+TEST(MelSpectrumTest, BandsShareOutAllOfTheirPower) {
+  for (const int bin : {30, 100, 333, 800}) {
+    const std::vector<double> power = PowerOfSine(bin * 22050.0 / kFftSize, 0.5);
+    double total = 0;
+    for (int b = 0; b < kMelBands; ++b) {
+      total += power[static_cast<size_t>(b)] * (CornerHz(b + 2) - CornerHz(b)) / 2;
+    }
+    EXPECT_NEAR(total / (1.5 * std::pow(0.5 * kFftSize / 4, 2)), 1, 1e-6) << bin;
+  }
+}
+
+TEST(MelSpectrumTest, SilenceIsTheFloor) {
+  const MelSpectrogram db = MelSpectrogramDb(std::vector<float>(5000, 0.0f), 735, std::nullopt);
+  EXPECT_EQ(db.rows(), 1 + 5000 / 735);
+  EXPECT_EQ(db.minCoeff(), -100.0);
+  EXPECT_EQ(db.maxCoeff(), -100.0);
+  EXPECT_EQ(PowerToDb(1e-3), -30.0);
+}
+
+TEST(MelSpectrumTest, TopDbRaisesWhatLiesFarBelowTheLoudest) {
+  std::vector<float> wave = Sine(1000, 22050, 8000, 0.5);
+  std::fill(wave.begin() + 4000, wave.end(), 0.0f);
+  const MelSpectrogram free = MelSpectrogramDb(wave, 512, std::nullopt);
+  const MelSpectrogram clipped = MelSpectrogramDb(wave, 512, 80.0);
+  EXPECT_EQ(free.minCoeff(), -100.0);
+  EXPECT_EQ(clipped.maxCoeff(), free.maxCoeff());
+  EXPECT_EQ(clipped.minCoeff(), free.maxCoeff() - 80.0);
+  EXPECT_EQ((clipped.array() - free.array().max(free.maxCoeff() - 80.0)).abs().maxCoeff(), 0.0);
+}
+
+TEST(MelSpectrumTest, FramesAreCentred) {
+  // One click at sample 5120: loudest in frame 10, equal in frames at equal distance.
+  std::vector<float> wave(12000, 0.0f);
+  wave[5120] = 1.0f;
+  const MelSpectrogram db = MelSpectrogramDb(wave, 512, std::nullopt);
+  Eigen::Index loudest = 0;
+  db.rowwise().mean().maxCoeff(&loudest);
+  EXPECT_EQ(loudest, 10);
+  EXPECT_NEAR(db(9, 60), db(11, 60), 1e-6);
+  EXPECT_EQ(db(8, 60), -100.0);  // the periodic window is 0 at its first sample
+  EXPECT_EQ(db(12, 60), -100.0);
+}
+
+TEST(MelSpectrumTest, RefusesWhatHasNoSpectrum) {
+  EXPECT_THROW(MelSpectrogramDb({}, 512, std::nullopt), Error);
+  const std::vector<float> wave(100, 0.0f);
+  EXPECT_THROW(MelSpectrogramDb(wave, 0, std::nullopt), Error);
+  EXPECT_THROW(MelSpectrogramDb(wave, 512, -1.0), Error);
+}
+
+TEST(RealFourierTest, AgreesWithTheDefinitionAndComesBack) {
+  RealFourier fourier(16);
+  std::vector<double> signal(16);
+  for (size_t i = 0; i < 16; ++i) signal[i] = std::cos(0.3 * static_cast<double>(i * i));
+  const auto bins = fourier.Forward(signal);
+  ASSERT_EQ(bins.size(), 9u);
+  for (size_t k = 0; k < bins.size(); ++k) {
+    std::complex<double> sum = 0;
+    for (size_t i = 0; i < 16; ++i) {
+      sum += signal[i] * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k * i) / 16);
+    }
+    EXPECT_NEAR(std::abs(bins[k] - sum), 0, 1e-12);
+  }
+  std::vector<double> back(16);
+  fourier.Inverse(back);
+  for (size_t i = 0; i < 16; ++i) EXPECT_NEAR(back[i], signal[i], 1e-14);
+}
+
+}  // namespace
+}  // namespace choreo

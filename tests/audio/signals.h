@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace choreo {
+
+/// amplitude * sin(2 pi hz t), sampled at `rate` from absolute sample `first` on.
+inline std::vector<float> Sine(double hz, double rate, int64_t samples, double amplitude = 1.0,
+                               int64_t first = 0) {
+  std::vector<float> wave(static_cast<size_t>(samples));
+  for (size_t i = 0; i < wave.size(); ++i) {
+    const double t = static_cast<double>(first + static_cast<int64_t>(i)) / rate;
+    wave[i] = static_cast<float>(amplitude * std::sin(2 * std::numbers::pi * hz * t));
+  }
+  return wave;
+}
+
+/// Uniform noise between -amplitude and amplitude; the same for the same seed everywhere.
+inline std::vector<float> Noise(int64_t samples, uint64_t seed, double amplitude = 1.0) {
+  std::vector<float> wave(static_cast<size_t>(samples));
+  for (float& value : wave) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    value = static_cast<float>(amplitude * (static_cast<double>(seed >> 33) / 1073741824.0 - 1.0));
+  }
+  return wave;
+}
+
+/// A signal of the formula that expected vectors in these tests were computed from with NumPy: a
+/// tone, a sweep and a burst every quarter of a second, 1.5 s at 22 050 Hz.
+inline std::vector<float> TonesAndBursts() {
+  std::vector<float> wave(3 * 22050 / 2);
+  for (size_t i = 0; i < wave.size(); ++i) {
+    const double t = static_cast<double>(i) / 22050.0, since = std::fmod(t, 0.25);
+    const double pi = std::numbers::pi;
+    wave[i] = static_cast<float>(0.3 * std::sin(2 * pi * 440 * t) +
+                                 0.2 * std::sin(2 * pi * (300 * t + 1500 * t * t)) +
+                                 0.4 * std::exp(-60 * since) * std::sin(2 * pi * 3000 * since));
+  }
+  return wave;
+}
+
+/// A short burst of noise every `period` samples from `first` on.
+inline std::vector<float> Clicks(int64_t samples, int64_t first, int64_t period) {
+  std::vector<float> wave(static_cast<size_t>(samples), 0.0f);
+  const std::vector<float> burst = Noise(600, 5);
+  for (int64_t at = first; at < samples; at += period) {
+    for (int64_t i = 0; i < 600 && at + i < samples; ++i) {
+      const double decay = std::exp(-static_cast<double>(i) / 120.0);
+      wave[static_cast<size_t>(at + i)] =
+          static_cast<float>(0.7 * decay * burst[static_cast<size_t>(i)]);
+    }
+  }
+  return wave;
+}
+
+}  // namespace choreo
