@@ -49,7 +49,8 @@ Safetensors ReadSafetensors(const std::filesystem::path& path) {
 
   Safetensors content;
   try {
-    for (const auto& [name, entry] : nlohmann::json::parse(header).items()) {
+    const nlohmann::json entries = nlohmann::json::parse(header);
+    for (const auto& [name, entry] : entries.items()) {
       if (name == "__metadata__") {
         content.metadata = entry.get<std::map<std::string, std::string>>();
         continue;

@@ -46,8 +46,8 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
   }
   if (name == "ablation") {
     config.flow_steps = 4;
-    config.hidden = 64;
-    config.condition_width = 96;
+    config.hidden = 56;
+    config.condition_width = 80;
     config.history_noise = 0.1;
     return config;
   }

@@ -66,6 +66,21 @@ class FlowModelImpl : public torch::nn::Module {
   void InitialiseActNorm(const torch::Tensor& features, const torch::Tensor& audio,
                          const torch::Tensor& has_audio, const TransitionContext& context);
 
+  /// Features of frames against a context's reference, [batch, tau + N, width]: `absolute` holds
+  /// them in the canonical frame (as PoseCodec has them), `truth` the N frames' poses. History
+  /// stands on its own reference: zero position and rotation.
+  torch::Tensor RelativeFeatures(const torch::Tensor& absolute, const TrajectoryTensors& truth,
+                                 const TransitionContext& context) const;
+  /// Poses of the N frames from their features, [batch, N, width] → canonical trajectory.
+  /// Differentiable.
+  TrajectoryTensors Decode(const torch::Tensor& features, const TransitionContext& context) const;
+  /// Samples N frames on the model's own history, without arrival: [batch, N, width]. `history`
+  /// [batch, tau, width] as RelativeFeatures has it, `audio` [batch, tau + N, audio_features],
+  /// `noise` [batch, N, width]. Differentiable.
+  torch::Tensor Rollout(const torch::Tensor& history, const torch::Tensor& audio,
+                        const torch::Tensor& has_audio, const TransitionContext& context,
+                        const torch::Tensor& noise);
+
   void SetNormalisation(const Normalisation& normalisation);
   bool has_planner() const { return !planner_.is_empty(); }
   Planner planner() const { return planner_; }

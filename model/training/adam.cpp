@@ -1,0 +1,101 @@
+#include "model/training/adam.h"
+
+#include <torch/torch.h>
+
+#include <cmath>
+
+#include "model/core/error.h"
+
+namespace choreo {
+
+namespace {
+
+constexpr double kBeta1 = 0.9, kBeta2 = 0.999, kEpsilon = 1e-8;  // paper F, Section 4.2
+
+double NormOf(const std::vector<torch::Tensor>& gradients) {
+  double sum = 0;
+  for (const auto& gradient : gradients) sum += gradient.square().sum().item<double>();
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+Adam::Adam(const torch::nn::Module& module, const std::string& prefix) {
+  for (const auto& item : module.named_parameters()) {
+    if (item.key().rfind(prefix, 0) != 0) continue;
+    entries_.push_back({item.key(), item.value(), torch::zeros_like(item.value()),
+                        torch::zeros_like(item.value())});
+  }
+}
+
+double Adam::Step(double learning_rate, double max_norm) {
+  torch::NoGradGuard no_grad;
+  std::vector<torch::Tensor> gradients;
+  for (const Entry& entry : entries_) {
+    if (entry.parameter.grad().defined()) gradients.push_back(entry.parameter.grad());
+  }
+  const double norm = NormOf(gradients);
+  if (!std::isfinite(norm)) {
+    ++skipped_;
+    return norm;
+  }
+  const double clip = norm > max_norm ? max_norm / norm : 1.0;
+  ++steps_;
+  const double correct1 = 1 - std::pow(kBeta1, steps_), correct2 = 1 - std::pow(kBeta2, steps_);
+  for (Entry& entry : entries_) {
+    if (!entry.parameter.grad().defined()) continue;
+    const torch::Tensor gradient = entry.parameter.grad() * clip;
+    entry.first.mul_(kBeta1).add_(gradient, 1 - kBeta1);
+    entry.second.mul_(kBeta2).addcmul_(gradient, gradient, 1 - kBeta2);
+    entry.parameter.addcdiv_(entry.first, (entry.second / correct2).sqrt_().add_(kEpsilon),
+                             -learning_rate / correct1);
+  }
+  return norm;
+}
+
+void Adam::ZeroGrad() {
+  for (Entry& entry : entries_) entry.parameter.mutable_grad().reset();
+}
+
+void Adam::Export(Safetensors* content) const {
+  const auto add = [&](const std::string& name, const torch::Tensor& value) {
+    const torch::Tensor dense = value.to(torch::kCPU).contiguous();
+    content->tensors[name] = {
+        dense.sizes().vec(),
+        std::vector<float>(dense.data_ptr<float>(), dense.data_ptr<float>() + dense.numel())};
+  };
+  for (const Entry& entry : entries_) {
+    add("adam.first." + entry.name, entry.first);
+    add("adam.second." + entry.name, entry.second);
+  }
+  content->metadata["adam.steps"] = std::to_string(steps_);
+}
+
+void Adam::Import(const Safetensors& content) {
+  torch::NoGradGuard no_grad;
+  const auto take = [&](const std::string& name, torch::Tensor* value) {
+    const auto found = content.tensors.find(name);
+    if (found == content.tensors.end() || found->second.shape != value->sizes().vec()) {
+      throw InvalidArgument(name, "the run's state has no such tensor of this shape");
+    }
+    value->copy_(torch::from_blob(const_cast<float*>(found->second.data.data()),
+                                  found->second.shape, torch::kFloat32));
+  };
+  for (Entry& entry : entries_) {
+    take("adam.first." + entry.name, &entry.first);
+    take("adam.second." + entry.name, &entry.second);
+  }
+  steps_ = std::stoll(content.metadata.at("adam.steps"));
+}
+
+double GradientNorm(const torch::nn::Module& module, const std::string& prefix) {
+  std::vector<torch::Tensor> gradients;
+  for (const auto& item : module.named_parameters()) {
+    if (item.key().rfind(prefix, 0) == 0 && item.value().grad().defined()) {
+      gradients.push_back(item.value().grad());
+    }
+  }
+  return NormOf(gradients);
+}
+
+}  // namespace choreo

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <torch/nn/module.h>
+#include <torch/types.h>
+
+#include <string>
+
+#include "model/core/safetensors.h"
+
+namespace choreo {
+
+/// Adam (Kingma & Ba 2015) over named parameters. Our own because its moments go into the run's
+/// safetensors by name and come back to the bit, which torch's optimiser state (keyed by address,
+/// another format in each release) does not offer.
+class Adam {
+ public:
+  /// Parameters of `module` whose names start with `prefix`.
+  Adam(const torch::nn::Module& module, const std::string& prefix);
+
+  /// Clips the gradient's norm to `max_norm`, then updates. Returns the norm before clipping. A
+  /// gradient that is not finite changes nothing (and is counted).
+  double Step(double learning_rate, double max_norm);
+  void ZeroGrad();
+  int64_t skipped() const { return skipped_; }
+
+  void Export(Safetensors* content) const;
+  void Import(const Safetensors& content);
+
+ private:
+  struct Entry {
+    std::string name;
+    torch::Tensor parameter, first, second;
+  };
+  std::vector<Entry> entries_;
+  int64_t steps_ = 0;
+  int64_t skipped_ = 0;
+};
+
+/// L2 norm of all gradients of `module`'s parameters that start with `prefix`.
+double GradientNorm(const torch::nn::Module& module, const std::string& prefix);
+
+}  // namespace choreo

@@ -1,0 +1,192 @@
+#include "model/training/clip_store.h"
+
+#include <torch/torch.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "model/core/error.h"
+#include "model/flow/torch_kinematics.h"
+#include "model/motion/canonical.h"
+#include "model/motion/mirror.h"
+
+namespace choreo {
+namespace {
+
+using nlohmann::json;
+
+// "train", "validation", "test...", or anything else ("unused") for a clip that the file names;
+// nothing for one it does not.
+std::optional<std::string> NamedSplit(const json& splits, const std::string& clip) {
+  for (const auto& [set, parts] : splits.items()) {
+    for (const auto& [part, names] : parts.items()) {
+      if (std::find(names.begin(), names.end(), clip) != names.end()) return part;
+    }
+  }
+  return std::nullopt;
+}
+
+bool Belongs(const std::optional<std::string>& part, Split split) {
+  switch (split) {
+    case Split::kTrain:
+      return !part || *part == "train";
+    case Split::kValidation:
+      return part && *part == "validation";
+    case Split::kTest:
+      return part && *part == "test";
+  }
+  return false;
+}
+
+}  // namespace
+
+ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
+                     const std::filesystem::path& splits_file, Split split)
+    : skeleton_(Skeleton::Smpl24()) {
+  std::ifstream file(splits_file);
+  if (!file) throw Error(ErrorCode::kNotFound, splits_file.string(), "no such splits file");
+  const json splits = json::parse(file, nullptr, false);
+  if (!splits.is_object()) throw InvalidArgument(splits_file.string(), "not a JSON object");
+  for (const auto& folder : folders) {
+    for (const auto& path : ListPreparedClips(folder)) {
+      PreparedClip clip = ReadPreparedClip(path);
+      if (Belongs(NamedSplit(splits, clip.name), split)) clips_.push_back(std::move(clip));
+    }
+  }
+  if (clips_.empty()) {
+    throw InvalidArgument(splits_file.string(),
+                          "no prepared clip of the data belongs to this split");
+  }
+}
+
+int64_t ClipStore::frames() const {
+  int64_t total = 0;
+  for (const auto& clip : clips_) total += static_cast<int64_t>(clip.motion.frames.size());
+  return total;
+}
+
+std::string ClipStore::Hash() const {
+  XXH64_hash_t hash = 0;
+  for (const auto& clip : clips_) {
+    hash = XXH3_64bits_withSeed(clip.name.data(), clip.name.size(), hash);
+    for (const Pose& pose : clip.motion.frames) {
+      hash = XXH3_64bits_withSeed(pose.root_position.data(), 3 * sizeof(double), hash);
+      hash = XXH3_64bits_withSeed(
+          pose.rotations.data(), static_cast<size_t>(pose.rotations.size()) * sizeof(double), hash);
+    }
+  }
+  char hex[17];
+  std::snprintf(hex, sizeof(hex), "%016llx", static_cast<unsigned long long>(hash));
+  return hex;
+}
+
+MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation& variation,
+                            Random* random) const {
+  const int window = history + frames;
+  std::vector<int64_t> ends;  // running count of the windows that each clip offers
+  int64_t windows = 0;
+  for (const auto& clip : clips_) {
+    // One more frame in front: the first frame's velocity needs it.
+    windows += std::max<int64_t>(0, static_cast<int64_t>(clip.motion.frames.size()) - window);
+    ends.push_back(windows);
+  }
+  if (windows == 0) {
+    throw InvalidArgument("frames", "no clip has the " + std::to_string(window + 1) +
+                                        " frames that a window of " + std::to_string(frames) +
+                                        " needs");
+  }
+  const PoseCodec codec(skeleton_);
+  const int joints = skeleton_.joints(), width = codec.width();
+  const int audio_width = 40;
+  torch::Tensor position = torch::empty({batch, window, 3});
+  torch::Tensor rotation = torch::empty({batch, window, joints, 3});
+  torch::Tensor features = torch::empty({batch, window, width});
+  torch::Tensor audio = torch::zeros({batch, window, audio_width});
+  torch::Tensor has_audio = torch::zeros({batch, 1});
+  torch::Tensor mask = torch::ones({batch, joints + 1});
+
+  for (int b = 0; b < batch; ++b) {
+    const int64_t pick = random->Integer(0, windows);
+    const size_t index =
+        static_cast<size_t>(std::upper_bound(ends.begin(), ends.end(), pick) - ends.begin());
+    const PreparedClip& clip = clips_[index];
+    const int64_t start = pick - (index > 0 ? ends[index - 1] : 0) + 1;
+    const bool mirrored = variation.mirror && random->Uniform() < 0.5;
+    std::vector<Pose> poses(clip.motion.frames.begin() + (start - 1),
+                            clip.motion.frames.begin() + (start + window));
+    if (mirrored) {
+      for (Pose& pose : poses) pose = Mirror(skeleton_, pose);
+    }
+    if (random->Uniform() < variation.hold_history) {
+      const int64_t known = random->Integer(1, history);
+      std::fill(poses.begin(), poses.begin() + (history - known + 1),
+                poses[static_cast<size_t>(history - known + 1)]);
+    }
+    const GroundFrame frame = GroundFrame::Of(poses[static_cast<size_t>(history)]);
+    Pose previous = frame.ToLocal(poses[0]);
+    for (int t = 0; t < window; ++t) {
+      const Pose pose = frame.ToLocal(poses[static_cast<size_t>(t) + 1]);
+      Contacts contacts;
+      for (int foot = 0; foot < 4; ++foot) {
+        // Contacts stand left then right; a mirrored dancer swaps them.
+        contacts[static_cast<size_t>(foot)] =
+            clip.contacts(mirrored ? (foot + 2) % 4 : foot, start + t);
+      }
+      const Eigen::VectorXf x = codec.Encode(pose, previous, nullptr, contacts, clip.motion.fps);
+      std::copy(x.data(), x.data() + width, features[b][t].data_ptr<float>());
+      for (int axis = 0; axis < 3; ++axis)
+        position[b][t].data_ptr<float>()[axis] = static_cast<float>(pose.root_position[axis]);
+      float* out = rotation[b][t].data_ptr<float>();
+      for (Eigen::Index i = 0; i < pose.rotations.size(); ++i)
+        out[i] = static_cast<float>(pose.rotations.data()[i]);
+      previous = pose;
+    }
+    if (clip.audio.size() > 0 && random->Uniform() >= variation.drop_audio) {
+      has_audio[b][0] = 1;
+      std::copy(clip.audio.col(start).data(),
+                clip.audio.col(start).data() + int64_t{window} * audio_width,
+                audio[b].data_ptr<float>());
+    }
+    if (random->Uniform() < variation.drop_key) {
+      mask[b].zero_();
+    } else if (random->Uniform() < variation.partial_key) {
+      const double keep = random->Uniform(0.3, 1.0);
+      for (int j = 0; j <= joints; ++j) {
+        if (random->Uniform() >= keep) mask[b][j] = 0;
+      }
+    }
+  }
+
+  const torch::Tensor matrices = ExpMapBatch(rotation);
+  MotionBatch result;
+  result.transition = {frames,
+                       position.narrow(1, 0, history),
+                       matrices.narrow(1, 0, history),
+                       position.select(1, window - 1),
+                       matrices.select(1, window - 1),
+                       mask};
+  result.truth = {position.narrow(1, history, frames), matrices.narrow(1, history, frames)};
+  result.features = features;
+  result.audio = audio;
+  result.has_audio = has_audio;
+  return result;
+}
+
+MotionBatch MotionBatch::To(torch::Device device) const {
+  MotionBatch moved = *this;
+  for (torch::Tensor* tensor :
+       {&moved.transition.history_position, &moved.transition.history_rotation,
+        &moved.transition.target_position, &moved.transition.target_rotation,
+        &moved.transition.target_mask, &moved.truth.position, &moved.truth.rotation,
+        &moved.features, &moved.audio, &moved.has_audio}) {
+    *tensor = tensor->to(device);
+  }
+  return moved;
+}
+
+}  // namespace choreo

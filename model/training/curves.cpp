@@ -1,0 +1,102 @@
+#include "model/training/curves.h"
+
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "model/core/error.h"
+#include "model/draw/plot.h"
+
+namespace choreo {
+namespace {
+
+std::string Format(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+}  // namespace
+
+void Curves::Append(const LossRow& losses, double seconds, const std::vector<ValidationRow>& rows) {
+  std::string header =
+      "step,seconds,planner_loss,nll_nats_per_dim,key_pose_dm,contact_l1,"
+      "planner_gradient,nll_gradient,rollout_gradient";
+  std::string line = std::to_string(losses.step);
+  for (const double value :
+       {seconds, losses.planner, losses.likelihood, losses.key_pose, losses.contacts,
+        losses.planner_gradient, losses.likelihood_gradient, losses.rollout_gradient}) {
+    line += "," + Format(value);
+  }
+  for (const ValidationRow& row : rows) {
+    const std::string n = std::to_string(row.frames);
+    header += ",planner_ratio_" + n + ",flow_ratio_" + n + ",val_nll_" + n + ",raw_key_m_" + n;
+    for (const double value : {row.planner_m / row.interpolation_m,
+                               row.flow_m / row.interpolation_m, row.likelihood, row.key_error_m}) {
+      line += "," + Format(value);
+    }
+  }
+  header_ = header;
+  lines_.push_back(line);
+}
+
+std::string Curves::Serialise() const {
+  std::string text = header_ + "\n";
+  for (const std::string& line : lines_) text += line + "\n";
+  return text;
+}
+
+void Curves::Restore(const std::string& csv) {
+  std::istringstream stream(csv);
+  std::getline(stream, header_);
+  lines_.clear();
+  for (std::string line; std::getline(stream, line);) lines_.push_back(line);
+}
+
+void Curves::Write(const std::filesystem::path& folder) const {
+  std::ofstream file(folder / "curves.csv", std::ios::trunc);
+  file << Serialise();
+  if (!file)
+    throw Error(ErrorCode::kInternal, (folder / "curves.csv").string(), "can't be written");
+
+  // Columns back out of the text: a restored run has nothing else.
+  std::vector<std::string> names;
+  std::istringstream header(header_);
+  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
+  std::map<std::string, std::vector<double>> columns;
+  for (const std::string& line : lines_) {
+    std::istringstream stream(line);
+    size_t i = 0;
+    for (std::string cell; std::getline(stream, cell, ',') && i < names.size(); ++i) {
+      columns[names[i]].push_back(std::stod(cell));
+    }
+  }
+  // Zero means "not computed yet": a plot leaves those points out.
+  const auto series = [&](const std::string& name) {
+    PlotSeries result{.label = name};
+    for (size_t i = 0; i < columns[name].size(); ++i) {
+      if (columns[name][i] == 0) continue;
+      result.x.push_back(columns["step"][i]);
+      result.y.push_back(columns[name][i]);
+    }
+    return result;
+  };
+  const auto plot = [&](const std::string& title, const std::string& y,
+                        const std::vector<std::string>& wanted, const std::string& file_name) {
+    Plot figure{.title = title, .x_label = "step", .y_label = y};
+    for (const std::string& name : wanted) {
+      PlotSeries one = series(name);
+      if (!one.x.empty()) figure.series.push_back(std::move(one));
+    }
+    if (!figure.series.empty()) DrawPlot(figure, folder / file_name);
+  };
+  plot("Training losses", "loss", {"planner_loss", "nll_nats_per_dim", "key_pose_dm", "contact_l1"},
+       "curves.png");
+  plot("Validation, ratio to interpolation", "L2P ratio",
+       {"planner_ratio_10", "planner_ratio_30", "planner_ratio_60", "planner_ratio_90",
+        "flow_ratio_10", "flow_ratio_30", "flow_ratio_60", "flow_ratio_90"},
+       "validation.png");
+}
+
+}  // namespace choreo

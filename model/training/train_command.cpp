@@ -1,0 +1,48 @@
+#include "model/training/train_command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "model/training/trainer.h"
+
+namespace choreo {
+
+void AddTrainCommand(CLI::App& app) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
+  command->add_option("--preset", options->preset, "default | paper | ablation")
+      ->capture_default_str();
+  command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
+      ->required();
+  command->add_option("--splits", options->splits, "Which clip trains, validates, tests (JSON)")
+      ->required();
+  command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
+      ->required();
+  command->add_option("--device", options->device, "cpu | cuda:N")->capture_default_str();
+  command->add_flag("--resume", options->resume, "Go on from the run's saved state");
+  command->add_option("--planner-steps", options->planner_steps)->capture_default_str();
+  command->add_option("--flow-steps", options->flow_steps)->capture_default_str();
+  command->add_option("--batch", options->batch, "Windows a step")->capture_default_str();
+  command->add_option("--planner-rate", options->planner_rate, "Peak learning rate")
+      ->capture_default_str();
+  command->add_option("--flow-rate", options->flow_rate, "Peak learning rate")
+      ->capture_default_str();
+  command->add_option("--shortest", options->shortest, "Shortest training transition, frames")
+      ->capture_default_str();
+  command->add_option("--longest", options->longest, "Longest training transition, frames")
+      ->capture_default_str();
+  command->add_option("--rollout-frames", options->rollout_frames, "Frames of the sampled roll-out")
+      ->capture_default_str();
+  command->add_option("--report-every", options->report_every, "Steps between reports")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed)->capture_default_str();
+  command->add_flag("--no-keys", options->no_keys, "Ablation: music alone");
+  command->add_flag("--no-key-loss", options->no_key_loss, "Ablation: no key pose loss");
+  command->add_flag("--no-time-embedding", options->no_time_embedding,
+                    "Ablation: no time embedding");
+  command->add_flag("--forward-embedding", options->forward_embedding,
+                    "Ablation: count frames from the start, not frames left");
+  command->callback([options] { Train(*options); });
+}
+
+}  // namespace choreo
