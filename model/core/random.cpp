@@ -1,0 +1,119 @@
+#include "model/core/random.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+// Marks the blocks of Random. FillNormal has the upper half of a frame number there, which no dance
+// makes this large.
+constexpr uint32_t kSequenceDomain = 0x53455155;
+
+std::array<uint32_t, 2> KeyOf(uint64_t seed) {
+  return {static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32)};
+}
+
+// Two independent normals out of 64 random bits. The half keeps the logarithm's argument off zero.
+std::pair<double, double> BoxMuller(uint32_t a, uint32_t b) {
+  const double radius = std::sqrt(-2.0 * std::log((a + 0.5) * 0x1p-32));
+  const double angle = 2.0 * std::numbers::pi * (b * 0x1p-32);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+}  // namespace
+
+std::array<uint32_t, 4> Philox4x32(const std::array<uint32_t, 4>& counter,
+                                   const std::array<uint32_t, 2>& key) {
+  std::array<uint32_t, 4> c = counter;
+  std::array<uint32_t, 2> k = key;
+  for (int round = 0; round < 10; ++round) {
+    const uint64_t p0 = uint64_t{0xD2511F53} * c[0];
+    const uint64_t p1 = uint64_t{0xCD9E8D57} * c[2];
+    c = {static_cast<uint32_t>(p1 >> 32) ^ c[1] ^ k[0], static_cast<uint32_t>(p1),
+         static_cast<uint32_t>(p0 >> 32) ^ c[3] ^ k[1], static_cast<uint32_t>(p0)};
+    k[0] += 0x9E3779B9;
+    k[1] += 0xBB67AE85;
+  }
+  return c;
+}
+
+void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::span<float> out) {
+  const std::array<uint32_t, 2> key = KeyOf(seed);
+  const auto frame = static_cast<uint64_t>(absolute_frame);
+  for (size_t first = 0; first < out.size(); first += 4) {
+    const std::array<uint32_t, 4> bits =
+        Philox4x32({static_cast<uint32_t>(first / 4), candidate, static_cast<uint32_t>(frame),
+                    static_cast<uint32_t>(frame >> 32)},
+                   key);
+    const auto [z0, z1] = BoxMuller(bits[0], bits[1]);
+    const auto [z2, z3] = BoxMuller(bits[2], bits[3]);
+    const double z[4] = {z0, z1, z2, z3};
+    for (size_t i = 0; i < 4 && first + i < out.size(); ++i) {
+      out[first + i] = static_cast<float>(z[i]);
+    }
+  }
+}
+
+Random::Random(uint64_t seed, uint32_t stream) : Random(State{seed, stream, 0}) {}
+
+Random::Random(const State& state) : state_(state) {
+  // Positions inside a block need the block that Next would have made at its first word.
+  if (const uint64_t offset = state_.position % 4; offset != 0) {
+    state_.position -= offset;
+    for (uint64_t i = 0; i < offset; ++i) Next();
+  }
+}
+
+uint32_t Random::Next() {
+  const uint64_t offset = state_.position % 4;
+  if (offset == 0) {
+    const uint64_t block = state_.position / 4;
+    block_ = Philox4x32({static_cast<uint32_t>(block), static_cast<uint32_t>(block >> 32),
+                         state_.stream, kSequenceDomain},
+                        KeyOf(state_.seed));
+  }
+  ++state_.position;
+  return block_[offset];
+}
+
+double Random::Uniform() {
+  const uint64_t high = Next();
+  const uint64_t low = Next();
+  return static_cast<double>(((high << 32) | low) >> 11) * 0x1p-53;
+}
+
+double Random::Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+
+double Random::Normal() {
+  const uint32_t a = Next();
+  const uint32_t b = Next();
+  return BoxMuller(a, b).first;
+}
+
+void Random::FillNormal(std::span<float> out) {
+  for (float& value : out) value = static_cast<float>(Normal());
+}
+
+int64_t Random::Integer(int64_t low, int64_t high) {
+  if (low >= high) {
+    throw InvalidArgument("", "Random::Integer: low " + std::to_string(low) +
+                                  " is not below high " + std::to_string(high));
+  }
+  const uint64_t range = static_cast<uint64_t>(high) - static_cast<uint64_t>(low);
+  // 2^64 mod range: draws below it would make the small remainders too likely.
+  const uint64_t unfair = (uint64_t{0} - range) % range;
+  uint64_t draw;
+  do {
+    const uint64_t upper = Next();
+    const uint64_t lower = Next();
+    draw = (upper << 32) | lower;
+  } while (draw < unfair);
+  return static_cast<int64_t>(static_cast<uint64_t>(low) + draw % range);
+}
+
+}  // namespace choreo

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+/// Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as
+/// easy as 1, 2, 3"). A number is a pure function of its coordinates, so order, batching and
+/// threads can't change it. Pure functions; thread-safe.
+namespace choreo {
+
+/// One Philox block: 128 random bits from a 128-bit counter and a 64-bit key.
+std::array<uint32_t, 4> Philox4x32(const std::array<uint32_t, 4>& counter,
+                                   const std::array<uint32_t, 2>& key);
+
+/// Standard normal noise of one frame of one candidate: out[d] depends on (seed, candidate,
+/// absolute_frame, d) alone, whatever out.size() is. Box-Muller in double, rounded to float;
+/// |out[d]| < 6.8.
+void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::span<float> out);
+
+/// A sequence of random numbers for training and sampling of data. Its numbers are unrelated to
+/// FillNormal's of the same seed. Copying copies the position. Not thread-safe; give each thread
+/// its own `stream`.
+class Random {
+ public:
+  /// All that there is to a generator: save it, and a resumed run goes on with the same numbers.
+  struct State {
+    uint64_t seed = 0;
+    uint32_t stream = 0;
+    uint64_t position = 0;  ///< 32-bit words drawn so far
+    bool operator==(const State&) const = default;
+  };
+
+  explicit Random(uint64_t seed, uint32_t stream = 0);
+  explicit Random(const State& state);
+
+  const State& state() const { return state_; }
+
+  /// 32 random bits.
+  uint32_t Next();
+  /// In [0, 1), 53 random bits.
+  double Uniform();
+  /// In [low, high).
+  double Uniform(double low, double high);
+  /// Mean 0, standard deviation 1.
+  double Normal();
+  void FillNormal(std::span<float> out);
+  /// Each of low, ..., high - 1 equally likely. Throws Error(kInvalidArgument) unless low < high.
+  int64_t Integer(int64_t low, int64_t high);
+
+ private:
+  State state_;
+  std::array<uint32_t, 4> block_ = {};  ///< holds word `position` unless that starts a new block
+};
+
+}  // namespace choreo

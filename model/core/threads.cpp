@@ -1,0 +1,116 @@
+#include "model/core/threads.h"
+
+#include <dlfcn.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <thread>
+
+#if defined(__x86_64__)
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+#endif
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+template <typename Function>
+Function* Find(const char* symbol) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, symbol));
+}
+
+std::string FileOf(void* address) {
+  Dl_info info;
+  if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return "";
+  std::error_code ignored;
+  const auto path = std::filesystem::canonical(info.dli_fname, ignored);
+  return path.empty() ? info.dli_fname : path.string();
+}
+
+// cgroup v2's "quota period" in microseconds; "max" for no limit.
+double CgroupCores() {
+  std::ifstream file("/sys/fs/cgroup/cpu.max");
+  double quota = 0;
+  double period = 0;
+  return file >> quota >> period && period > 0 ? quota / period : INFINITY;
+}
+
+}  // namespace
+
+BlasInfo DetectBlas() {
+  void* gemm = dlsym(RTLD_DEFAULT, "sgemm_");
+  if (gemm == nullptr) gemm = dlsym(RTLD_DEFAULT, "cblas_sgemm");
+  if (gemm == nullptr) return {};
+
+  BlasInfo info;
+  info.path = FileOf(gemm);
+  // Debian's libblas.so.3 of OpenBLAS is a thin front of libopenblas.so.0, so the question is not
+  // only whose sgemm_ it is but also what stands behind it. Netlib's never comes together with
+  // these unless its file, too, is Netlib's.
+  const std::string file = std::filesystem::path(info.path).filename().string();
+  const bool netlib = info.path.ends_with("/blas/" + file);
+  if (auto* config = Find<char*()>("openblas_get_config"); config != nullptr && !netlib) {
+    info.kind = BlasInfo::Kind::kFast;
+    info.name = config();
+  } else if (dlsym(RTLD_DEFAULT, "MKL_Get_Version_String") != nullptr && !netlib) {
+    info.kind = BlasInfo::Kind::kFast;
+    info.name = "Intel MKL";
+  } else if (auto* version = Find<const char*()>("bli_info_get_version_str");
+             version != nullptr && !netlib) {
+    info.kind = BlasInfo::Kind::kFast;
+    info.name = std::string("BLIS ") + version();
+  } else if (file.starts_with("libblas.so")) {
+    info.kind = BlasInfo::Kind::kReference;
+    info.name = "Netlib reference BLAS";
+  } else {
+    info.kind = BlasInfo::Kind::kUnknown;
+    info.name = file;
+  }
+  return info;
+}
+
+void RequireFastBlas(const BlasInfo& blas) {
+  if (blas.kind != BlasInfo::Kind::kReference) return;
+  throw Error(ErrorCode::kFailedPrecondition, "",
+              "only the reference BLAS is installed (" + blas.path +
+                  "), which is far too slow to dance in time; install a fast one: apt-get install "
+                  "libopenblas0-pthread");
+}
+
+int UsableCores() {
+  double cores = std::max(1U, std::thread::hardware_concurrency());
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof(set), &set) == 0) cores = std::max(1, CPU_COUNT(&set));
+  return std::max(1, static_cast<int>(std::floor(std::min(cores, CgroupCores()) + 0.5)));
+}
+
+void SetMathThreads(int threads) {
+  if (threads < 1 || threads > 1024) {
+    throw InvalidArgument("threads", std::to_string(threads) + " is not in [1, 1024]");
+  }
+  for (const char* symbol :
+       {"openblas_set_num_threads", "omp_set_num_threads", "MKL_Set_Num_Threads"}) {
+    if (auto* set = Find<void(int)>(symbol); set != nullptr) set(threads);
+  }
+  if (auto* set = Find<void(int64_t)>("bli_thread_set_num_threads"); set != nullptr) set(threads);
+}
+
+void FlushDenormals() {
+#if defined(__x86_64__)
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+#elif defined(__aarch64__)
+  uint64_t control;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+  __asm__ volatile("msr fpcr, %0" : : "r"(control | (uint64_t{1} << 24)));
+#endif
+}
+
+}  // namespace choreo

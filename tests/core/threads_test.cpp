@@ -1,0 +1,67 @@
+#include "model/core/threads.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+TEST(ThreadsTest, RefusesTheReferenceBlasAndTellsWhatToInstall) {
+  const BlasInfo reference{BlasInfo::Kind::kReference, "Netlib reference BLAS",
+                           "/lib/libblas.so.3"};
+  try {
+    RequireFastBlas(reference);
+    FAIL() << "accepted the reference BLAS";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kFailedPrecondition);
+    EXPECT_NE(std::string(error.what()).find("libopenblas0-pthread"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("/lib/libblas.so.3"), std::string::npos);
+  }
+}
+
+TEST(ThreadsTest, AcceptsEveryOtherBlas) {
+  for (const auto kind : {BlasInfo::Kind::kNone, BlasInfo::Kind::kFast, BlasInfo::Kind::kUnknown}) {
+    EXPECT_NO_THROW(RequireFastBlas({kind, "name", "path"}));
+  }
+}
+
+// This program links no BLAS; engine_torch_test looks at the one behind LibTorch.
+TEST(ThreadsTest, FindsNoBlasWhereNoneIsLinked) {
+  const BlasInfo blas = DetectBlas();
+  EXPECT_EQ(blas.kind, BlasInfo::Kind::kNone) << blas.name << " " << blas.path;
+}
+
+TEST(ThreadsTest, CountsAtLeastOneCoreAndNoMoreThanTheMachineHas) {
+  EXPECT_GE(UsableCores(), 1);
+  EXPECT_LE(UsableCores(), static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+TEST(ThreadsTest, RefusesThreadCountsOutOfRange) {
+  EXPECT_THROW(SetMathThreads(0), Error);
+  EXPECT_THROW(SetMathThreads(1025), Error);
+  EXPECT_NO_THROW(SetMathThreads(1));
+}
+
+TEST(ThreadsTest, FlushesDenormalsHereAndInThreadsStartedAfterwards) {
+  volatile float smallest = std::numeric_limits<float>::min();
+  volatile float here = -1;
+  volatile float child = -1;
+  // In a thread of its own, so that the other tests keep their arithmetic.
+  std::thread([&] {
+    const volatile float before = smallest / 4;
+    ASSERT_GT(before, 0);
+    FlushDenormals();
+    here = smallest / 4;
+    std::thread([&] { child = smallest / 4; }).join();
+  }).join();
+  EXPECT_EQ(here, 0);
+  EXPECT_EQ(child, 0);
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/core/random.h"
+#include "model/engine/step_engine.h"
+
+namespace choreo {
+
+/// A dance model without a network, for tests of what stands around one. Each degree of freedom
+/// walks towards the target (or towards its last history value, where there is none or it is
+/// masked), damped, shaken by the counter noise and by the music row. Deterministic; a slot's
+/// output depends on its spec, its rows and its fed-back poses alone. Like a real model it misses
+/// its target by a little.
+class FakeEngine : public StepEngine {
+ public:
+  explicit FakeEngine(int slots = 16, std::string device = "fake:0",
+                      const Skeleton& skeleton = Skeleton::Smpl24())
+      : device_(std::move(device)), slots_(static_cast<size_t>(slots)) {
+    model_.name = "fake";
+    model_.fingerprint = "fake-1";
+    model_.licence = "none";
+    model_.card = R"({"name": "fake"})";
+    model_.skeleton = skeleton;
+    noise_.resize(static_cast<size_t>(Width()));
+  }
+
+  const ModelInfo& model() const override { return model_; }
+  std::string device() const override { return device_; }
+  int slots() const override { return static_cast<int>(slots_.size()); }
+  int free_slots() const override {
+    return static_cast<int>(std::count_if(slots_.begin(), slots_.end(),
+                                          [](const Slot& slot) { return !slot.spec.has_value(); }));
+  }
+
+  int Admit(const TransitionSpec& spec) override {
+    if (spec.frames < 1 || spec.frames > model_.max_transition_frames) {
+      throw InvalidArgument("frames", std::to_string(spec.frames) + " is not in [1, " +
+                                          std::to_string(model_.max_transition_frames) + "]");
+    }
+    if (static_cast<int>(spec.history.size()) != model_.history_frames) {
+      throw InvalidArgument("history", std::to_string(spec.history.size()) + " poses, not " +
+                                           std::to_string(model_.history_frames));
+    }
+    for (const Pose& pose : spec.history) CheckJoints(pose);
+    if (spec.target) CheckJoints(spec.target->pose);
+    if (spec.has_audio && (spec.audio_history.rows() != model_.audio_features ||
+                           spec.audio_history.cols() != model_.history_frames)) {
+      throw InvalidArgument("audio_history", "is not [audio_features, history_frames]");
+    }
+    const auto free = std::find_if(slots_.begin(), slots_.end(),
+                                   [](const Slot& slot) { return !slot.spec.has_value(); });
+    if (free == slots_.end()) throw Error(ErrorCode::kResourceExhausted, "", "no free slot");
+    free->spec = spec;
+    free->frame = 0;
+    free->pose = spec.history.back();
+    free->velocity = Eigen::VectorXd::Zero(Width());
+    return static_cast<int>(free - slots_.begin());
+  }
+
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    for (size_t i = 0; i < in.size(); ++i) StepSlot(in[i], &out[i]);
+  }
+
+  void Release(int slot) noexcept override { slots_[static_cast<size_t>(slot)].spec.reset(); }
+
+ protected:
+  ModelInfo model_;  // subclasses may change it in their constructors
+
+ private:
+  struct Slot {
+    std::optional<TransitionSpec> spec;  // none: free
+    int frame = 0;
+    Pose pose;
+    Eigen::VectorXd velocity;
+  };
+
+  int Width() const { return 3 + 3 * model_.skeleton.joints(); }
+
+  void CheckJoints(const Pose& pose) const {
+    if (pose.rotations.cols() != model_.skeleton.joints()) {
+      throw InvalidArgument("rotations", std::to_string(pose.rotations.cols()) + " joints, not " +
+                                             std::to_string(model_.skeleton.joints()));
+    }
+  }
+
+  Eigen::VectorXd Flat(const Pose& pose) const {
+    Eigen::VectorXd flat(Width());
+    flat << pose.root_position, pose.rotations.reshaped();
+    return flat;
+  }
+
+  // The history's last pose where the target does not ask for a degree of freedom.
+  Eigen::VectorXd Goal(const TransitionSpec& spec) const {
+    Eigen::VectorXd goal = Flat(spec.history.back());
+    if (!spec.target) return goal;
+    const Eigen::VectorXd target = Flat(spec.target->pose);
+    const PoseMask& mask = spec.target->mask;
+    if (mask.root_position) goal.head<3>() = target.head<3>();
+    for (int joint = 0; joint < model_.skeleton.joints(); ++joint) {
+      if (mask.joints.empty() || mask.joints[static_cast<size_t>(joint)]) {
+        goal.segment<3>(3 + 3 * joint) = target.segment<3>(3 + 3 * joint);
+      }
+    }
+    return goal;
+  }
+
+  void StepSlot(const StepInput& in, StepOutput* out) {
+    Slot& slot = slots_[static_cast<size_t>(in.slot)];
+    const TransitionSpec& spec = *slot.spec;
+    if (in.previous != nullptr) slot.pose = *in.previous;
+    FillNormal(spec.seed, spec.candidate, spec.first_frame + slot.frame, noise_);
+    double music = 0;
+    if (spec.has_audio) {
+      for (float value : in.audio_row) music += value;
+      music = std::tanh(music / 100.0);
+    }
+    const double left = spec.frames - slot.frame;  // the goal is reached in this many steps
+    const Eigen::VectorXd now = Flat(slot.pose);
+    const Eigen::VectorXd wanted = (Goal(spec) - now) / left;
+    slot.velocity = 0.5 * slot.velocity + 0.5 * wanted;
+    double energy = 0;
+    for (int d = 0; d < Width(); ++d) {
+      const double z = noise_[static_cast<size_t>(d)];
+      energy += z * z;
+      slot.velocity[d] += 0.004 * spec.temperature * z;
+    }
+    // Music sways the arms and the trunk, not the place of the feet.
+    Eigen::VectorXd next = now + slot.velocity;
+    for (int d = 3; d < Width(); ++d) next[d] += 0.003 * music * std::sin(0.7 * d + slot.frame);
+
+    slot.pose.root_position = next.head<3>();
+    slot.pose.rotations = next.tail(Width() - 3).reshaped(3, model_.skeleton.joints());
+    out->pose = slot.pose;
+    const float left_down = (spec.first_frame + slot.frame) / 8 % 2 == 0 ? 1.0F : 0.0F;
+    out->contacts = {left_down, left_down, 1 - left_down, 1 - left_down};
+    out->log_likelihood = static_cast<float>(-0.5 * energy - 0.9189385332046727 * Width());
+    ++slot.frame;
+  }
+
+  std::string device_;
+  std::vector<Slot> slots_;
+  std::vector<float> noise_;
+};
+
+}  // namespace choreo
