@@ -13,22 +13,28 @@ namespace choreo {
 /// A weighted sum of named joints; the weights sum to 1.
 using JointBlend = std::vector<std::pair<std::string, double>>;
 
+/// A point that moves with a joint of ours.
+struct OurPoint {
+  std::string joint;
+  double weight = 1;
+  /// From the joint, in its frame (at rest: x to the dancer's left, y up, z forward), metres. For
+  /// points that are no joints, such as heels and temples, and where a source's joint stands
+  /// elsewhere in the body than ours of the same name.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+};
+
 /// A point that both skeletons have: a joint, or a place between joints such as the middle of the
 /// hips. Landmarks form a tree; the first one is its root.
 struct Landmark {
   std::string name;
-  JointBlend source;  ///< in terms of the source's joints
-  JointBlend ours;    ///< in terms of our skeleton's joints
-  int parent = -1;    ///< index of an earlier landmark, -1 for the first
+  JointBlend source;           ///< in terms of the source's joints
+  std::vector<OurPoint> ours;  ///< in terms of our skeleton's joints; the weights sum to 1
+  int parent = -1;             ///< index of an earlier landmark, -1 for the first
   /// true: the source's direction from the parent with our rest length (a bone). false: the
   /// source's vector scaled by the ratio of our rest length to the source's median one (several
-  /// bones in between, so the distance may change).
+  /// bones in between, so that the distance may change).
   bool rigid = true;
-  double weight = 1;  ///< confidence, multiplies the residual in metres
-  /// Radians by which the source's direction is turned about the dancer's right-to-left hip axis
-  /// (positive: a forward direction goes down), where the two rest poses disagree on the direction
-  /// of a bone.
-  double pitch = 0;
+  double weight = 1;  ///< confidence: multiplies the residual
 };
 
 /// A source skeleton as the fit sees it.
