@@ -31,9 +31,9 @@ class StepJob {
   virtual bool OnFrame(const StepOutput& raw) = 0;
 
   /// Once, last: after the final frame (nullptr), after cancellation (kCancelled), or when
-  /// something failed. The slot is free by then. The first job submitted from inside OnDone
-  /// inherits that slot: it goes before all that wait, is never refused for want of room, and steps
-  /// with the next batch.
+  /// something failed. The job's slot is free by then, and the first job submitted from inside
+  /// OnDone inherits it: that one goes before all that wait, is never refused for want of room, and
+  /// steps with the next batch. (A job that ends while it waits has no slot to leave.)
   virtual void OnDone(const Error* failure) noexcept = 0;
 
   /// When this job's next frame is due on its listener's clock, seconds; earliest goes first when

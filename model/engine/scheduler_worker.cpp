@@ -1,0 +1,228 @@
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "model/core/threads.h"
+#include "model/engine/scheduler_impl.h"
+
+namespace choreo {
+namespace {
+
+// What is being thrown, as an Error. Call inside a catch block.
+Error CurrentError() {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::exception& error) {
+    return Error(ErrorCode::kInternal, "", error.what());
+  } catch (...) {
+    return Error(ErrorCode::kInternal, "", "unknown exception");
+  }
+}
+
+}  // namespace
+
+thread_local Scheduler::Impl::Worker* Scheduler::Impl::current = nullptr;
+
+// ---- One worker ---------------------------------------------------------------------------------
+
+void Scheduler::Impl::Run(Worker* worker) {
+  FlushDenormals();
+  current = worker;
+  bool stopped = false;
+  while (BeginRound(worker, &stopped)) {
+    if (stopped) {
+      EndEverything(worker);
+      continue;
+    }
+    EndCancelledSuspects(worker);
+    for (Entry* arrival : worker->arrivals) {
+      for (Entry* next = arrival; next != nullptr;) next = Admit(worker, next);
+    }
+    worker->arrivals.clear();
+    GatherBatch(worker);
+    if (!worker->batch.empty()) StepBatch(worker);
+  }
+}
+
+// Blocks until there is something to do, and takes over what others left under the mutex. False:
+// end.
+bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
+  std::unique_lock lock(mutex);
+  for (;;) {
+    worker->arrivals.swap(worker->inbox);
+    bool any_awake = false;
+    for (Entry* entry : worker->active) {
+      if (std::exchange(entry->woken, false)) entry->asleep = false;
+      any_awake |= !entry->asleep;
+    }
+    *stopped = phase == Phase::kStopped;
+    if (*stopped) {
+      if (!worker->arrivals.empty() || !worker->active.empty() || !waiting.empty()) return true;
+      if (exit) return false;
+    } else {
+      if (std::exchange(check_waiting, false)) {
+        for (Entry* entry : waiting) {
+          if (std::exchange(entry->woken, false)) worker->suspects.push_back(entry->job);
+        }
+      }
+      if (any_awake || !worker->arrivals.empty() || !worker->suspects.empty()) return true;
+    }
+    worker->work.wait(lock);
+  }
+}
+
+void Scheduler::Impl::EndEverything(Worker* worker) {
+  const Error stopping(ErrorCode::kUnavailable, "", "the scheduler is stopped");
+  while (!worker->active.empty()) Settle(worker, worker->active.back(), &stopping);
+  for (Entry* arrival : worker->arrivals) Settle(worker, arrival, &stopping);
+  worker->arrivals.clear();
+  for (;;) {
+    std::unique_ptr<Entry> entry;
+    {
+      std::lock_guard lock(mutex);
+      if (waiting.empty()) return;
+      entry = Extract(waiting.front()->job.get());
+      waiting.pop_front();
+    }
+    EndWaiting(std::move(entry), stopping);
+  }
+}
+
+void Scheduler::Impl::EndCancelledSuspects(Worker* worker) {
+  for (const std::shared_ptr<StepJob>& job : worker->suspects) {
+    if (!job->Cancelled()) continue;
+    std::unique_ptr<Entry> entry;
+    {
+      std::lock_guard lock(mutex);
+      // In the meantime another worker may have taken it; then it is that worker's to end.
+      const auto at = std::find_if(waiting.begin(), waiting.end(),
+                                   [&](const Entry* other) { return other->job == job; });
+      if (at == waiting.end()) continue;
+      waiting.erase(at);
+      entry = Extract(job.get());
+    }
+    EndWaiting(std::move(entry), Error(ErrorCode::kCancelled, "", "cancelled while waiting"));
+  }
+  worker->suspects.clear();
+}
+
+void Scheduler::Impl::GatherBatch(Worker* worker) {
+  const auto limit = static_cast<size_t>(options.max_batch);
+  worker->ready.clear();
+  for (size_t i = 0; i < worker->active.size();) {
+    Entry* entry = worker->active[i];
+    if (entry->job->Cancelled()) {
+      const Error cancelled(ErrorCode::kCancelled, "", "cancelled");
+      Settle(worker, entry, &cancelled);  // another stands at i now, or none
+      continue;
+    }
+    if (!entry->asleep) worker->ready.push_back(entry);
+    ++i;
+  }
+  if (worker->ready.size() > limit) {
+    for (Entry* entry : worker->ready) {
+      const double deadline = entry->job->NextDeadline();
+      entry->deadline = std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline;
+    }
+    std::sort(worker->ready.begin(), worker->ready.end(), [](const Entry* a, const Entry* b) {
+      return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
+    });
+  }
+  worker->batch.clear();
+  worker->inputs.clear();
+  for (Entry* entry : worker->ready) {
+    if (worker->batch.size() == limit) break;
+    StepInput input;
+    try {
+      entry->asleep = !entry->job->NextInput(&input);
+    } catch (...) {
+      const Error failure = CurrentError();
+      Settle(worker, entry, &failure);
+      continue;
+    }
+    if (entry->asleep) continue;
+    input.slot = entry->slot;
+    worker->inputs.push_back(input);
+    worker->batch.push_back(entry);
+  }
+}
+
+void Scheduler::Impl::StepBatch(Worker* worker) {
+  const size_t size = worker->batch.size();
+  try {
+    worker->engine->Step(worker->inputs, std::span(worker->outputs).first(size));
+  } catch (...) {
+    // Some of them may have advanced and some not: none can go on.
+    const Error failure = CurrentError();
+    for (Entry* entry : worker->batch) Settle(worker, entry, &failure);
+    return;
+  }
+  steps.fetch_add(1, std::memory_order_relaxed);
+  frames.fetch_add(size, std::memory_order_relaxed);
+  for (size_t i = 0; i < size; ++i) {
+    Entry* entry = worker->batch[i];
+    try {
+      if (!entry->job->OnFrame(worker->outputs[i])) Settle(worker, entry, nullptr);
+    } catch (...) {
+      const Error failure = CurrentError();
+      Settle(worker, entry, &failure);
+    }
+  }
+}
+
+// ---- One job's way ------------------------------------------------------------------------------
+
+// Starts a job in the place that it was given. Returns the job that takes its place instead, should
+// it be cancelled or refused.
+Scheduler::Impl::Entry* Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
+  try {
+    if (entry->job->Cancelled()) throw Error(ErrorCode::kCancelled, "", "cancelled");
+    entry->slot = worker->engine->Admit(entry->job->spec());
+    worker->active.push_back(entry);
+    return nullptr;
+  } catch (...) {
+    const Error failure = CurrentError();
+    return Leave(worker, entry, &failure);
+  }
+}
+
+// Frees a job's slot, tells the job, and returns who has the place now: the job's heir, else the
+// longest waiting, else none (nullptr).
+Scheduler::Impl::Entry* Scheduler::Impl::Leave(Worker* worker, Entry* entry, const Error* failure) {
+  if (entry->slot >= 0) {
+    worker->engine->Release(entry->slot);
+    std::erase(worker->active, entry);
+  }
+  std::unique_ptr<Entry> own;
+  {
+    std::lock_guard lock(mutex);
+    own = Extract(entry->job.get());
+  }
+  worker->in_on_done = true;
+  own->job->OnDone(failure);
+  worker->in_on_done = false;
+  own.reset();
+
+  std::lock_guard lock(mutex);
+  CountOut();
+  if (Entry* heir = std::exchange(worker->heir, nullptr); heir != nullptr) return heir;
+  if (waiting.empty() || phase == Phase::kStopped) {
+    --worker->taken;
+    return nullptr;
+  }
+  Entry* next = waiting.front();
+  waiting.pop_front();
+  next->worker = worker;
+  return next;
+}
+
+void Scheduler::Impl::EndWaiting(std::unique_ptr<Entry> entry, const Error& failure) {
+  entry->job->OnDone(&failure);
+  entry.reset();
+  std::lock_guard lock(mutex);
+  CountOut();
+}
+
+}  // namespace choreo
