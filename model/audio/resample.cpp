@@ -40,9 +40,9 @@ double BesselI0(double x) {
   return sum;
 }
 
-/// sinc times the window at x zero crossings from the centre, |x| <= kZeroCrossings, from a table
-/// that all resamplers share.
-double Prototype(double x) {
+/// sinc times the window by distance from the centre, in steps of 1 / kTableSteps of a zero
+/// crossing; 0 at the end. All resamplers share it.
+const std::vector<double>& PrototypeTable() {
   static const std::vector<double> table = [] {
     std::vector<double> values(kZeroCrossings * kTableSteps + 2, 0.0);
     for (int i = 0; i <= kZeroCrossings * kTableSteps; ++i) {
@@ -54,11 +54,7 @@ double Prototype(double x) {
     }
     return values;
   }();
-  const double position = std::abs(x) * kTableSteps;
-  if (position > kZeroCrossings * kTableSteps) return 0;
-  const size_t index = static_cast<size_t>(position);
-  const double rest = position - static_cast<double>(index);
-  return table[index] + rest * (table[index + 1] - table[index]);
+  return table;
 }
 
 /// Four running sums in a fixed order: fast, and the same bits whatever the address of the samples.
@@ -102,13 +98,19 @@ class PolyphaseKernel {
  private:
   /// Scaled to sum 1, so that every phase passes a constant unchanged.
   void Compute(int64_t phase, double* out) const {
+    const double* table = PrototypeTable().data();
+    const double step = cutoff_ * kTableSteps;
     const double offset = static_cast<double>(phase) / static_cast<double>(phases_);
     double sum = 0;
     for (int64_t k = 0; k < taps(); ++k) {
-      out[k] = Prototype(cutoff_ * (offset + static_cast<double>(half_length_ - 1 - k)));
+      const double distance = std::abs(offset + static_cast<double>(half_length_ - 1 - k));
+      const double at = std::min(step * distance, kZeroCrossings * double{kTableSteps});
+      const int index = static_cast<int>(at);
+      out[k] = table[index] + (at - index) * (table[index + 1] - table[index]);
       sum += out[k];
     }
-    for (int64_t k = 0; k < taps(); ++k) out[k] /= sum;
+    const double scale = 1 / sum;
+    for (int64_t k = 0; k < taps(); ++k) out[k] *= scale;
   }
 
   int64_t phases_;
