@@ -38,9 +38,13 @@ class Arrival {
   Pose Apply(const Pose& raw);
 
  private:
-  /// Remaining way to the key and velocity, for the root and each joint, as vectors at `previous`.
-  Eigen::Vector3d Step(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity,
-                       const Eigen::Vector3d& end_velocity, int frames_left) const;
+  struct Velocity {
+    Eigen::Vector3d root;
+    Eigen::Matrix3Xd joints;
+  };
+  // The next of `frames_left` steps along the path; `end_velocity` may be null.
+  static Eigen::Vector3d Step(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity,
+                              const Eigen::Vector3d* end_velocity, int frames_left);
   bool Asked(int joint) const;
   void Remember(const Pose& emitted);
 
@@ -49,7 +53,7 @@ class Arrival {
   int window_;
   int next_ = 0;
   Target target_;
-  std::optional<Pose> after_;
+  std::optional<Velocity> end_velocity_;
   Pose previous_;
   Eigen::Vector3d root_velocity_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3Xd joint_velocity_;  // [3, joints] radians a frame

@@ -12,16 +12,10 @@
 #include "model/dance/quality_report.h"
 #include "model/dance/timeline.h"
 #include "model/dance/transition.h"
+#include "model/dance/warning.h"
 #include "model/engine/scheduler.h"
 
 namespace choreo {
-
-/// The end of a transition: all that a server elsewhere needs to go on with the dance.
-struct Continuation {
-  int64_t frame = 0;        ///< first frame that has not been danced; model rate, absolute
-  std::vector<Pose> poses;  ///< tau poses before it, oldest first, world; every number is a float's
-  std::string fingerprint;  ///< of the model and build that danced
-};
 
 /// What a dance starts from. Everything else arrives as messages.
 struct DanceConfig {
@@ -61,16 +55,6 @@ struct KeyReached {
   int64_t frame = 0;  ///< model rate
   double time = 0;    ///< seconds, of that frame
   ArrivalResult arrival;
-};
-
-struct DanceWarning {
-  enum class Kind {
-    kIntervalTooShort,  ///< the way to the key at `frame` asks for more speed than people have
-    kInexactResume,     ///< the continuation was of another fingerprint
-  };
-  Kind kind = Kind::kIntervalTooShort;
-  int64_t frame = 0;
-  std::string message;
 };
 
 using DanceEvent = std::variant<KeyReached, KeyRejection, DanceWarning>;

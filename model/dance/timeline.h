@@ -81,6 +81,7 @@ class Timeline {
     int64_t first_frame = 0;  ///< where the dance starts (a continuation's frame)
     std::optional<int64_t>
         end_frame;  ///< the dance is frames [first_frame, end_frame); no key at or after it
+    bool has_music = false;
     int max_transition_frames = kMaxTransitionFrames;  ///< of the model
   };
   explicit Timeline(Options options);
@@ -110,36 +111,47 @@ class Timeline {
   /// not ended it never runs dry, so callers ask when they need one.
   std::optional<Segment> Next();
 
-  /// Where the dance ends (exclusive): after Complete, and for dances with music after SetAudioEnd.
-  /// Given end_frame, that; else the end of the music or the last key, whichever is later.
+  /// Where the dance ends (exclusive), once known: given end_frame, there. Else after Complete (and
+  /// with music after SetAudioEnd) at the end of the music or the last key, whichever is later;
+  /// without music at the last key, or where the plan stood by then if that is further.
   std::optional<int64_t> End() const;
 
+  /// True if the dance has this planned frame for certain. False past the end of the music as long
+  /// as a key may still come or not: whether the dance goes on is then open.
+  bool Certain(int64_t frame) const;
+
   bool complete() const { return complete_; }
+  /// No key has come, not even late, and nothing is planned.
+  bool Empty() const {
+    return keys_.empty() && rejected_.empty() && planned_to_ == options_.first_frame;
+  }
   /// Frames before it are frozen.
   int64_t frontier() const { return frontier_; }
-  /// First frame at or after the frontier that a new key could have.
+  /// First frame that a new key could have now.
   int64_t EarliestFrame() const;
-  /// True if some planned or plannable transition with a target starts at or after `frame`.
-  bool HasKeyAtOrAfter(int64_t frame) const { return keys_.lower_bound(frame) != keys_.end(); }
 
  private:
   int64_t Resolve(const KeyMoment& when, const std::string& field) const;
   void CheckOpen(const std::string& field) const;
-  void CheckNeighbours(const Key& key, const std::string& field) const;
+  const Key* Neighbour(int64_t frame, const std::string& except_id) const;
+  KeyRejection Reject(const std::string& id, int64_t frame, std::string reason);
   void Plan();
   std::optional<Segment> PlanOne();
+  Segment Cut(int64_t to, const Key* key);
 
   Options options_;
   int free_frames_;
   std::map<int64_t, Key> keys_;  // by frame; danced ones included
   std::unordered_map<std::string, int64_t> frame_of_;
-  int accepted_ = 0;
+  std::unordered_map<std::string, int64_t> rejected_;  // ids that only ever came late, and where
   int64_t previous_frame_ = 0;  // of the last keyframe message, for AfterPrevious
+  int64_t granted_ = 0;         // by GenerateUntil
   int64_t frontier_;
   bool explicit_grants_ = false;
   bool complete_ = false;
   std::optional<int64_t> audio_end_;
   int64_t planned_to_;
+  int64_t planned_at_complete_ = 0;
   std::deque<Segment> planned_;
 };
 

@@ -56,6 +56,13 @@ struct ArrivalResult {
                             ///< over its whole window
 };
 
+/// The end of a transition: all that a server elsewhere needs to go on with the dance.
+struct Continuation {
+  int64_t frame = 0;        ///< first frame that has not been danced; model rate, absolute
+  std::vector<Pose> poses;  ///< tau poses before it, oldest first, world; every number is a float's
+  std::string fingerprint;  ///< of the model and build that danced
+};
+
 /// Speeds that the way to a key asks for on average. Paper F, Section 5.2: too short an interval
 /// for too large a change fails.
 struct RequiredSpeed {
@@ -96,10 +103,8 @@ class TransitionRun {
 
  private:
   void CheckFinite(const StepOutput& raw) const;
-  void MeasureCorrection(const Pose& raw);
 
-  Skeleton skeleton_;
-  double fps_;
+  const ModelInfo* model_;
   TransitionSpec spec_;
   std::optional<WorldTarget> world_target_;
   GroundFrame ground_;

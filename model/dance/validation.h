@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "model/dance/transition.h"
 #include "model/engine/step_engine.h"
 #include "model/motion/motion.h"
 
-/// What a dance accepts from outside. Every function throws Error(kInvalidArgument) whose field is
-/// the sender's path and whose message gives the value and the limit, as in
-/// "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
+/// What a dance accepts from outside (for audio see audio/format.h). Every function throws
+/// Error(kInvalidArgument) whose field is the sender's path and whose message gives the value and
+/// the limit, as in "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
 namespace choreo {
 
 inline constexpr double kMaxPosition = 10'000;  ///< metres from the origin, each axis
@@ -18,14 +19,8 @@ inline constexpr double kMaxRotation =
     6.2832;  ///< radians: 2π, rounded up for senders that compute in floats
 inline constexpr double kMaxTemperature = 2.0;
 inline constexpr int kMaxCandidates = 32;
-inline constexpr double kMaxAudioSeconds = 600;  ///< of one stream, counted from sample 0
-inline constexpr double kMinSampleRate = 8'000;
-inline constexpr double kMaxSampleRate = 192'000;
-inline constexpr int kMaxChannels = 8;
 inline constexpr double kMinOutputFps = 1;
 inline constexpr double kMaxOutputFps = 120;
-/// Samples are meant to lie in [-1, 1]; louder ones pass up to this.
-inline constexpr float kMaxSample = 1'000;
 
 /// A pose of this skeleton: joint count, finite, position within kMaxPosition, every angle at most
 /// kMaxRotation. Degrees of freedom that the mask leaves free are checked alike. `field` is the
@@ -42,12 +37,10 @@ void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
 
 void ValidateTemperature(float temperature, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
-void ValidateAudioFormat(double sample_rate, int channels, const std::string& field);
-
-/// Whole frames of all channels, finite, at most kMaxSample. `first_sample` makes the path
-/// absolute.
-void ValidateSamples(std::span<const float> interleaved, int channels, int64_t first_sample,
-                     const std::string& field);
+/// tau poses, a frame of a dance, and this model's fingerprint: another one throws
+/// Error(kFailedPrecondition) unless `allow_inexact`. Returns whether going on from it is exact.
+bool ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
+                          bool allow_inexact, const std::string& field);
 
 /// A number as messages show it: short, without trailing zeros.
 std::string Show(double value);

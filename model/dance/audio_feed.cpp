@@ -1,0 +1,121 @@
+#include "model/dance/audio_feed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "model/audio/format.h"
+#include "model/audio/mfcc.h"
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+std::vector<float> SilenceRow() {
+  FeatureStream silence(kModelSampleRate, 1);
+  silence.Finish();
+  const std::span<const float> row = silence.Row(0);
+  return {row.begin(), row.end()};
+}
+
+}  // namespace
+
+AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
+    : sample_rate_(sample_rate),
+      channels_(channels),
+      features_(sample_rate, channels, first_sample),
+      silence_(SilenceRow()),
+      first_row_(features_.first_row()),
+      ready_(features_.first_row()) {}
+
+void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
+                     const std::function<void()>& on_rows) {
+  if (features_.finished()) {
+    throw Error(ErrorCode::kFailedPrecondition, "audio", "comes after end_of_audio");
+  }
+  const int64_t expected = features_.next_sample();
+  if (first_sample != expected) {
+    throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
+                std::to_string(first_sample) +
+                    (first_sample > expected ? " leaves a gap" : " overlaps") +
+                    ": the sample expected is " + std::to_string(expected));
+  }
+  const size_t channels = static_cast<size_t>(channels_);
+  if (interleaved.size() % channels != 0) {
+    throw InvalidArgument("audio.data", std::to_string(interleaved.size()) +
+                                            " values are no multiple of the " +
+                                            std::to_string(channels) + " channels");
+  }
+  const int64_t end = expected + static_cast<int64_t>(interleaved.size() / channels);
+  if (static_cast<double>(end) > kMaxAudioSeconds * sample_rate_) {
+    throw InvalidArgument("audio.data",
+                          "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
+                              " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
+  }
+  CheckFinite(interleaved, channels_, expected);
+  const size_t second = static_cast<size_t>(sample_rate_) * channels;
+  while (!interleaved.empty()) {
+    const size_t count = std::min(second, interleaved.size());
+    features_.Push(interleaved.first(count));
+    interleaved = interleaved.subspan(count);
+    Publish();
+    on_rows();
+  }
+}
+
+void AudioFeed::Finish() {
+  features_.Finish();
+  Publish();
+}
+
+int64_t AudioFeed::EndFrame(double fps) const {
+  return static_cast<int64_t>(
+      std::ceil(static_cast<double>(features_.next_sample()) * fps / sample_rate_));
+}
+
+void AudioFeed::Publish() {
+  // Two rows behind the last one whose centre lies within the audio no window reaches it any more.
+  constexpr int64_t kTail = 3;
+  const int64_t computed = features_.final_rows();
+  std::lock_guard lock(mutex_);
+  const int64_t end = std::min(computed, features_.audio_rows() + kTail);
+  for (int64_t row = first_row_ + static_cast<int64_t>(rows_.size()) / kMfccCount; row < end;
+       ++row) {
+    const std::span<const float> values = features_.Row(row);
+    rows_.insert(rows_.end(), values.begin(), values.end());
+  }
+  ready_ = computed;
+}
+
+int64_t AudioFeed::ready() const {
+  std::lock_guard lock(mutex_);
+  return ready_;
+}
+
+bool AudioFeed::CopyRow(int64_t row, std::span<float> to) const {
+  std::lock_guard lock(mutex_);
+  if (row >= ready_) return false;
+  const int64_t at = (row - first_row_) * kMfccCount;
+  if (row < 0 || at >= static_cast<int64_t>(rows_.size())) {
+    std::copy(silence_.begin(), silence_.end(), to.begin());
+    return true;
+  }
+  if (at < 0) {
+    throw Error(ErrorCode::kInternal, "", "audio row " + std::to_string(row) + " was never sent");
+  }
+  std::copy_n(rows_.begin() + at, kMfccCount, to.begin());
+  return true;
+}
+
+Eigen::MatrixXf AudioFeed::History(int64_t frame, int count) const {
+  Eigen::MatrixXf history(kMfccCount, count);
+  for (int i = 0; i < count; ++i) {
+    if (!CopyRow(frame - count + i, {history.col(i).data(), static_cast<size_t>(kMfccCount)})) {
+      throw Error(ErrorCode::kInternal, "",
+                  "audio row " + std::to_string(frame - count + i) + " is not there yet");
+    }
+  }
+  return history;
+}
+
+}  // namespace choreo

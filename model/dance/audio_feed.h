@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/audio/feature_stream.h"
+
+namespace choreo {
+
+/// Samples on one side, the model's audio rows on the other. One thread at a time pushes; any
+/// thread reads, and never waits for a transform: rows are computed apart and handed over in short
+/// turns.
+class AudioFeed {
+ public:
+  /// Errors as FeatureStream.
+  AudioFeed(double sample_rate, int channels, int64_t first_sample);
+
+  /// Calls `on_rows` whenever rows were added. Throws Error(kOutOfRange) unless `first_sample` is
+  /// the next one, Error(kInvalidArgument) for bad samples and beyond kMaxAudioSeconds,
+  /// Error(kFailedPrecondition) after Finish; then nothing was taken.
+  void Push(std::span<const float> interleaved, int64_t first_sample,
+            const std::function<void()>& on_rows);
+  /// Every row is ready from here on: those beyond the audio are silence's.
+  void Finish();
+  bool finished() const { return features_.finished(); }  // pushing side
+
+  int64_t next_sample() const { return features_.next_sample(); }        // pushing side
+  int64_t samples_pushed() const { return features_.samples_pushed(); }  // pushing side
+  /// Frames that start before the end of the samples so far, counted from time 0: ceil(samples fps
+  /// / rate). Pushing side.
+  int64_t EndFrame(double fps) const;
+
+  /// Rows below this one can be read.
+  int64_t ready() const;
+  /// Copies a row; false if it is not ready. Rows before 0 are silence's.
+  bool CopyRow(int64_t row, std::span<float> to) const;
+  /// The `count` rows before `frame`, oldest first, one a column; all must be ready.
+  Eigen::MatrixXf History(int64_t frame, int count) const;
+
+ private:
+  void Publish();
+
+  double sample_rate_;
+  int channels_;
+  FeatureStream features_;
+  std::vector<float> silence_;
+
+  mutable std::mutex mutex_;  // of what follows
+  int64_t first_row_;
+  int64_t ready_;
+  std::vector<float>
+      rows_;  // one after the other, from first_row_ on; those behind its end are silence's
+};
+
+}  // namespace choreo

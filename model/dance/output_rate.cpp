@@ -1,0 +1,49 @@
+#include "model/dance/output_rate.h"
+
+#include <cmath>
+
+#include "model/motion/resample.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kOnFrame = 1e-6;  // model frames: closer than this is the frame itself
+
+}  // namespace
+
+OutputRate::OutputRate(double model_fps, double output_fps, int64_t first_frame,
+                       std::optional<Pose> before)
+    : model_fps_(model_fps), output_fps_(output_fps), next_input_(first_frame) {
+  if (first_frame == 0) return;
+  // The first output frame later than the model's frame before, which the part before has given.
+  const double before_at = static_cast<double>(first_frame - 1) * output_fps_ / model_fps_;
+  next_output_ = static_cast<int64_t>(std::floor(before_at + kOnFrame)) + 1;
+  if (before) {
+    last_ = *before;
+    has_last_ = true;
+  }
+}
+
+OutputFrames OutputRate::Push(const DanceFrame& frame) {
+  OutputFrames out;
+  out.first_frame = next_output_;
+  const double now = static_cast<double>(next_input_);
+  for (;; ++next_output_) {
+    const double at = static_cast<double>(next_output_) * model_fps_ / output_fps_;
+    if (at > now + kOnFrame) break;
+    if (at >= now - kOnFrame || !has_last_) {
+      out.poses.push_back(frame.pose);
+      out.contacts.push_back(frame.contacts);
+      continue;
+    }
+    const double t = at - (now - 1);
+    out.poses.push_back(RoundToFloat(InterpolatePoses(last_, frame.pose, t)));
+    out.contacts.push_back(frame.contacts);
+  }
+  last_ = frame.pose;
+  has_last_ = true;
+  ++next_input_;
+  return out;
+}
+
+}  // namespace choreo

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "model/dance/transition.h"
+
+namespace choreo {
+
+/// Frames at the rate that a listener asked for. Frame j is the dance at time j / fps.
+struct OutputFrames {
+  int64_t first_frame = 0;  ///< of time 0 on, at the output's rate
+  std::vector<Pose> poses;
+  std::vector<std::array<float, 4>> contacts;
+};
+
+/// Resamples a dance while it goes by: a frame that falls between two of the model's waits for the
+/// later one and lies on the line (root) and the shortest arcs (joints) between them. At the
+/// model's own rate frames pass through as they are. Not thread-safe.
+class OutputRate {
+ public:
+  /// `first_frame`: the model's first frame that will come. `before`: the pose right before it,
+  /// where a dance goes on; output frames between the two then belong to this part.
+  OutputRate(double model_fps, double output_fps, int64_t first_frame, std::optional<Pose> before);
+
+  /// The output frames that the model's next frame completes: none or more.
+  OutputFrames Push(const DanceFrame& frame);
+
+ private:
+  double model_fps_;
+  double output_fps_;
+  int64_t next_input_;
+  int64_t next_output_ = 0;
+  Pose last_;
+  bool has_last_ = false;
+};
+
+}  // namespace choreo

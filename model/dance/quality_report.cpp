@@ -1,0 +1,115 @@
+#include "model/dance/quality_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kToeHeight = 0.05;  // metres
+constexpr double kSkateSpeed = 0.2;  // metres a second
+constexpr double kBeatGap = 2;       // frames
+constexpr int64_t kFramesAroundKey = 2;
+
+}  // namespace
+
+QualityMeter::QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame)
+    : skeleton_(skeleton), fps_(fps), first_frame_(first_frame) {}
+
+void QualityMeter::Add(const DanceFrame& frame) {
+  log_likelihood_sum_ += frame.log_likelihood;
+  ++frames_;
+  Eigen::Matrix3Xd now = JointPositions(skeleton_, frame.pose);
+  if (!last_positions_.empty()) {
+    const Eigen::Matrix3Xd& before = last_positions_.back();
+    const Eigen::Matrix3Xd step = now - before;
+    speed_.push_back(static_cast<float>(step.colwise().norm().mean() * fps_));
+    bool skates = false;
+    for (int toe : {skeleton_.feet[1], skeleton_.feet[3]}) {
+      const bool low = now(1, toe) < kToeHeight && before(1, toe) < kToeHeight;
+      skates = skates || (low && std::hypot(step(0, toe), step(2, toe)) * fps_ > kSkateSpeed);
+    }
+    if (skates) ++skating_steps_;
+    if (last_positions_.size() == 2) {
+      const Eigen::Matrix3Xd bend = step - (before - last_positions_.front());
+      acceleration_.push_back(static_cast<float>(bend.colwise().norm().maxCoeff() * fps_ * fps_));
+      last_positions_.pop_front();
+    }
+  }
+  last_positions_.push_back(std::move(now));
+}
+
+void QualityMeter::AddKey(std::string id, const ArrivalResult& arrival) {
+  keys_.push_back({std::move(id), first_frame_ + frames_ - 1, arrival, 0});
+}
+
+QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
+  QualityReport report;
+  report.first_frame = first_frame_;
+  report.frames = frames_;
+  report.keys = keys_;
+  if (frames_ > 0) report.mean_log_likelihood = log_likelihood_sum_ / static_cast<double>(frames_);
+  if (!speed_.empty()) {
+    report.skate_ratio = static_cast<double>(skating_steps_) / static_cast<double>(speed_.size());
+  }
+  for (KeyReport& key : report.keys) {
+    // acceleration_[i] is that of frame i + 1.
+    const int64_t middle = key.frame - first_frame_ - 1;
+    const int64_t last = static_cast<int64_t>(acceleration_.size()) - 1;
+    for (int64_t i = std::max<int64_t>(0, middle - kFramesAroundKey);
+         i <= std::min(last, middle + kFramesAroundKey); ++i) {
+      key.max_acceleration =
+          std::max<double>(key.max_acceleration, acceleration_[static_cast<size_t>(i)]);
+    }
+    report.max_key_acceleration = std::max(report.max_key_acceleration, key.max_acceleration);
+  }
+  if (!acceleration_.empty()) {
+    std::vector<float> sorted = acceleration_;
+    const size_t rank = (sorted.size() - 1) * 95 / 100;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
+                     sorted.end());
+    report.p95_acceleration = sorted[rank];
+  }
+
+  std::vector<double> beats;
+  for (double beat : music_beats) {
+    const double frame = beat - static_cast<double>(first_frame_);
+    if (frame >= 0 && frame < static_cast<double>(frames_)) beats.push_back(frame);
+  }
+  if (beats.empty()) return report;
+  const std::vector<int64_t> kinematic = KinematicBeats(speed_);
+  report.beat_coverage = static_cast<double>(kinematic.size()) / static_cast<double>(beats.size());
+  if (kinematic.empty()) return report;
+  const auto hits = std::count_if(kinematic.begin(), kinematic.end(), [&beats](int64_t frame) {
+    return std::any_of(beats.begin(), beats.end(), [frame](double beat) {
+      return std::abs(beat - static_cast<double>(frame)) <= kBeatGap;
+    });
+  });
+  report.beat_hit_rate = static_cast<double>(hits) / static_cast<double>(kinematic.size());
+  return report;
+}
+
+std::vector<int64_t> KinematicBeats(std::span<const float> speed) {
+  std::vector<int64_t> beats;
+  size_t start = 0;  // of the plateau that position i belongs to
+  for (size_t i = 1; i < speed.size(); ++i) {
+    if (speed[i] == speed[i - 1]) continue;
+    const bool rose = start > 0 && speed[start - 1] < speed[start];
+    if (rose && speed[i] < speed[start]) beats.push_back(static_cast<int64_t>(start) + 1);
+    start = i;
+  }
+  return beats;
+}
+
+QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion,
+                            std::span<const double> music_beats) {
+  QualityMeter meter(skeleton, motion.fps, 0);
+  for (const Pose& pose : motion.frames) meter.Add({pose, {}, 0});
+  return meter.Report(music_beats);
+}
+
+}  // namespace choreo

@@ -1,0 +1,192 @@
+#include "model/dance/transition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "model/core/error.h"
+#include "model/dance/timeline.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
+  if (pose.rotations.cols() != skeleton.joints()) {
+    throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
+                                                    " joints, the model has " +
+                                                    std::to_string(skeleton.joints()));
+  }
+}
+
+// On the shortest vectors for the last pose, continuous backwards from there: what motion of the
+// training data looks like, however many turns a dance has made by then.
+std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<Pose>& world) {
+  std::vector<Pose> local(world.size());
+  for (size_t i = world.size(); i-- > 0;) {
+    local[i] = ground.ToLocal(world[i]);
+    for (int joint = 0; joint < local[i].rotations.cols(); ++joint) {
+      const Eigen::Vector3d near = i + 1 < local.size()
+                                       ? Eigen::Vector3d(local[i + 1].rotations.col(joint))
+                                       : Eigen::Vector3d::Zero();
+      local[i].rotations.col(joint) = NearestBranch(local[i].rotations.col(joint), near);
+    }
+  }
+  return local;
+}
+
+Pose Near(Pose pose, const Pose& previous) {
+  for (int joint = 0; joint < pose.rotations.cols(); ++joint) {
+    pose.rotations.col(joint) =
+        NearestBranch(pose.rotations.col(joint), previous.rotations.col(joint));
+  }
+  return pose;
+}
+
+}  // namespace
+
+Pose RoundToFloat(const Pose& pose) {
+  return {pose.root_position.cast<float>().cast<double>(),
+          pose.rotations.cast<float>().cast<double>()};
+}
+
+std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses) {
+  const size_t tau = static_cast<size_t>(model.history_frames);
+  const Pose earliest = RoundToFloat(poses.empty() ? RestPose(model.skeleton) : poses.front());
+  std::vector<Pose> history(tau, earliest);
+  const size_t given = std::min(tau, poses.size());
+  for (size_t i = 0; i < given; ++i) {
+    history[tau - given + i] = RoundToFloat(poses[poses.size() - given + i]);
+  }
+  return history;
+}
+
+TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
+    : model_(&model), world_target_(request.target) {
+  const int limit = std::min(model.max_transition_frames, kMaxTransitionFrames);
+  if (request.frames < 1 || request.frames > limit) {
+    throw InvalidArgument(
+        "frames", std::to_string(request.frames) + " is not in [1, " + std::to_string(limit) + "]");
+  }
+  for (size_t i = 0; i < request.history.size(); ++i) {
+    CheckJoints(model.skeleton, request.history[i], "history[" + std::to_string(i) + "]");
+  }
+  if (request.target) CheckJoints(model.skeleton, request.target->pose, "target");
+  if (request.after) {
+    CheckJoints(model.skeleton, *request.after, "after");
+    if (!request.target) throw InvalidArgument("after", "needs a target");
+  }
+  if (request.has_audio && (request.audio_history.rows() != model.audio_features ||
+                            request.audio_history.cols() != model.history_frames)) {
+    throw InvalidArgument("audio_history", "is not [" + std::to_string(model.audio_features) +
+                                               ", " + std::to_string(model.history_frames) + "]");
+  }
+
+  const std::vector<Pose> history = FillHistory(model, request.history);
+  world_ = history.back();
+  ground_ = GroundFrame::Of(world_);
+  spec_.frames = request.frames;
+  spec_.history = CanonicalHistory(ground_, history);
+  spec_.has_audio = request.has_audio;
+  if (request.has_audio) spec_.audio_history = request.audio_history;
+  spec_.seed = request.seed;
+  spec_.candidate = request.candidate;
+  spec_.first_frame = request.first_frame;
+  spec_.temperature = request.temperature;
+  if (!request.target) return;
+
+  spec_.target = Target{Near(ground_.ToLocal(request.target->pose), spec_.history.back()),
+                        request.target->mask};
+  if (request.arrival.frames <= 0) return;
+  arrival_window_ = std::min(request.arrival.frames, request.frames);
+  const size_t known = std::min<size_t>(2, spec_.history.size());
+  std::optional<Pose> after;
+  if (request.after) after = ground_.ToLocal(*request.after);
+  arrival_.emplace(request.arrival, request.frames, *spec_.target,
+                   std::vector<Pose>(spec_.history.end() - static_cast<std::ptrdiff_t>(known),
+                                     spec_.history.end()),
+                   after);
+}
+
+void TransitionRun::CheckFinite(const StepOutput& raw) const {
+  bool finite = raw.pose.root_position.allFinite() && raw.pose.rotations.allFinite() &&
+                std::isfinite(raw.log_likelihood);
+  for (float contact : raw.contacts) finite = finite && std::isfinite(contact);
+  if (finite && raw.pose.rotations.cols() == model_->skeleton.joints()) return;
+  throw Error(
+      ErrorCode::kInternal, "",
+      "the model's frame " + std::to_string(spec_.first_frame + done_) + " is not a finite pose");
+}
+
+DanceFrame TransitionRun::Take(const StepOutput& raw) {
+  CheckFinite(raw);
+  if (done_ >= spec_.frames) {
+    throw Error(ErrorCode::kInternal, "", "the transition is over");
+  }
+  const PoseMask mask = spec_.target ? spec_.target->mask : PoseMask{};
+  emitted_ = arrival_ ? arrival_->Apply(raw.pose) : raw.pose;
+  if (arrival_ && spec_.frames - done_ <= arrival_window_) {
+    correction_m_ = std::max(correction_m_,
+                             ComparePoses(model_->skeleton, raw.pose, emitted_, mask).position_m);
+  }
+  world_ = RoundToFloat(Near(ground_.ToWorld(emitted_), world_));
+  ++done_;
+  if (done_ == spec_.frames && spec_.target) {
+    const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
+    arrival_result_ =
+        ArrivalResult{ComparePoses(model_->skeleton, raw.pose, spec_.target->pose, mask).position_m,
+                      final.position_m, final.angle_deg, correction_m_};
+  }
+  return {world_, raw.contacts, raw.log_likelihood};
+}
+
+std::optional<RequiredSpeed> TransitionRun::required_speed() const {
+  if (!spec_.target) return std::nullopt;
+  const Pose& from = spec_.history.back();
+  const Target& target = *spec_.target;
+  const double seconds = spec_.frames / model_->fps;
+  RequiredSpeed speed;
+  if (target.mask.root_position) {
+    speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
+  }
+  for (int joint = 0; joint < from.rotations.cols(); ++joint) {
+    if (!target.mask.joints.empty() && !target.mask.joints[static_cast<size_t>(joint)]) continue;
+    const double angle =
+        RotationDifference(from.rotations.col(joint), target.pose.rotations.col(joint)).norm();
+    if (angle / seconds > speed.joint_rad_per_s) {
+      speed.joint_rad_per_s = angle / seconds;
+      speed.joint = joint;
+    }
+  }
+  return speed;
+}
+
+std::vector<DanceFrame> RunTransition(StepEngine& engine, const TransitionRequest& request,
+                                      const Eigen::MatrixXf& audio_rows,
+                                      std::optional<ArrivalResult>* arrival) {
+  TransitionRun run(engine.model(), request);
+  if (request.has_audio &&
+      (audio_rows.rows() != engine.model().audio_features || audio_rows.cols() < request.frames)) {
+    throw InvalidArgument("audio_rows", "is not [audio_features, frames]");
+  }
+  const auto release = [&engine](const int* slot) { engine.Release(*slot); };
+  const int slot = engine.Admit(run.spec());
+  const std::unique_ptr<const int, decltype(release)> guard(&slot, release);
+
+  std::vector<DanceFrame> frames;
+  frames.reserve(static_cast<size_t>(request.frames));
+  StepOutput output;
+  for (int frame = 0; frame < request.frames; ++frame) {
+    StepInput input{slot, run.previous(), {}};
+    if (request.has_audio) {
+      input.audio_row = {audio_rows.col(frame).data(), static_cast<size_t>(audio_rows.rows())};
+    }
+    engine.Step({&input, 1}, {&output, 1});
+    frames.push_back(run.Take(output));
+  }
+  if (arrival != nullptr) *arrival = run.arrival();
+  return frames;
+}
+
+}  // namespace choreo

@@ -1,0 +1,352 @@
+#include "model/dance/transition_group.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <tuple>
+#include <utility>
+
+#include "model/audio/format.h"
+#include "model/core/error.h"
+#include "model/dance/audio_feed.h"
+#include "model/dance/mailbox.h"
+#include "model/dance/output_rate.h"
+#include "model/dance/playback_clock.h"
+#include "model/dance/validation.h"
+
+namespace choreo {
+namespace {
+
+bool HasAudio(const GroupRequest& request) { return request.sample_rate != 0; }
+
+int64_t FirstFrame(const GroupRequest& request) {
+  return request.continuation ? request.continuation->frame : request.first_frame;
+}
+
+const std::vector<Pose>& History(const GroupRequest& request) {
+  return request.continuation ? request.continuation->poses : request.history;
+}
+
+double KeyError(const CandidateReport& report) {
+  return report.quality.keys.empty() ? 0 : report.quality.keys.front().arrival.raw_error_m;
+}
+
+}  // namespace
+
+void GroupRequest::Validate(const ModelInfo& model) const {
+  if (candidates < 1 || candidates > kMaxCandidates) {
+    throw InvalidArgument("candidates", std::to_string(candidates) + " is not in [1, " +
+                                            std::to_string(kMaxCandidates) + "]");
+  }
+  if (temperature) ValidateTemperature(*temperature, "temperature");
+  ValidateOutputFps(output_fps, "output_fps");
+  const int longest = std::min(kMaxTransitionFrames, model.max_transition_frames);
+  if (frames < 1 || frames > longest) {
+    throw InvalidArgument(
+        "frames", std::to_string(frames) + " is not in [1, " + std::to_string(longest) + "]");
+  }
+  if (history.size() > static_cast<size_t>(model.history_frames)) {
+    throw InvalidArgument("history", std::to_string(history.size()) + " poses, the limit is " +
+                                         std::to_string(model.history_frames));
+  }
+  ValidateHistory(model.skeleton, history, "history");
+  if (continuation) {
+    if (!history.empty()) {
+      throw InvalidArgument("history", "and a continuation exclude each other");
+    }
+    ValidateContinuation(model, *continuation, allow_inexact_resume, "continuation");
+  }
+  const int64_t first = FirstFrame(*this);
+  if (first < 0 || first > kMaxDanceFrames) {
+    throw InvalidArgument("first_frame", std::to_string(first) + " is not in [0, " +
+                                             std::to_string(kMaxDanceFrames) + "]");
+  }
+  if (target) {
+    ValidatePose(model.skeleton, target->pose, "target");
+    ValidateMask(model.skeleton, target->mask, "target.mask");
+  }
+  if (after) {
+    if (!target) throw InvalidArgument("after", "needs a target");
+    ValidatePose(model.skeleton, *after, "after");
+  }
+  if (!HasAudio(*this)) {
+    if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
+    return;
+  }
+  if (model.audio_features != kMfccCount || model.fps != 30) {
+    throw Error(ErrorCode::kUnimplemented, "audio", "this model does not take music");
+  }
+  CheckAudioFormat(sample_rate, channels, "audio");
+  if (samples.empty()) throw InvalidArgument("audio", "has no samples");
+  if (samples.size() % static_cast<size_t>(channels) != 0) {
+    throw InvalidArgument("audio.data", std::to_string(samples.size()) +
+                                            " values are no multiple of the " +
+                                            std::to_string(channels) + " channels");
+  }
+  CheckFinite(samples, channels, first_sample);
+  const int64_t latest = DanceStream::LatestFirstSample(first, sample_rate, model);
+  if (first_sample < 0 || first_sample > latest) {
+    throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
+                std::to_string(first_sample) + " is not in [0, " + std::to_string(latest) +
+                    "], so frame " + std::to_string(first) + " could not hear what lies before it");
+  }
+}
+
+void RankCandidates(std::vector<CandidateReport>& candidates) {
+  constexpr double kErrorStep = 0.01;  // metres
+  constexpr double kSkateStep = 0.01;
+  const auto rank = [](const CandidateReport& report) {
+    return std::tuple(std::floor(KeyError(report) / kErrorStep),
+                      std::floor(report.quality.skate_ratio / kSkateStep),
+                      -report.quality.mean_log_likelihood, report.candidate);
+  };
+  std::sort(candidates.begin(), candidates.end(),
+            [&rank](const auto& a, const auto& b) { return rank(a) < rank(b); });
+}
+
+class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGroup::Impl> {
+ public:
+  Impl(Scheduler& scheduler, const GroupRequest& request, std::shared_ptr<GroupSink> sink);
+
+  void Begin();
+  void SetPaused(bool paused);
+  void Cancel() noexcept;
+
+ private:
+  class Job;
+
+  // With mutex_ held.
+  void Done(CandidateReport report);
+  void Fail(const Error& error);
+  void WakeAll();
+
+  Scheduler& scheduler_;
+  const ModelInfo& model_;
+  const int64_t first_frame_;
+  const GroupRequest request_;  // without its samples
+  std::optional<AudioFeed> audio_;
+  Eigen::MatrixXf audio_history_;
+  Mailbox<GroupSink> mailbox_;
+  std::atomic<bool> cancelled_ = false;
+  std::atomic<bool> paused_ = true;  // until all candidates are accepted
+
+  std::mutex mutex_;        // of what follows
+  std::vector<Job*> jobs_;  // by candidate; null: done. The scheduler keeps the others alive
+  int running_ = 0;
+  bool over_ = false;  // the last call to the sink is posted
+  std::vector<CandidateReport> reports_;
+};
+
+class TransitionGroup::Impl::Job : public StepJob {
+ public:
+  Job(std::shared_ptr<Impl> group, int candidate, const TransitionRequest& request)
+      : group_(std::move(group)),
+        candidate_(candidate),
+        run_(group_->model_, request),
+        history_(FillHistory(group_->model_, request.history)),
+        meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
+        output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
+                history_.back()),
+        row_(static_cast<size_t>(group_->model_.audio_features)),
+        start_time_(PlaybackClock()) {}
+
+  const TransitionSpec& spec() const override { return run_.spec(); }
+
+  bool NextInput(StepInput* input) override {
+    if (group_->paused_) return false;
+    if (group_->audio_) {
+      group_->audio_->CopyRow(group_->first_frame_ + run_.done(), row_);
+      input->audio_row = row_;
+    }
+    input->previous = run_.previous();
+    return true;
+  }
+
+  bool OnFrame(const StepOutput& raw) override {
+    const DanceFrame frame = run_.Take(raw);
+    meter_.Add(frame);
+    history_.erase(history_.begin());
+    history_.push_back(frame.pose);
+    if (run_.arrival()) meter_.AddKey("target", *run_.arrival());
+    OutputFrames frames = output_.Push(frame);
+    if (!frames.poses.empty()) {
+      group_->mailbox_.Post([candidate = candidate_, frames = std::move(frames)](GroupSink& sink) {
+        sink.OnFrames(candidate, frames.first_frame, frames.poses, frames.contacts);
+      });
+      group_->mailbox_.Deliver();
+    }
+    return run_.done() < run_.frames();
+  }
+
+  void OnDone(const Error* failure) noexcept override {
+    {
+      std::lock_guard lock(group_->mutex_);
+      group_->jobs_[static_cast<size_t>(candidate_)] = nullptr;
+      if (failure != nullptr) {
+        group_->Fail(*failure);
+      } else {
+        group_->Done({candidate_,
+                      Quality(),
+                      {group_->first_frame_ + run_.done(), history_, group_->model_.fingerprint}});
+      }
+    }
+    group_->mailbox_.Deliver();
+  }
+
+  double NextDeadline() const override { return start_time_ + run_.done() / group_->model_.fps; }
+
+  bool Cancelled() const override { return group_->cancelled_; }
+
+  const TransitionRun& run() const { return run_; }
+
+ private:
+  QualityReport Quality() const {
+    std::vector<double> beats;
+    for (double seconds : group_->request_.music_beats) {
+      beats.push_back(seconds * group_->model_.fps);
+    }
+    return meter_.Report(beats);
+  }
+
+  const std::shared_ptr<Impl> group_;
+  const int candidate_;
+  TransitionRun run_;
+  std::vector<Pose> history_;
+  QualityMeter meter_;
+  OutputRate output_;
+  std::vector<float> row_;
+  const double start_time_;
+};
+
+TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
+                            std::shared_ptr<GroupSink> sink)
+    : scheduler_(scheduler),
+      model_(scheduler.model()),
+      first_frame_(FirstFrame(request)),
+      request_([&request] {
+        GroupRequest rest = request;
+        rest.samples.clear();
+        rest.samples.shrink_to_fit();
+        return rest;
+      }()),
+      mailbox_(std::move(sink)) {
+  if (!HasAudio(request)) return;
+  // Of a long song only what the transition hears.
+  const int64_t first = DanceStream::LatestFirstSample(first_frame_, request.sample_rate, model_);
+  const size_t channels = static_cast<size_t>(request.channels);
+  const size_t skipped = std::min(static_cast<size_t>(first - request.first_sample) * channels,
+                                  request.samples.size());
+  std::span<const float> rest = std::span(request.samples).subspan(skipped);
+  const int64_t begin = request.first_sample + static_cast<int64_t>(skipped / channels);
+  audio_.emplace(request.sample_rate, request.channels, begin);
+  const size_t second = static_cast<size_t>(request.sample_rate) * channels;
+  while (!rest.empty() && audio_->ready() < first_frame_ + request.frames) {
+    const size_t count = std::min(second, rest.size());
+    audio_->Push(rest.first(count), audio_->next_sample(), [] {});
+    rest = rest.subspan(count);
+  }
+  if (rest.empty()) audio_->Finish();
+  audio_history_ = audio_->History(first_frame_, model_.history_frames);
+}
+
+void TransitionGroup::Impl::Begin() {
+  TransitionRequest transition;
+  transition.frames = request_.frames;
+  transition.history = History(request_);
+  transition.target = request_.target;
+  transition.after = request_.after;
+  transition.has_audio = audio_.has_value();
+  transition.audio_history = audio_history_;
+  transition.seed = request_.seed;
+  transition.first_frame = first_frame_;
+  transition.temperature =
+      request_.temperature.value_or(static_cast<float>(model_.default_temperature));
+
+  std::vector<std::shared_ptr<Job>> jobs;
+  for (int candidate = 0; candidate < request_.candidates; ++candidate) {
+    transition.candidate = static_cast<uint32_t>(candidate);
+    jobs.push_back(std::make_shared<Job>(shared_from_this(), candidate, transition));
+  }
+  if (request_.continuation && request_.continuation->fingerprint != model_.fingerprint) {
+    mailbox_.Post([warning = InexactResume(*request_.continuation, model_)](GroupSink& sink) {
+      sink.OnWarning(warning);
+    });
+  }
+  const std::optional<RequiredSpeed> speed = jobs.front()->run().required_speed();
+  if (speed && speed->TooFast()) {
+    mailbox_.Post(
+        [warning = IntervalTooShort(model_.skeleton, "target", first_frame_, request_.frames,
+                                    *speed)](GroupSink& sink) { sink.OnWarning(warning); });
+  }
+  {
+    std::lock_guard lock(mutex_);
+    jobs_.resize(jobs.size());
+    running_ = static_cast<int>(jobs.size());
+    for (std::shared_ptr<Job>& job : jobs) {
+      Job* raw = job.get();
+      try {
+        scheduler_.Submit(std::move(job));
+      } catch (const Error&) {
+        over_ = true;  // the caller hears of it; the sink stays silent
+        cancelled_ = true;
+        WakeAll();
+        throw;
+      }
+      jobs_[static_cast<size_t>(raw->run().spec().candidate)] = raw;
+    }
+    paused_ = false;
+    WakeAll();
+  }
+  mailbox_.Deliver();
+}
+
+void TransitionGroup::Impl::WakeAll() {
+  for (Job* job : jobs_) {
+    if (job != nullptr) scheduler_.Wake(job);
+  }
+}
+
+void TransitionGroup::Impl::SetPaused(bool paused) {
+  paused_ = paused;
+  if (paused) return;
+  std::lock_guard lock(mutex_);
+  WakeAll();
+}
+
+void TransitionGroup::Impl::Cancel() noexcept {
+  cancelled_ = true;
+  std::lock_guard lock(mutex_);
+  WakeAll();
+}
+
+void TransitionGroup::Impl::Done(CandidateReport report) {
+  reports_.push_back(std::move(report));
+  if (over_ || --running_ > 0) return;
+  over_ = true;
+  RankCandidates(reports_);
+  mailbox_.Post([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
+}
+
+void TransitionGroup::Impl::Fail(const Error& error) {
+  if (over_) return;
+  over_ = true;
+  mailbox_.Post([error](GroupSink& sink) { sink.OnError(error); });
+  // One candidate short the ranking means nothing: the others end too.
+  cancelled_ = true;
+  WakeAll();
+}
+
+TransitionGroup::TransitionGroup(Scheduler& scheduler, const GroupRequest& request,
+                                 std::shared_ptr<GroupSink> sink) {
+  request.Validate(scheduler.model());
+  impl_ = std::make_shared<Impl>(scheduler, request, std::move(sink));
+  impl_->Begin();
+}
+
+TransitionGroup::~TransitionGroup() { impl_->Cancel(); }
+
+void TransitionGroup::SetPaused(bool paused) { impl_->SetPaused(paused); }
+void TransitionGroup::Cancel() noexcept { impl_->Cancel(); }
+
+}  // namespace choreo

@@ -1,0 +1,115 @@
+#include "model/dance/validation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/core/error.h"
+#include "model/dance/timeline.h"
+
+namespace choreo {
+namespace {
+
+// A continuous motion may have wound up this far; beyond it nothing is left of a float's precision.
+constexpr double kMaxWoundRotation = 1'000;
+
+std::string At(const std::string& field, int64_t index) {
+  return field + "[" + std::to_string(index) + "]";
+}
+
+void CheckPose(const Skeleton& skeleton, const Pose& pose, double max_rotation,
+               const std::string& limit_name, const std::string& field) {
+  if (pose.rotations.cols() != skeleton.joints()) {
+    throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
+                                                    " joints, the model has " +
+                                                    std::to_string(skeleton.joints()));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double value = pose.root_position[axis];
+    const std::string path = field + ".root_position";
+    if (!std::isfinite(value))
+      throw InvalidArgument(At(path, axis), Show(value) + " is not finite");
+    if (std::abs(value) > kMaxPosition) {
+      throw InvalidArgument(At(path, axis), Show(value) + " m is further than " +
+                                                Show(kMaxPosition) + " m from the origin");
+    }
+  }
+  for (int joint = 0; joint < pose.rotations.cols(); ++joint) {
+    const double angle = pose.rotations.col(joint).norm();
+    const std::string path = field + ".rotations";
+    if (!std::isfinite(angle))
+      throw InvalidArgument(At(path, joint), Show(angle) + " is not finite");
+    if (angle > max_rotation) {
+      throw InvalidArgument(At(path, joint), Show(angle) + " rad exceeds " + limit_name);
+    }
+  }
+}
+
+}  // namespace
+
+std::string Show(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
+  CheckPose(skeleton, pose, kMaxRotation, "2π", field);
+}
+
+void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
+                     const std::string& field) {
+  for (size_t i = 0; i < poses.size(); ++i) {
+    CheckPose(skeleton, poses[i], kMaxWoundRotation, Show(kMaxWoundRotation),
+              At(field, static_cast<int64_t>(i)));
+  }
+}
+
+void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field) {
+  if (mask.joints.empty()) return;
+  if (static_cast<int>(mask.joints.size()) != skeleton.joints()) {
+    throw InvalidArgument(field + ".joints", std::to_string(mask.joints.size()) +
+                                                 " joints, the model has " +
+                                                 std::to_string(skeleton.joints()));
+  }
+  if (!mask.root_position &&
+      std::find(mask.joints.begin(), mask.joints.end(), true) == mask.joints.end()) {
+    throw InvalidArgument(field, "asks for nothing");
+  }
+}
+
+void ValidateTemperature(float temperature, const std::string& field) {
+  // Written so that NaN fails too.
+  if (!(temperature >= 0 && temperature <= kMaxTemperature)) {
+    throw InvalidArgument(field,
+                          Show(temperature) + " is not in [0, " + Show(kMaxTemperature) + "]");
+  }
+}
+
+void ValidateOutputFps(double fps, const std::string& field) {
+  if (!(fps >= kMinOutputFps && fps <= kMaxOutputFps)) {
+    throw InvalidArgument(
+        field, Show(fps) + " is not in [" + Show(kMinOutputFps) + ", " + Show(kMaxOutputFps) + "]");
+  }
+}
+
+bool ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
+                          bool allow_inexact, const std::string& field) {
+  if (continuation.frame < 0 || continuation.frame > kMaxDanceFrames) {
+    throw InvalidArgument(field + ".frame", std::to_string(continuation.frame) + " is not in [0, " +
+                                                std::to_string(kMaxDanceFrames) + "]");
+  }
+  if (static_cast<int>(continuation.poses.size()) != model.history_frames) {
+    throw InvalidArgument(field + ".poses", std::to_string(continuation.poses.size()) +
+                                                " poses, the model needs " +
+                                                std::to_string(model.history_frames));
+  }
+  ValidateHistory(model.skeleton, continuation.poses, field + ".poses");
+  if (continuation.fingerprint == model.fingerprint) return true;
+  if (allow_inexact) return false;
+  throw Error(ErrorCode::kFailedPrecondition, field + ".fingerprint",
+              "\"" + continuation.fingerprint + "\" is not this server's, \"" + model.fingerprint +
+                  "\": the dance would go on differently");
+}
+
+}  // namespace choreo

@@ -1,0 +1,28 @@
+#include "model/dance/warning.h"
+
+#include "model/dance/validation.h"
+
+namespace choreo {
+
+DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_t first_frame,
+                              int64_t frames, const RequiredSpeed& speed) {
+  std::string message =
+      "the way to key \"" + id + "\" in " + std::to_string(frames) + " frames asks for ";
+  if (speed.root_m_per_s > RequiredSpeed::kRootLimit) {
+    message += Show(speed.root_m_per_s) + " m/s of the root; people reach " +
+               Show(RequiredSpeed::kRootLimit);
+  } else {
+    message += Show(speed.joint_rad_per_s) + " rad/s of " +
+               skeleton.joint_names[static_cast<size_t>(speed.joint)] + "; people reach " +
+               Show(RequiredSpeed::kJointLimit);
+  }
+  return {DanceWarning::Kind::kIntervalTooShort, first_frame + frames - 1, std::move(message)};
+}
+
+DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& model) {
+  return {DanceWarning::Kind::kInexactResume, continuation.frame,
+          "the continuation is of \"" + continuation.fingerprint + "\", this server is \"" +
+              model.fingerprint + "\": the dance goes on differently"};
+}
+
+}  // namespace choreo

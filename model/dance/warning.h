@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "model/dance/transition.h"
+
+namespace choreo {
+
+/// Something that a listener should know of, and that does not stop the dance.
+struct DanceWarning {
+  enum class Kind {
+    kIntervalTooShort,  ///< the way to the key at `frame` asks for more speed than people have
+    kInexactResume,     ///< the continuation was of another fingerprint; `frame` is its own
+  };
+  Kind kind = Kind::kIntervalTooShort;
+  int64_t frame = 0;  ///< model rate, absolute
+  std::string message;
+};
+
+/// For the transition of `frames` frames from `first_frame` on to the key `id`.
+DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_t first_frame,
+                              int64_t frames, const RequiredSpeed& speed);
+
+DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& model);
+
+}  // namespace choreo
