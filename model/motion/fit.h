@@ -29,23 +29,28 @@ class BoneNormaliser {
   BoneNormaliser(const Skeleton& skeleton, const SourceMapping& mapping,
                  const std::vector<std::string>& joint_names);
 
-  /// Median landmark distances of a clip, and the scale from hip-knee-ankle lengths.
+  /// Median landmark distances of a clip, and the scale from the legs' lengths (hip, knee, ankle;
+  /// from all bones where a mapping has no knees).
   SourceSize Measure(const PositionClip& clip) const;
 
-  /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. `targets` is
-  /// resized on first use only.
+  /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. Does not
+  /// allocate where `targets` has that size.
   void Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
              Eigen::Matrix3Xd& targets) const;
 
-  int landmarks() const { return static_cast<int>(mapping_.landmarks.size()); }
+  int landmarks() const { return static_cast<int>(marks_.size()); }
 
  private:
-  SourceMapping mapping_;
-  std::vector<std::vector<std::pair<int, double>>>
-      source_;                        ///< mapping_.landmarks[i].source by index
-  std::vector<double> rest_lengths_;  ///< [landmarks] of our skeleton
-  double our_leg_ = 1;
-  int left_hip_ = -1, right_hip_ = -1;  ///< landmark indices
+  struct Mark {
+    std::vector<std::pair<int, double>> source;  ///< joint, weight
+    int parent;
+    bool rigid;
+    bool leg;            ///< counts for the scale
+    double rest_length;  ///< ours, from the parent
+  };
+  static Eigen::Vector3d SourcePoint(const Mark& mark, const Eigen::Matrix3Xd& source);
+
+  std::vector<Mark> marks_;
 };
 
 /// How hard what pulls. Standard deviations of the least-squares terms.

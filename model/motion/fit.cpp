@@ -1,0 +1,152 @@
+#include "model/motion/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/core/error.h"
+#include "model/motion/fit_solver.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+// Root mean square distance of the landmarks at which a warm start is taken for lost.
+constexpr double kLostDistance = 0.04;
+constexpr int kRefinementIterations = 2;
+
+double Quantile(std::vector<double> values, double q) {
+  const auto index = static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[index];
+}
+
+// Shifts the motion so that its feet stand on the floor, and returns the shift.
+double Ground(const Skeleton& skeleton, Motion& motion) {
+  const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
+  std::vector<double> lowest;
+  JointPlacement placement;
+  for (const Pose& pose : motion.frames) {
+    ForwardKinematics(skeleton, pose, placement);
+    double height = std::numeric_limits<double>::infinity();
+    for (const int foot : skeleton.feet) {
+      if (foot >= 0) height = std::min(height, placement.positions(1, foot) - rest(1, foot));
+    }
+    lowest.push_back(height);
+  }
+  const double shift = -Quantile(std::move(lowest), 0.05);
+  if (!std::isfinite(shift)) return 0;
+  for (Pose& pose : motion.frames) pose.root_position.y() += shift;
+  return shift;
+}
+
+}  // namespace
+
+class PositionFitter::Solver {
+ public:
+  Solver(const Skeleton& skeleton, const SourceMapping& mapping, const FitOptions& options,
+         double fps)
+      : problem_(skeleton, mapping, options, fps), options_(options) {}
+
+  const Pose& Next(const Eigen::Matrix3Xd& targets) {
+    if (targets.cols() != problem_.landmarks_count() || !targets.allFinite()) {
+      throw InvalidArgument("targets", std::to_string(targets.cols()) + " landmarks, must be " +
+                                           std::to_string(problem_.landmarks_count()) +
+                                           " and finite");
+    }
+    if (!has_previous_) {
+      problem_.Initialise(targets, pose_);
+      problem_.Solve(targets, {}, options_.first_iterations, pose_);
+    } else {
+      previous_ = pose_;
+      const double distance =
+          problem_.Solve(targets, {.before = &previous_}, options_.iterations, pose_);
+      if (distance > kLostDistance) Recover(targets, distance);
+      MakeContinuous(pose_, previous_);
+    }
+    has_previous_ = true;
+    return pose_;
+  }
+
+  FitProblem problem_;
+  FitOptions options_;
+  Pose pose_, previous_, fresh_;
+  bool has_previous_ = false;
+
+ private:
+  // Tries again from scratch, and keeps that only where it is much nearer: a clip that does not fit
+  // at all should at least be smooth.
+  void Recover(const Eigen::Matrix3Xd& targets, double distance) {
+    problem_.Initialise(targets, fresh_);
+    if (problem_.Solve(targets, {}, options_.first_iterations, fresh_) < 0.5 * distance) {
+      std::swap(pose_, fresh_);
+    } else {
+      problem_.Solve(targets, {.before = &previous_}, options_.iterations, pose_);
+    }
+  }
+};
+
+PositionFitter::PositionFitter(const Skeleton& skeleton, const SourceMapping& mapping,
+                               const FitOptions& options, double fps)
+    : solver_(std::make_unique<Solver>(skeleton, mapping, options, fps)) {}
+PositionFitter::~PositionFitter() = default;
+PositionFitter::PositionFitter(PositionFitter&&) noexcept = default;
+PositionFitter& PositionFitter::operator=(PositionFitter&&) noexcept = default;
+
+const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets) { return solver_->Next(targets); }
+
+const Eigen::Matrix3Xd& PositionFitter::landmarks() const { return solver_->problem_.landmarks(); }
+
+void PositionFitter::Reset() { solver_->has_previous_ = false; }
+
+void PositionFitter::Reset(const Pose& previous) {
+  solver_->pose_ = previous;
+  solver_->has_previous_ = true;
+}
+
+FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
+                  const FitOptions& options) {
+  ValidateClip(clip);
+  const BoneNormaliser normaliser(skeleton, mapping, clip.joint_names);
+  const SourceSize size = normaliser.Measure(clip);
+  const size_t count = clip.frames.size();
+  FitResult result;
+  Motion& motion = result.motion;
+  motion.fps = clip.fps;
+  motion.frames.reserve(count);
+  std::vector<Eigen::Matrix3Xd> targets(count);
+  PositionFitter fitter(skeleton, mapping, options, clip.fps);
+  for (size_t frame = 0; frame < count; ++frame) {
+    normaliser.Apply(clip.frames[frame], size, targets[frame]);
+    motion.frames.push_back(fitter.Next(targets[frame]));
+  }
+  // Once more with the frame behind known too, so that nothing lags.
+  FitProblem problem(skeleton, mapping, options, clip.fps);
+  std::vector<double> distances;
+  distances.reserve(count * normaliser.landmarks());
+  result.report.landmark_error_m.assign(normaliser.landmarks(), 0.0);
+  for (size_t frame = 0; frame < count; ++frame) {
+    const FitProblem::Neighbours neighbours = {
+        .before = frame > 0 ? &motion.frames[frame - 1] : nullptr,
+        .after = frame + 1 < count ? &motion.frames[frame + 1] : nullptr};
+    problem.Solve(targets[frame], neighbours, kRefinementIterations, motion.frames[frame]);
+    if (frame > 0) MakeContinuous(motion.frames[frame], motion.frames[frame - 1]);
+    for (int i = 0; i < normaliser.landmarks(); ++i) {
+      const double distance = (problem.landmarks().col(i) - targets[frame].col(i)).norm();
+      distances.push_back(distance);
+      result.report.landmark_error_m[i] += distance / static_cast<double>(count);
+    }
+  }
+  FitReport& report = result.report;
+  for (const Landmark& landmark : mapping.landmarks) report.landmark_names.push_back(landmark.name);
+  for (const double distance : distances) {
+    report.mean_error_m += distance / static_cast<double>(distances.size());
+    report.max_error_m = std::max(report.max_error_m, distance);
+  }
+  report.p95_error_m = Quantile(std::move(distances), 0.95);
+  report.scale = size.scale;
+  report.ground_shift_m = Ground(skeleton, motion);
+  return result;
+}
+
+}  // namespace choreo

@@ -1,0 +1,305 @@
+#include "model/motion/fit_solver.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+// Knees and elbows: least bend that is asked for, and the most that a body allows.
+constexpr double kLeastBend = 0.03;
+constexpr double kMostBend = 2.7;
+
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
+  Eigen::Matrix3d k;
+  k << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return k;
+}
+
+// d log(exp(delta) exp(w)) / d delta at delta = 0.
+Eigen::Matrix3d LogJacobian(const Eigen::Vector3d& w) {
+  const double angle = w.norm();
+  const Eigen::Matrix3d k = CrossMatrix(w);
+  const double square = angle * angle;
+  // Series below the angle where the closed form cancels; the closed form has its pole at 2 pi,
+  // away from [0, pi].
+  const double factor = angle < 1e-3 ? 1.0 / 12.0 + square / 720.0
+                                     : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / square;
+  return Eigen::Matrix3d::Identity() - 0.5 * k + factor * k * k;
+}
+
+bool Contains(const std::string& name, std::initializer_list<const char*> parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&name](const char* part) { return name.find(part) != std::string::npos; });
+}
+
+double Square(double x) { return x * x; }
+
+}  // namespace
+
+FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
+                       const FitOptions& options, double fps)
+    : skeleton_(skeleton),
+      marks_(skeleton, mapping),
+      options_(options),
+      position_information_(1.0 / Square(options.position_m)),
+      change_information_(1.0 / Square(options.change_rad * 30.0 / fps)) {
+  const int joints = skeleton_.joints();
+  const JointPlacement rest = ForwardKinematics(skeleton_, RestPose(skeleton_));
+  rest_joints_ = rest.positions;
+  rest_marks_ = marks_.Positions(rest);
+  priors_.resize(joints);
+  for (int joint = 0; joint < joints; ++joint) {
+    const bool stiff = Contains(skeleton_.joint_names[joint],
+                                {"spine", "collar", "neck", "head", "wrist", "hand", "foot"});
+    const double deviation = stiff ? options.spine_rad : options.rest_rad;
+    // The root may face anywhere.
+    const double information = joint == 0 ? 0.0 : 1.0 / Square(deviation);
+    priors_[joint].information = information * Eigen::Matrix3d::Identity();
+    priors_[joint].hinge_axis.setZero();
+  }
+  const Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
+  SetHinge(skeleton_.left_knee, skeleton_.left_hip, -forward);
+  SetHinge(skeleton_.right_knee, skeleton_.right_hip, -forward);
+  SetHinge(skeleton_.left_elbow, skeleton_.left_shoulder, forward);
+  SetHinge(skeleton_.right_elbow, skeleton_.right_shoulder, forward);
+  const int unknowns = 3 + 3 * joints;
+  jacobian_.setZero(3 * marks_.size(), unknowns);
+  residual_.resize(3 * marks_.size());
+  normal_.resize(unknowns, unknowns);
+  damped_.resize(unknowns, unknowns);
+  gradient_.resize(unknowns);
+  step_.resize(unknowns);
+  cholesky_ = Eigen::LLT<Eigen::MatrixXd>(unknowns);
+}
+
+void FitProblem::SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towards) {
+  if (hinge < 0) return;
+  // The bone above the hinge, at rest; bending takes the bone below towards `bend_towards`.
+  const Eigen::Vector3d bone = skeleton_.offsets.col(hinge);
+  const Eigen::Vector3d axis = bone.cross(bend_towards);
+  if (!(axis.norm() > 1e-6)) return;
+  JointPrior& prior = priors_[hinge];
+  prior.hinge_axis = axis.normalized();
+  const Eigen::Matrix3d along = prior.hinge_axis * prior.hinge_axis.transpose();
+  prior.information = along / Square(options_.rest_rad) +
+                      (Eigen::Matrix3d::Identity() - along) / Square(options_.hinge_side_rad);
+  if (upper >= 0) priors_[upper].hinge_child = hinge;
+}
+
+bool FitProblem::IsBelow(int joint, int ancestor) const {
+  for (joint = skeleton_.parents[joint]; joint >= 0; joint = skeleton_.parents[joint]) {
+    if (joint == ancestor) return true;
+  }
+  return false;
+}
+
+double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours,
+                        const Pose& pose) {
+  ForwardKinematics(skeleton_, pose, placement_);
+  marks_.Positions(placement_, positions_);
+  double cost = 0;
+  for (int i = 0; i < marks_.size(); ++i) {
+    cost += Square(marks_[i].weight) * position_information_ *
+            (positions_.col(i) - targets.col(i)).squaredNorm();
+  }
+  for (int joint = 0; joint < skeleton_.joints(); ++joint) {
+    const JointPrior& prior = priors_[joint];
+    const Eigen::Vector3d w = pose.rotations.col(joint);
+    cost += w.dot(prior.information * w);
+    if (!prior.hinge_axis.isZero()) {
+      const double bend = prior.hinge_axis.dot(w);
+      const double beyond = std::min(0.0, bend - kLeastBend) + std::max(0.0, bend - kMostBend);
+      cost += Square(beyond / options_.hinge_limit_rad);
+    }
+    for (const Pose* other : {neighbours.before, neighbours.after}) {
+      if (other == nullptr) continue;
+      cost +=
+          change_information_ * RotationDifference(other->rotations.col(joint), w).squaredNorm();
+    }
+  }
+  return cost;
+}
+
+void FitProblem::AddPositionRows(const Eigen::Matrix3Xd& targets) {
+  jacobian_.setZero();
+  for (int i = 0; i < marks_.size(); ++i) {
+    const LandmarkSet::Mark& mark = marks_[i];
+    const double root_information = mark.weight / options_.position_m;
+    residual_.segment<3>(3 * i) = root_information * (positions_.col(i) - targets.col(i));
+    jacobian_.block<3, 3>(3 * i, 0) = root_information * Eigen::Matrix3d::Identity();
+    for (const LandmarkSet::Point& point : mark.points) {
+      const Eigen::Vector3d place = LandmarkSet::Position(point, placement_);
+      for (int joint = point.joint; joint >= 0; joint = skeleton_.parents[joint]) {
+        const Eigen::Vector3d arm = place - placement_.positions.col(joint);
+        // A rotation by omega (world) about the joint moves the point by omega x arm.
+        const int parent = skeleton_.parents[joint];
+        auto block = jacobian_.block<3, 3>(3 * i, 3 + 3 * joint);
+        const Eigen::Matrix3d turned = -root_information * point.weight * CrossMatrix(arm);
+        if (parent < 0) {
+          block += turned;
+        } else {
+          block.noalias() += turned * placement_.rotations[parent];
+        }
+      }
+    }
+  }
+  normal_.setZero();
+  normal_.selfadjointView<Eigen::Lower>().rankUpdate(jacobian_.transpose());
+  gradient_.noalias() = jacobian_.transpose() * residual_;
+}
+
+// Assumes that Cost ran on this pose.
+void FitProblem::Linearise(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours,
+                           const Pose& pose) {
+  AddPositionRows(targets);
+  for (int joint = 0; joint < skeleton_.joints(); ++joint) {
+    const JointPrior& prior = priors_[joint];
+    const Eigen::Vector3d w = pose.rotations.col(joint);
+    const Eigen::Matrix3d slope = LogJacobian(w);
+    Eigen::Matrix3d information = prior.information;
+    Eigen::Vector3d pull = prior.information * w;
+    if (!prior.hinge_axis.isZero()) {
+      const double bend = prior.hinge_axis.dot(w);
+      if (bend < kLeastBend || bend > kMostBend) {
+        const double beyond = bend < kLeastBend ? bend - kLeastBend : bend - kMostBend;
+        const double hard = 1.0 / Square(options_.hinge_limit_rad);
+        information += hard * prior.hinge_axis * prior.hinge_axis.transpose();
+        pull += hard * beyond * prior.hinge_axis;
+      }
+    }
+    auto normal = normal_.block<3, 3>(3 + 3 * joint, 3 + 3 * joint);
+    auto gradient = gradient_.segment<3>(3 + 3 * joint);
+    normal += slope.transpose() * information * slope;
+    gradient += slope.transpose() * pull;
+    for (const Pose* other : {neighbours.before, neighbours.after}) {
+      if (other == nullptr) continue;
+      // log(R R_other^T), in the parent's frame as delta is; its own Jacobian is near identity.
+      const Eigen::Vector3d change = ExpFromQuaternion(
+          QuaternionFromExp(w) * QuaternionFromExp(other->rotations.col(joint)).conjugate());
+      normal.diagonal().array() += change_information_;
+      gradient += change_information_ * change;
+    }
+  }
+}
+
+double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours,
+                         int iterations, Pose& pose) {
+  // The priors are about angles up to pi.
+  for (int joint = 0; joint < skeleton_.joints(); ++joint) {
+    pose.rotations.col(joint) = ExpFromQuaternion(QuaternionFromExp(pose.rotations.col(joint)));
+  }
+  trial_ = pose;
+  double cost = Cost(targets, neighbours, pose);
+  double damping = 1e-4;
+  bool relinearise = true;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    if (relinearise) Linearise(targets, neighbours, pose);
+    damped_ = normal_;
+    damped_.diagonal() *= 1.0 + damping;
+    damped_.diagonal().array() += 1e-3;
+    cholesky_.compute(damped_);
+    step_ = -gradient_;
+    cholesky_.solveInPlace(step_);
+    trial_.root_position = pose.root_position + step_.head<3>();
+    for (int joint = 0; joint < skeleton_.joints(); ++joint) {
+      Eigen::Vector3d turn = step_.segment<3>(3 + 3 * joint);
+      // A linearisation holds for a fraction of a turn.
+      if (const double angle = turn.norm(); angle > 0.7) turn *= 0.7 / angle;
+      trial_.rotations.col(joint) =
+          ExpFromQuaternion(QuaternionFromExp(turn) * QuaternionFromExp(pose.rotations.col(joint)));
+    }
+    const double trial_cost = Cost(targets, neighbours, trial_);
+    relinearise = trial_cost < cost;
+    if (relinearise) {
+      const bool done = cost - trial_cost < 1e-9 * cost;
+      std::swap(pose, trial_);
+      cost = trial_cost;
+      damping = std::max(1e-7, damping * 0.1);
+      if (done) break;
+    } else {
+      damping *= 20.0;
+    }
+  }
+  // The last trial may have been refused.
+  ForwardKinematics(skeleton_, pose, placement_);
+  marks_.Positions(placement_, positions_);
+  return std::sqrt((positions_ - targets).squaredNorm() / marks_.size());
+}
+
+void FitProblem::Initialise(const Eigen::Matrix3Xd& targets, Pose& pose) const {
+  const int joints = skeleton_.joints();
+  pose.rotations.setZero(3, joints);
+  Eigen::Matrix3Xd places(3, joints);
+  std::vector<Eigen::Matrix3d> turns(joints, Eigen::Matrix3d::Identity());
+  std::vector<char> below(marks_.size());
+  for (int joint = 0; joint < joints; ++joint) {
+    const int parent = skeleton_.parents[joint];
+    if (parent >= 0)
+      places.col(joint) = places.col(parent) + turns[parent] * skeleton_.offsets.col(joint);
+    // The root turns about the root landmark, whose place is known; every other joint about itself.
+    Eigen::Vector3d pivot_target = targets.col(0);
+    Eigen::Vector3d pivot_rest = rest_marks_.col(0);
+    if (parent >= 0) {
+      pivot_target = places.col(joint);
+      pivot_rest = rest_joints_.col(joint);
+    }
+    for (int i = 0; i < marks_.size(); ++i) {
+      below[i] =
+          (parent >= 0 || i > 0) &&
+          std::all_of(marks_[i].points.begin(), marks_[i].points.end(), [&](const auto& point) {
+            return IsBelow(point.joint, joint) || (point.joint == joint && !point.offset.isZero());
+          });
+    }
+    // Where nothing tells, the parent's rotation goes on.
+    const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];
+    Eigen::Matrix3d correlation = 1e-4 * carried;
+    bool told = false;
+    for (int i = 0; i < marks_.size(); ++i) {
+      if (!below[i] || (marks_[i].parent >= 0 && below[marks_[i].parent])) continue;
+      told = true;
+      correlation += marks_[i].weight * (targets.col(i) - pivot_target) *
+                     (rest_marks_.col(i) - pivot_rest).transpose();
+    }
+    if (const int hinge = priors_[joint].hinge_child; hinge >= 0) {
+      const int middle = marks_.AtJoint(hinge);
+      int end = -1;
+      for (int i = 0; i < marks_.size(); ++i) {
+        if (middle >= 0 && marks_[i].parent == middle) end = i;
+      }
+      if (end >= 0) {
+        const Eigen::Vector3d upper = (targets.col(middle) - pivot_target).normalized();
+        const Eigen::Vector3d lower = (targets.col(end) - targets.col(middle)).normalized();
+        const Eigen::Vector3d& axis = priors_[hinge].hinge_axis;
+        const Eigen::Vector3d plane = upper.cross(lower);
+        // A nearly straight limb whose plane says that it bends backwards is noise.
+        const bool plausible = plane.norm() > 0.3 || plane.dot(carried * axis) > 0;
+        if (plausible) correlation += 0.05 * plane * axis.transpose();
+      }
+    }
+    if (told) {
+      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
+      Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+      if (turn.determinant() < 0) {
+        Eigen::Matrix3d u = svd.matrixU();
+        u.col(2) = -u.col(2);
+        turn = u * svd.matrixV().transpose();
+      }
+      turns[joint] = turn;
+    } else {
+      turns[joint] = carried;
+    }
+    if (parent < 0) {
+      places.col(0) = targets.col(0) - turns[0] * (rest_marks_.col(0) - rest_joints_.col(0));
+      pose.root_position = places.col(0);
+    }
+    pose.rotations.col(joint) = LogMap(carried.transpose() * turns[joint]);
+    if (parent < 0) pose.rotations.col(0) = LogMap(turns[0]);
+  }
+}
+
+}  // namespace choreo
