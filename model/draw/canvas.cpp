@@ -1,0 +1,83 @@
+#include "model/draw/canvas.h"
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kMaxExtent = 32767;  // cairo's own limit
+
+void SelectFont(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+}
+
+}  // namespace
+
+Colour Mix(const Colour& a, const Colour& b, double t) {
+  return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
+}
+
+Canvas::Canvas(int width, int height, const Colour& background) : width_(width), height_(height) {
+  if (width < 1 || width > kMaxExtent || height < 1 || height > kMaxExtent) {
+    throw InvalidArgument("picture", std::to_string(width) + " x " + std::to_string(height) +
+                                         " pixels, each must be 1 to " +
+                                         std::to_string(kMaxExtent));
+  }
+  surface_ = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  context_ = cairo_create(surface_);
+  if (cairo_status(context_) != CAIRO_STATUS_SUCCESS) {
+    const std::string reason = cairo_status_to_string(cairo_status(context_));
+    cairo_destroy(context_);
+    cairo_surface_destroy(surface_);
+    throw Error(ErrorCode::kInternal, "picture", reason);
+  }
+  SetColour(background);
+  cairo_paint(context_);
+}
+
+Canvas::~Canvas() {
+  cairo_destroy(context_);
+  cairo_surface_destroy(surface_);
+}
+
+void Canvas::SetColour(const Colour& colour, double alpha) const {
+  cairo_set_source_rgba(context_, colour.r, colour.g, colour.b, alpha);
+}
+
+void Canvas::Text(const std::string& text, double x, double y, double size, Align align,
+                  bool bold) const {
+  const double width = align == Align::kLeft ? 0 : TextWidth(text, size, bold);
+  SelectFont(context_, size, bold);
+  cairo_font_extents_t font;
+  cairo_font_extents(context_, &font);
+  const double left = align == Align::kCentre ? x - width / 2 : x - width;
+  cairo_move_to(context_, left, y + (font.ascent - font.descent) / 2);
+  cairo_show_text(context_, text.c_str());
+  cairo_new_path(context_);
+}
+
+double Canvas::TextWidth(const std::string& text, double size, bool bold) const {
+  SelectFont(context_, size, bold);
+  cairo_text_extents_t extents;
+  cairo_text_extents(context_, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+const unsigned char* Canvas::pixels() const {
+  cairo_surface_flush(surface_);
+  return cairo_image_surface_get_data(surface_);
+}
+
+int Canvas::stride() const { return cairo_image_surface_get_stride(surface_); }
+
+void Canvas::WritePng(const std::filesystem::path& png) const {
+  const cairo_status_t status = cairo_surface_write_to_png(surface_, png.c_str());
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw Error(ErrorCode::kInternal, png.string(),
+                std::string("cannot be written: ") + cairo_status_to_string(status));
+  }
+}
+
+}  // namespace choreo

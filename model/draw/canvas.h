@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cairo.h>
+
+#include <filesystem>
+#include <string>
+
+/// What the pictures of this folder have in common: a cairo surface that frees itself, colours and
+/// text.
+namespace choreo {
+
+struct Colour {
+  double r = 0, g = 0, b = 0;  ///< sRGB, 0 to 1
+
+  /// From 0xRRGGBB.
+  static constexpr Colour Hex(unsigned rgb) {
+    return {(rgb >> 16 & 0xff) / 255.0, (rgb >> 8 & 0xff) / 255.0, (rgb & 0xff) / 255.0};
+  }
+};
+
+/// a at t = 0, b at t = 1.
+Colour Mix(const Colour& a, const Colour& b, double t);
+
+enum class Align { kLeft, kCentre, kRight };
+
+/// An RGB picture in memory. Not thread-safe; different canvases are independent.
+class Canvas {
+ public:
+  /// Filled with `background`. Throws Error(kInvalidArgument) for a width or height outside 1 to
+  /// 32767 pixels.
+  Canvas(int width, int height, const Colour& background);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  cairo_t* cr() const { return context_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  void SetColour(const Colour& colour, double alpha = 1) const;
+  /// Text in the current colour whose vertical middle is y.
+  void Text(const std::string& text, double x, double y, double size, Align align = Align::kLeft,
+            bool bold = false) const;
+  double TextWidth(const std::string& text, double size, bool bold = false) const;
+
+  /// Rows of `width` 32-bit pixels 0x00RRGGBB (native byte order), `stride` bytes apart.
+  const unsigned char* pixels() const;
+  int stride() const;
+
+  /// Throws Error(kInternal) where the file cannot be written.
+  void WritePng(const std::filesystem::path& png) const;
+
+ private:
+  int width_, height_;
+  cairo_surface_t* surface_;
+  cairo_t* context_;
+};
+
+}  // namespace choreo

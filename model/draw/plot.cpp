@@ -1,0 +1,276 @@
+#include "model/draw/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "model/core/error.h"
+#include "model/draw/canvas.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kMinExtent = 200;
+constexpr int kMaxExtent = 8192;
+constexpr double kFont = 14;
+constexpr double kTitleFont = 18;
+
+constexpr Colour kPaper = Colour::Hex(0xffffff);
+constexpr Colour kInk = Colour::Hex(0x24292f);
+constexpr Colour kGrid = Colour::Hex(0xe1e4e8);
+// Told apart by colour-blind eyes too (Okabe and Ito 2008), without the yellow.
+constexpr Colour kLines[] = {Colour::Hex(0x0072b2), Colour::Hex(0xd55e00), Colour::Hex(0x009e73),
+                             Colour::Hex(0xcc79a7), Colour::Hex(0xe69f00), Colour::Hex(0x56b4e9),
+                             Colour::Hex(0x000000)};
+constexpr size_t kColours = std::size(kLines);
+
+struct Tick {
+  double value;  // on the axis, after the logarithm
+  std::string label;
+};
+
+std::string Number(double value, double step) {
+  char text[32];
+  const double size = std::abs(value);
+  if (size != 0 && (size >= 1e6 || size < 1e-4)) {
+    std::snprintf(text, sizeof(text), "%.3g", value);
+  } else {
+    const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+    std::snprintf(text, sizeof(text), "%.*f", digits, value == 0 ? 0.0 : value);
+  }
+  return text;
+}
+
+// A range of values and where it lies in the picture.
+class Axis {
+ public:
+  Axis(double low, double high, double from, double to, bool logarithmic, double tick_distance)
+      : low_(low), high_(high), from_(from), to_(to) {
+    const double wanted = std::max(2.0, std::abs(to - from) / tick_distance);
+    if (logarithmic) {
+      PlaceDecades(wanted);
+    } else {
+      PlaceLinear(wanted);
+    }
+  }
+
+  double At(double value) const { return from_ + (value - low_) / (high_ - low_) * (to_ - from_); }
+  const std::vector<Tick>& ticks() const { return ticks_; }
+
+ private:
+  void PlaceLinear(double wanted) {
+    const double raw = (high_ - low_) / wanted;
+    const double power = std::pow(10, std::floor(std::log10(raw)));
+    double step = 10 * power;
+    for (const double nice : {1.0, 2.0, 5.0}) {
+      if (nice * power >= raw * 0.999) {
+        step = nice * power;
+        break;
+      }
+    }
+    for (double k = std::ceil(low_ / step - 1e-9); k * step <= high_ + 1e-9 * step; ++k) {
+      ticks_.push_back({k * step, Number(k * step, step)});
+    }
+  }
+
+  // Powers of ten; with few of them in sight, 2 and 5 times those as well.
+  void PlaceDecades(double wanted) {
+    const double stride = std::max(1.0, std::ceil((high_ - low_) / wanted));
+    for (double k = std::floor(low_); k <= high_; k += stride) {
+      for (const double factor : {1.0, 2.0, 5.0}) {
+        if (factor > 1 && high_ - low_ > wanted / 2) continue;
+        const double value = std::pow(10, k) * factor;
+        const double at = std::log10(value);
+        if (at < low_ - 1e-9 || at > high_ + 1e-9) continue;
+        char text[32];
+        std::snprintf(text, sizeof(text), "%g", value);
+        ticks_.push_back({at, text});
+      }
+    }
+  }
+
+  double low_, high_, from_, to_;
+  std::vector<Tick> ticks_;
+};
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void Add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  // Never empty, never a single point; `margin` of the extent is added on both sides.
+  void Settle(double margin) {
+    if (!(low <= high)) low = 0, high = 1;
+    if (high - low < 1e-9 * std::max(1e-6, std::abs(high))) {
+      const double half = std::max(std::abs(high) * 0.1, 1e-6);
+      low -= half, high += half;
+    }
+    const double extra = (high - low) * margin;
+    low -= extra, high += extra;
+  }
+};
+
+double OnAxis(double value, bool logarithmic) {
+  if (!logarithmic) return value;
+  return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
+}
+
+void Check(const Plot& plot) {
+  const auto check_size = [](const char* field, int value) {
+    if (value < kMinExtent || value > kMaxExtent) {
+      throw InvalidArgument(field, std::to_string(value) + " pixels, must be " +
+                                       std::to_string(kMinExtent) + " to " +
+                                       std::to_string(kMaxExtent));
+    }
+  };
+  check_size("plot.width", plot.width);
+  check_size("plot.height", plot.height);
+  for (const PlotSeries& series : plot.series) {
+    if (series.x.size() != series.y.size()) {
+      throw InvalidArgument("plot.series['" + series.label + "']",
+                            std::to_string(series.x.size()) + " x and " +
+                                std::to_string(series.y.size()) + " y values");
+    }
+  }
+}
+
+void DrawLine(const Canvas& canvas, double x1, double y1, double x2, double y2) {
+  cairo_move_to(canvas.cr(), x1, y1);
+  cairo_line_to(canvas.cr(), x2, y2);
+  cairo_stroke(canvas.cr());
+}
+
+// More series than colours: the second round is dashed.
+void SelectLine(const Canvas& canvas, size_t index) {
+  canvas.SetColour(kLines[index % kColours]);
+  cairo_set_line_width(canvas.cr(), 2);
+  const double dashes[] = {6, 4};
+  cairo_set_dash(canvas.cr(), dashes, index / kColours % 2 ? 2 : 0, 0);
+}
+
+void DrawSeries(const Canvas& canvas, const Plot& plot, const Axis& x_axis, const Axis& y_axis) {
+  cairo_t* cr = canvas.cr();
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    const PlotSeries& series = plot.series[i];
+    SelectLine(canvas, i);
+    const bool few = series.x.size() <= 40;
+    int run = 0;
+    double last_x = 0, last_y = 0;
+    std::vector<std::pair<double, double>> dots;
+    const auto end_run = [&] {
+      if (run == 1) dots.emplace_back(last_x, last_y);
+      run = 0;
+    };
+    for (size_t k = 0; k < series.x.size(); ++k) {
+      const double value = OnAxis(series.y[k], plot.log_y);
+      if (!std::isfinite(series.x[k]) || !std::isfinite(value)) {
+        end_run();
+        continue;
+      }
+      last_x = x_axis.At(series.x[k]), last_y = y_axis.At(value);
+      run++ ? cairo_line_to(cr, last_x, last_y) : cairo_move_to(cr, last_x, last_y);
+      if (few) dots.emplace_back(last_x, last_y);
+    }
+    end_run();
+    cairo_stroke(cr);
+    for (const auto& [x, y] : dots) {
+      cairo_arc(cr, x, y, 3, 0, 2 * M_PI);
+      cairo_fill(cr);
+    }
+  }
+  cairo_set_dash(cr, nullptr, 0, 0);
+}
+
+// Under the title, in as many lines as it takes; `top` is moved below it.
+void DrawLegend(const Canvas& canvas, const Plot& plot, double left, double right, double& top) {
+  constexpr double kSample = 26, kGap = 22, kLine = 20;
+  double x = left;
+  double y = top + kLine / 2;
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    const double width = kSample + 6 + canvas.TextWidth(plot.series[i].label, kFont) + kGap;
+    if (x > left && x + width > right) x = left, y += kLine;
+    SelectLine(canvas, i);
+    DrawLine(canvas, x, y, x + kSample, y);
+    cairo_set_dash(canvas.cr(), nullptr, 0, 0);
+    canvas.SetColour(kInk);
+    canvas.Text(plot.series[i].label, x + kSample + 6, y, kFont);
+    x += width;
+  }
+  if (!plot.series.empty()) top = y + kLine;
+}
+
+}  // namespace
+
+void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
+  Check(plot);
+  Range xs, ys;
+  for (const PlotSeries& series : plot.series) {
+    for (size_t k = 0; k < series.x.size(); ++k) {
+      const double value = OnAxis(series.y[k], plot.log_y);
+      if (!std::isfinite(series.x[k]) || !std::isfinite(value)) continue;
+      xs.Add(series.x[k]);
+      ys.Add(value);
+    }
+  }
+  xs.Settle(0);
+  ys.Settle(0.04);
+
+  const Canvas canvas(plot.width, plot.height, kPaper);
+  cairo_t* cr = canvas.cr();
+  const double bottom = plot.height - 62, right = plot.width - 28;
+  double top = 16;
+  canvas.SetColour(kInk);
+  if (!plot.title.empty()) {
+    canvas.Text(plot.title, 24, top + kTitleFont / 2, kTitleFont, Align::kLeft, true);
+    top += kTitleFont + 14;
+  }
+  DrawLegend(canvas, plot, 24, right, top);
+  top += 10;
+
+  const Axis y_axis(ys.low, ys.high, bottom, top, plot.log_y, 56);
+  double widest = 0;
+  for (const Tick& tick : y_axis.ticks()) {
+    widest = std::max(widest, canvas.TextWidth(tick.label, kFont));
+  }
+  const double left = 24 + (plot.y_label.empty() ? 0 : 26) + widest + 8;
+  const Axis x_axis(xs.low, xs.high, left, right, false, 90);
+
+  cairo_set_line_width(cr, 1);
+  for (const Tick& tick : y_axis.ticks()) {
+    const double y = std::round(y_axis.At(tick.value)) + 0.5;
+    canvas.SetColour(kGrid);
+    DrawLine(canvas, left, y, right, y);
+    canvas.SetColour(kInk);
+    canvas.Text(tick.label, left - 8, y, kFont, Align::kRight);
+  }
+  for (const Tick& tick : x_axis.ticks()) {
+    const double x = std::round(x_axis.At(tick.value)) + 0.5;
+    canvas.SetColour(kGrid);
+    DrawLine(canvas, x, top, x, bottom);
+    canvas.SetColour(kInk);
+    DrawLine(canvas, x, bottom, x, bottom + 5);
+    canvas.Text(tick.label, x, bottom + 17, kFont, Align::kCentre);
+  }
+  canvas.SetColour(kInk);
+  DrawLine(canvas, left, std::round(bottom) + 0.5, right, std::round(bottom) + 0.5);
+  canvas.Text(plot.x_label, (left + right) / 2, plot.height - 20, kFont, Align::kCentre);
+  cairo_save(cr);
+  cairo_translate(cr, 26, (top + bottom) / 2);
+  cairo_rotate(cr, -M_PI / 2);
+  canvas.Text(plot.y_label, 0, 0, kFont, Align::kCentre);
+  cairo_restore(cr);
+
+  cairo_save(cr);
+  cairo_rectangle(cr, left - 4, top - 4, right - left + 8, bottom - top + 8);
+  cairo_clip(cr);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  DrawSeries(canvas, plot, x_axis, y_axis);
+  cairo_restore(cr);
+  canvas.WritePng(png);
+}
+
+}  // namespace choreo
