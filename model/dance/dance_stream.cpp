@@ -81,6 +81,7 @@ class DanceStream::Impl : public std::enable_shared_from_this<DanceStream::Impl>
   void Begin();
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   void EndOfAudio();
+  void SetMusicBeats(std::vector<double> seconds);
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose, const PoseMask& mask);
   void RemoveKey(const std::string& id);
   void GenerateUntil(int64_t frame);
@@ -135,6 +136,7 @@ class DanceStream::Impl : public std::enable_shared_from_this<DanceStream::Impl>
   bool over_ = false;               // the last call to the sink is posted
   QualityMeter meter_;
   OutputRate output_;
+  std::vector<double> music_beats_;  // seconds
 };
 
 /// One transition of the chain.
@@ -219,7 +221,8 @@ DanceStream::Impl::Impl(Scheduler& scheduler, const DanceConfig& config,
       meter_(model_.skeleton, model_.fps, first_frame_),
       output_(model_.fps, config.output_fps, first_frame_,
               config.continuation ? std::optional(RoundToFloat(config.continuation->poses.back()))
-                                  : std::nullopt) {
+                                  : std::nullopt),
+      music_beats_(config.music_beats) {
   if (config.audio) {
     audio_.emplace(config.audio->sample_rate, config.audio->channels, config.audio->first_sample);
   }
@@ -277,6 +280,11 @@ void DanceStream::Impl::EndOfAudio() {
   std::lock_guard message(messages_);
   if (!audio_) throw InvalidArgument("end_of_audio", "comes without config.audio");
   FinishAudio();
+}
+
+void DanceStream::Impl::SetMusicBeats(std::vector<double> seconds) {
+  std::lock_guard lock(mutex_);
+  music_beats_ = std::move(seconds);
 }
 
 void DanceStream::Impl::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
@@ -453,7 +461,7 @@ void DanceStream::Impl::PostContinuation() {
 void DanceStream::Impl::Summarise() {
   over_ = true;
   std::vector<double> beats;
-  for (double seconds : config_.music_beats) beats.push_back(seconds * model_.fps);
+  for (double seconds : music_beats_) beats.push_back(seconds * model_.fps);
   mailbox_.Post([report = meter_.Report(beats)](DanceSink& sink) { sink.OnSummary(report); });
 }
 
@@ -478,6 +486,9 @@ void DanceStream::PushAudio(std::span<const float> interleaved, int64_t first_sa
   impl_->PushAudio(interleaved, first_sample);
 }
 void DanceStream::EndOfAudio() { impl_->EndOfAudio(); }
+void DanceStream::SetMusicBeats(std::vector<double> seconds) {
+  impl_->SetMusicBeats(std::move(seconds));
+}
 void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
                          const PoseMask& mask) {
   impl_->SetKey(id, when, pose, mask);

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "choreo/v1/choreography.pb.h"
+#include "model/dance/dance_stream.h"
+#include "server/convert.h"
+#include "server/outbox.h"
+#include "server/serving.h"
+#include "server/status.h"
+
+namespace choreo {
+
+/// What the sessions of both streaming calls have in common. A session is shared by the reactor
+/// and by the worker threads that dance (`Dance` is a DanceStream or a TransitionGroup, whose sink
+/// it is); it holds the outbox, the dance, and the clock. Thread-safe but for what is said to
+/// belong to the sender of messages.
+template <class Response, class Dance>
+class CallSession : public Call {
+ public:
+  using Wire = typename Outbox<Response>::Wire;
+
+  CallSession(Serving& serving, Wire* wire, std::string method, std::string peer)
+      : serving_(serving),
+        outbox_(wire, serving.outbox_bytes, [this](bool paused) { SetPaused(paused); }),
+        method_(std::move(method)),
+        peer_(std::move(peer)) {}
+
+  Outbox<Response>& outbox() { return outbox_; }
+
+  void Abort(const Error& error) override {
+    outbox_.Abort(ToStatus(error));
+    CancelDance();
+  }
+
+  /// What is queued still goes out, then the call ends with this error.
+  void Fail(const Error& error) {
+    outbox_.Close(ToStatus(error));
+    CancelDance();
+  }
+
+  /// The reactor is done: frees the dance, which holds this session in turn, and logs the call.
+  void Release() {
+    CancelDance();
+    {
+      const std::lock_guard lock(mutex_);
+      dance_.reset();
+    }
+    const grpc::Status status = outbox_.status();
+    spdlog::info("{} {}: {} frames in {:.3f} s, status {}{}", method_, peer_, frames_, Elapsed(),
+                 static_cast<int>(status.error_code()),
+                 status.ok() ? std::string() : " (" + status.error_message() + ')');
+  }
+
+ protected:
+  using Clock = std::chrono::steady_clock;
+
+  std::shared_ptr<Dance> dance() const {
+    const std::lock_guard lock(mutex_);
+    return dance_;
+  }
+
+  /// Takes the dance in, unless the call has ended meanwhile: then it is cancelled.
+  void Adopt(std::shared_ptr<Dance> dance) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!ended_) {
+        dance_ = std::move(dance);
+        return;
+      }
+    }
+    dance->Cancel();
+  }
+
+  /// Runs something that may throw, on behalf of the client.
+  template <class Action>
+  void Guard(Action action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      Fail(error);
+    } catch (const std::exception& error) {
+      spdlog::error("{} {}: {}", method_, peer_, error.what());
+      Fail(Error(ErrorCode::kInternal, "", error.what()));
+    }
+  }
+
+  void SendHeader(const ModelInfo& model, const v1::DanceConfig& message, const DanceConfig& config,
+                  int64_t first_frame, bool exact_resume) {
+    Response response;
+    v1::Header* header = response.mutable_header();
+    header->set_model(model.name);
+    header->set_fingerprint(model.fingerprint);
+    FromSkeleton(model.skeleton, header->mutable_skeleton());
+    header->set_seed(config.seed);
+    header->set_temperature(config.temperature ? static_cast<double>(*config.temperature)
+                                               : model.default_temperature);
+    header->set_frame_rate(config.output_fps);
+    header->set_model_frame_rate(model.fps);
+    header->set_encoding(message.encoding() == v1::ROTATION_ENCODING_UNSPECIFIED
+                             ? v1::ROTATION_ENCODING_AXIS_ANGLE
+                             : message.encoding());
+    header->set_first_frame(first_frame);
+    header->set_latency_frames(DanceStream::LatencyFrames(config, model));
+    header->set_exact_resume(exact_resume);
+    header->set_free_transition_frames(kFreeTransitionFrames);
+    header->set_server_version(CHOREO_VERSION);
+    outbox_.Send(std::move(response));
+  }
+
+  /// Calls of a sink come one at a time; so do those of the two below.
+  void CountFrames(size_t frames) {
+    if (frames_ == 0) first_frame_s_ = Elapsed();
+    frames_ += static_cast<int64_t>(frames);
+  }
+  void FillTiming(double danced_s, v1::Timing* timing) const {
+    timing->set_first_frame_latency_s(first_frame_s_);
+    timing->set_elapsed_s(Elapsed());
+    timing->set_real_time_factor(danced_s / Elapsed());
+  }
+
+  Serving& serving_;
+
+ private:
+  double Elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  void SetPaused(bool paused) {
+    if (const auto current = dance()) current->SetPaused(paused);
+  }
+
+  void CancelDance() {
+    std::shared_ptr<Dance> current;
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+      current = dance_;
+    }
+    if (current) current->Cancel();
+  }
+
+  Outbox<Response> outbox_;
+  const std::string method_;
+  const std::string peer_;
+  const Clock::time_point start_ = Clock::now();
+
+  mutable std::mutex mutex_;      // guards the two below
+  std::shared_ptr<Dance> dance_;  // null before the configuration and after the call
+  bool ended_ = false;
+
+  std::atomic<int64_t> frames_ = 0;
+  double first_frame_s_ = 0;
+};
+
+}  // namespace choreo

@@ -1,0 +1,150 @@
+#include "server/config.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+constexpr std::array<std::string_view, 7> kLogLevels = {"trace", "debug",    "info", "warning",
+                                                        "error", "critical", "off"};
+
+void CheckRange(const std::string& name, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  throw InvalidArgument(name, CLI::detail::to_string(value) + " is not in [" +
+                                  CLI::detail::to_string(least) + ", " +
+                                  CLI::detail::to_string(most) + "]");
+}
+
+void CheckFile(const std::string& name, const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw Error(ErrorCode::kNotFound, name, "no file " + path.string());
+  }
+}
+
+void AddOptions(CLI::App& app, ServerConfig& config) {
+  app.add_option("--listen", config.listen,
+                 "HOST:PORT to listen on. Port 0 picks a free one, which is printed. The default "
+                 "serves this machine alone; 0.0.0.0:50051 serves all.")
+      ->envname("CHOREO_LISTEN")
+      ->capture_default_str();
+  app.add_option("--checkpoint", config.checkpoints,
+                 "Model to serve, a .safetensors file; give several for several models, the "
+                 "default first. Without it, the model that ships.")
+      ->envname("CHOREO_CHECKPOINT");
+  app.add_option("--device", config.device,
+                 "Where to compute: auto (a GPU if this build and machine have one), cpu, or "
+                 "cuda:N[,N...].")
+      ->envname("CHOREO_DEVICE")
+      ->capture_default_str();
+  app.add_option("--slots", config.slots,
+                 "Transitions in progress at once, for each model and device.")
+      ->envname("CHOREO_SLOTS")
+      ->capture_default_str();
+  app.add_option("--max-waiting", config.max_waiting,
+                 "Transitions that may wait for a slot, for each model.")
+      ->envname("CHOREO_MAX_WAITING")
+      ->capture_default_str();
+  app.add_option("--max-streams", config.max_streams,
+                 "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED).")
+      ->envname("CHOREO_MAX_STREAMS")
+      ->capture_default_str();
+  app.add_option("--threads", config.threads,
+                 "Threads of one matrix product; 0 takes every core that may be used.")
+      ->envname("CHOREO_THREADS")
+      ->capture_default_str();
+  app.add_option("--io-threads", config.io_threads,
+                 "Threads that decode files and long pieces of music.")
+      ->envname("CHOREO_IO_THREADS")
+      ->capture_default_str();
+  app.add_option("--drain-seconds", config.drain_seconds,
+                 "After SIGTERM or SIGINT: how long streams may go on before they end as "
+                 "UNAVAILABLE. New ones are refused at once, and health says NOT_SERVING.")
+      ->envname("CHOREO_DRAIN_SECONDS")
+      ->capture_default_str();
+  app.add_option("--outbox-kib", config.outbox_kib,
+                 "Answers that may wait for a slow client before its dance pauses, KiB.")
+      ->envname("CHOREO_OUTBOX_KIB")
+      ->capture_default_str();
+  app.add_option("--tls-cert", config.tls_certificate,
+                 "PEM file with the certificate chain. Without it, connections are not encrypted.")
+      ->envname("CHOREO_TLS_CERT");
+  app.add_option("--tls-key", config.tls_key, "PEM file with the private key of --tls-cert.")
+      ->envname("CHOREO_TLS_KEY");
+  app.add_option("--log-level", config.log_level,
+                 "trace, debug, info, warning, error, critical or off. The log goes to stderr.")
+      ->envname("CHOREO_LOG_LEVEL")
+      ->capture_default_str();
+  app.set_config("--config", "", "Read settings from this TOML or INI file, as in: slots = 32");
+}
+
+}  // namespace
+
+void ServerConfig::Validate() const {
+  const size_t colon = listen.rfind(':');
+  if (colon == std::string::npos || colon + 1 == listen.size() ||
+      !std::all_of(listen.begin() + static_cast<std::ptrdiff_t>(colon) + 1, listen.end(),
+                   [](char c) { return c >= '0' && c <= '9'; })) {
+    throw InvalidArgument("--listen", '"' + listen + "\" is not HOST:PORT");
+  }
+  for (const auto& path : checkpoints) CheckFile("--checkpoint", path);
+  CheckRange("--slots", slots, 1, 4096);
+  CheckRange("--max-waiting", max_waiting, 0, 65536);
+  CheckRange("--max-streams", max_streams, 1, 65536);
+  CheckRange("--threads", threads, 0, 1024);
+  CheckRange("--io-threads", io_threads, 1, 256);
+  CheckRange("--drain-seconds", drain_seconds, 0, 3600);
+  CheckRange("--outbox-kib", outbox_kib, 1, 65536);
+  if (tls_certificate.empty() != tls_key.empty()) {
+    throw InvalidArgument(tls_key.empty() ? "--tls-key" : "--tls-cert",
+                          "missing; a certificate and its key go together");
+  }
+  if (!tls_certificate.empty()) {
+    CheckFile("--tls-cert", tls_certificate);
+    CheckFile("--tls-key", tls_key);
+  }
+  if (std::find(kLogLevels.begin(), kLogLevels.end(), log_level) == kLogLevels.end()) {
+    throw InvalidArgument("--log-level", '"' + log_level +
+                                             "\" is none of trace, debug, info, warning, error, "
+                                             "critical, off");
+  }
+}
+
+CommandLine ParseCommandLine(int argc, const char* const* argv) {
+  ServerConfig config;
+  CLI::App app{
+      "choreod makes people dance: it serves the gRPC API choreo.v1.Choreography, with health "
+      "checking and reflection.\nEvery setting can also come from the environment or a file.",
+      "choreod"};
+  app.set_version_flag("--version", CHOREO_VERSION);
+  AddOptions(app, config);
+  try {
+    app.parse(argc, argv);
+    config.Validate();
+    return {.config = std::move(config), .exit_code = 0};
+  } catch (const CLI::ParseError& error) {
+    return {.config = std::nullopt, .exit_code = app.exit(error)};
+  } catch (const Error& error) {
+    std::cerr << "choreod: " << error.what() << '\n';
+    return {.config = std::nullopt, .exit_code = 2};
+  }
+}
+
+std::filesystem::path ShippedCheckpoint() {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::array candidates = {
+      program / "../share/choreo/checkpoints/default.safetensors",
+      std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors"};
+  for (const auto& path : candidates) {
+    if (std::filesystem::is_regular_file(path)) return path.lexically_normal();
+  }
+  std::string looked;
+  for (const auto& path : candidates) looked += "\n  " + path.lexically_normal().string();
+  throw Error(ErrorCode::kNotFound, "--checkpoint", "none given, and none found at" + looked);
+}
+
+}  // namespace choreo

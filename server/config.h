@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace choreo {
+
+/// What a choreod is started with. Flags, a configuration file and the environment fill it; main
+/// is the only place that acts on it.
+struct ServerConfig {
+  /// HOST:PORT to listen on. Port 0: a free one is picked and printed.
+  std::string listen = "127.0.0.1:50051";
+  /// One model each; the first is the default. Empty: the checkpoint that ships.
+  std::vector<std::filesystem::path> checkpoints;
+  std::string device = "auto";  ///< auto, cpu, or cuda:N[,N...]
+  int slots = 16;               ///< transitions in progress at once, for each model and device
+  int max_waiting = 64;         ///< transitions that may wait for a slot, for each model
+  int max_streams = 64;         ///< calls in progress at once; those beyond are refused
+  int threads = 0;              ///< of one matrix product; 0: every usable core
+  int io_threads = 2;           ///< that decode files and long pieces of music
+  double drain_seconds = 20;    ///< that streams get to finish after SIGTERM
+  int outbox_kib = 256;         ///< of answers that wait for a slow client before its dance pauses
+  std::filesystem::path tls_certificate;  ///< PEM chain; empty: no TLS
+  std::filesystem::path tls_key;          ///< PEM; goes with tls_certificate
+  std::string log_level = "info";         ///< trace, debug, info, warning, error, critical, off
+
+  /// Throws Error(kInvalidArgument) naming the first setting that cannot be used.
+  void Validate() const;
+};
+
+/// What the command line asked for: a configuration that is valid, or to leave with `exit_code`
+/// (the help or an error has been printed).
+struct CommandLine {
+  std::optional<ServerConfig> config;
+  int exit_code = 0;
+};
+
+/// A flag goes before its environment variable (CHOREO_LISTEN, ...), that before the file that
+/// --config names (TOML or INI).
+CommandLine ParseCommandLine(int argc, const char* const* argv);
+
+/// The checkpoint that ships: installed beside the program, or in the source tree that it was
+/// built in. Throws Error(kNotFound) naming where it looked.
+std::filesystem::path ShippedCheckpoint();
+
+}  // namespace choreo

@@ -1,0 +1,522 @@
+#include "server/convert.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "model/audio/format.h"
+#include "model/core/error.h"
+#include "model/dance/transition.h"
+#include "model/dance/validation.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
+
+constexpr double kUnitTolerance = 1e-3;
+constexpr int kMaxAfterPoses = 60;
+
+std::string At(const std::string& field, int64_t index) {
+  return field + '[' + std::to_string(index) + ']';
+}
+
+int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field) {
+  switch (encoding) {
+    case v1::ROTATION_ENCODING_UNSPECIFIED:
+    case v1::ROTATION_ENCODING_AXIS_ANGLE:
+      return 3;
+    case v1::ROTATION_ENCODING_QUATERNION:
+      return 4;
+    case v1::ROTATION_ENCODING_MATRIX:
+      return 9;
+    default:
+      throw InvalidArgument(field, std::to_string(encoding) + " is no RotationEncoding");
+  }
+}
+
+Eigen::Vector3d FromQuaternionNumbers(const float* v, const std::string& field) {
+  const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
+  if (!(std::abs(q.norm() - 1) <= kUnitTolerance)) {
+    throw InvalidArgument(field, "norm " + Show(q.norm()) + " of the quaternion is further than " +
+                                     Show(kUnitTolerance) + " from 1");
+  }
+  return ExpFromQuaternion(q.normalized());
+}
+
+Eigen::Vector3d FromMatrixNumbers(const float* v, const std::string& field) {
+  Eigen::Matrix3d r;
+  for (int i = 0; i < 9; ++i) r(i / 3, i % 3) = v[i];
+  const double error = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error <= kUnitTolerance) || !(r.determinant() > 0)) {
+    throw InvalidArgument(field, "not a rotation matrix: R^T R is " + Show(error) +
+                                     " from the identity (limit " + Show(kUnitTolerance) +
+                                     "), its determinant is " + Show(r.determinant()));
+  }
+  return LogMap(MatrixFromSixD(
+      (Eigen::Matrix<double, 6, 1>() << r.col(0), r.col(1)).finished()));  // orthonormal again
+}
+
+Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
+  const std::string field = "config.history.poses";
+  if (history.poses_size() == 0) throw InvalidArgument(field, "empty; at least 1 pose is needed");
+  // Only the last ones are looked at, but a wrong one is wrong wherever it stands.
+  std::vector<Pose> poses;
+  for (int i = 0; i < history.poses_size(); ++i) {
+    poses.push_back(ToPose(history.poses(i), model.skeleton, At(field, i)));
+  }
+  ValidateHistory(model.skeleton, poses, field);
+  if (history.first_frame() < 0 || history.first_frame() > kMaxDanceFrames) {
+    throw InvalidArgument("config.history.first_frame", std::to_string(history.first_frame()) +
+                                                            " is not in [0, " +
+                                                            std::to_string(kMaxDanceFrames) + "]");
+  }
+  const size_t kept = std::min(poses.size(), static_cast<size_t>(model.history_frames));
+  poses.erase(poses.begin(), poses.end() - static_cast<std::ptrdiff_t>(kept));
+  return poses;
+}
+
+void CheckSize(int64_t size, int64_t expected, const std::string& shape, const std::string& field) {
+  if (size == expected) return;
+  throw InvalidArgument(
+      field, std::to_string(size) + " numbers, not " + std::to_string(expected) + ' ' + shape);
+}
+
+Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& model,
+                            bool allow_inexact) {
+  const std::string field = "config.continuation";
+  const Skeleton& skeleton = model.skeleton;
+  if (message.skeleton() != skeleton.name) {
+    throw Error(ErrorCode::kFailedPrecondition, field + ".skeleton",
+                '"' + message.skeleton() + "\" is not the model's, \"" + skeleton.name + '"');
+  }
+  const int history = model.history_frames;
+  CheckSize(message.root_positions_size(), int64_t{3} * history, "[history, 3]",
+            field + ".root_positions");
+  CheckSize(message.rotations_size(), int64_t{3} * history * skeleton.joints(),
+            "[history, joints, 3]", field + ".rotations");
+  Continuation continuation;
+  continuation.frame = message.frame();
+  continuation.fingerprint = message.fingerprint();
+  for (int i = 0; i < history; ++i) {
+    Pose pose;
+    for (int axis = 0; axis < 3; ++axis) {
+      pose.root_position[axis] = message.root_positions(3 * i + axis);
+    }
+    pose.rotations.resize(3, skeleton.joints());
+    for (Eigen::Index d = 0; d < pose.rotations.size(); ++d) {
+      pose.rotations.data()[d] = message.rotations(static_cast<int>(i * pose.rotations.size() + d));
+    }
+    continuation.poses.push_back(std::move(pose));
+  }
+  ValidateContinuation(model, continuation, allow_inexact, field);
+  return continuation;
+}
+
+// What both RPCs read from a configuration. DanceConfig and GroupRequest share these names.
+template <class Out>
+void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
+                Out* out) {
+  NumbersPerJoint(config.encoding(), "config.encoding");
+  out->output_fps = config.frame_rate() == 0 ? model.fps : config.frame_rate();
+  ValidateOutputFps(out->output_fps, "config.frame_rate");
+  if (config.has_temperature()) {
+    out->temperature = static_cast<float>(config.temperature());
+    ValidateTemperature(*out->temperature, "config.temperature");
+  }
+  out->seed = config.has_seed()           ? config.seed()
+              : config.has_continuation() ? config.continuation().seed()
+                                          : fresh_seed;
+  out->allow_inexact_resume = config.allow_inexact_resume();
+  if (config.has_continuation())
+    out->continuation = ToContinuation(config.continuation(), model, config.allow_inexact_resume());
+  out->music_beats.assign(config.music_beats().begin(), config.music_beats().end());
+  for (size_t i = 0; i < out->music_beats.size(); ++i) {
+    const double beat = out->music_beats[i];
+    const std::string field = At("config.music_beats", static_cast<int64_t>(i));
+    if (!(beat >= 0 && beat <= kMaxAudioSeconds)) {
+      throw InvalidArgument(field, Show(beat) + " s is not in [0, " + Show(kMaxAudioSeconds) + "]");
+    }
+    if (i > 0 && beat <= out->music_beats[i - 1]) {
+      throw InvalidArgument(field, Show(beat) + " s is not after the beat before it, " +
+                                       Show(out->music_beats[i - 1]) + " s");
+    }
+  }
+}
+
+void CheckMusic(const v1::AudioFormat& format) {
+  const std::string field = "config.audio_format";
+  switch (format.encoding()) {
+    case v1::AUDIO_ENCODING_PCM_F32LE:
+    case v1::AUDIO_ENCODING_PCM_S16LE:
+      choreo::CheckAudioFormat(format.sample_rate(),
+                               static_cast<int>(std::min<uint32_t>(format.channels(), 1U << 30)),
+                               field);
+      if (format.first_sample() < 0 ||
+          format.first_sample() > int64_t{kMaxAudioSeconds} * format.sample_rate()) {
+        throw InvalidArgument(field + ".first_sample",
+                              std::to_string(format.first_sample()) + " is not in [0, " +
+                                  std::to_string(int64_t{kMaxAudioSeconds} * format.sample_rate()) +
+                                  "]");
+      }
+      return;
+    case v1::AUDIO_ENCODING_FILE:
+      for (const auto& [name, value] :
+           {std::pair<std::string, int64_t>{".sample_rate", format.sample_rate()},
+            {".channels", format.channels()},
+            {".first_sample", format.first_sample()}}) {
+        if (value != 0) {
+          throw InvalidArgument(field + name, std::to_string(value) + " must be 0 for a file");
+        }
+      }
+      return;
+    default:
+      throw InvalidArgument(field + ".encoding", std::to_string(format.encoding()) +
+                                                     " is none of PCM_F32LE, PCM_S16LE, FILE");
+  }
+}
+
+void FillErrors(const ArrivalResult& arrival, v1::KeyframeErrors* out) {
+  out->set_raw_error_m(arrival.raw_error_m);
+  out->set_final_error_m(arrival.final_error_m);
+  out->set_final_error_deg(arrival.final_error_deg);
+  out->set_correction_m(arrival.correction_m);
+}
+
+}  // namespace
+
+Eigen::Matrix3Xd ToRotations(const v1::Pose& pose, const Skeleton& skeleton,
+                             const std::string& field) {
+  const int width = NumbersPerJoint(pose.encoding(), field + ".encoding");
+  const std::string path = field + ".rotations";
+  if (pose.rotations_size() != width * skeleton.joints()) {
+    const bool whole = pose.rotations_size() % width == 0;
+    throw InvalidArgument(path,
+                          std::to_string(pose.rotations_size()) + " numbers are " +
+                              (whole ? std::to_string(pose.rotations_size() / width) + " joints"
+                                     : "no multiple of " + std::to_string(width)) +
+                              "; the model has " + std::to_string(skeleton.joints()) + " joints, " +
+                              std::to_string(width * skeleton.joints()) + " numbers");
+  }
+  Eigen::Matrix3Xd rotations(3, skeleton.joints());
+  for (int joint = 0; joint < skeleton.joints(); ++joint) {
+    const float* numbers = pose.rotations().data() + static_cast<std::ptrdiff_t>(joint) * width;
+    for (int i = 0; i < width; ++i) {
+      if (!std::isfinite(numbers[i])) {
+        throw InvalidArgument(At(path, joint), Show(numbers[i]) + " is not finite");
+      }
+    }
+    rotations.col(joint) = width == 3   ? Eigen::Vector3d(numbers[0], numbers[1], numbers[2])
+                           : width == 4 ? FromQuaternionNumbers(numbers, At(path, joint))
+                                        : FromMatrixNumbers(numbers, At(path, joint));
+  }
+  return rotations;
+}
+
+Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field) {
+  if (!pose.has_root_position()) throw InvalidArgument(field + ".root_position", "missing");
+  return {.root_position = ToVector(pose.root_position()),
+          .rotations = ToRotations(pose, skeleton, field)};
+}
+
+WorldTarget ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
+                     const std::string& pose_field, const std::string& mask_field) {
+  WorldTarget target;
+  target.pose.rotations = ToRotations(pose, skeleton, pose_field);
+  target.mask.root_position = pose.has_root_position();
+  if (pose.has_root_position()) target.pose.root_position = ToVector(pose.root_position());
+  if (mask != nullptr) {
+    target.mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
+    int previous = -1;
+    for (int i = 0; i < mask->joints_size(); ++i) {
+      const int joint = mask->joints(i);
+      if (joint <= previous || joint >= skeleton.joints()) {
+        throw InvalidArgument(At(mask_field + ".joints", i),
+                              std::to_string(joint) + " is not in [" +
+                                  std::to_string(previous + 1) + ", " +
+                                  std::to_string(skeleton.joints() - 1) + "]");
+      }
+      target.mask.joints[static_cast<size_t>(joint)] = true;
+      previous = joint;
+    }
+  }
+  ValidatePose(skeleton, target.pose, pose_field);
+  ValidateMask(skeleton, target.mask, mask_field);
+  return target;
+}
+
+KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& field) {
+  switch (keyframe.when_case()) {
+    case v1::Keyframe::kFrame:
+      return AtFrame{keyframe.frame()};
+    case v1::Keyframe::kTime:
+      return AtTime{keyframe.time()};
+    case v1::Keyframe::kIntervalAfterPrevious:
+      if (keyframe.interval_after_previous() < kMinKeyDistance ||
+          keyframe.interval_after_previous() > kMaxDanceFrames) {
+        throw InvalidArgument(field + ".interval_after_previous",
+                              std::to_string(keyframe.interval_after_previous()) +
+                                  " frames is not in [" + std::to_string(kMinKeyDistance) + ", " +
+                                  std::to_string(kMaxDanceFrames) + "]");
+      }
+      return AfterPrevious{static_cast<double>(keyframe.interval_after_previous()) / fps};
+    case v1::Keyframe::WHEN_NOT_SET:
+      break;
+  }
+  throw InvalidArgument(field, "none of frame, time, interval_after_previous is there");
+}
+
+DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
+                          uint64_t fresh_seed) {
+  DanceConfig config;
+  FillCommon(message, model, fresh_seed, &config);
+  if (message.has_history()) {
+    config.history = ToHistory(message.history(), model);
+    if (message.history().first_frame() > 0) {
+      // In the middle of a dance: the same as going on from there.
+      config.continuation = Continuation{.frame = message.history().first_frame(),
+                                         .poses = FillHistory(model, config.history),
+                                         .fingerprint = model.fingerprint};
+      config.history.clear();
+    }
+  }
+  if (message.has_frames()) {
+    if (message.frames() < 1 || message.frames() > kMaxDanceFrames) {
+      throw InvalidArgument("config.frames", std::to_string(message.frames()) + " is not in [1, " +
+                                                 std::to_string(kMaxDanceFrames) + "]");
+    }
+    config.end_frame = message.frames();
+  }
+  if (message.has_audio_format()) {
+    const v1::AudioFormat& format = message.audio_format();
+    CheckMusic(format);
+    config.audio =
+        format.encoding() == v1::AUDIO_ENCODING_FILE
+            ? DanceConfig::Audio{kFileAudioRate, 1, 0}
+            : DanceConfig::Audio{static_cast<double>(format.sample_rate()),
+                                 static_cast<int>(format.channels()), format.first_sample()};
+  }
+  config.Validate(model);
+  return config;
+}
+
+GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,
+                            uint64_t fresh_seed) {
+  if (!message.has_config()) throw InvalidArgument("config", "missing");
+  GroupRequest request;
+  FillCommon(message.config(), model, fresh_seed, &request);
+  if (message.config().has_history()) {
+    request.history = ToHistory(message.config().history(), model);
+    request.first_frame = message.config().history().first_frame();
+  }
+  if (message.config().has_frames()) {
+    throw InvalidArgument("config.frames", "is for StreamDance; GenerateTransition has its own");
+  }
+  request.frames = message.frames();
+  if (message.candidates() > static_cast<uint32_t>(kMaxCandidates)) {
+    throw InvalidArgument("candidates", std::to_string(message.candidates()) + " is not in [0, " +
+                                            std::to_string(kMaxCandidates) + "]");
+  }
+  request.candidates = message.candidates() == 0 ? 1 : static_cast<int>(message.candidates());
+  if (message.has_target()) {
+    request.target =
+        ToTarget(message.target(), message.has_target_mask() ? &message.target_mask() : nullptr,
+                 model.skeleton, "target", "target_mask");
+  } else if (message.has_target_mask()) {
+    throw InvalidArgument("target_mask", "there is no target");
+  }
+  if (message.after_size() > kMaxAfterPoses) {
+    throw InvalidArgument("after", std::to_string(message.after_size()) + " poses, more than " +
+                                       std::to_string(kMaxAfterPoses));
+  }
+  if (message.after_size() > 0 && !message.has_target()) {
+    throw InvalidArgument("after", "there is no target");
+  }
+  for (int i = 0; i < message.after_size(); ++i) {
+    const Pose pose = ToPose(message.after(i), model.skeleton, At("after", i));
+    ValidateHistory(model.skeleton, {&pose, 1}, "after");
+    if (i == 0) request.after = pose;
+  }
+  if (message.has_controls()) CheckControls(message.controls(), model, "controls");
+
+  if (message.config().has_audio_format()) {
+    const v1::AudioFormat& format = message.config().audio_format();
+    CheckMusic(format);
+    if (!message.has_audio()) {
+      throw InvalidArgument("audio", "missing, though config.audio_format is there");
+    }
+    if (message.audio().first_sample() != format.first_sample()) {
+      throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
+                  std::to_string(message.audio().first_sample()) +
+                      " is not config.audio_format.first_sample, " +
+                      std::to_string(format.first_sample()));
+    }
+    if (format.encoding() != v1::AUDIO_ENCODING_FILE) {
+      request.sample_rate = format.sample_rate();
+      request.channels = static_cast<int>(format.channels());
+      request.first_sample = format.first_sample();
+      request.samples = ToSamples(message.audio().data(), format, "audio.data");
+    }
+  } else if (message.has_audio()) {
+    throw InvalidArgument("audio", "there is no config.audio_format");
+  }
+  return request;
+}
+
+std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,
+                             const std::string& field) {
+  const bool floats = format.encoding() == v1::AUDIO_ENCODING_PCM_F32LE;
+  const size_t sample_bytes = floats ? sizeof(float) : sizeof(int16_t);
+  const size_t frame_bytes = sample_bytes * format.channels();
+  if (bytes.size() % frame_bytes != 0) {
+    throw InvalidArgument(field, std::to_string(bytes.size()) + " bytes are not whole samples of " +
+                                     std::to_string(frame_bytes) + " bytes");
+  }
+  std::vector<float> samples(bytes.size() / sample_bytes);
+  if (floats) {
+    std::memcpy(samples.data(), bytes.data(), bytes.size());
+  } else {
+    for (size_t i = 0; i < samples.size(); ++i) {
+      int16_t value = 0;
+      std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
+      samples[i] = static_cast<float>(value) / 32768.0F;
+    }
+  }
+  return samples;
+}
+
+void CheckControls(const v1::Controls& controls, const ModelInfo& model, const std::string& field) {
+  const std::string message = "the model \"" + model.name + "\" does not have this control";
+  if (controls.has_root_path()) {
+    throw Error(ErrorCode::kUnimplemented, field + ".root_path", message);
+  }
+  if (controls.has_velocity_factors()) {
+    throw Error(ErrorCode::kUnimplemented, field + ".velocity_factors", message);
+  }
+}
+
+void FromSkeleton(const Skeleton& skeleton, v1::Skeleton* out) {
+  out->set_name(skeleton.name);
+  for (const auto& name : skeleton.joint_names) out->add_joint_names(name);
+  for (const int parent : skeleton.parents) out->add_parents(parent);
+  for (const double value : skeleton.offsets.reshaped()) {
+    out->add_offsets(static_cast<float>(value));
+  }
+  out->set_pelvis_height(skeleton.pelvis_height);
+  for (const int joint : skeleton.feet) out->add_feet(joint);
+}
+
+void FromFrames(int64_t first_frame, std::span<const Pose> poses,
+                std::span<const std::array<float, 4>> contacts, v1::RotationEncoding encoding,
+                v1::Frames* out) {
+  out->set_first_frame(first_frame);
+  out->set_count(static_cast<int32_t>(poses.size()));
+  auto add = [out](double value) { out->add_rotations(static_cast<float>(value)); };
+  for (const Pose& pose : poses) {
+    for (const double value : pose.root_position) {
+      out->add_root_positions(static_cast<float>(value));
+    }
+    for (Eigen::Index joint = 0; joint < pose.rotations.cols(); ++joint) {
+      const Eigen::Vector3d w = pose.rotations.col(joint);
+      if (encoding == v1::ROTATION_ENCODING_QUATERNION) {
+        for (const double value : QuaternionFromExp(w).coeffs()) add(value);
+      } else if (encoding == v1::ROTATION_ENCODING_MATRIX) {
+        const Eigen::Matrix3d r = ExpMap(w);
+        for (int i = 0; i < 9; ++i) add(r(i / 3, i % 3));
+      } else {
+        for (const double value : w) add(value);
+      }
+    }
+  }
+  for (const auto& frame : contacts) {
+    for (const float value : frame) out->add_contacts(value);
+  }
+}
+
+void FromContinuation(const Continuation& continuation, const ModelInfo& model, uint64_t seed,
+                      const v1::AudioFormat* audio_format, v1::Continuation* out) {
+  out->set_frame(continuation.frame);
+  if (audio_format != nullptr && audio_format->encoding() != v1::AUDIO_ENCODING_FILE) {
+    out->set_audio_from_sample(
+        DanceStream::LatestFirstSample(continuation.frame, audio_format->sample_rate(), model));
+  }
+  out->set_fingerprint(continuation.fingerprint);
+  out->set_seed(seed);
+  for (const Pose& pose : continuation.poses) {
+    for (const double value : pose.root_position) {
+      out->add_root_positions(static_cast<float>(value));
+    }
+    for (const double value : pose.rotations.reshaped()) {
+      out->add_rotations(static_cast<float>(value));
+    }
+  }
+  out->set_skeleton(model.skeleton.name);
+}
+
+void FromReport(const QualityReport& report, v1::QualityReport* out) {
+  out->set_first_frame(report.first_frame);
+  out->set_frames(report.frames);
+  for (const KeyReport& key : report.keys) {
+    auto* entry = out->add_keyframes();
+    entry->set_id(key.id);
+    entry->set_frame(key.frame);
+    FillErrors(key.arrival, entry->mutable_errors());
+    entry->set_max_acceleration(key.max_acceleration);
+  }
+  out->set_log_likelihood(report.mean_log_likelihood);
+  out->set_skate_ratio(report.skate_ratio);
+  if (report.beat_hit_rate) out->set_beat_hit_rate(*report.beat_hit_rate);
+  if (report.beat_coverage) out->set_beat_coverage(*report.beat_coverage);
+  out->set_max_key_acceleration(report.max_key_acceleration);
+  out->set_p95_acceleration(report.p95_acceleration);
+}
+
+void FromEvent(const DanceEvent& event, double fps, v1::Event* out) {
+  if (const auto* reached = std::get_if<KeyReached>(&event)) {
+    out->set_frame(reached->frame);
+    out->mutable_keyframe_reached()->set_id(reached->id);
+    FillErrors(reached->arrival, out->mutable_keyframe_reached()->mutable_errors());
+  } else if (const auto* rejection = std::get_if<KeyRejection>(&event)) {
+    out->set_frame(rejection->frame);
+    auto* rejected = out->mutable_keyframe_rejected();
+    rejected->set_id(rejection->id);
+    rejected->set_earliest_frame(rejection->earliest_frame);
+    rejected->set_reason(rejection->reason);
+  } else if (const auto* warning = std::get_if<DanceWarning>(&event)) {
+    out->set_frame(warning->frame);
+    out->mutable_warning()->set_code(warning->kind == DanceWarning::Kind::kIntervalTooShort
+                                         ? v1::WARNING_CODE_INTERVAL_TOO_SHORT
+                                         : v1::WARNING_CODE_INEXACT_RESUME);
+    out->mutable_warning()->set_message(warning->message);
+  }
+  out->set_time(static_cast<double>(out->frame()) / fps);
+}
+
+void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
+  out->set_name(model.name);
+  out->set_fingerprint(model.fingerprint);
+  out->set_licence(model.licence);
+  out->set_card(model.card);
+  FromSkeleton(model.skeleton, out->mutable_skeleton());
+  out->set_model_frame_rate(model.fps);
+  out->set_history_frames(model.history_frames);
+  out->set_default_temperature(model.default_temperature);
+  // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
+  constexpr int64_t kSomeFrame = 3'000;
+  out->set_audio_lead_s(
+      static_cast<double>(kSomeFrame) / model.fps -
+      static_cast<double>(DanceStream::LatestFirstSample(kSomeFrame, kMinSampleRate, model)) /
+          kMinSampleRate);
+  DanceConfig config;
+  config.output_fps = model.fps;
+  config.audio = DanceConfig::Audio{kMinSampleRate, 1, 0};
+  out->set_latency_frames(DanceStream::LatencyFrames(config, model));
+}
+
+}  // namespace choreo

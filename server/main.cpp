@@ -1,0 +1,81 @@
+#include <pthread.h>
+#include <signal.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+
+#include "model/core/error.h"
+#include "model/core/threads.h"
+#include "model/engine/devices.h"
+#include "model/engine/torch_engine.h"
+#include "server/config.h"
+#include "server/server.h"
+
+namespace choreo {
+namespace {
+
+/// Stops these from ending the process: from here on they wait for sigwait. Threads inherit it.
+sigset_t BlockStopSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
+  const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
+  std::vector<std::filesystem::path> checkpoints = config.checkpoints;
+  if (checkpoints.empty()) checkpoints.push_back(ShippedCheckpoint());
+  std::vector<Server::Engines> models;
+  for (const auto& path : checkpoints) {
+    models.push_back(MakeTorchEngines(path, devices, config.slots));
+    const StepEngine& engine = *models.back().front();
+    spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} devices ({}, ...), {} slots each",
+                 path.string(), engine.model().name, engine.model().fingerprint, devices.size(),
+                 engine.device(), engine.slots());
+  }
+  return models;
+}
+
+void Run(const ServerConfig& config) {
+  const sigset_t stop_signals = BlockStopSignals();
+  const BlasInfo blas = DetectBlas();
+  RequireFastBlas(blas);
+  const int threads = config.threads == 0 ? UsableCores() : config.threads;
+  SetMathThreads(threads);
+  SetTorchThreads(threads);
+  FlushDenormals();
+  spdlog::info("{} threads, BLAS {}", threads, blas.name);
+
+  Server server(config, LoadModels(config));
+  const std::string host = config.listen.substr(0, config.listen.rfind(':'));
+  // Whoever starts a choreod waits for this line.
+  std::cout << "choreod listens on " << host << ':' << server.port() << std::endl;
+
+  int signal = 0;
+  sigwait(&stop_signals, &signal);
+  spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
+               config.drain_seconds);
+  pthread_sigmask(SIG_UNBLOCK, &stop_signals, nullptr);
+  server.Drain(config.drain_seconds);
+}
+
+}  // namespace
+}  // namespace choreo
+
+int main(int argc, char** argv) {
+  const choreo::CommandLine command_line = choreo::ParseCommandLine(argc, argv);
+  if (!command_line.config) return command_line.exit_code;
+  spdlog::set_default_logger(spdlog::stderr_color_mt("choreod"));
+  spdlog::set_level(spdlog::level::from_str(command_line.config->log_level));
+  try {
+    choreo::Run(*command_line.config);
+    return 0;
+  } catch (const std::exception& error) {
+    spdlog::critical("{}", error.what());
+    return 1;
+  }
+}

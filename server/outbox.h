@@ -1,0 +1,200 @@
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <utility>
+
+namespace choreo {
+
+/// Where those who make a call's answers (workers) meet the gRPC reactor that writes them.
+///
+/// gRPC 1.51 has no holds on the server: a reactor dies once it has finished and its operations
+/// are over. So nobody but this object asks it to write or finish, always under the lock, and never
+/// again after Finish; workers keep this object alive, not the reactor.
+///
+/// The queue of answers is bounded by back-pressure: beyond `max_bytes` the dance is paused, below
+/// half of it set going again. (HTTP/2 lets some 4 MiB more run ahead of a client that stalls.)
+/// Frames that wait are joined into larger messages. Thread-safe.
+template <class Response>
+class Outbox {
+ public:
+  /// What a reactor does for the outbox. Called with the lock held; neither may call back.
+  class Wire {
+   public:
+    virtual ~Wire() = default;
+    virtual void Write(const Response* message) = 0;  ///< ends in OnWriteDone
+    virtual void Finish(const grpc::Status& status) = 0;
+  };
+
+  enum class State {
+    kOpen,      ///< takes answers
+    kClosing,   ///< takes none; what is queued still goes out
+    kFinished,  ///< the wire has been told to finish and may be gone
+  };
+
+  /// While it lives, the wire is not told to finish: whoever uses the reactor outside of the lock
+  /// has one.
+  class Hold {
+   public:
+    explicit Hold(Outbox& outbox) : outbox_(outbox) {
+      const std::lock_guard lock(outbox_.mutex_);
+      ++outbox_.holds_;
+    }
+    ~Hold() {
+      const std::lock_guard lock(outbox_.mutex_);
+      --outbox_.holds_;
+      outbox_.Advance();
+    }
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+
+   private:
+    Outbox& outbox_;
+  };
+
+  /// `set_paused` is called without the lock, one call at a time.
+  Outbox(Wire* wire, size_t max_bytes, std::function<void(bool)> set_paused)
+      : wire_(wire), max_bytes_(max_bytes), set_paused_(std::move(set_paused)) {}
+
+  /// Queues an answer. Ignored unless open.
+  void Send(Response message) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (state_ != State::kOpen) return;
+      const size_t bytes = message.ByteSizeLong();
+      bytes_ += bytes;
+      if (!Join(message, bytes)) queue_.push_back({std::move(message), bytes});
+      Advance();
+    }
+    UpdatePressure();
+  }
+
+  /// No more answers; once those queued are out the call ends with `status`. The first Close or
+  /// Abort counts.
+  void Close(const grpc::Status& status) {
+    const std::lock_guard lock(mutex_);
+    if (state_ != State::kOpen) return;
+    state_ = State::kClosing;
+    status_ = status;
+    Advance();
+  }
+
+  /// As Close, but drops what is queued, also after Close.
+  void Abort(const grpc::Status& status) {
+    const std::lock_guard lock(mutex_);
+    if (state_ == State::kFinished) return;
+    if (state_ == State::kOpen) status_ = status;
+    state_ = State::kClosing;
+    while (queue_.size() > (writing_ ? 1 : 0)) {
+      bytes_ -= queue_.back().bytes;
+      queue_.pop_back();
+    }
+    Advance();
+  }
+
+  /// The reactor's OnWriteDone.
+  void OnWriteDone(bool ok) {
+    {
+      const std::lock_guard lock(mutex_);
+      writing_ = false;
+      bytes_ -= queue_.front().bytes;
+      queue_.pop_front();
+    }
+    if (ok) {
+      {
+        const std::lock_guard lock(mutex_);
+        Advance();
+      }
+      UpdatePressure();
+    } else {
+      Abort({grpc::StatusCode::CANCELLED, "the client is gone"});
+    }
+  }
+
+  bool open() const {
+    const std::lock_guard lock(mutex_);
+    return state_ == State::kOpen;
+  }
+
+  /// With which the call ended, or will end.
+  grpc::Status status() const {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+
+ private:
+  static constexpr int kMaxJoinedFrames = 60;
+
+  struct Item {
+    Response message;
+    size_t bytes = 0;
+  };
+
+  // Appends frames to the message that waits last, if that carries the frames before them.
+  bool Join(const Response& message, size_t bytes) {
+    if (!message.has_frames() || queue_.size() < (writing_ ? 2U : 1U)) return false;
+    Item& last = queue_.back();
+    if (!last.message.has_frames()) return false;
+    const auto& next = message.frames();
+    auto* frames = last.message.mutable_frames();
+    if (frames->candidate() != next.candidate() ||
+        frames->first_frame() + frames->count() != next.first_frame() ||
+        frames->count() + next.count() > kMaxJoinedFrames) {
+      return false;
+    }
+    frames->set_count(frames->count() + next.count());
+    frames->mutable_root_positions()->MergeFrom(next.root_positions());
+    frames->mutable_rotations()->MergeFrom(next.rotations());
+    frames->mutable_contacts()->MergeFrom(next.contacts());
+    last.bytes += bytes;
+    return true;
+  }
+
+  // The next operation, if one is due. Under the lock.
+  void Advance() {
+    if (writing_ || state_ == State::kFinished) return;
+    if (!queue_.empty()) {
+      writing_ = true;
+      wire_->Write(&queue_.front().message);
+    } else if (state_ == State::kClosing && holds_ == 0) {
+      state_ = State::kFinished;
+      wire_->Finish(status_);
+    }
+  }
+
+  // set_paused may make a dance deliver, hence come back here: the outermost call sees to it.
+  void UpdatePressure() {
+    std::unique_lock lock(mutex_);
+    if (updating_pressure_) return;
+    updating_pressure_ = true;
+    for (;;) {
+      const bool want = paused_ ? bytes_ > max_bytes_ / 2 : bytes_ > max_bytes_;
+      if (want == paused_) break;
+      paused_ = want;
+      lock.unlock();
+      set_paused_(want);
+      lock.lock();
+    }
+    updating_pressure_ = false;
+  }
+
+  Wire* const wire_;
+  const size_t max_bytes_;
+  const std::function<void(bool)> set_paused_;
+
+  mutable std::mutex mutex_;  // guards all below
+  State state_ = State::kOpen;
+  std::deque<Item> queue_;  // the front is being written while writing_
+  size_t bytes_ = 0;        // of the queue
+  bool writing_ = false;
+  int holds_ = 0;
+  bool paused_ = false;
+  bool updating_pressure_ = false;
+  grpc::Status status_;
+};
+
+}  // namespace choreo

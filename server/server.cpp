@@ -1,0 +1,147 @@
+#include "server/server.h"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+
+#include "model/core/error.h"
+#include "server/convert.h"
+#include "server/service.h"
+#include "server/serving.h"
+
+namespace choreo {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A client that vanished without a word is noticed after these.
+constexpr int kKeepaliveMs = 30'000;
+constexpr int kKeepaliveTimeoutMs = 10'000;
+constexpr int kClientPingMs = 10'000;  // clients may ping this often
+/// What calls that were told to end get to do so.
+constexpr milliseconds kAbortTime{2'000};
+constexpr milliseconds kShutdownTime{1'000};
+
+std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be read");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::shared_ptr<grpc::ServerCredentials> Credentials(const ServerConfig& config) {
+  if (config.tls_certificate.empty()) return grpc::InsecureServerCredentials();
+  grpc::SslServerCredentialsOptions options;
+  options.pem_key_cert_pairs.push_back(
+      {ReadFile(config.tls_key), ReadFile(config.tls_certificate)});
+  return grpc::SslServerCredentials(options);
+}
+
+std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engines> models,
+                                                       int max_waiting) {
+  if (models.empty()) throw InvalidArgument("models", "a server needs at least one");
+  std::vector<std::unique_ptr<Scheduler>> schedulers;
+  for (auto& engines : models) {
+    schedulers.push_back(std::make_unique<Scheduler>(
+        std::move(engines), Scheduler::Options{.max_waiting = max_waiting}));
+    const std::string& name = schedulers.back()->model().name;
+    for (size_t i = 0; i + 1 < schedulers.size(); ++i) {
+      if (schedulers[i]->model().name == name) {
+        throw InvalidArgument("models", "two have the name \"" + name + '"');
+      }
+    }
+  }
+  return schedulers;
+}
+
+}  // namespace
+
+struct Server::Impl {
+  Impl(const ServerConfig& config, std::vector<Engines> models)
+      : serving(MakeSchedulers(std::move(models), config.max_waiting), config.max_streams,
+                static_cast<size_t>(config.outbox_kib) << 10, config.io_threads),
+        service(serving) {
+    // Both plug into every server that is built from here on in this process.
+    grpc::EnableDefaultHealthCheckService(true);
+    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort(config.listen, Credentials(config), &port);
+    builder.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+    builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+                               kClientPingMs);
+    // Two servers on one port would share its connections in silence.
+    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+    builder.RegisterService(&service);
+    server = builder.BuildAndStart();
+    if (!server || port == 0) {
+      throw Error(ErrorCode::kUnavailable, "--listen",
+                  '"' + config.listen + "\" cannot be listened on: taken, or no address of here");
+    }
+    SetHealth(true);
+  }
+
+  void SetHealth(bool serves) {
+    auto* health = server->GetHealthCheckService();
+    health->SetServingStatus(serves);
+    health->SetServingStatus(v1::Choreography::service_full_name(), serves);
+  }
+
+  Serving serving;
+  ChoreographyService service;
+  int port = 0;
+  std::unique_ptr<grpc::Server> server;
+  std::atomic<bool> drained = false;
+};
+
+Server::Server(const ServerConfig& config, std::vector<Engines> models)
+    : impl_(std::make_unique<Impl>(config, std::move(models))) {}
+
+Server::~Server() { Drain(0); }
+
+int Server::port() const { return impl_->port; }
+
+int Server::transitions() const {
+  int count = 0;
+  for (const auto& scheduler : impl_->serving.models) {
+    const Scheduler::Stats stats = scheduler->stats();
+    count += stats.active + stats.waiting;
+  }
+  return count;
+}
+
+int Server::calls() const { return impl_->serving.calls.count(); }
+
+void Server::Drain(double seconds) {
+  if (impl_->drained.exchange(true)) return;
+  CallRegistry& calls = impl_->serving.calls;
+  impl_->SetHealth(false);
+  calls.StopAdmitting();
+  if (!calls.WaitUntilEmpty(milliseconds(static_cast<int64_t>(seconds * 1e3)))) {
+    spdlog::warn("{} calls were still in progress after {} s; they end as UNAVAILABLE",
+                 calls.count(), seconds);
+    calls.AbortAll(Error(ErrorCode::kUnavailable, "",
+                         "the server is going away; another one can go on from the last "
+                         "continuation"));
+    calls.WaitUntilEmpty(kAbortTime);
+  }
+  impl_->server->Shutdown(std::chrono::system_clock::now() + kShutdownTime);
+  uint64_t frames = 0;
+  uint64_t steps = 0;
+  for (const auto& scheduler : impl_->serving.models) {
+    const Scheduler::Stats stats = scheduler->stats();
+    frames += stats.frames;
+    steps += stats.steps;
+  }
+  spdlog::info("served {} calls ({} refused) with {} frames in {} steps", calls.total(),
+               calls.refused(), frames, steps);
+}
+
+}  // namespace choreo

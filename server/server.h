@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/engine/step_engine.h"
+#include "server/config.h"
+
+namespace choreo {
+
+/// choreod without its process: the gRPC server over engines that somebody else has built. Health
+/// checking and reflection are part of it. Thread-safe.
+class Server {
+ public:
+  /// The engines of one model, one a device. The first model is the default.
+  using Engines = std::vector<std::unique_ptr<StepEngine>>;
+
+  /// Listens when it returns. Of `config` only what concerns serving is read: listen, max_waiting,
+  /// max_streams, io_threads, outbox_kib and TLS. Throws Error(kInvalidArgument) for engines that
+  /// do not go together, Error(kUnavailable) naming an address that cannot be listened on.
+  Server(const ServerConfig& config, std::vector<Engines> models);
+  ~Server();  ///< Drain(0)
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// The port that was chosen.
+  int port() const;
+  /// Transitions that hold a slot or wait for one, over all models.
+  int transitions() const;
+  /// Calls in progress.
+  int calls() const;
+
+  /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on; those in progress may
+  /// go on for `seconds`, then end as UNAVAILABLE. When it returns the server is shut down.
+  /// Idempotent.
+  void Drain(double seconds);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,55 @@
+#include "server/service.h"
+
+#include <algorithm>
+
+#include "model/audio/format.h"
+#include "model/dance/timeline.h"
+#include "model/dance/validation.h"
+#include "server/convert.h"
+#include "server/stream_reactor.h"
+#include "server/transition_reactor.h"
+
+namespace choreo {
+
+grpc::ServerWriteReactor<v1::GenerateTransitionResponse>* ChoreographyService::GenerateTransition(
+    grpc::CallbackServerContext* context, const v1::GenerateTransitionRequest* request) {
+  return MakeTransitionReactor(serving_, context, request);
+}
+
+grpc::ServerBidiReactor<v1::StreamDanceRequest, v1::StreamDanceResponse>*
+ChoreographyService::StreamDance(grpc::CallbackServerContext* context) {
+  return MakeStreamReactor(serving_, context);
+}
+
+grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
+    grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* /*request*/,
+    v1::GetServerInfoResponse* response) {
+  response->set_version(CHOREO_VERSION);
+  v1::Limits* limits = response->mutable_limits();
+  limits->set_max_message_bytes(kMaxMessageBytes);
+  limits->set_max_audio_s(kMaxAudioSeconds);
+  limits->set_max_audio_file_bytes(kMaxAudioFileBytes);
+  limits->set_max_keyframes(kMaxKeys);
+  limits->set_max_transition_frames(kMaxTransitionFrames);
+  limits->set_max_candidates(kMaxCandidates);
+  limits->set_max_frame_rate(kMaxOutputFps);
+  limits->set_max_streams(serving_.calls.max_calls());
+  int slots = 0;
+  for (const auto& scheduler : serving_.models) {
+    FromModel(scheduler->model(), response->add_models());
+    slots += scheduler->stats().slots;
+    for (const std::string& device : scheduler->devices()) {
+      const auto& known = response->devices();
+      if (std::find(known.begin(), known.end(), device) == known.end()) {
+        response->add_devices(device);
+      }
+    }
+  }
+  response->set_slots(slots);
+  response->set_active_streams(serving_.calls.count());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  reactor->Finish(grpc::Status::OK);
+  return reactor;
+}
+
+}  // namespace choreo

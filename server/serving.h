@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/engine/scheduler.h"
+#include "server/call_registry.h"
+#include "server/task_pool.h"
+
+namespace choreo {
+
+/// What the calls of one server share. Thread-safe after construction; outlives every call.
+struct Serving {
+  Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, int max_calls, size_t outbox_limit,
+          int io_threads)
+      : models(std::move(schedulers)),
+        calls(max_calls),
+        outbox_bytes(outbox_limit),
+        tasks(io_threads) {}
+
+  /// The first model for an empty name. Throws Error(kNotFound) that lists the models.
+  Scheduler& FindModel(const std::string& name, const std::string& field) const;
+
+  /// A seed for those who name none.
+  static uint64_t FreshSeed();
+
+  const std::vector<std::unique_ptr<Scheduler>> models;  ///< one each; never empty
+  CallRegistry calls;
+  const size_t outbox_bytes;
+  TaskPool tasks;  // last: its threads use all of the above
+};
+
+}  // namespace choreo

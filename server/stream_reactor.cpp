@@ -1,0 +1,283 @@
+#include "server/stream_reactor.h"
+
+#include <grpcpp/server_context.h>
+
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "model/audio/beats.h"
+#include "model/audio/decode.h"
+#include "model/dance/dance_stream.h"
+#include "server/call_session.h"
+#include "server/convert.h"
+
+namespace choreo {
+namespace {
+
+using Request = v1::StreamDanceRequest;
+using Response = v1::StreamDanceResponse;
+
+/// Longer pieces of music are not digested on gRPC's own threads.
+constexpr size_t kLongAudioBytes = 64 << 10;
+
+/// The session of a StreamDance. Messages are handled one at a time.
+class DanceSession final : public CallSession<Response, DanceStream>,
+                           public DanceSink,
+                           public std::enable_shared_from_this<DanceSession> {
+ public:
+  DanceSession(Serving& serving, Wire* wire, std::string peer)
+      : CallSession(serving, wire, "StreamDance", std::move(peer)) {}
+
+  /// True for a message that takes long.
+  bool IsLong(const Request& request) const {
+    return request.audio().data().size() > kLongAudioBytes ||
+           (request.has_end_of_audio() && !file_.empty());
+  }
+  bool IsHalfCloseLong() const { return !file_.empty(); }
+
+  void Handle(const Request& request) {
+    Guard([&] { Take(request); });
+  }
+
+  void HandleHalfClose() {
+    Guard([&] {
+      if (!scheduler_) throw InvalidArgument("config", "missing: the stream ended without it");
+      const auto stream = dance();
+      if (!stream) return;
+      DecodeFile(*stream);
+      stream->HalfClose();
+    });
+  }
+
+  // ---- DanceSink
+
+  void OnFrames(int64_t first_frame, std::span<const Pose> poses,
+                std::span<const std::array<float, 4>> contacts) override {
+    CountFrames(poses.size());
+    Response response;
+    FromFrames(first_frame, poses, contacts, encoding_, response.mutable_frames());
+    outbox().Send(std::move(response));
+    SendBeats(static_cast<double>(first_frame) / output_fps_,
+              static_cast<double>(first_frame + static_cast<int64_t>(poses.size())) / output_fps_);
+  }
+
+  void OnEvent(const DanceEvent& event) override {
+    Response response;
+    FromEvent(event, scheduler_->model().fps, response.mutable_event());
+    outbox().Send(std::move(response));
+  }
+
+  void OnContinuation(const Continuation& continuation) override {
+    Response response;
+    FromContinuation(continuation, scheduler_->model(), seed_, audio_ ? &*audio_ : nullptr,
+                     response.mutable_continuation());
+    outbox().Send(std::move(response));
+  }
+
+  void OnSummary(const QualityReport& report) override {
+    Response response;
+    v1::DanceSummary* summary = response.mutable_summary();
+    FromReport(report, summary->mutable_report());
+    FillTiming(static_cast<double>(report.frames) / scheduler_->model().fps,
+               summary->mutable_timing());
+    outbox().Send(std::move(response));
+    outbox().Close(grpc::Status::OK);
+  }
+
+  void OnError(const Error& error) override { outbox().Close(ToStatus(error)); }
+
+ private:
+  void Take(const Request& request) {
+    if (request.request_case() == Request::REQUEST_NOT_SET) {
+      throw InvalidArgument("request", "empty; one of its fields must be there");
+    }
+    if (request.has_config()) return Configure(request.config());
+    if (!scheduler_) throw InvalidArgument("config", "missing: it must be the first message");
+    const auto stream = dance();
+    if (!stream) return;
+    switch (request.request_case()) {
+      case Request::kAudio:
+        return TakeAudio(*stream, request.audio());
+      case Request::kKeyframe:
+        return TakeKeyframe(*stream, request.keyframe());
+      case Request::kRemoveKeyframe:
+        return stream->RemoveKey(request.remove_keyframe().id());
+      case Request::kControls:
+        return CheckControls(request.controls(), scheduler_->model(), "controls");
+      case Request::kGenerateUntil:
+        return stream->GenerateUntil(request.generate_until().frame());
+      case Request::kKeyframesComplete:
+        return stream->KeysComplete();
+      case Request::kEndOfAudio:
+        DecodeFile(*stream);
+        return stream->EndOfAudio();
+      case Request::kConfig:
+      case Request::REQUEST_NOT_SET:
+        return;  // see above
+    }
+  }
+
+  void Configure(const v1::DanceConfig& message) {
+    if (scheduler_) throw InvalidArgument("config", "came before; it comes once");
+    Scheduler& scheduler = serving_.FindModel(message.model(), "config.model");
+    const ModelInfo& model = scheduler.model();
+    const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
+    scheduler_ = &scheduler;
+    encoding_ = message.encoding();
+    output_fps_ = config.output_fps;
+    seed_ = config.seed;
+    beats_ = config.music_beats;
+    if (message.has_audio_format()) audio_ = message.audio_format();
+    const bool exact =
+        !config.continuation || config.continuation->fingerprint == model.fingerprint;
+    SendHeader(model, message, config, config.continuation ? config.continuation->frame : 0, exact);
+    Adopt(std::make_shared<DanceStream>(scheduler, config, shared_from_this()));
+  }
+
+  void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
+    if (!audio_) throw InvalidArgument("audio", "comes without config.audio_format");
+    if (audio_->encoding() != v1::AUDIO_ENCODING_FILE) {
+      stream.PushAudio(ToSamples(audio.data(), *audio_, "audio.data"), audio.first_sample());
+      return;
+    }
+    if (file_decoded_) {
+      throw Error(ErrorCode::kFailedPrecondition, "audio", "comes after end_of_audio");
+    }
+    if (audio.first_sample() != static_cast<int64_t>(file_.size())) {
+      throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
+                  std::to_string(audio.first_sample()) + " is not the byte expected, " +
+                      std::to_string(file_.size()));
+    }
+    if (static_cast<int64_t>(file_.size() + audio.data().size()) > kMaxAudioFileBytes) {
+      throw InvalidArgument(
+          "audio.data", "the file is longer than " + std::to_string(kMaxAudioFileBytes) + " bytes");
+    }
+    file_ += audio.data();
+  }
+
+  // Hands the music of a file that has come whole to the stream; nothing for PCM.
+  void DecodeFile(DanceStream& stream) {
+    if (!audio_ || audio_->encoding() != v1::AUDIO_ENCODING_FILE || file_decoded_) return;
+    file_decoded_ = true;
+    std::vector<float> mono;
+    {
+      const std::string bytes = std::exchange(file_, {});
+      mono = ToModelRate(DecodeAudioMemory(std::as_bytes(std::span(bytes)), "audio"));
+    }
+    if (beats_.empty()) {
+      beats_ = FindBeats(mono).Seconds();
+      stream.SetMusicBeats(beats_);
+    }
+    stream.PushAudio(mono, 0);
+  }
+
+  void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
+    const ModelInfo& model = scheduler_->model();
+    const std::string field = "keyframes[" + std::to_string(keyframes_) + ']';
+    if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
+    const WorldTarget target =
+        ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr, model.skeleton,
+                 field, field + ".mask");
+    stream.SetKey(keyframe.id(), ToMoment(keyframe, model.fps, field), target.pose, target.mask);
+    ++keyframes_;
+  }
+
+  // Those in [from, to) seconds: just danced.
+  void SendBeats(double from, double to) {
+    for (; next_beat_ < beats_.size() && beats_[next_beat_] < to; ++next_beat_) {
+      const double beat = beats_[next_beat_];
+      if (beat < from) continue;
+      Response response;
+      v1::Event* event = response.mutable_event();
+      event->set_frame(std::llround(beat * scheduler_->model().fps));
+      event->set_time(beat);
+      event->mutable_beat();
+      outbox().Send(std::move(response));
+    }
+  }
+
+  // Of the configuration; written before the stream is there.
+  Scheduler* scheduler_ = nullptr;
+  v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
+  double output_fps_ = 0;
+  uint64_t seed_ = 0;
+  std::optional<v1::AudioFormat> audio_;
+
+  // Of the messages.
+  int keyframes_ = 0;
+  std::string file_;  // as much of it as has come
+  bool file_decoded_ = false;
+
+  // Written before the stream has music, read by its sink afterwards.
+  std::vector<double> beats_;
+  size_t next_beat_ = 0;
+};
+
+class StreamReactor final : public grpc::ServerBidiReactor<Request, Response>,
+                            public Outbox<Response>::Wire {
+ public:
+  StreamReactor(Serving& serving, const std::string& peer)
+      : serving_(serving), session_(std::make_shared<DanceSession>(serving, this, peer)) {
+    const Outbox<Response>::Hold hold(session_->outbox());
+    try {
+      serving.calls.Enter(session_);
+      StartRead(&request_);
+    } catch (const Error& error) {
+      session_->Fail(error);
+    }
+  }
+
+  // ---- Wire
+
+  void Write(const Response* message) override { StartWrite(message); }
+  void Finish(const grpc::Status& status) override { ServerBidiReactor::Finish(status); }
+
+  // ---- gRPC's reactions
+
+  void OnReadDone(bool ok) override {
+    auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
+    const bool long_work = ok ? session_->IsLong(request_) : session_->IsHalfCloseLong();
+    if (!long_work || !session_->outbox().open()) return Process(ok);
+    serving_.tasks.Post([this, ok, session = session_, hold]() mutable {
+      Process(ok);
+      hold.reset();  // `this` may be gone from here on; the session is not
+    });
+  }
+
+  void OnWriteDone(bool ok) override { session_->outbox().OnWriteDone(ok); }
+
+  void OnCancel() override {
+    session_->Abort(Error(ErrorCode::kCancelled, "", "the client is gone or its deadline passed"));
+  }
+
+  void OnDone() override {
+    session_->Release();
+    serving_.calls.Leave(session_.get());
+    delete this;
+  }
+
+ private:
+  // With a hold.
+  void Process(bool ok) {
+    if (!session_->outbox().open()) return;
+    if (!ok) return session_->HandleHalfClose();
+    session_->Handle(request_);
+    request_.Clear();
+    if (session_->outbox().open()) StartRead(&request_);
+  }
+
+  Serving& serving_;
+  const std::shared_ptr<DanceSession> session_;
+  Request request_;
+};
+
+}  // namespace
+
+grpc::ServerBidiReactor<Request, Response>* MakeStreamReactor(
+    Serving& serving, grpc::CallbackServerContext* context) {
+  return new StreamReactor(serving, context->peer());
+}
+
+}  // namespace choreo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace choreo {
+
+/// A few threads for work that is too long for gRPC's: decoding a file, the features of minutes of
+/// music. Every call has at most one task here at a time, so the queue is as bounded as the calls.
+/// Thread-safe.
+class TaskPool {
+ public:
+  explicit TaskPool(int threads);
+  ~TaskPool();  ///< Runs what is queued, then joins.
+
+  /// Tasks must not throw.
+  void Post(std::function<void()> task);
+
+ private:
+  void Work();
+
+  std::mutex mutex_;
+  std::condition_variable ready_;
+  std::deque<std::function<void()>> tasks_;  // guarded by mutex_
+  bool stopping_ = false;                    // guarded by mutex_
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,164 @@
+#include "server/transition_reactor.h"
+
+#include <grpcpp/server_context.h>
+
+#include <optional>
+#include <utility>
+
+#include "model/audio/beats.h"
+#include "model/audio/decode.h"
+#include "model/dance/transition_group.h"
+#include "server/call_session.h"
+#include "server/convert.h"
+
+namespace choreo {
+namespace {
+
+using Request = v1::GenerateTransitionRequest;
+using Response = v1::GenerateTransitionResponse;
+
+/// The session of a GenerateTransition.
+class TransitionSession final : public CallSession<Response, TransitionGroup>,
+                                public GroupSink,
+                                public std::enable_shared_from_this<TransitionSession> {
+ public:
+  TransitionSession(Serving& serving, Wire* wire, std::string peer)
+      : CallSession(serving, wire, "GenerateTransition", std::move(peer)) {}
+
+  /// Takes long: reads and digests the music.
+  void Start(const Request& message) {
+    Guard([&] {
+      if (!message.has_config()) throw InvalidArgument("config", "missing");
+      Scheduler& scheduler = serving_.FindModel(message.config().model(), "config.model");
+      const ModelInfo& model = scheduler.model();
+      GroupRequest request = ToGroupRequest(message, model, Serving::FreshSeed());
+      AddMusic(message, &request);
+      request.Validate(model);
+      model_ = &model;
+      encoding_ = message.config().encoding();
+      if (message.config().has_audio_format()) audio_ = message.config().audio_format();
+      seed_ = request.seed;
+
+      DanceConfig config;  // as far as the header tells of it
+      config.seed = request.seed;
+      config.temperature = request.temperature;
+      config.output_fps = request.output_fps;
+      if (request.sample_rate != 0) {
+        config.audio = DanceConfig::Audio{request.sample_rate, request.channels, 0};
+      }
+      const auto& continuation = request.continuation;
+      SendHeader(model, message.config(), config,
+                 continuation ? continuation->frame : request.first_frame,
+                 !continuation || continuation->fingerprint == model.fingerprint);
+      Adopt(std::make_shared<TransitionGroup>(scheduler, request, shared_from_this()));
+    });
+  }
+
+  // ---- GroupSink
+
+  void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
+                std::span<const std::array<float, 4>> contacts) override {
+    CountFrames(poses.size());
+    Response response;
+    v1::Frames* frames = response.mutable_frames();
+    FromFrames(first_frame, poses, contacts, encoding_, frames);
+    frames->set_candidate(static_cast<uint32_t>(candidate));
+    outbox().Send(std::move(response));
+  }
+
+  void OnWarning(const DanceWarning& warning) override {
+    Response response;
+    FromEvent(warning, model_->fps, response.mutable_event());
+    outbox().Send(std::move(response));
+  }
+
+  void OnDone(std::span<const CandidateReport> ranked) override {
+    Response response;
+    v1::TransitionSummary* summary = response.mutable_summary();
+    int64_t frames = 0;
+    for (const CandidateReport& report : ranked) {
+      v1::Candidate* candidate = summary->add_candidates();
+      candidate->set_candidate(static_cast<uint32_t>(report.candidate));
+      FromReport(report.quality, candidate->mutable_report());
+      FromContinuation(report.continuation, *model_, seed_, audio_ ? &*audio_ : nullptr,
+                       candidate->mutable_continuation());
+      frames += report.quality.frames;
+    }
+    FillTiming(static_cast<double>(frames) / model_->fps, summary->mutable_timing());
+    outbox().Send(std::move(response));
+    outbox().Close(grpc::Status::OK);
+  }
+
+  void OnError(const Error& error) override { outbox().Close(ToStatus(error)); }
+
+ private:
+  // The samples of a file, and the beats of the music if the client does not know them.
+  static void AddMusic(const Request& message, GroupRequest* request) {
+    if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) return;
+    const DecodedAudio audio =
+        DecodeAudioMemory(std::as_bytes(std::span(message.audio().data())), "audio");
+    request->sample_rate = audio.sample_rate;
+    request->channels = audio.channels;
+    request->samples = audio.interleaved;
+    if (request->music_beats.empty()) {
+      request->music_beats = FindBeats(ToModelRate(audio)).Seconds();
+    }
+  }
+
+  // Written before the group is there. Nothing of the message itself: it may go before the group.
+  const ModelInfo* model_ = nullptr;
+  v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
+  std::optional<v1::AudioFormat> audio_;
+  uint64_t seed_ = 0;
+};
+
+class TransitionReactor final : public grpc::ServerWriteReactor<Response>,
+                                public Outbox<Response>::Wire {
+ public:
+  TransitionReactor(Serving& serving, const std::string& peer, const Request& request)
+      : serving_(serving), session_(std::make_shared<TransitionSession>(serving, this, peer)) {
+    auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
+    try {
+      serving.calls.Enter(session_);
+      serving.tasks.Post([session = session_, hold, &request]() mutable {
+        if (session->outbox().open()) session->Start(request);
+        hold.reset();
+      });
+    } catch (const Error& error) {
+      session_->Fail(error);
+    }
+  }
+
+  // ---- Wire
+
+  void Write(const Response* message) override { StartWrite(message); }
+  void Finish(const grpc::Status& status) override { ServerWriteReactor::Finish(status); }
+
+  // ---- gRPC's reactions
+
+  void OnWriteDone(bool ok) override { session_->outbox().OnWriteDone(ok); }
+
+  void OnCancel() override {
+    session_->Abort(Error(ErrorCode::kCancelled, "", "the client is gone or its deadline passed"));
+  }
+
+  void OnDone() override {
+    session_->Release();
+    serving_.calls.Leave(session_.get());
+    delete this;
+  }
+
+ private:
+  Serving& serving_;
+  const std::shared_ptr<TransitionSession> session_;
+};
+
+}  // namespace
+
+grpc::ServerWriteReactor<Response>* MakeTransitionReactor(Serving& serving,
+                                                          grpc::CallbackServerContext* context,
+                                                          const Request* request) {
+  return new TransitionReactor(serving, context->peer(), *request);
+}
+
+}  // namespace choreo
