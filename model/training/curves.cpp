@@ -74,7 +74,8 @@ void Curves::Write(const std::filesystem::path& folder) const {
   }
   // Zero means "not computed yet": a plot leaves those points out.
   const auto series = [&](const std::string& name) {
-    PlotSeries result{.label = name};
+    PlotSeries result;
+    result.label = name;
     for (size_t i = 0; i < columns[name].size(); ++i) {
       if (columns[name][i] == 0) continue;
       result.x.push_back(columns["step"][i]);
@@ -84,7 +85,10 @@ void Curves::Write(const std::filesystem::path& folder) const {
   };
   const auto plot = [&](const std::string& title, const std::string& y,
                         const std::vector<std::string>& wanted, const std::string& file_name) {
-    Plot figure{.title = title, .x_label = "step", .y_label = y};
+    Plot figure;
+    figure.title = title;
+    figure.x_label = "step";
+    figure.y_label = y;
     for (const std::string& name : wanted) {
       PlotSeries one = series(name);
       if (!one.x.empty()) figure.series.push_back(std::move(one));

@@ -25,13 +25,15 @@ Tensor Length(const Tensor& v) { return (v.square().sum(-1) + 1e-10).sqrt(); }
 
 }  // namespace
 
+Tensor Dequantise(FlowModel& model, const Tensor& features) {
+  const Tensor spread = model->named_buffers()["feature_std"];
+  return features + kDequantisation * spread * torch::randn_like(features);
+}
+
 Tensor LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
                       const TransitionContext& context) {
   Tensor features = model->RelativeFeatures(batch.features, batch.truth, context);
-  if (model->is_training()) {
-    const Tensor spread = model->named_buffers()["feature_std"];
-    features = features + kDequantisation * spread * torch::randn_like(features);
-  }
+  if (model->is_training()) features = Dequantise(model, features);
   return -model->LogLikelihood(features, batch.audio, batch.has_audio, context).mean() /
          model->feature_width();
 }

@@ -22,8 +22,11 @@ struct FlowLosses {
   torch::Tensor contacts;  ///< |c' - c| of the roll-out, mean over feet and frames
 };
 
-/// L_flows of one batch (Eq. 6). Features get dequantisation noise, so that binary contacts and
-/// derived velocities can't make the density unbounded.
+/// Features plus noise of a twentieth of their spread, so that binary contacts, derived velocities
+/// and joints that never move can't make the density unbounded.
+torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features);
+
+/// L_flows of one batch (Eq. 6), of dequantised features while training.
 torch::Tensor LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
                              const TransitionContext& context);
 

@@ -23,7 +23,7 @@ constexpr int64_t kWarmUpSteps = 200;
 constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end of a stage
 constexpr double kMaxGradientNorm = 1.0;
 constexpr int kNormalisationBatches = 24;
-constexpr int kValidationWindows = 128;
+constexpr int kValidationWindows = 64;
 constexpr int kTypicalFrames = 60;  // a batch of windows this long has `batch` of them
 
 // Standardised features keep at least these spreads, so that constant joints can't make the density
@@ -71,7 +71,7 @@ class Run {
 
   void Go() {
     const int64_t total = planner_steps_ + options_.flow_steps;
-    Progress progress("train " + options_.preset, total);
+    ProgressBar progress("train " + options_.preset, total - step_);
     const auto start = std::chrono::steady_clock::now();
     const double seconds_before = seconds_;
     for (; step_ < total; ++step_) {
@@ -79,7 +79,7 @@ class Run {
       TrainStep();
       seconds_ = seconds_before +
                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      progress.Update(step_ + 1);
+      progress.Advance();
       if ((step_ + 1) % options_.report_every == 0 || step_ + 1 == total) Report();
     }
     Finish();
@@ -232,8 +232,8 @@ class Run {
     }
     model_->SetNormalisation(normalisation_);
     const TransitionContext context = model_->Begin(last.transition);
-    model_->InitialiseActNorm(model_->RelativeFeatures(last.features, last.truth, context),
-                              last.audio, last.has_audio, context);
+    const torch::Tensor features = model_->RelativeFeatures(last.features, last.truth, context);
+    model_->InitialiseActNorm(Dequantise(model_, features), last.audio, last.has_audio, context);
   }
 
   void Report() {
@@ -289,7 +289,7 @@ class Run {
                          {"nll_nats_per_dimension", row.likelihood},
                          {"raw_key_error_m", row.key_error_m}});
     }
-    nlohmann::json parts;
+    nlohmann::json parts = nlohmann::json::object();
     for (const auto& clip : train_.clips()) {
       parts[clip.source] = parts.value(clip.source, 0) + 1;
     }

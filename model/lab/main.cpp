@@ -1,0 +1,26 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#ifdef CHOREO_SERVICE
+#include "model/training/prepare_command.h"
+#endif
+#include "model/training/train_command.h"
+
+/// choreo-lab: prepares data, trains models and measures them. Serving is choreod's.
+int main(int argc, char** argv) {
+  CLI::App app("Prepare data, train models, measure them");
+  app.require_subcommand(1);
+#ifdef CHOREO_SERVICE  // preparation decodes music, which needs libsndfile
+  choreo::AddPrepareCommand(app);
+#endif
+  choreo::AddTrainCommand(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "choreo-lab: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

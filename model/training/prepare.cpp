@@ -1,0 +1,190 @@
+#include "model/training/prepare.h"
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "model/audio/decode.h"
+#include "model/audio/feature_stream.h"
+#include "model/core/error.h"
+#include "model/core/progress.h"
+#include "model/motion/fit.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/resample.h"
+#include "model/training/prepared_clip.h"
+
+namespace choreo {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kModelFps = 30;
+constexpr double kTopSpeed = 15;  // m/s of any joint; faster is a defect of the recording
+constexpr int kShortestFrames = 60;
+
+// The longest run of frames in which no joint jumps. What lies outside is cut.
+std::pair<size_t, size_t> LongestCleanRun(const PositionClip& clip) {
+  size_t best_begin = 0, best_end = 0, begin = 0;
+  for (size_t f = 1; f <= clip.frames.size(); ++f) {
+    const bool breaks =
+        f == clip.frames.size() ||
+        (clip.frames[f] - clip.frames[f - 1]).colwise().norm().maxCoeff() * clip.fps > kTopSpeed;
+    if (!breaks) continue;
+    if (f - begin > best_end - best_begin) {
+      best_begin = begin;
+      best_end = f;
+    }
+    begin = f;
+  }
+  return {best_begin, best_end};
+}
+
+// MFCC rows of the motion's frames; frame 0 plays at `start_s` of the music.
+Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skipped_s) {
+  const DecodedAudio audio = DecodeAudioFile(recording.music);
+  FeatureStream stream(audio.sample_rate, audio.channels);
+  stream.Push(audio.interleaved);
+  stream.Finish();
+  const auto first =
+      static_cast<int64_t>(std::lround((recording.music_start_s + skipped_s) * kModelFps));
+  Eigen::MatrixXf rows(static_cast<Eigen::Index>(stream.Row(0).size()),
+                       static_cast<Eigen::Index>(frames));
+  for (size_t f = 0; f < frames; ++f) {
+    const auto row = stream.Row(first + static_cast<int64_t>(f));
+    std::copy(row.begin(), row.end(), rows.col(static_cast<Eigen::Index>(f)).data());
+  }
+  return rows;
+}
+
+struct Prepared {
+  PreparedClip clip;
+  json report;
+};
+
+Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  Prepared result;
+  json& report = result.report;
+  report["name"] = recording.name;
+  double skipped_s = 0;
+  Motion motion;
+  if (recording.motion) {
+    motion = Resample(*recording.motion, kModelFps);
+    report["fit_error_m"] = 0.0;
+  } else {
+    PositionClip clip = recording.positions;
+    ValidateClip(clip);
+    int replaced = 0;
+    clip = RemoveSpikes(clip, kTopSpeed, 6, &replaced);
+    const auto [begin, end] = LongestCleanRun(clip);
+    const size_t cut = clip.frames.size() - (end - begin);
+    clip.frames = {clip.frames.begin() + static_cast<std::ptrdiff_t>(begin),
+                   clip.frames.begin() + static_cast<std::ptrdiff_t>(end)};
+    skipped_s = static_cast<double>(begin) / clip.fps * recording.time_scale;
+    if (recording.cutoff_hz > 0) clip = LowPass(clip, recording.cutoff_hz);
+    if (recording.tilted_floor) {
+      std::vector<int> feet;
+      for (const std::string& joint : recording.mapping.feet)
+        feet.push_back(FindJoint(clip, joint));
+      const FloorPlane plane = FitFloorPlane(clip, feet);
+      report["floor_slope"] = std::hypot(plane.slope_x, plane.slope_z);
+      clip = RemoveHeightDrift(LevelFloor(clip, plane), feet);
+    }
+    clip = ResamplePositions(clip, kModelFps, recording.time_scale);
+    FitResult fit = FitClip(clip, recording.mapping, skeleton);
+    motion = std::move(fit.motion);
+    report["fit_error_m"] = fit.report.mean_error_m;
+    report["fit_p95_m"] = fit.report.p95_error_m;
+    report["scale"] = fit.report.scale;
+    report["ground_shift_m"] = fit.report.ground_shift_m;
+    report["spikes_repaired"] = replaced;
+    report["frames_cut"] = cut;
+  }
+  if (motion.frames.size() < kShortestFrames) {
+    throw InvalidArgument(recording.name, std::to_string(motion.frames.size()) +
+                                              " usable frames, but at least " +
+                                              std::to_string(kShortestFrames) + " are needed");
+  }
+  report["frames"] = motion.frames.size();
+  report["time_scale"] = recording.time_scale;
+
+  PreparedClip& clip = result.clip;
+  clip.name = recording.name;
+  clip.source = options.layout;
+  const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
+  clip.contacts.resize(4, static_cast<Eigen::Index>(contacts.size()));
+  for (size_t f = 0; f < contacts.size(); ++f) {
+    for (size_t foot = 0; foot < 4; ++foot) {
+      clip.contacts(static_cast<Eigen::Index>(foot), static_cast<Eigen::Index>(f)) =
+          contacts[f][foot];
+    }
+  }
+  report["contact_share"] = clip.contacts.mean();
+  if (!recording.music.empty()) clip.audio = MusicRows(recording, motion.frames.size(), skipped_s);
+  report["music"] = !recording.music.empty();
+  clip.motion = std::move(motion);
+  clip.notes = {{"terms", options.terms}, {"preparation", report.dump()}};
+  return result;
+}
+
+}  // namespace
+
+int Prepare(const PrepareOptions& options) {
+  const std::vector<RecordingSource> sources = ListRecordings(options);
+  std::filesystem::create_directories(options.output);
+  std::vector<json> reports(sources.size());
+  std::atomic<size_t> next = 0;
+  {
+    ProgressBar progress("prepare " + options.layout, static_cast<int64_t>(sources.size()));
+    const auto work = [&] {
+      for (size_t i = next++; i < sources.size(); i = next++) {
+        try {
+          Prepared prepared = PrepareOne(sources[i].read(), options);
+          WritePreparedClip(options.output, prepared.clip);
+          reports[i] = std::move(prepared.report);
+        } catch (const std::exception& error) {
+          reports[i] = {{"name", sources[i].name}, {"skipped", error.what()}};
+        }
+        progress.Advance(1, sources[i].name);
+      }
+    };
+    std::vector<std::jthread> workers;
+    for (int i = 0; i < options.jobs; ++i) workers.emplace_back(work);
+  }
+
+  int prepared = 0;
+  int64_t frames = 0;
+  double error = 0;
+  std::printf("%-28s %8s %9s %9s %8s %6s  %s\n", "clip", "frames", "fit cm", "p95 cm", "contact",
+              "cut", "music");
+  for (const json& report : reports) {
+    const std::string name = report.at("name");
+    if (report.contains("skipped")) {
+      std::printf("%-28s skipped: %s\n", name.c_str(),
+                  report.at("skipped").get<std::string>().c_str());
+      continue;
+    }
+    ++prepared;
+    frames += report.at("frames").get<int64_t>();
+    error += report.at("fit_error_m").get<double>() * report.at("frames").get<double>();
+    std::printf("%-28s %8lld %9.2f %9.2f %8.2f %6lld  %s\n", name.c_str(),
+                static_cast<long long>(report.at("frames").get<int64_t>()),
+                100 * report.at("fit_error_m").get<double>(), 100 * report.value("fit_p95_m", 0.0),
+                report.at("contact_share").get<double>(),
+                static_cast<long long>(report.value("frames_cut", 0)),
+                report.at("music").get<bool>() ? "yes" : "no");
+  }
+  if (prepared > 0) {
+    std::printf("%d of %zu clips, %lld frames (%.1f min), mean fit error %.2f cm\n", prepared,
+                sources.size(), static_cast<long long>(frames),
+                static_cast<double>(frames) / kModelFps / 60,
+                100 * error / static_cast<double>(frames));
+  }
+  std::ofstream(options.output / "report.json") << json(reports).dump(1) << "\n";
+  return prepared;
+}
+
+}  // namespace choreo

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/motion/fit_sources.h"
+#include "model/motion/motion.h"
+#include "model/motion/position_clip.h"
+
+namespace choreo {
+
+/// Raw recordings → prepared clips (prepared_clip.h): the corrections that each layout needs, 30
+/// fps, rotations fitted to SMPL's skeleton, contacts, and the rows of the music.
+struct PrepareOptions {
+  std::string layout;            ///< "tang2018" | "bvh" | "amass"
+  std::filesystem::path input;   ///< folder
+  std::filesystem::path output;  ///< folder, created
+  /// Clips whose name starts with .first run at .second fps, whatever their file says (cmu_dance's
+  /// salsa: 60).
+  std::vector<std::pair<std::string, double>> frame_rates;
+  /// Time of clips whose name starts with .first is stretched by .second; tang2018 has its own
+  /// (1.0125 for waltz and rumba).
+  std::vector<std::pair<std::string, double>> time_scales;
+  std::string terms = "not stated";  ///< kept with every clip
+  int jobs = 2;
+};
+
+/// One recording, read but not corrected. Positions for the layouts without rotations, `motion` for
+/// those with SMPL rotations.
+struct Recording {
+  std::string name;
+  PositionClip positions;
+  std::optional<Motion> motion;
+  SourceMapping mapping;
+  bool tilted_floor = false;  ///< fit and level a floor plane, take out height drift
+  double cutoff_hz = 0;       ///< low-pass before resampling; 0: none
+  double time_scale = 1;
+  std::filesystem::path music;  ///< empty: none
+  double music_start_s = 0;     ///< of the motion's first frame within the music
+};
+
+/// What a layout offers: clip names and how to read each.
+struct RecordingSource {
+  std::string name;
+  std::function<Recording()> read;
+};
+std::vector<RecordingSource> ListRecordings(const PrepareOptions& options);
+
+/// Prepares every clip, showing progress; prints one line a clip and the means, writes
+/// OUT/report.json. A clip that can't be read is named with its reason and skipped. Returns the
+/// number of prepared clips.
+int Prepare(const PrepareOptions& options);
+
+}  // namespace choreo

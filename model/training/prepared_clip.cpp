@@ -1,0 +1,97 @@
+#include "model/training/prepared_clip.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "model/core/error.h"
+#include "model/core/safetensors.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+PreparedClip ReadPreparedClip(const std::filesystem::path& path) {
+  Safetensors content = ReadSafetensors(path);
+  const auto tensor = [&](const char* name, size_t dimensions) -> const NamedTensor& {
+    const auto found = content.tensors.find(name);
+    if (found == content.tensors.end() || found->second.shape.size() != dimensions) {
+      throw InvalidArgument(path.string(),
+                            std::string("not a prepared clip: no usable tensor '") + name + "'");
+    }
+    return found->second;
+  };
+  const NamedTensor& roots = tensor("root_positions", 2);
+  const NamedTensor& rotations = tensor("rotations", 3);
+  const NamedTensor& contacts = tensor("contacts", 2);
+  const int64_t frames = roots.shape[0], joints = rotations.shape[1];
+  if (roots.shape[1] != 3 || rotations.shape[0] != frames || rotations.shape[2] != 3 ||
+      contacts.shape != std::vector<int64_t>{frames, 4}) {
+    throw InvalidArgument(path.string(), "not a prepared clip: its tensors disagree on the frames");
+  }
+  PreparedClip clip;
+  clip.name = content.metadata["name"];
+  clip.source = content.metadata["source"];
+  clip.motion.fps = std::atof(content.metadata["fps"].c_str());
+  if (!(clip.motion.fps > 0))
+    throw InvalidArgument(path.string(), "fps '" + content.metadata["fps"] + "' is not above 0");
+  clip.motion.frames.resize(static_cast<size_t>(frames));
+  for (int64_t f = 0; f < frames; ++f) {
+    Pose& pose = clip.motion.frames[static_cast<size_t>(f)];
+    pose.root_position =
+        Eigen::Map<const Eigen::Vector3f>(roots.data.data() + 3 * f).cast<double>();
+    pose.rotations =
+        Eigen::Map<const Eigen::Matrix3Xf>(rotations.data.data() + 3 * joints * f, 3, joints)
+            .cast<double>();
+  }
+  clip.contacts = Eigen::Map<const Eigen::MatrixXf>(contacts.data.data(), 4, frames);
+  if (content.tensors.count("audio") > 0) {
+    const NamedTensor& audio = tensor("audio", 2);
+    if (audio.shape[0] != frames)
+      throw InvalidArgument(path.string(), "as many audio rows as frames are needed");
+    clip.audio = Eigen::Map<const Eigen::MatrixXf>(audio.data.data(), audio.shape[1], frames);
+  }
+  clip.notes = std::move(content.metadata);
+  for (const char* own : {"name", "source", "fps", "skeleton"}) clip.notes.erase(own);
+  return clip;
+}
+
+void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& clip) {
+  const auto frames = static_cast<int64_t>(clip.motion.frames.size());
+  const int64_t joints = frames > 0 ? clip.motion.frames[0].rotations.cols() : 0;
+  NamedTensor roots{{frames, 3}, {}}, rotations{{frames, joints, 3}, {}};
+  for (const Pose& pose : clip.motion.frames) {
+    const Eigen::Vector3f root = pose.root_position.cast<float>();
+    const Eigen::Matrix3Xf turned = pose.rotations.cast<float>();
+    roots.data.insert(roots.data.end(), root.data(), root.data() + 3);
+    rotations.data.insert(rotations.data.end(), turned.data(), turned.data() + turned.size());
+  }
+  Safetensors content;
+  content.tensors["root_positions"] = std::move(roots);
+  content.tensors["rotations"] = std::move(rotations);
+  content.tensors["contacts"] = {
+      {frames, 4}, {clip.contacts.data(), clip.contacts.data() + clip.contacts.size()}};
+  if (clip.audio.cols() > 0) {
+    content.tensors["audio"] = {{frames, clip.audio.rows()},
+                                {clip.audio.data(), clip.audio.data() + clip.audio.size()}};
+  }
+  content.metadata = clip.notes;
+  content.metadata["name"] = clip.name;
+  content.metadata["source"] = clip.source;
+  content.metadata["fps"] = std::to_string(clip.motion.fps);
+  content.metadata["skeleton"] = Skeleton::Smpl24().name;
+  WriteSafetensors(folder / (clip.name + ".clip"), content);
+}
+
+std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".clip") paths.push_back(entry.path());
+    }
+  }
+  if (paths.empty())
+    throw Error(ErrorCode::kNotFound, folder.string(), "no prepared clips (*.clip) here");
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+}  // namespace choreo

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/motion/contacts.h"
+#include "model/motion/motion.h"
+
+namespace choreo {
+
+/// A clip as training and evaluation read it. On disk: one safetensors file NAME.clip with
+///   root_positions [frames, 3] metres, Y up, floor y = 0; rotations [frames, joints, 3]
+///   axis-angle, local, radians; contacts [frames, 4]; audio [frames, 40] MFCC rows
+///   (FeatureStream's), absent for a dance without music;
+/// and in the metadata: name, source, fps, skeleton, terms, and what preparation did
+/// ("corrections", "fit_error_m", ...).
+struct PreparedClip {
+  std::string name;
+  std::string source;        ///< "tang2018", "bvh", ... : the layout that it came from
+  Motion motion;             ///< on SMPL's skeleton
+  Eigen::MatrixXf contacts;  ///< [4, frames]
+  Eigen::MatrixXf audio;     ///< [40, frames], or no columns
+  std::map<std::string, std::string> notes;  ///< the rest of the metadata
+};
+
+/// Throws Error(kNotFound) or Error(kInvalidArgument) naming the file.
+PreparedClip ReadPreparedClip(const std::filesystem::path& path);
+void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& clip);
+/// Every .clip of a folder, sorted by name. Throws Error(kNotFound) where there is none.
+std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path& folder);
+
+}  // namespace choreo
