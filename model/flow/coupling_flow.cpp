@@ -85,7 +85,7 @@ std::pair<Tensor, Tensor> FlowStepImpl::Affine(const Tensor& low, const Tensor& 
 void FlowStepImpl::InitialiseActNorm(const Tensor& x) {
   torch::NoGradGuard no_grad;
   const Tensor flat = x.reshape({-1, x.size(-1)});
-  const Tensor scale = flat.std(0).clamp_min(1e-3);
+  const Tensor scale = flat.std(0).clamp_min(1e-2);
   norm_log_scale_.copy_(-scale.log());
   norm_bias_.copy_(-flat.mean(0));
 }
