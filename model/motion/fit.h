@@ -55,14 +55,16 @@ class BoneNormaliser {
 
 /// How hard what pulls. Standard deviations of the least-squares terms.
 struct FitOptions {
-  double position_m = 0.004;      ///< landmark positions
-  double rest_rad = 1.2;          ///< every joint towards its rest rotation
-  double hinge_side_rad = 0.35;   ///< knees and elbows off their hinge axis
-  double hinge_limit_rad = 0.01;  ///< knees and elbows beyond straight
-  double spine_rad = 0.5;         ///< spine, collars, neck and head towards rest
-  double change_rad = 0.12;       ///< change from the frame before, at 30 fps
-  int iterations = 3;             ///< per warm-started frame
-  int first_iterations = 60;      ///< of a frame without a predecessor
+  double position_m = 0.004;       ///< landmark positions
+  double rest_rad = 1.2;           ///< every joint towards its rest rotation
+  double stiff_rad = 0.5;          ///< the same of spine, collars, neck, head, wrists and feet
+  double twist_rad = 0.7;          ///< of hips and shoulders about the bone below
+  double foot_turn_rad = 0.35;     ///< of ankles about the shin
+  double hinge_side_rad = 0.35;    ///< knees and elbows off their hinge axis
+  double hinge_limit_rad = 0.004;  ///< knees and elbows beyond straight
+  double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
+  int iterations = 3;              ///< per warm-started frame
+  int first_iterations = 60;       ///< of a frame without a predecessor
 };
 
 /// Fits frame after frame, causally: a frame's result depends on it and the frames before. Not

@@ -38,6 +38,13 @@ bool Contains(const std::string& name, std::initializer_list<const char*> parts)
 
 double Square(double x) { return x * x; }
 
+// Inverse variances of a rotation vector with one deviation along an axis and another across it.
+Eigen::Matrix3d AxisInformation(const Eigen::Vector3d& axis, double along_rad, double across_rad) {
+  const Eigen::Vector3d unit = axis.normalized();
+  const Eigen::Matrix3d along = unit * unit.transpose();
+  return along / Square(along_rad) + (Eigen::Matrix3d::Identity() - along) / Square(across_rad);
+}
+
 }  // namespace
 
 FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
@@ -53,9 +60,9 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
   rest_marks_ = marks_.Positions(rest);
   priors_.resize(joints);
   for (int joint = 0; joint < joints; ++joint) {
-    const bool stiff = Contains(skeleton_.joint_names[joint],
-                                {"spine", "collar", "neck", "head", "wrist", "hand", "foot"});
-    const double deviation = stiff ? options.spine_rad : options.rest_rad;
+    const bool stiff = Contains(skeleton_.joint_names[joint], {"spine", "collar", "neck", "head",
+                                                               "wrist", "hand", "foot", "toe"});
+    const double deviation = stiff ? options.stiff_rad : options.rest_rad;
     // The root may face anywhere.
     const double information = joint == 0 ? 0.0 : 1.0 / Square(deviation);
     priors_[joint].information = information * Eigen::Matrix3d::Identity();
@@ -66,6 +73,11 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
   SetHinge(skeleton_.right_knee, skeleton_.right_hip, -forward);
   SetHinge(skeleton_.left_elbow, skeleton_.left_shoulder, forward);
   SetHinge(skeleton_.right_elbow, skeleton_.right_shoulder, forward);
+  for (const int ankle : {skeleton_.feet[0], skeleton_.feet[2]}) {
+    if (ankle <= 0) continue;
+    priors_[ankle].information =
+        AxisInformation(skeleton_.offsets.col(ankle), options.foot_turn_rad, options.rest_rad);
+  }
   const int unknowns = 3 + 3 * joints;
   jacobian_.setZero(3 * marks_.size(), unknowns);
   residual_.resize(3 * marks_.size());
@@ -84,10 +96,10 @@ void FitProblem::SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towa
   if (!(axis.norm() > 1e-6)) return;
   JointPrior& prior = priors_[hinge];
   prior.hinge_axis = axis.normalized();
-  const Eigen::Matrix3d along = prior.hinge_axis * prior.hinge_axis.transpose();
-  prior.information = along / Square(options_.rest_rad) +
-                      (Eigen::Matrix3d::Identity() - along) / Square(options_.hinge_side_rad);
-  if (upper >= 0) priors_[upper].hinge_child = hinge;
+  prior.information = AxisInformation(axis, options_.rest_rad, options_.hinge_side_rad);
+  if (upper < 0) return;
+  priors_[upper].hinge_child = hinge;
+  priors_[upper].information = AxisInformation(bone, options_.twist_rad, options_.rest_rad);
 }
 
 bool FitProblem::IsBelow(int joint, int ancestor) const {

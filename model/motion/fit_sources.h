@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/motion/position_clip.h"
 #include "model/motion/skeleton.h"
 
 /// How the joints of source skeletons tell where ours are.
@@ -53,11 +54,12 @@ SourceMapping IdentitySource(const Skeleton& skeleton);
 const std::vector<std::string>& Tang2018JointNames();
 SourceMapping Tang2018Source();
 
-/// A BVH hierarchy by its joint names: Hips/LeftUpLeg/LeftLeg/LeftFoot/LeftToeBase... (dancedb,
-/// LAFAN1, Mixamo with or without prefix, CMU conversions) and hip/lThigh/lShin/lFoot...
-/// (Poser-style cmu_dance). End sites are named after their parent + "_end". Throws
-/// Error(kInvalidArgument) naming the first needed joint that is missing: hips, knees, ankles,
-/// shoulders, elbows, wrists and a neck.
-SourceMapping BvhSource(const std::vector<std::string>& joint_names);
+/// A recording of a BVH hierarchy, by its joint names:
+/// Hips/LeftUpLeg/LeftLeg/LeftFoot/LeftToeBase... (dancedb, LAFAN1, Mixamo with its prefix,
+/// conversions of CMU) and hip/lThigh/lShin/lFoot... (Poser-style, cmu_dance). End sites are named
+/// after their parent + "_end". The spine's proportions are measured on the clip. Throws
+/// Error(kInvalidArgument) naming the first joint of those needed that is missing: hips, knees,
+/// ankles, shoulders, elbows, wrists, neck.
+SourceMapping BvhSource(const PositionClip& clip);
 
 }  // namespace choreo
