@@ -1,5 +1,8 @@
 #include "model/draw/canvas.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include "model/core/error.h"
 
 namespace choreo {
@@ -14,10 +17,6 @@ void SelectFont(cairo_t* cr, double size, bool bold) {
 }
 
 }  // namespace
-
-Colour Mix(const Colour& a, const Colour& b, double t) {
-  return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
-}
 
 Canvas::Canvas(int width, int height, const Colour& background) : width_(width), height_(height) {
   if (width < 1 || width > kMaxExtent || height < 1 || height > kMaxExtent) {
@@ -65,12 +64,20 @@ double Canvas::TextWidth(const std::string& text, double size, bool bold) const 
   return extents.x_advance;
 }
 
-const unsigned char* Canvas::pixels() const {
+void Canvas::Paste(const Picture& picture, int x, int y) const {
   cairo_surface_flush(surface_);
-  return cairo_image_surface_get_data(surface_);
+  unsigned char* data = cairo_image_surface_get_data(surface_);
+  const int stride = cairo_image_surface_get_stride(surface_);
+  for (int row = std::max(0, -y); row < picture.height && y + row < height_; ++row) {
+    for (int column = std::max(0, -x); column < picture.width && x + column < width_; ++column) {
+      const uint8_t* rgb = &picture.rgb[3 * (static_cast<size_t>(row) * picture.width + column)];
+      // Pixels of CAIRO_FORMAT_RGB24 are 0x00RRGGBB in native byte order.
+      const uint32_t pixel = uint32_t{rgb[0]} << 16 | uint32_t{rgb[1]} << 8 | rgb[2];
+      std::memcpy(data + static_cast<ptrdiff_t>(y + row) * stride + 4 * (x + column), &pixel, 4);
+    }
+  }
+  cairo_surface_mark_dirty(surface_);
 }
-
-int Canvas::stride() const { return cairo_image_surface_get_stride(surface_); }
 
 void Canvas::WritePng(const std::filesystem::path& png) const {
   const cairo_status_t status = cairo_surface_write_to_png(surface_, png.c_str());

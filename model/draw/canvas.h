@@ -5,21 +5,11 @@
 #include <filesystem>
 #include <string>
 
-/// What the pictures of this folder have in common: a cairo surface that frees itself, colours and
-/// text.
+#include "model/draw/colour.h"
+#include "model/draw/picture.h"
+
+/// What the pictures of this folder have in common: a cairo surface that frees itself, and text.
 namespace choreo {
-
-struct Colour {
-  double r = 0, g = 0, b = 0;  ///< sRGB, 0 to 1
-
-  /// From 0xRRGGBB.
-  static constexpr Colour Hex(unsigned rgb) {
-    return {(rgb >> 16 & 0xff) / 255.0, (rgb >> 8 & 0xff) / 255.0, (rgb & 0xff) / 255.0};
-  }
-};
-
-/// a at t = 0, b at t = 1.
-Colour Mix(const Colour& a, const Colour& b, double t);
 
 enum class Align { kLeft, kCentre, kRight };
 
@@ -43,9 +33,8 @@ class Canvas {
             bool bold = false) const;
   double TextWidth(const std::string& text, double size, bool bold = false) const;
 
-  /// Rows of `width` 32-bit pixels 0x00RRGGBB (native byte order), `stride` bytes apart.
-  const unsigned char* pixels() const;
-  int stride() const;
+  /// Copies a picture whose upper left corner comes to (x, y); what lies outside is cut off.
+  void Paste(const Picture& picture, int x, int y) const;
 
   /// Throws Error(kInternal) where the file cannot be written.
   void WritePng(const std::filesystem::path& png) const;

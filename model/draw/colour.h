@@ -1,0 +1,19 @@
+#pragma once
+
+namespace choreo {
+
+struct Colour {
+  double r = 0, g = 0, b = 0;  ///< sRGB, 0 to 1
+
+  /// From 0xRRGGBB.
+  static constexpr Colour Hex(unsigned rgb) {
+    return {(rgb >> 16 & 0xff) / 255.0, (rgb >> 8 & 0xff) / 255.0, (rgb & 0xff) / 255.0};
+  }
+};
+
+/// a at t = 0, b at t = 1.
+constexpr Colour Mix(const Colour& a, const Colour& b, double t) {
+  return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
+}
+
+}  // namespace choreo

@@ -1,0 +1,199 @@
+#include "model/draw/contact_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "model/core/error.h"
+#include "model/draw/canvas.h"
+#include "model/draw/figure.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kMargin = 24;
+constexpr int kGap = 10;
+constexpr int kHeader = 58;
+constexpr int kLabel = 24;  // below each tile
+constexpr double kFont = 13;
+constexpr double kCorner = 8;
+
+constexpr Colour kPaper = Colour::Hex(0xffffff);
+constexpr Colour kInk = Colour::Hex(0x2b2b2b);
+constexpr Colour kFaint = Colour::Hex(0x85807a);
+constexpr Colour kKey = Colour::Hex(0xd99a00);
+
+void CheckWithin(const char* field, int value, int low, int high) {
+  if (value < low || value > high) {
+    throw InvalidArgument(field, std::to_string(value) + ", must be " + std::to_string(low) +
+                                     " to " + std::to_string(high));
+  }
+}
+
+void RoundedRectangle(const Canvas& canvas, double x, double y, double width, double height,
+                      double corner) {
+  cairo_t* cr = canvas.cr();
+  cairo_new_sub_path(cr);
+  cairo_arc(cr, x + width - corner, y + corner, corner, -M_PI / 2, 0);
+  cairo_arc(cr, x + width - corner, y + height - corner, corner, 0, M_PI / 2);
+  cairo_arc(cr, x + corner, y + height - corner, corner, M_PI / 2, M_PI);
+  cairo_arc(cr, x + corner, y + corner, corner, M_PI, 1.5 * M_PI);
+  cairo_close_path(cr);
+}
+
+std::string TimeText(double seconds) {
+  char text[32];
+  const int minutes = static_cast<int>(seconds / 60);
+  if (minutes > 0) {
+    std::snprintf(text, sizeof(text), "%d:%05.2f", minutes, seconds - 60 * minutes);
+  } else {
+    std::snprintf(text, sizeof(text), "%.2f s", seconds);
+  }
+  return text;
+}
+
+void DrawHeader(const Canvas& canvas, const Motion& motion, const ContactSheetOptions& options,
+                bool keys) {
+  const double y = kMargin + 10;
+  canvas.SetColour(kInk);
+  canvas.Text(options.title, kMargin, y, 20, Align::kLeft, true);
+  double x = canvas.width() - kMargin;
+  const auto entry = [&](const Colour& colour, const std::string& text) {
+    canvas.SetColour(kFaint);
+    canvas.Text(text, x, y, kFont, Align::kRight);
+    x -= canvas.TextWidth(text, kFont) + 10;
+    canvas.SetColour(colour);
+    cairo_arc(canvas.cr(), x, y, 5, 0, 2 * M_PI);
+    cairo_fill(canvas.cr());
+    x -= 22;
+  };
+  if (keys) entry(kKey, "key pose");
+  entry(kRightColour, "right");
+  entry(kLeftColour, "left");
+  char facts[96];
+  std::snprintf(facts, sizeof(facts), "%s   %zu frames at %g fps",
+                TimeText(static_cast<double>(motion.frames.size()) / motion.fps).c_str(),
+                motion.frames.size(), motion.fps);
+  canvas.SetColour(kFaint);
+  canvas.Text(facts, x, y, kFont, Align::kRight);
+}
+
+void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const SheetFrame& shown,
+              double fps) {
+  cairo_t* cr = canvas.cr();
+  canvas.Paste(picture, x, y);
+  // Rounds the corners by painting over what is outside.
+  cairo_rectangle(cr, x, y, picture.width, picture.height);
+  RoundedRectangle(canvas, x, y, picture.width, picture.height, kCorner);
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+  canvas.SetColour(kPaper);
+  cairo_fill(cr);
+
+  const double text_y = y + picture.height + kLabel / 2.0 + 1;
+  const std::string time = TimeText(static_cast<double>(shown.frame) / fps);
+  if (shown.key) {
+    RoundedRectangle(canvas, x + 1.5, y + 1.5, picture.width - 3, picture.height - 3,
+                     kCorner - 1.5);
+    canvas.SetColour(kKey);
+    cairo_set_line_width(cr, 3);
+    cairo_stroke(cr);
+    const double width = canvas.TextWidth("key", kFont, true) + 14;
+    RoundedRectangle(canvas, x + 9, y + 9, width, 20, 6);
+    cairo_fill(cr);
+    canvas.SetColour(kPaper);
+    canvas.Text("key", x + 16, y + 19, kFont, Align::kLeft, true);
+  }
+  canvas.SetColour(shown.key ? kInk : kFaint);
+  canvas.Text(time, x + 4, text_y, kFont, Align::kLeft, shown.key);
+  canvas.SetColour(kFaint);
+  canvas.Text(std::to_string(shown.frame), x + picture.width - 4, text_y, kFont - 2, Align::kRight);
+}
+
+// What a tile's height must show so that every frame fits in: bodies are measured around their
+// root's place on the floor.
+double Extent(const Skeleton& skeleton, const Motion& motion, const std::vector<SheetFrame>& shown,
+              double aspect) {
+  double top = 1.8, side = 0.5;
+  for (const SheetFrame& one : shown) {
+    const Pose& pose = motion.frames[one.frame];
+    for (const BodyPart& part : BuildFigure(skeleton, pose)) {
+      for (const auto& [ball, radius] : {std::pair(part.shape.a, part.shape.radius_a),
+                                         std::pair(part.shape.b, part.shape.radius_b)}) {
+        top = std::max(top, double{ball.y()} + radius);
+        side = std::max(
+            side, std::hypot(ball.x() - pose.root_position.x(), ball.z() - pose.root_position.z()) +
+                      radius);
+      }
+    }
+  }
+  constexpr double kAir = 1.08;
+  return std::clamp(kAir * std::max(top + 0.25, 2 * side / aspect), 2.0, 4.0);
+}
+
+}  // namespace
+
+std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptions& options) {
+  CheckWithin("options.frames", options.frames, 1, 10000);
+  const int64_t count = std::min<int64_t>(options.frames, total);
+  std::vector<int64_t> places;
+  for (int64_t i = 0; i < count; ++i) {
+    places.push_back(count == 1 ? 0 : (i * (total - 1) + (count - 1) / 2) / (count - 1));
+  }
+  std::map<int64_t, int64_t> key_at;  // place -> key
+  std::map<int64_t, bool> chosen;     // frame -> whether a key
+  for (const int64_t key : options.key_frames) {
+    if (key < 0 || key >= total) {
+      throw InvalidArgument("options.key_frames",
+                            std::to_string(key) + ", must be 0 to " + std::to_string(total - 1));
+    }
+    chosen[key] = true;
+    const auto nearest = std::min_element(places.begin(), places.end(), [&](int64_t a, int64_t b) {
+      return std::abs(a - key) < std::abs(b - key);
+    });
+    key_at.emplace(*nearest, key);
+  }
+  for (const int64_t place : places) {
+    if (!key_at.contains(place)) chosen.emplace(place, false);
+  }
+  std::vector<SheetFrame> frames;
+  for (const auto& [frame, key] : chosen) frames.push_back({frame, key});
+  return frames;
+}
+
+void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
+                      const ContactSheetOptions& options, const std::filesystem::path& png) {
+  if (motion.frames.empty()) {
+    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
+  }
+  CheckWithin("options.columns", options.columns, 1, 100);
+  CheckWithin("options.tile_width", options.tile_width, 16, 4096);
+  CheckWithin("options.tile_height", options.tile_height, 16, 4096);
+  const std::vector<SheetFrame> shown =
+      ChooseSheetFrames(static_cast<int64_t>(motion.frames.size()), options);
+  const int columns = std::min(options.columns, static_cast<int>(shown.size()));
+  const int rows = (static_cast<int>(shown.size()) + columns - 1) / columns;
+  const Canvas canvas(2 * kMargin + columns * (options.tile_width + kGap) - kGap,
+                      kHeader + kMargin + rows * (options.tile_height + kLabel), kPaper);
+  DrawHeader(canvas, motion, options, !options.key_frames.empty());
+
+  Picture picture{.width = options.tile_width, .height = options.tile_height, .rgb = {}};
+  const double azimuth = ThreeQuarterAzimuth(motion.frames.front());
+  const double extent = Extent(skeleton, motion, shown,
+                               static_cast<double>(options.tile_width) / options.tile_height);
+  FrameStyle plain, highlighted;
+  highlighted.background = Colour::Hex(0xfff6dd);
+  highlighted.floor = Colour::Hex(0xf3e4b8);
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const Pose& pose = motion.frames[shown[i].frame];
+    View view = FollowView(pose, azimuth, extent);
+    view.target.y() = extent / 2 - 0.22;  // the floor near the lower edge
+    DrawFrame(skeleton, pose, view, shown[i].key ? highlighted : plain, picture);
+    const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
+    DrawTile(canvas, picture, kMargin + column * (options.tile_width + kGap),
+             kHeader + row * (options.tile_height + kLabel), shown[i], motion.fps);
+  }
+  canvas.WritePng(png);
+}
+
+}  // namespace choreo

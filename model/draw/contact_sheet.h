@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/draw/render.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+struct ContactSheetOptions {
+  std::string title;
+  /// Frames shown, evenly spaced from the first to the last; fewer where the motion has fewer.
+  int frames = 24;
+  int columns = 8;
+  int tile_width = 210, tile_height = 250;  ///< pixels, 16 to 4096
+  /// Frame numbers that are highlighted. Each takes the place of the evenly spaced frame nearest to
+  /// it, or comes in addition where another key has that place.
+  std::vector<int64_t> key_frames;
+};
+
+/// Draws a motion as rows of frames, in time from left to right, into a PNG. All frames are seen
+/// from one side, three quarters from the front of the first; the camera goes along with the
+/// dancer over a floor whose grid stands still. Throws Error(kInvalidArgument) for a motion without
+/// frames, a key frame that it does not have, or sizes outside their limits; Error(kInternal) where
+/// the file cannot be written. Thread-safe.
+void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
+                      const ContactSheetOptions& options, const std::filesystem::path& png);
+
+/// The frames that a sheet of `total` frames shows, in order, each once; and which are keys.
+struct SheetFrame {
+  int64_t frame = 0;
+  bool key = false;
+};
+std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptions& options);
+
+}  // namespace choreo

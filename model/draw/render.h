@@ -1,0 +1,26 @@
+#pragma once
+
+#include "model/draw/colour.h"
+#include "model/draw/picture.h"
+#include "model/draw/view.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// How a frame is drawn.
+struct FrameStyle {
+  Colour background = Colour::Hex(0xfbf9f6);
+  Colour floor = Colour::Hex(0xece6dc);
+  double grid_m = 0.5;  ///< distance of the lines on the floor, fixed in the world; 0: no lines
+  int samples = 3;      ///< rays a pixel along each side, 1 to 8
+};
+
+/// Draws one pose, lit from the left above the camera, with its shadow on the floor y = 0, into a
+/// picture whose width and height are set (1 to 32767); `picture.rgb` is resized. The same input
+/// gives the same bytes. Throws Error(kInvalidArgument) for sizes, a view or a style outside their
+/// limits, or a pose of another joint count. Thread-safe.
+void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
+               const FrameStyle& style, Picture& picture);
+
+}  // namespace choreo

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/motion/motion.h"
+
+namespace choreo {
+
+/// Where a picture is taken from: a camera at human height that looks at `target`.
+struct View {
+  Eigen::Vector3d target{0, 0.95, 0};  ///< world, metres; comes to the middle of the picture
+  /// Direction from the target to the camera: 0 stands at +Z, pi/2 at +X; radians.
+  double azimuth = 0;
+  double camera_height = 1.6;  ///< metres above the floor
+  /// What the picture's height shows at the target, metres, 0.1 to 100.
+  double extent = 2.4;
+  double field_of_view = 0.45;  ///< vertical, radians, 0.01 to 3
+};
+
+/// Three quarters from the front of a dancer, who stays in the middle.
+View FollowView(const Pose& pose, double azimuth, double extent = 2.4);
+
+/// The azimuth from which a pose is seen three quarters from its front.
+double ThreeQuarterAzimuth(const Pose& pose);
+
+/// A View worked out for a picture of a given size.
+class Camera {
+ public:
+  /// Throws Error(kInvalidArgument) for a size below 1 pixel or a view outside its limits.
+  Camera(const View& view, int width, int height);
+
+  const Eigen::Vector3f& eye() const { return eye_; }
+  /// Unit direction through a point of the picture, pixels from the upper left corner.
+  Eigen::Vector3f Ray(float x, float y) const;
+
+  /// Columns and rows, [from, to) in pixels within the picture, outside which a ball is not seen.
+  struct Box {
+    float left = 0, top = 0, right = 0, bottom = 0;
+  };
+  Box Bounds(const Eigen::Vector3f& centre, float radius) const;
+
+ private:
+  Eigen::Vector3f eye_, right_, up_, forward_;
+  float focal_;  // pixels
+  float width_, height_;
+};
+
+}  // namespace choreo
