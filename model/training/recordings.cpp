@@ -112,7 +112,7 @@ Recording ReadBvhRecording(const fs::path& path, const std::string& name,
   const BvhFile bvh = ReadBvh(path);
   recording.positions = BvhToPositions(bvh, 1.0);
   recording.positions.fps = Override(options.frame_rates, name, bvh.fps());
-  recording.mapping = BvhSource(recording.positions.joint_names);
+  recording.mapping = BvhSource(recording.positions);
   // Units are not stated anywhere in a BVH: the dancer's legs tell centimetres from inches.
   const BoneNormaliser normaliser(Skeleton::Smpl24(), recording.mapping,
                                   recording.positions.joint_names);
