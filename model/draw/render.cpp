@@ -15,7 +15,8 @@ using Eigen::Vector3f;
 constexpr float kLampSpread = 0.10f;      // radians
 constexpr float kShadowCell = 0.025f;     // metres
 constexpr float kShadowBias = 0.012f;     // metres off the surface: parts overlap at the joints
-constexpr float kGridHalfWidth = 0.006f;  // metres
+constexpr float kBlend = 0.012f;          // metres
+constexpr float kGridHalfWidth = 0.008f;  // metres
 
 Vector3f Linear(const Colour& colour) {
   const auto linear = [](double value) { return static_cast<float>(std::pow(value, 2.2)); };
@@ -161,9 +162,22 @@ class Renderer {
     const size_t at = static_cast<size_t>(row) * columns_ + column;
     const Vector3f ray = Ray(column, row);
     if (part_[at] >= 0) {
-      return Body(part_[at], camera_.eye() + distance_[at] * ray, normal_[at], ray);
+      const Vector3f point = camera_.eye() + distance_[at] * ray;
+      return Body(part_[at], point, SkinNormal(part_[at], point, normal_[at]), ray);
     }
     return Floor(ray);
+  }
+
+  // Parts of one colour are one piece of skin: where they meet, their normals are blended.
+  Vector3f SkinNormal(int index, const Vector3f& point, const Vector3f& own) const {
+    Vector3f sum = own;
+    for (size_t i = 0; i < parts_.size(); ++i) {
+      if (static_cast<int>(i) == index || colours_[i] != colours_[index]) continue;
+      Vector3f normal;
+      const float distance = SurfaceDistance(parts_[i].shape, point, normal);
+      if (distance < 4 * kBlend) sum += std::exp(-std::max(0.0f, distance) / kBlend) * normal;
+    }
+    return sum.normalized();
   }
 
   Vector3f Body(int index, const Vector3f& point, const Vector3f& normal,
@@ -182,7 +196,7 @@ class Renderer {
         open * (0.5f - 0.5f * normal.y()) * 0.5f * (1 - SmoothStep(0, 2, point.y()));
     const float fill = open * std::max(0.0f, -normal.dot(ray));
     const float edge = std::pow(1 - std::max(0.0f, -normal.dot(ray)), 3.0f);
-    const float light = 0.62f * lamp + 0.30f * sky + 0.22f * bounce + 0.20f * fill;
+    const float light = 0.68f * lamp + 0.34f * sky + 0.30f * bounce + 0.24f * fill;
     const Vector3f shine = Vector3f::Constant(0.05f * edge * open);
     return light * colours_[index] + shine;
   }
@@ -198,7 +212,7 @@ class Renderer {
         return std::abs(value - grid_ * std::round(value / grid_));
       };
       const float line = std::min(from_line(point.x()), from_line(point.z()));
-      if (line < kGridHalfWidth) shade *= 0.88f;
+      if (line < kGridHalfWidth) shade *= 0.80f;
     }
     const float fade = SmoothStep(0.55f * reach_, reach_, away);
     return (1 - fade) * shade * floor_ + fade * background_;

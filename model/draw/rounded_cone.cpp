@@ -84,15 +84,22 @@ float ShadowOf(const RoundedCone& cone, const Vector3f& point, const Vector3f& l
   return cover * cover * (3 - 2 * cover);
 }
 
-float OcclusionBy(const RoundedCone& cone, const Vector3f& point, const Vector3f& normal) {
+float SurfaceDistance(const RoundedCone& cone, const Vector3f& point, Vector3f& normal) {
   const Vector3f axis = cone.b - cone.a;
   const float axis2 = std::max(1e-9f, axis.squaredNorm());
   const float s = std::clamp(axis.dot(point - cone.a) / axis2, 0.0f, 1.0f);
-  const Vector3f to_axis = cone.a + s * axis - point;
-  const float radius = cone.radius_a + s * (cone.radius_b - cone.radius_a);
-  const float distance = std::max(radius, to_axis.norm());
-  const float facing = std::max(0.0f, normal.dot(to_axis) / distance);
-  return facing * radius * radius / (distance * distance);
+  const Vector3f from_axis = point - cone.a - s * axis;
+  const float distance = from_axis.norm();
+  normal = from_axis / std::max(1e-6f, distance);
+  return distance - (cone.radius_a + s * (cone.radius_b - cone.radius_a));
+}
+
+float OcclusionBy(const RoundedCone& cone, const Vector3f& point, const Vector3f& normal) {
+  Vector3f away;
+  const float gap = std::max(0.0f, SurfaceDistance(cone, point, away));
+  const float radius = 0.5f * (cone.radius_a + cone.radius_b);
+  const float part = radius / (radius + gap);
+  return std::max(0.0f, -normal.dot(away)) * part * part;
 }
 
 }  // namespace choreo

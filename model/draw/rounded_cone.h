@@ -20,6 +20,11 @@ struct RayHit {
 RayHit Intersect(const RoundedCone& cone, const Eigen::Vector3f& origin,
                  const Eigen::Vector3f& direction);
 
+/// Distance from the surface (below zero inside) and the direction away from the axis; `normal` is
+/// the surface's where the balls are of one size.
+float SurfaceDistance(const RoundedCone& cone, const Eigen::Vector3f& point,
+                      Eigen::Vector3f& normal);
+
 /// How much of a lamp of angular radius `spread` (radians) in the direction `light` the shape hides
 /// from `point`, 0 to 1; an approximation that is exact in the middle of the shadow and outside.
 float ShadowOf(const RoundedCone& cone, const Eigen::Vector3f& point, const Eigen::Vector3f& light,
