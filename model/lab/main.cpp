@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "model/evaluation/eval_command.h"
+
 #ifdef CHOREO_SERVICE
 #include "model/training/prepare_command.h"
 #endif
@@ -14,6 +16,7 @@ int main(int argc, char** argv) {
   choreo::AddPrepareCommand(app);
 #endif
   choreo::AddTrainCommand(app);
+  choreo::AddEvalCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,9 +6,6 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "model/core/error.h"
 #include "model/flow/torch_kinematics.h"
@@ -16,53 +13,9 @@
 #include "model/motion/mirror.h"
 
 namespace choreo {
-namespace {
-
-using nlohmann::json;
-
-// "train", "validation", "test...", or anything else ("unused") for a clip that the file names;
-// nothing for one it does not.
-std::optional<std::string> NamedSplit(const json& splits, const std::string& clip) {
-  for (const auto& [set, parts] : splits.items()) {
-    for (const auto& [part, names] : parts.items()) {
-      if (std::find(names.begin(), names.end(), clip) != names.end()) return part;
-    }
-  }
-  return std::nullopt;
-}
-
-bool Belongs(const std::optional<std::string>& part, Split split) {
-  switch (split) {
-    case Split::kTrain:
-      return !part || *part == "train";
-    case Split::kValidation:
-      return part && *part == "validation";
-    case Split::kTest:
-      return part && *part == "test";
-  }
-  return false;
-}
-
-}  // namespace
-
 ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
                      const std::filesystem::path& splits_file, Split split)
-    : skeleton_(Skeleton::Smpl24()) {
-  std::ifstream file(splits_file);
-  if (!file) throw Error(ErrorCode::kNotFound, splits_file.string(), "no such splits file");
-  const json splits = json::parse(file, nullptr, false);
-  if (!splits.is_object()) throw InvalidArgument(splits_file.string(), "not a JSON object");
-  for (const auto& folder : folders) {
-    for (const auto& path : ListPreparedClips(folder)) {
-      PreparedClip clip = ReadPreparedClip(path);
-      if (Belongs(NamedSplit(splits, clip.name), split)) clips_.push_back(std::move(clip));
-    }
-  }
-  if (clips_.empty()) {
-    throw InvalidArgument(splits_file.string(),
-                          "no prepared clip of the data belongs to this split");
-  }
-}
+    : clips_(LoadClips(folders, splits_file, split)), skeleton_(Skeleton::Smpl24()) {}
 
 int64_t ClipStore::frames() const {
   int64_t total = 0;

@@ -8,13 +8,9 @@
 #include "model/core/random.h"
 #include "model/flow/planner.h"
 #include "model/motion/pose_codec.h"
-#include "model/training/prepared_clip.h"
+#include "model/training/clip_split.h"
 
 namespace choreo {
-
-/// Which clips a run sees, from a splits file {set: {"train": [...], "validation": [...], "test":
-/// [...]}}. Clips that it does not name belong to training.
-enum class Split { kTrain, kValidation, kTest };
 
 /// A batch of windows of real motion, tau history frames and then N, in the canonical frame of the
 /// last history frame.
@@ -31,7 +27,7 @@ struct MotionBatch {
 /// Prepared clips of one split in memory; immutable after construction.
 class ClipStore {
  public:
-  /// Reads every clip of `folders` that belongs to `split`. Throws Error where nothing is left.
+  /// Throws as LoadClips does.
   ClipStore(const std::vector<std::filesystem::path>& folders,
             const std::filesystem::path& splits_file, Split split);
 
