@@ -79,8 +79,8 @@ class Timeline {
   struct Options {
     double fps = 30;
     int64_t first_frame = 0;  ///< where the dance starts (a continuation's frame)
-    std::optional<int64_t>
-        end_frame;  ///< the dance is frames [first_frame, end_frame); no key at or after it
+    /// The dance is frames [first_frame, end_frame); no key at or after it.
+    std::optional<int64_t> end_frame = {};
     bool has_music = false;
     int max_transition_frames = kMaxTransitionFrames;  ///< of the model
   };

@@ -1,0 +1,227 @@
+#include "model/dance/arrival.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+#include "tests/dance/poses.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kFps = 30;
+
+/// A stand-in for a model: goes on from the last pose with a damped, shaken velocity towards a goal
+/// that misses the key.
+class Wanderer {
+ public:
+  Wanderer(const Pose& goal, double noise, uint32_t seed)
+      : goal_(goal), noise_(noise), random_(seed) {}
+
+  Pose Next(const Pose& previous, int left) {
+    std::normal_distribution<double> normal;
+    Pose next = previous;
+    const double pull = 1.0 / std::max(left, 1);
+    next.root_position += pull * (goal_.root_position - previous.root_position);
+    for (int axis = 0; axis < 3; ++axis) next.root_position[axis] += noise_ * normal(random_);
+    for (int joint = 0; joint < next.rotations.cols(); ++joint) {
+      Eigen::Vector3d step =
+          pull * RotationDifference(previous.rotations.col(joint), goal_.rotations.col(joint));
+      for (double& value : step) value += noise_ * normal(random_);
+      next.rotations.col(joint) = RotationCompose(previous.rotations.col(joint), step);
+    }
+    return next;
+  }
+
+ private:
+  Pose goal_;
+  double noise_;
+  std::mt19937 random_;
+};
+
+std::vector<Pose> Walk(const std::vector<Pose>& before, const Target& target, int frames,
+                       Wanderer& model, Arrival::Options options = {},
+                       std::optional<Pose> after = std::nullopt) {
+  Arrival arrival(options, frames, target, before, after);
+  std::vector<Pose> poses = before;
+  for (int frame = 0; frame < frames; ++frame) {
+    poses.push_back(arrival.Apply(model.Next(poses.back(), frames - frame)));
+  }
+  return poses;
+}
+
+// Largest joint acceleration at poses[at], m/s^2.
+double Acceleration(const std::vector<Pose>& poses, size_t at) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  const Eigen::Matrix3Xd bend = JointPositions(skeleton, poses[at + 1]) -
+                                2 * JointPositions(skeleton, poses[at]) +
+                                JointPositions(skeleton, poses[at - 1]);
+  return bend.colwise().norm().maxCoeff() * kFps * kFps;
+}
+
+TEST(Arrival, HitsEveryKeyFromAnywhere) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 200; ++round) {
+    const int frames = 1 + static_cast<int>(random() % 60);
+    const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
+    const Target target{RandomPose(random), {}};
+    Wanderer model(RandomPose(random), 0.02, random());
+    const std::vector<Pose> poses = Walk(before, target, frames, model);
+    const PoseError error = ComparePoses(Skeleton::Smpl24(), poses.back(), target.pose);
+    EXPECT_LT(error.position_m, 1e-6);
+    EXPECT_LT(error.angle_deg, 1e-5);
+  }
+}
+
+TEST(Arrival, LeavesUntouchedWhatTheKeyDoesNotAskFor) {
+  std::mt19937 random(2);
+  for (int round = 0; round < 50; ++round) {
+    const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
+    Target target{RandomPose(random), {}};
+    target.mask.root_position = round % 2 == 0;
+    target.mask.joints.resize(24);
+    for (size_t joint = 0; joint < 24; ++joint) target.mask.joints[joint] = random() % 2 == 0;
+    Wanderer model(RandomPose(random), 0.02, random());
+    Arrival arrival({}, 20, target, before);
+    Pose previous = before.back();
+    for (int frame = 0; frame < 20; ++frame) {
+      const Pose raw = model.Next(previous, 20 - frame);
+      previous = arrival.Apply(raw);
+      if (!target.mask.root_position) {
+        EXPECT_EQ(previous.root_position, raw.root_position);
+      }
+      for (int joint = 0; joint < 24; ++joint) {
+        if (target.mask.joints[static_cast<size_t>(joint)]) continue;
+        EXPECT_EQ(previous.rotations.col(joint), raw.rotations.col(joint));
+      }
+    }
+    const PoseError error = ComparePoses(Skeleton::Smpl24(), previous, target.pose, target.mask);
+    EXPECT_LT(error.position_m, 1e-6);
+    EXPECT_LT(error.angle_deg, 1e-5);
+  }
+}
+
+TEST(Arrival, TouchesNothingBeforeItsWindowAndNothingWhenOff) {
+  std::mt19937 random(3);
+  const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
+  const Target target{RandomPose(random), {}};
+  Wanderer model(RandomPose(random), 0.02, 5);
+  Arrival on({.frames = 12}, 40, target, before);
+  Arrival off({.frames = 0}, 40, target, before);
+  Pose previous = before.back();
+  for (int frame = 0; frame < 40; ++frame) {
+    const Pose raw = model.Next(previous, 40 - frame);
+    EXPECT_TRUE(SameBits(off.Apply(raw), raw));
+    const Pose emitted = on.Apply(raw);
+    EXPECT_EQ(SameBits(emitted, raw), frame < 28) << frame;
+    previous = raw;
+  }
+}
+
+// A model that already moves along the best path is left alone: the loop adds nothing of its own.
+TEST(Arrival, FollowsAPathThatIsAlreadyBest) {
+  std::mt19937 random(4);
+  const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random, 0);
+  Target target{before.back(), {}};
+  target.pose.root_position += Eigen::Vector3d(0.3, 0, 0.4);
+  // Alone, with w = 1 throughout: the path itself.
+  std::vector<Pose> path = before;
+  for (int left = 12; left > 0; --left) {
+    Arrival one({.frames = left}, left, target, {path[path.size() - 2], path.back()});
+    // The first frame of a window has a small w; feed the frame that makes y = h by solving for it:
+    // h is y at w = 1.
+    const Eigen::Vector3d velocity =
+        path.back().root_position - path[path.size() - 2].root_position;
+    const Eigen::Vector3d way = target.pose.root_position - path.back().root_position;
+    Pose next = path.back();
+    next.root_position +=
+        velocity + (way - left * velocity) * 6.0 / ((left + 1.0) * (2.0 * left + 1));
+    const Pose emitted = one.Apply(next);
+    EXPECT_LT((emitted.root_position - next.root_position).norm(), 1e-12);
+    path.push_back(next);
+  }
+  EXPECT_LT((path.back().root_position - target.pose.root_position).norm(), 1e-12);
+  // Least squares: accelerations fall linearly to zero at the key.
+  const auto acceleration = [&path](size_t i) {
+    return (path[i + 1].root_position - 2 * path[i].root_position + path[i - 1].root_position)
+        .norm();
+  };
+  for (size_t i = 1; i + 2 < path.size(); ++i) {
+    EXPECT_NEAR(acceleration(i) / acceleration(1), (13.0 - static_cast<double>(i)) / 12.0, 1e-9);
+  }
+}
+
+TEST(Arrival, MeetsTheMotionThatFollows) {
+  std::mt19937 random(5);
+  double worst = 0, worst_unaware = 0;
+  for (int round = 0; round < 50; ++round) {
+    const int frames = 6 + static_cast<int>(random() % 50);
+    const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
+    const std::vector<Pose> key_and_after = MotionTo(RandomPose(random), 2, random, 0.02);
+    const Target target{key_and_after[0], {}};
+    const Pose goal = RandomPose(random);
+    const uint32_t seed = random();
+    Wanderer model(goal, 0.005, seed);
+    const std::vector<Pose> poses = Walk(before, target, frames, model, {}, key_and_after[1]);
+    EXPECT_LT(ComparePoses(Skeleton::Smpl24(), poses.back(), target.pose).position_m, 1e-6);
+    // The last step is nearly the one that follows: a third of a centimetre a frame beside it at
+    // most.
+    const size_t n = poses.size();
+    const Eigen::Vector3d last = poses[n - 1].root_position - poses[n - 2].root_position;
+    const Eigen::Vector3d next = key_and_after[1].root_position - key_and_after[0].root_position;
+    worst = std::max(worst, (last - next).norm());
+    Wanderer same(goal, 0.005, seed);
+    const std::vector<Pose> unaware = Walk(before, target, frames, same);
+    const Eigen::Vector3d free = unaware[n - 1].root_position - unaware[n - 2].root_position;
+    worst_unaware = std::max(worst_unaware, (free - next).norm());
+  }
+  EXPECT_LT(worst, 0.2 * worst_unaware);
+  std::cout << worst << " " << worst_unaware << "\n";
+}
+
+// No spike: around the key the acceleration is of the size that the way there needs anyhow, for a
+// model that misses by a lot.
+TEST(Arrival, HasNoAccelerationSpike) {
+  std::mt19937 random(6);
+  double worst_ratio = 0;
+  for (int round = 0; round < 100; ++round) {
+    const int frames = 24 + static_cast<int>(random() % 40);
+    const Pose start = RandomPose(random, 0.4);
+    const std::vector<Pose> before = MotionTo(start, 2, random);
+    Target target{RandomPose(random, 0.4, 0.3), {}};
+    Pose goal = target.pose;  // 15 cm and a few degrees beside the key
+    goal.root_position += 0.15 * Eigen::Vector3d(1, 0, 1).normalized();
+    for (double& value : goal.rotations.reshaped()) value += 0.05;
+    Wanderer model(goal, 0, random());
+    std::vector<Pose> poses = Walk(before, target, frames, model);
+    Wanderer free(goal, 0, random());
+    const std::vector<Pose> raw = Walk(before, target, frames, free, {.frames = 0});
+    // After the key the motion goes on: two frames at the velocity of the arrival.
+    const Pose& last = poses.back();
+    const Pose& earlier = poses[poses.size() - 2];
+    Pose next = last;
+    next.root_position += last.root_position - earlier.root_position;
+    for (int joint = 0; joint < 24; ++joint) {
+      next.rotations.col(joint) = RotationCompose(
+          last.rotations.col(joint),
+          RotationDifference(earlier.rotations.col(joint), last.rotations.col(joint)));
+    }
+    poses.push_back(next);
+    double at_key = 0;
+    for (size_t at = poses.size() - 14; at + 1 < poses.size(); ++at) {
+      at_key = std::max(at_key, Acceleration(poses, at));
+    }
+    // What a parabola over the window needs for the model's miss, both signs: 4 d / T^2.
+    const double miss = ComparePoses(Skeleton::Smpl24(), raw.back(), target.pose).position_m;
+    const double needed = 4 * miss / (12 / kFps * 12 / kFps);
+    worst_ratio = std::max(worst_ratio, at_key / (needed + 5));
+  }
+  RecordProperty("worst_ratio", std::to_string(worst_ratio));
+  std::cout << "worst ratio " << worst_ratio << "\n";
+  EXPECT_LT(worst_ratio, 3);
+}
+
+}  // namespace
+}  // namespace choreo

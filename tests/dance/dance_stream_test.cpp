@@ -1,0 +1,405 @@
+#include "model/dance/dance_stream.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+
+#include "tests/dance/dances.h"
+
+namespace choreo {
+namespace {
+
+TEST(DanceStream, HitsEveryKeyAndReportsIt) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(11);
+  const Recording recording = Perform(*scheduler, dance);
+  ASSERT_TRUE(recording.summary) << recording.error->what();
+  EXPECT_TRUE(recording.in_order);
+  EXPECT_EQ(recording.calls_after_end, 0);
+  EXPECT_EQ(recording.first_frame, 0);
+  ASSERT_EQ(recording.poses.size(), static_cast<size_t>(dance.keys.back().frame + 1));
+  ASSERT_EQ(recording.reached.size(), dance.keys.size());
+  for (size_t i = 0; i < dance.keys.size(); ++i) {
+    const Key& key = dance.keys[i];
+    EXPECT_EQ(recording.reached[i].id, key.id);
+    EXPECT_EQ(recording.reached[i].frame, key.frame);
+    EXPECT_DOUBLE_EQ(recording.reached[i].time, static_cast<double>(key.frame) / 30);
+    const Pose& danced = recording.poses[static_cast<size_t>(key.frame)];
+    const PoseError error = ComparePoses(Skeleton::Smpl24(), danced, key.pose, key.mask);
+    EXPECT_LT(error.position_m, 1e-4);
+    EXPECT_LT(error.angle_deg, 1e-2);
+    EXPECT_DOUBLE_EQ(recording.reached[i].arrival.final_error_m, error.position_m);
+    EXPECT_GT(recording.reached[i].arrival.raw_error_m, 0);
+    EXPECT_GE(recording.reached[i].arrival.correction_m,
+              recording.reached[i].arrival.raw_error_m * 0.5);
+    EXPECT_EQ(recording.summary->keys[i].id, key.id);
+  }
+  EXPECT_EQ(recording.summary->frames, dance.keys.back().frame + 1);
+  EXPECT_EQ(recording.continuations.size(), dance.keys.size());
+}
+
+TEST(DanceStream, BranchesStayContinuous) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(12);
+  const Recording recording = Perform(*scheduler, dance);
+  for (size_t i = 1; i < recording.poses.size(); ++i) {
+    for (int joint = 0; joint < 24; ++joint) {
+      const Eigen::Vector3d now = recording.poses[i].rotations.col(joint);
+      const Eigen::Vector3d before = recording.poses[i - 1].rotations.col(joint);
+      EXPECT_LE((now - before).norm(),
+                (NearestBranch(LogMap(ExpMap(now)), before) - before).norm() + 1e-5);
+    }
+  }
+}
+
+TEST(DanceStream, AKeyOnFrameZeroIsTheFirstFrame) {
+  const auto scheduler = FakeScheduler();
+  std::mt19937 random(3);
+  Dance dance;
+  dance.keys = {{"start", 0, RandomPose(random), {}}, {"end", 40, RandomPose(random), {}}};
+  const Recording recording = Perform(*scheduler, dance);
+  ASSERT_EQ(recording.poses.size(), 41u);
+  EXPECT_LT(ComparePoses(Skeleton::Smpl24(), recording.poses[0], dance.keys[0].pose).position_m,
+            1e-6);
+  EXPECT_TRUE(recording.warnings.empty());  // no jump from the neutral stance
+}
+
+TEST(DanceStream, SameSeedSameBitsWhateverElseRuns) {
+  const auto alone = FakeScheduler();
+  Dance dance = RandomDance(13, /*music_seconds=*/4);
+  const Recording expected = Perform(*alone, dance);
+  ASSERT_TRUE(expected.summary);
+  const auto crowded = FakeScheduler(8, 2);
+  std::vector<std::thread> threads;
+  std::vector<Recording> recordings(16);
+  for (size_t i = 0; i < recordings.size(); ++i) {
+    threads.emplace_back([&, i] {
+      Dance mine = i % 2 == 0 ? dance : RandomDance(100 + static_cast<uint32_t>(i), 3);
+      mine.chunk = 500 + 777 * static_cast<int64_t>(i);
+      recordings[i] = Perform(*crowded, mine);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (size_t i = 0; i < recordings.size(); ++i) {
+    ASSERT_TRUE(recordings[i].summary);
+    EXPECT_EQ(SameDance(expected, recordings[i]), i % 2 == 0) << i;
+  }
+  dance.config.seed ^= 1;
+  EXPECT_FALSE(SameDance(expected, Perform(*alone, dance)));
+}
+
+TEST(DanceStream, ChunksAndInterleavingOfAudioDoNotMatter) {
+  const auto scheduler = FakeScheduler();
+  const Dance dance = RandomDance(14, 4);
+  const Recording expected = Perform(*scheduler, dance);
+  ASSERT_TRUE(expected.summary);
+  std::mt19937 random(5);
+  for (int round = 0; round < 12; ++round) {
+    auto sink = std::make_shared<Recorder>();
+    DanceStream stream(*scheduler, dance.config, sink);
+    size_t key = 0;
+    int64_t sample = 0;
+    const int64_t samples = static_cast<int64_t>(dance.samples.size());
+    bool complete = false, ended = false;
+    while (!complete || !ended) {
+      if (random() % 2 == 0 && !complete) {
+        if (key < dance.keys.size()) {
+          SendKey(stream, dance.keys[key++]);
+        } else {
+          stream.KeysComplete();
+          complete = true;
+        }
+      } else if (!ended) {
+        const int64_t count = std::min<int64_t>(samples - sample, random() % 20000);
+        if (sample == samples) {
+          stream.EndOfAudio();
+          ended = true;
+        } else {
+          stream.PushAudio(std::span(dance.samples)
+                               .subspan(static_cast<size_t>(sample), static_cast<size_t>(count)),
+                           sample);
+          sample += count;
+        }
+      }
+    }
+    const Recording recording = sink->WaitForEnd();
+    ASSERT_TRUE(recording.summary);
+    EXPECT_TRUE(SameDance(expected, recording)) << round;
+  }
+}
+
+TEST(DanceStream, OrderOfKeysDoesNotMatterBehindTheFrontier) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(15);
+  const Recording expected = Perform(*scheduler, dance);
+  std::mt19937 random(6);
+  for (int round = 0; round < 10; ++round) {
+    std::vector<Key> shuffled = dance.keys;
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    auto sink = std::make_shared<Recorder>();
+    DanceStream stream(*scheduler, dance.config, sink);
+    stream.GenerateUntil(0);
+    for (Key key : shuffled) {
+      if (round % 2 == 0) {  // first somewhere else, with another pose, then moved
+        Key wrong = key;
+        wrong.frame += 50'000;
+        wrong.pose = RandomPose(random);
+        SendKey(stream, wrong);
+      }
+      SendKey(stream, key);
+    }
+    stream.SetKey("mistake", AtFrame{70'000}, RandomPose(random));
+    stream.RemoveKey("mistake");
+    stream.KeysComplete();
+    const Recording recording = sink->WaitForEnd();
+    ASSERT_TRUE(recording.summary);
+    EXPECT_TRUE(SameDance(expected, recording));
+  }
+}
+
+TEST(DanceStream, FramesFlowWhileTheMusicStillArrives) {
+  const auto scheduler = FakeScheduler();
+  DanceConfig config;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*scheduler, config, sink);
+  stream.KeysComplete();
+  const std::vector<float> samples = Song(22050, 5);
+  // Frame r needs samples up to 735 r + 1024, and no more.
+  int64_t sent = 0;
+  for (int64_t frame : {0, 1, 2, 30, 90}) {
+    const int64_t enough = 735 * frame + 1024;
+    stream.PushAudio(
+        std::span(samples).subspan(static_cast<size_t>(sent), static_cast<size_t>(enough - sent)),
+        sent);
+    sent = enough;
+    const Recording recording = sink->WaitForFrames(static_cast<size_t>(frame) + 1);
+    EXPECT_FALSE(recording.ended());
+    EXPECT_EQ(recording.poses.size(), static_cast<size_t>(frame) + 1);
+  }
+}
+
+TEST(DanceStream, EndsWithTheMusic) {
+  const auto scheduler = FakeScheduler();
+  for (double seconds : {0.01, 1.0, 2.345}) {
+    Dance dance;
+    dance.config.audio = DanceConfig::Audio{44100, 2, 0};
+    dance.samples = Song(44100, seconds, 2);
+    const Recording recording = Perform(*scheduler, dance);
+    ASSERT_TRUE(recording.summary);
+    EXPECT_EQ(recording.poses.size(), static_cast<size_t>(std::ceil(seconds * 30 - 1e-9)));
+  }
+}
+
+TEST(DanceStream, EndsTheSameWhicheverEndIsKnownFirst) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(16, 3.3);
+  dance.keys.resize(1);
+  const Recording expected = Perform(*scheduler, dance);
+  ASSERT_TRUE(expected.summary);
+  EXPECT_EQ(expected.poses.size(), 99u);
+  for (int order = 0; order < 3; ++order) {
+    auto sink = std::make_shared<Recorder>();
+    DanceStream stream(*scheduler, dance.config, sink);
+    if (order == 0) {
+      // Far more is granted than there is music; whether the dance goes on past it is open until
+      // the keys are complete.
+      SendKey(stream, dance.keys[0]);
+      stream.GenerateUntil(1000);
+      stream.PushAudio(dance.samples, 0);
+      stream.EndOfAudio();
+      EXPECT_EQ(sink->WaitForFrames(99).poses.size(), 99u);
+      stream.KeysComplete();
+    } else {
+      stream.PushAudio(dance.samples, 0);
+      SendKey(stream, dance.keys[0]);
+      if (order == 1) stream.KeysComplete();
+      stream.EndOfAudio();
+      if (order == 2) stream.KeysComplete();
+    }
+    const Recording recording = sink->WaitForEnd();
+    ASSERT_TRUE(recording.summary);
+    EXPECT_TRUE(SameDance(expected, recording));
+  }
+}
+
+TEST(DanceStream, KeysBehindTheMusicAreReachedInSilence) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(17, 1.0);
+  const Recording recording = Perform(*scheduler, dance);
+  ASSERT_TRUE(recording.summary);
+  EXPECT_EQ(recording.reached.size(), dance.keys.size());
+}
+
+TEST(DanceStream, ALongDanceWithoutKeysStaysFinite) {
+  const auto scheduler = FakeScheduler();
+  DanceConfig config;
+  config.end_frame = 18'000;  // ten minutes
+  config.temperature = 1.0F;
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*scheduler, config, sink);
+  stream.KeysComplete();
+  const Recording recording = sink->WaitForEnd();
+  ASSERT_TRUE(recording.summary) << recording.error->what();
+  ASSERT_EQ(recording.poses.size(), 18'000u);
+  for (const Pose& pose : recording.poses) {
+    ASSERT_TRUE(pose.root_position.allFinite() && pose.rotations.allFinite());
+    ASSERT_LT(pose.root_position.norm(), 1000);
+  }
+  EXPECT_EQ(recording.continuations.size(), 300u);
+  EXPECT_EQ(recording.continuations.back().frame, 18'000);
+}
+
+TEST(DanceStream, PausingHoldsFramesBackAndChangesNone) {
+  const auto scheduler = FakeScheduler();
+  const Dance dance = RandomDance(18);
+  const Recording expected = Perform(*scheduler, dance);
+  auto sink = std::make_shared<Recorder>();
+  std::atomic<DanceStream*> handle = nullptr;
+  sink->on_frames = [&handle](size_t count) {
+    if (count % 10 == 0) handle.load()->SetPaused(true);
+  };
+  DanceStream stream(*scheduler, dance.config, sink);
+  handle = &stream;
+  for (const Key& key : dance.keys) SendKey(stream, key);
+  stream.KeysComplete();
+  for (size_t count = 10; count < expected.poses.size(); count += 10) {
+    EXPECT_EQ(sink->WaitForFrames(count).poses.size(), count);
+    stream.SetPaused(false);
+  }
+  const Recording recording = sink->WaitForEnd();
+  EXPECT_TRUE(SameDance(expected, recording));
+}
+
+TEST(DanceStream, CancellationFreesTheSlot) {
+  const auto scheduler = FakeScheduler(1, 1, 0);
+  const auto idle = [&] { return scheduler->WaitUntilIdle(std::chrono::seconds(30)); };
+  for (int how = 0; how < 3; ++how) {
+    auto sink = std::make_shared<Recorder>();
+    DanceConfig config;
+    config.audio = DanceConfig::Audio{22050, 1, 0};
+    auto stream = std::make_unique<DanceStream>(*scheduler, config, sink);
+    stream->KeysComplete();
+    stream->PushAudio(Song(22050, 0.5), 0);  // then it waits for more, in its slot
+    if (how > 0) sink->WaitForFrames(5);
+    if (how < 2) stream->Cancel();
+    stream.reset();  // cancels too
+    const Recording recording = sink->WaitForEnd();
+    ASSERT_TRUE(recording.error);
+    EXPECT_EQ(recording.error->code(), ErrorCode::kCancelled);
+    EXPECT_EQ(recording.calls_after_end, 0);
+    EXPECT_TRUE(idle());
+  }
+  // The one slot serves the next dance.
+  EXPECT_TRUE(Perform(*scheduler, RandomDance(19)).summary);
+}
+
+TEST(DanceStream, AFullSchedulerRefusesAndServesOn) {
+  const auto scheduler = FakeScheduler(1, 1, 0);
+  DanceConfig config;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  auto first_sink = std::make_shared<Recorder>();
+  DanceStream first(*scheduler, config, first_sink);
+  first.KeysComplete();
+  first.PushAudio(Song(22050, 0.5), 0);
+  first_sink->WaitForFrames(1);
+  const Recording refused = Perform(*scheduler, RandomDance(20));
+  ASSERT_TRUE(refused.error);
+  EXPECT_EQ(refused.error->code(), ErrorCode::kResourceExhausted);
+  first.EndOfAudio();
+  EXPECT_TRUE(first_sink->WaitForEnd().summary);
+}
+
+/// Gives a pose that is not a number at one frame.
+class BrokenEngine : public FakeEngine {
+ public:
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    FakeEngine::Step(in, out);
+    if (++steps_ == 20) out[0].pose.rotations(1, 5) = std::nan("");
+  }
+
+ private:
+  int steps_ = 0;
+};
+
+TEST(DanceStream, AModelThatBreaksEndsTheDanceAlone) {
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  engines.push_back(std::make_unique<BrokenEngine>());
+  Scheduler scheduler(std::move(engines), {});
+  const Recording broken = Perform(scheduler, RandomDance(21));
+  ASSERT_TRUE(broken.error);
+  EXPECT_EQ(broken.error->code(), ErrorCode::kInternal);
+  EXPECT_THAT(broken.error->what(), ::testing::HasSubstr("frame 19"));
+  EXPECT_EQ(broken.poses.size(), 19u);
+  EXPECT_TRUE(Perform(scheduler, RandomDance(21)).summary);
+}
+
+TEST(DanceStream, WarnsOfIntervalsTooShortForTheChange) {
+  const auto scheduler = FakeScheduler();
+  Dance dance;
+  Pose far = RestPose(Skeleton::Smpl24());
+  dance.keys.push_back({"start", 0, far, {}});
+  far.root_position.x() += 5;
+  dance.keys.push_back({"far", 10, far, {}});
+  far.rotations.col(17) = Eigen::Vector3d(0, 0, 3);
+  dance.keys.push_back({"twist", 14, far, {}});
+  const Recording recording = Perform(*scheduler, dance);
+  ASSERT_TRUE(recording.summary);
+  ASSERT_EQ(recording.warnings.size(), 2u);
+  EXPECT_EQ(recording.warnings[0].kind, DanceWarning::Kind::kIntervalTooShort);
+  EXPECT_EQ(recording.warnings[0].frame, 10);
+  EXPECT_THAT(recording.warnings[0].message, ::testing::HasSubstr("15 m/s"));
+  EXPECT_THAT(recording.warnings[1].message, ::testing::HasSubstr("rad/s"));
+}
+
+TEST(DanceStream, MovingAndTurningTheSceneMovesTheDance) {
+  const auto scheduler = FakeScheduler();
+  std::mt19937 random(8);
+  Dance dance = RandomDance(22);
+  dance.config.history = MotionTo(RandomPose(random), 10, random);
+  const Recording here = Perform(*scheduler, dance);
+  const double heading = 2.1;
+  const Eigen::Vector3d shift(12, 0, -7);
+  for (Pose& pose : dance.config.history) pose = Placed(pose, heading, shift);
+  for (Key& key : dance.keys) key.pose = Placed(key.pose, heading, shift);
+  const Recording there = Perform(*scheduler, dance);
+  ASSERT_EQ(here.poses.size(), there.poses.size());
+  for (size_t i = 0; i < here.poses.size(); ++i) {
+    const PoseError error =
+        ComparePoses(Skeleton::Smpl24(), there.poses[i], Placed(here.poses[i], heading, shift));
+    ASSERT_LT(error.position_m, 1e-3) << i;
+  }
+}
+
+// A message that is refused leaves everything as it was.
+TEST(DanceStream, RefusedMessagesChangeNothing) {
+  const auto scheduler = FakeScheduler();
+  const Dance dance = RandomDance(23, 3);
+  const Recording expected = Perform(*scheduler, dance);
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*scheduler, dance.config, sink);
+  Pose bad = dance.keys[0].pose;
+  bad.rotations(0, 16) = 7.9;
+  const std::vector<float> nan(10, std::nanf(""));
+  for (const Key& key : dance.keys) {
+    EXPECT_THROW(stream.SetKey("bad", AtFrame{90'000}, bad), Error);
+    SendKey(stream, key);
+    EXPECT_THROW(stream.SetKey("bad", AtFrame{key.frame}, key.pose), Error);
+    EXPECT_THROW(stream.RemoveKey("unknown"), Error);
+    EXPECT_THROW(stream.GenerateUntil(-5), Error);
+  }
+  EXPECT_THROW(stream.EndOfAudio(), Error);
+  EXPECT_THROW(stream.PushAudio(dance.samples, 1), Error);
+  EXPECT_THROW(stream.PushAudio(nan, 0), Error);
+  stream.PushAudio(dance.samples, 0);
+  EXPECT_THROW(stream.PushAudio(dance.samples, 0), Error);
+  stream.HalfClose();
+  const Recording recording = sink->WaitForEnd();
+  ASSERT_TRUE(recording.summary);
+  EXPECT_TRUE(SameDance(expected, recording));
+}
+
+}  // namespace
+}  // namespace choreo

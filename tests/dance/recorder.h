@@ -1,0 +1,131 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "model/dance/dance_stream.h"
+#include "tests/support/fake_engine.h"
+
+namespace choreo {
+
+/// Everything that a stream told its listener.
+struct Recording {
+  int64_t first_frame = -1;
+  std::vector<Pose> poses;
+  std::vector<std::array<float, 4>> contacts;
+  std::vector<KeyReached> reached;
+  std::vector<KeyRejection> rejected;
+  std::vector<DanceWarning> warnings;
+  std::vector<Continuation> continuations;
+  std::optional<QualityReport> summary;
+  std::optional<Error> error;
+  bool in_order = true;     ///< no gap between frames
+  int calls_after_end = 0;  ///< must stay 0
+
+  bool ended() const { return summary.has_value() || error.has_value(); }
+};
+
+class Recorder : public DanceSink {
+ public:
+  /// Called with the count of frames so far, before the test can see the last of them.
+  std::function<void(size_t frames)> on_frames;
+
+  void OnFrames(int64_t first_frame, std::span<const Pose> poses,
+                std::span<const std::array<float, 4>> contacts) override {
+    if (on_frames) on_frames(Snapshot().poses.size() + poses.size());
+    std::lock_guard lock(mutex_);
+    Note();
+    if (recording_.first_frame < 0) recording_.first_frame = first_frame;
+    const auto expected = recording_.first_frame + static_cast<int64_t>(recording_.poses.size());
+    recording_.in_order &= first_frame == expected && poses.size() == contacts.size();
+    recording_.poses.insert(recording_.poses.end(), poses.begin(), poses.end());
+    recording_.contacts.insert(recording_.contacts.end(), contacts.begin(), contacts.end());
+    changed_.notify_all();
+  }
+  void OnEvent(const DanceEvent& event) override {
+    std::lock_guard lock(mutex_);
+    Note();
+    if (const auto* key = std::get_if<KeyReached>(&event)) recording_.reached.push_back(*key);
+    if (const auto* late = std::get_if<KeyRejection>(&event)) recording_.rejected.push_back(*late);
+    if (const auto* warn = std::get_if<DanceWarning>(&event)) recording_.warnings.push_back(*warn);
+    changed_.notify_all();
+  }
+  void OnContinuation(const Continuation& continuation) override {
+    std::lock_guard lock(mutex_);
+    Note();
+    recording_.continuations.push_back(continuation);
+    changed_.notify_all();
+  }
+  void OnSummary(const QualityReport& report) override {
+    std::lock_guard lock(mutex_);
+    Note();
+    recording_.summary = report;
+    changed_.notify_all();
+  }
+  void OnError(const Error& error) override {
+    std::lock_guard lock(mutex_);
+    Note();
+    recording_.error = error;
+    changed_.notify_all();
+  }
+
+  /// Waits until the condition holds; throws after a minute, so that a test that hangs fails.
+  Recording Wait(const std::function<bool(const Recording&)>& condition) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, std::chrono::minutes(1), [&] { return condition(recording_); })) {
+      throw std::runtime_error("the dance stands still at frame " +
+                               std::to_string(recording_.poses.size()));
+    }
+    return recording_;
+  }
+  Recording WaitForEnd() {
+    return Wait([](const Recording& recording) { return recording.ended(); });
+  }
+  Recording WaitForFrames(size_t frames) {
+    return Wait([frames](const Recording& recording) { return recording.poses.size() >= frames; });
+  }
+  Recording Snapshot() {
+    std::lock_guard lock(mutex_);
+    return recording_;
+  }
+
+ private:
+  void Note() {
+    if (recording_.ended()) ++recording_.calls_after_end;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Recording recording_;
+};
+
+/// Whether b's frames, from its first one on, are a's, bit for bit, to the end of both.
+inline bool SameDance(const Recording& a, const Recording& b) {
+  const int64_t skip = b.first_frame - a.first_frame;
+  if (skip < 0 || a.poses.size() != b.poses.size() + static_cast<size_t>(skip)) return false;
+  for (size_t i = 0; i < b.poses.size(); ++i) {
+    const size_t at = i + static_cast<size_t>(skip);
+    if (a.poses[at].root_position != b.poses[i].root_position ||
+        a.poses[at].rotations != b.poses[i].rotations || a.contacts[at] != b.contacts[i]) {
+      return false;
+    }
+  }
+  return !b.poses.empty();
+}
+
+/// A scheduler over one fake engine, or several.
+inline std::unique_ptr<Scheduler> FakeScheduler(int slots = 16, int engines = 1,
+                                                int max_waiting = 64) {
+  std::vector<std::unique_ptr<StepEngine>> list;
+  for (int i = 0; i < engines; ++i) list.push_back(std::make_unique<FakeEngine>(slots));
+  return std::make_unique<Scheduler>(std::move(list), Scheduler::Options{max_waiting, 64});
+}
+
+}  // namespace choreo

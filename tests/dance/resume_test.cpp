@@ -1,0 +1,158 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/dance/dances.h"
+
+namespace choreo {
+namespace {
+
+/// What a client sends again after the server broke: the same config with the continuation, the
+/// same messages.
+Recording Resume(Scheduler& scheduler, const Dance& dance, const Continuation& continuation,
+                 const std::function<void(DanceStream&)>& messages) {
+  DanceConfig config = dance.config;
+  config.history.clear();
+  config.continuation = continuation;
+  int64_t from = 0;
+  if (config.audio) {
+    from = std::min(DanceStream::LatestFirstSample(continuation.frame, config.audio->sample_rate,
+                                                   scheduler.model()),
+                    static_cast<int64_t>(dance.samples.size()) / config.audio->channels);
+    config.audio->first_sample = from;
+  }
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(scheduler, config, sink);
+  messages(stream);
+  if (config.audio) SendSong(stream, dance, from);
+  stream.HalfClose();
+  return sink->WaitForEnd();
+}
+
+void ExpectResumesEverywhere(Scheduler& scheduler, const Dance& dance,
+                             const std::function<void(DanceStream&)>& messages) {
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(scheduler, dance.config, sink);
+  messages(stream);
+  if (dance.config.audio) SendSong(stream, dance);
+  stream.HalfClose();
+  const Recording whole = sink->WaitForEnd();
+  ASSERT_TRUE(whole.summary) << whole.error->what();
+  ASSERT_GE(whole.continuations.size(), 3u);
+  for (const Continuation& continuation : whole.continuations) {
+    const Recording rest = Resume(scheduler, dance, continuation, messages);
+    ASSERT_TRUE(rest.summary) << rest.error->what();
+    if (&continuation == &whole.continuations.back()) {
+      EXPECT_TRUE(rest.poses.empty());  // nothing is left to dance
+      continue;
+    }
+    EXPECT_TRUE(SameDance(whole, rest)) << "from frame " << continuation.frame;
+    EXPECT_EQ(rest.summary->frames, whole.summary->frames - continuation.frame);
+    EXPECT_EQ(rest.continuations.back().frame, whole.continuations.back().frame);
+    EXPECT_TRUE(SameBits(rest.continuations.back().poses.front(),
+                         whole.continuations.back().poses.front()));
+  }
+}
+
+TEST(Resume, GoesOnBitForBitWithKeysAndMusic) {
+  const auto scheduler = FakeScheduler();
+  for (uint32_t seed = 1; seed <= 4; ++seed) {
+    Dance dance = RandomDance(seed, 5);
+    if (seed == 2) {
+      dance.config.audio = DanceConfig::Audio{48000, 2, 0};
+      dance.samples = Song(48000, 5, 2, seed);
+    }
+    if (seed == 3) dance.config.output_fps = 60;
+    if (seed == 4) dance.config.output_fps = 23.976;
+    ExpectResumesEverywhere(*scheduler, dance, [&dance](DanceStream& stream) {
+      for (const Key& key : dance.keys) SendKey(stream, key);
+    });
+  }
+}
+
+TEST(Resume, GoesOnBitForBitWithMusicAlone) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(5, 7.7);
+  std::mt19937 random(5);
+  dance.config.history = MotionTo(RandomPose(random), 4, random);  // fewer than tau
+  ExpectResumesEverywhere(*scheduler, dance, [](DanceStream&) {});
+}
+
+TEST(Resume, GoesOnBitForBitWithoutMusic) {
+  const auto scheduler = FakeScheduler();
+  const Dance dance = RandomDance(6);
+  ExpectResumesEverywhere(*scheduler, dance, [&dance](DanceStream& stream) {
+    for (const Key& key : dance.keys) SendKey(stream, key);
+  });
+}
+
+// Keys were edited while the dance went on: the log of messages decides, not what the keys came to
+// be in the end.
+TEST(Resume, GoesOnBitForBitAfterEdits) {
+  const auto scheduler = FakeScheduler();
+  const Dance dance = RandomDance(7, 12);
+  std::mt19937 random(7);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 5; ++i) poses.push_back(RandomPose(random));
+  ExpectResumesEverywhere(*scheduler, dance, [&poses](DanceStream& stream) {
+    stream.GenerateUntil(0);
+    stream.SetKey("a", AtFrame{250}, poses[0]);
+    stream.GenerateUntil(70);
+    stream.SetKey("b", AtFrame{100}, poses[1]);
+    stream.SetKey("c", AtTime{4.9}, poses[2]);
+    stream.RemoveKey("c");
+    stream.GenerateUntil(110);
+    stream.SetKey("d", AfterPrevious{2.0}, poses[3]);
+    stream.GenerateUntil(300);
+    stream.SetKey("e", AtFrame{330}, poses[4]);
+  });
+}
+
+TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
+  const auto scheduler = FakeScheduler();
+  const Dance dance = RandomDance(8);
+  const Recording whole = Perform(*scheduler, dance);
+  Continuation foreign = whole.continuations[1];
+  foreign.fingerprint = "other";
+  const auto keys = [&dance](DanceStream& stream) {
+    for (const Key& key : dance.keys) SendKey(stream, key);
+  };
+  try {
+    Resume(*scheduler, dance, foreign, keys);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kFailedPrecondition);
+    EXPECT_EQ(error.field(), "config.continuation.fingerprint");
+  }
+  Dance allowed = dance;
+  allowed.config.allow_inexact_resume = true;
+  const Recording rest = Resume(*scheduler, allowed, foreign, keys);
+  ASSERT_TRUE(rest.summary);
+  ASSERT_FALSE(rest.warnings.empty());
+  EXPECT_EQ(rest.warnings[0].kind, DanceWarning::Kind::kInexactResume);
+  // Keys that were danced before are answered, not lost.
+  EXPECT_EQ(rest.rejected.size(), 2u);
+}
+
+TEST(Resume, AudioMustBeginEarlyEnough) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(9, 5);
+  const Recording whole = Perform(*scheduler, dance);
+  DanceConfig config = dance.config;
+  config.continuation = whole.continuations.back();
+  const int64_t latest =
+      DanceStream::LatestFirstSample(config.continuation->frame, 22050, scheduler->model());
+  EXPECT_GT(latest, 0);
+  config.audio->first_sample = latest;
+  EXPECT_NO_THROW(config.Validate(scheduler->model()));
+  config.audio->first_sample = latest + 1;
+  try {
+    config.Validate(scheduler->model());
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kOutOfRange);
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(std::to_string(latest)));
+  }
+}
+
+}  // namespace
+}  // namespace choreo

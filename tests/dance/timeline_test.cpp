@@ -1,0 +1,242 @@
+#include "model/dance/timeline.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "model/core/error.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+using ::testing::HasSubstr;
+
+Pose Rest() { return RestPose(Skeleton::Smpl24()); }
+
+std::optional<KeyRejection> Set(Timeline& timeline, const std::string& id, const KeyMoment& when) {
+  return timeline.Set(id, when, Rest(), {}, "keyframes[0]");
+}
+
+struct Span {
+  int64_t from, to;
+  std::string key;  // empty: none
+  bool operator==(const Span&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const Span& span) {
+  return out << "[" << span.from << ", " << span.to << ") " << span.key;
+}
+
+std::vector<Span> Drain(Timeline& timeline, size_t limit = 1000) {
+  std::vector<Span> spans;
+  while (spans.size() < limit) {
+    const auto segment = timeline.Next();
+    if (!segment) break;
+    spans.push_back({segment->from, segment->to, segment->key ? segment->key->id : ""});
+  }
+  return spans;
+}
+
+template <typename Call>
+std::string Refusal(Call call, ErrorCode code = ErrorCode::kInvalidArgument) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "accepted";
+  return "";
+}
+
+TEST(Timeline, EachKeyGrantsUpToItself) {
+  Timeline timeline({});
+  EXPECT_EQ(Set(timeline, "a", AtFrame{30}), std::nullopt);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 31, "a"}}));
+  EXPECT_EQ(Set(timeline, "b", AtFrame{90}), std::nullopt);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{31, 91, "b"}}));
+  timeline.Complete();
+  EXPECT_EQ(Drain(timeline), std::vector<Span>());
+  EXPECT_EQ(timeline.End(), 91);
+}
+
+TEST(Timeline, TimesRoundToTheGrid) {
+  Timeline timeline({});
+  Set(timeline, "a", AtTime{1.016});       // 30.48
+  Set(timeline, "b", AtTime{2.0168});      // 60.504
+  Set(timeline, "c", AfterPrevious{0.5});  // after 61
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 31, "a"}, {31, 62, "b"}, {62, 77, "c"}}));
+}
+
+TEST(Timeline, KeysAreEditedBehindTheFrontier) {
+  Timeline timeline({});
+  timeline.GenerateUntil(0);
+  Set(timeline, "c", AtFrame{150});
+  Set(timeline, "a", AtFrame{30});
+  Set(timeline, "b", AtFrame{90});
+  EXPECT_EQ(Drain(timeline), std::vector<Span>());
+  timeline.GenerateUntil(31);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 31, "a"}}));
+  Set(timeline, "b", AtFrame{60});  // moved
+  timeline.Remove("c", "remove");
+  timeline.GenerateUntil(61);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{31, 61, "b"}}));
+}
+
+TEST(Timeline, LateMessagesAreRejectedWithTheEarliestFrame) {
+  Timeline timeline({});
+  timeline.GenerateUntil(0);
+  Set(timeline, "a", AtFrame{99});
+  timeline.GenerateUntil(100);
+  const auto late = Set(timeline, "b", AtFrame{50});
+  ASSERT_TRUE(late);
+  EXPECT_EQ(late->frame, 50);
+  EXPECT_EQ(late->earliest_frame, 101);  // 100 would be closer than two frames to a
+  EXPECT_EQ(Set(timeline, "b", AtFrame{101}), std::nullopt);
+  ASSERT_TRUE(Set(timeline, "a", AtFrame{200}));  // danced already
+  ASSERT_TRUE(timeline.Remove("a", "remove"));
+  EXPECT_EQ(timeline.Remove("b", "remove"), std::nullopt);
+}
+
+TEST(Timeline, RefusesWhatCanNeverBe) {
+  Timeline timeline({.end_frame = 300});
+  timeline.GenerateUntil(0);
+  Set(timeline, "a", AtFrame{30});
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{30}); }),
+              HasSubstr("keyframes[0].frame: 30 is already that of key \"a\""));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{31}); }), HasSubstr("closer than 2 frames"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{29}); }), HasSubstr("closer than 2 frames"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "", AtFrame{50}); }), HasSubstr("keyframes[0].id"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{300}); }), HasSubstr("300"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{-1}); }), HasSubstr("-1"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{1LL << 60}); }), HasSubstr("108000"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtTime{-0.5}); }), HasSubstr("-0.5 s"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtTime{std::nan("")}); }), HasSubstr("nan"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtTime{1e300}); }), HasSubstr("1e+300"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{0}); }), HasSubstr("0 s is not in"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{-1}); }), HasSubstr("-1 s"));
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{61}); }), HasSubstr("(0, 60]"));
+  EXPECT_THAT(Refusal([&] { timeline.Remove("b", "remove_keyframes[0]"); }, ErrorCode::kNotFound),
+              HasSubstr("remove_keyframes[0].id: there is no key \"b\""));
+  timeline.GenerateUntil(20);
+  EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(19); }), HasSubstr("generate_until.frame: 19"));
+  EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(1LL << 60); }), HasSubstr("108000"));
+  // Moving a key next to where it stands itself is no contradiction.
+  EXPECT_EQ(Set(timeline, "a", AtFrame{31}), std::nullopt);
+  timeline.Complete();
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{60}); }), HasSubstr("keyframes_complete"));
+  EXPECT_THAT(Refusal([&] { timeline.Complete(); }), HasSubstr("keyframes_complete"));
+}
+
+TEST(Timeline, HoldsAThousandKeys) {
+  Timeline timeline({});
+  timeline.GenerateUntil(0);
+  for (int i = 0; i < kMaxKeys; ++i) Set(timeline, std::to_string(i), AtFrame{2 * i});
+  EXPECT_THAT(Refusal([&] { Set(timeline, "more", AtFrame{5000}); }), HasSubstr("1000"));
+  EXPECT_EQ(Set(timeline, "999", AtFrame{5000}), std::nullopt);  // moving one is free
+}
+
+TEST(Timeline, WithoutKeysTransitionsHaveAFixedLength) {
+  Timeline timeline({.has_music = true});
+  timeline.GenerateUntil(130);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 120, ""}}));
+  Set(timeline, "a", AtFrame{150});
+  EXPECT_EQ(Drain(timeline), std::vector<Span>());
+  timeline.GenerateUntil(151);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{120, 151, "a"}}));
+  timeline.Complete();
+  EXPECT_EQ(timeline.End(), std::nullopt);  // the music goes on
+  EXPECT_EQ(Drain(timeline, 2), (std::vector<Span>{{151, 211, ""}, {211, 271, ""}}));
+  timeline.SetAudioEnd(300);
+  EXPECT_EQ(timeline.End(), 300);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{271, 331, ""}}));
+}
+
+TEST(Timeline, GapsBeyondTheLongestTransitionAreCut) {
+  Timeline timeline({.max_transition_frames = 100});
+  Set(timeline, "a", AtFrame{249});
+  // Free transitions are half the longest at most: what is left for the key is then never tiny.
+  EXPECT_EQ(Drain(timeline),
+            (std::vector<Span>{{0, 50, ""}, {50, 100, ""}, {100, 150, ""}, {150, 250, "a"}}));
+}
+
+TEST(Timeline, EndsWhereTheConfigSays) {
+  Timeline timeline({.end_frame = 100});
+  timeline.GenerateUntil(100);
+  // The last transition is planned at its full length and cut short by whoever dances it.
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 120, ""}}));
+  EXPECT_TRUE(timeline.Certain(99));
+  EXPECT_FALSE(timeline.Certain(100));
+}
+
+TEST(Timeline, PastTheMusicOnlyAFrozenKeyMakesFramesCertain) {
+  Timeline timeline({.has_music = true});
+  timeline.GenerateUntil(120);
+  timeline.SetAudioEnd(80);
+  EXPECT_TRUE(timeline.Certain(79));
+  EXPECT_FALSE(timeline.Certain(80));
+  Set(timeline, "a", AtFrame{130});
+  EXPECT_FALSE(timeline.Certain(80));  // it may be removed
+  timeline.GenerateUntil(140);
+  EXPECT_TRUE(timeline.Certain(130));
+  EXPECT_FALSE(timeline.Certain(131));
+  timeline.Complete();
+  EXPECT_EQ(timeline.End(), 131);
+}
+
+TEST(Timeline, IdsThatWereOnlyEverLateCanBeRemovedAndComeAgain) {
+  Timeline timeline({.first_frame = 60});
+  ASSERT_TRUE(Set(timeline, "a", AtFrame{30}));
+  ASSERT_TRUE(timeline.Remove("a", "remove"));
+  EXPECT_EQ(Set(timeline, "a", AtFrame{90}), std::nullopt);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{60, 91, "a"}}));
+}
+
+// The plan must not depend on when Next is called.
+TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    const Timeline::Options options{.has_music = round % 2 == 0, .max_transition_frames = 150};
+    Timeline eager(options), lazy(options);
+    std::vector<Span> asked_often;
+    int64_t granted = 0;
+    for (int message = 0; message < 30; ++message) {
+      const int kind = static_cast<int>(random() % 4);
+      const int64_t frame = static_cast<int64_t>(random() % 900);
+      const std::string id(1, static_cast<char>('a' + random() % 6));
+      if (round % 3 == 0 && message == 0) granted = 1;
+      const auto send = [&](Timeline& timeline) {
+        try {
+          if (message == 0 && round % 3 == 0) timeline.GenerateUntil(1);
+          if (kind < 2) Set(timeline, id, AtFrame{frame});
+          if (kind == 2) timeline.Remove(id, "");
+          if (kind == 3 && round % 3 == 0) timeline.GenerateUntil(granted + frame / 8);
+        } catch (const Error&) {
+        }
+      };
+      send(eager);
+      send(lazy);
+      if (kind == 3 && round % 3 == 0) granted += frame / 8;
+      const std::vector<Span> now = Drain(eager);
+      asked_often.insert(asked_often.end(), now.begin(), now.end());
+    }
+    eager.Complete();
+    lazy.Complete();
+    for (Timeline* timeline : {&eager, &lazy}) timeline->SetAudioEnd(500);
+    const std::vector<Span> rest = Drain(eager);
+    asked_often.insert(asked_often.end(), rest.begin(), rest.end());
+    EXPECT_EQ(Drain(lazy), asked_often) << "round " << round;
+    // Whatever happened, the plan is seamless.
+    int64_t at = 0;
+    for (const Span& span : asked_often) {
+      EXPECT_EQ(span.from, at);
+      EXPECT_GT(span.to, span.from);
+      EXPECT_LE(span.to - span.from, 150);
+      at = span.to;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace choreo

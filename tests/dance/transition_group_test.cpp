@@ -1,0 +1,214 @@
+#include "model/dance/transition_group.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <mutex>
+
+#include "tests/dance/dances.h"
+
+namespace choreo {
+namespace {
+
+class GroupRecorder : public GroupSink {
+ public:
+  void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
+                std::span<const std::array<float, 4>>) override {
+    std::lock_guard lock(mutex_);
+    frames.resize(std::max(frames.size(), static_cast<size_t>(candidate) + 1));
+    auto& list = frames[static_cast<size_t>(candidate)];
+    if (list.empty()) first = first_frame;
+    list.insert(list.end(), poses.begin(), poses.end());
+  }
+  void OnWarning(const DanceWarning& warning) override {
+    std::lock_guard lock(mutex_);
+    warnings.push_back(warning);
+  }
+  void OnDone(std::span<const CandidateReport> reports) override {
+    std::lock_guard lock(mutex_);
+    ranked.emplace(reports.begin(), reports.end());
+    changed_.notify_all();
+  }
+  void OnError(const Error& failure) override {
+    std::lock_guard lock(mutex_);
+    error = failure;
+    changed_.notify_all();
+  }
+  void Wait() {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, std::chrono::minutes(1), [&] { return ranked || error; })) {
+      throw std::runtime_error("the group never ends");
+    }
+  }
+
+  int64_t first = -1;
+  std::vector<std::vector<Pose>> frames;
+  std::vector<DanceWarning> warnings;
+  std::optional<std::vector<CandidateReport>> ranked;
+  std::optional<Error> error;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+std::shared_ptr<GroupRecorder> Generate(Scheduler& scheduler, const GroupRequest& request) {
+  auto sink = std::make_shared<GroupRecorder>();
+  TransitionGroup group(scheduler, request, sink);
+  sink->Wait();
+  return sink;
+}
+
+GroupRequest RandomRequest(uint32_t seed) {
+  std::mt19937 random(seed);
+  GroupRequest request;
+  request.seed = seed;
+  request.frames = 20 + static_cast<int>(random() % 30);
+  request.history = MotionTo(RandomPose(random), 10, random);
+  request.target = WorldTarget{RandomPose(random), {}};
+  return request;
+}
+
+TEST(TransitionGroup, RunsRanksAndHitsAllCandidates) {
+  const auto scheduler = FakeScheduler(4);  // fewer slots than candidates
+  GroupRequest request = RandomRequest(1);
+  request.candidates = 9;
+  request.temperature = 1.0F;
+  const auto sink = Generate(*scheduler, request);
+  ASSERT_TRUE(sink->ranked);
+  ASSERT_EQ(sink->ranked->size(), 9u);
+  ASSERT_EQ(sink->frames.size(), 9u);
+  std::set<int> seen;
+  for (const CandidateReport& report : *sink->ranked) {
+    seen.insert(report.candidate);
+    const std::vector<Pose>& poses = sink->frames[static_cast<size_t>(report.candidate)];
+    ASSERT_EQ(poses.size(), static_cast<size_t>(request.frames));
+    EXPECT_LT(ComparePoses(Skeleton::Smpl24(), poses.back(), request.target->pose).position_m,
+              1e-4);
+    EXPECT_EQ(report.continuation.frame, request.frames);
+    EXPECT_TRUE(SameBits(report.continuation.poses.back(), poses.back()));
+    ASSERT_EQ(report.quality.keys.size(), 1u);
+  }
+  EXPECT_EQ(seen.size(), 9u);
+  EXPECT_FALSE(SameBits(sink->frames[0][5], sink->frames[1][5]));
+  std::vector<CandidateReport> again = *sink->ranked;
+  RankCandidates(again);
+  for (size_t i = 0; i < again.size(); ++i) {
+    EXPECT_EQ(again[i].candidate, (*sink->ranked)[i].candidate);
+  }
+}
+
+TEST(TransitionGroup, RanksByErrorThenSkateThenLikelihood) {
+  const auto report = [](int candidate, double error, double skate, double likelihood) {
+    CandidateReport made;
+    made.candidate = candidate;
+    made.quality.keys.resize(1);
+    made.quality.keys[0].arrival.raw_error_m = error;
+    made.quality.skate_ratio = skate;
+    made.quality.mean_log_likelihood = likelihood;
+    return made;
+  };
+  std::vector<CandidateReport> list = {report(0, 0.051, 0.001, 9), report(1, 0.003, 0.2, 9),
+                                       report(2, 0.004, 0.103, 5), report(3, 0.009, 0.101, 7),
+                                       report(4, 0.001, 0.109, 7)};
+  RankCandidates(list);
+  std::vector<int> order;
+  for (const CandidateReport& one : list) order.push_back(one.candidate);
+  EXPECT_EQ(order, (std::vector<int>{3, 4, 2, 1, 0}));
+}
+
+TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
+  const auto scheduler = FakeScheduler();
+  for (double fps : {30.0, 50.0}) {
+    Dance dance = RandomDance(2, 6);
+    dance.config.output_fps = fps;
+    const Recording stream = Perform(*scheduler, dance);
+    ASSERT_TRUE(stream.summary);
+    std::vector<Pose> chained;
+    std::optional<Continuation> continuation;
+    size_t key = 0;
+    // The same cuts: one for each key, then free ones to the music's end.
+    for (const Continuation& end : stream.continuations) {
+      GroupRequest request;
+      request.seed = dance.config.seed;
+      request.candidates = 2;
+      request.output_fps = fps;
+      request.continuation = continuation;
+      request.sample_rate = 22050;
+      request.channels = 1;
+      request.samples = dance.samples;
+      const int64_t from = continuation ? continuation->frame : 0;
+      const bool has_key = key < dance.keys.size() && dance.keys[key].frame + 1 == end.frame;
+      request.frames = has_key ? static_cast<int>(end.frame - from) : kFreeTransitionFrames;
+      if (has_key) {
+        request.target = WorldTarget{dance.keys[key].pose, dance.keys[key].mask};
+        ++key;
+      }
+      const auto sink = Generate(*scheduler, request);
+      ASSERT_TRUE(sink->ranked) << sink->error->what();
+      EXPECT_EQ(sink->first, static_cast<int64_t>(chained.size()));
+      chained.insert(chained.end(), sink->frames[0].begin(), sink->frames[0].end());
+      for (const CandidateReport& report : *sink->ranked) {
+        if (report.candidate == 0) continuation = report.continuation;
+      }
+      continuation->frame = from + request.frames;
+    }
+    EXPECT_EQ(key, dance.keys.size());
+    ASSERT_GE(chained.size(), stream.poses.size());  // the stream stops where the music does
+    for (size_t i = 0; i < stream.poses.size(); ++i) {
+      ASSERT_TRUE(SameBits(chained[i], stream.poses[i])) << i;
+    }
+  }
+}
+
+TEST(TransitionGroup, MeetsTheMotionThatFollows) {
+  const auto scheduler = FakeScheduler();
+  std::mt19937 random(4);
+  GroupRequest request = RandomRequest(4);
+  const std::vector<Pose> next = MotionTo(RandomPose(random), 2, random, 0.02);
+  request.target = WorldTarget{next[0], {}};
+  const auto last_step = [&](const std::vector<Pose>& poses) -> Eigen::Vector3d {
+    return poses.back().root_position - poses[poses.size() - 2].root_position;
+  };
+  const Eigen::Vector3d wanted = next[1].root_position - next[0].root_position;
+  const auto unaware = Generate(*scheduler, request);
+  request.after = next[1];
+  const auto aware = Generate(*scheduler, request);
+  EXPECT_LT((last_step(aware->frames[0]) - wanted).norm(),
+            0.2 * (last_step(unaware->frames[0]) - wanted).norm());
+}
+
+TEST(TransitionGroup, CancellationAndRefusalFreeEverySlot) {
+  const auto scheduler = FakeScheduler(2, 1, 3);
+  GroupRequest request = RandomRequest(5);
+  request.frames = 1800;
+  request.candidates = 5;
+  {
+    auto sink = std::make_shared<GroupRecorder>();
+    TransitionGroup group(*scheduler, request, sink);
+    group.Cancel();
+    sink->Wait();
+    if (sink->error) {
+      EXPECT_EQ(sink->error->code(), ErrorCode::kCancelled);
+    }
+  }
+  EXPECT_TRUE(scheduler->WaitUntilIdle(std::chrono::seconds(30)));
+  request.candidates = 6;  // one more than there is room for
+  auto silent = std::make_shared<GroupRecorder>();
+  try {
+    TransitionGroup group(*scheduler, request, silent);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kResourceExhausted);
+  }
+  EXPECT_TRUE(scheduler->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_TRUE(silent->frames.empty());
+  EXPECT_FALSE(silent->error);
+  request.frames = 20;
+  request.candidates = 5;
+  EXPECT_TRUE(Generate(*scheduler, request)->ranked);
+}
+
+}  // namespace
+}  // namespace choreo
