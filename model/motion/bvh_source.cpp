@@ -224,7 +224,7 @@ SourceMapping BvhSource(const PositionClip& clip) {
   const BvhNames names(clip.joint_names);
   const SideNames left = FindSide(names, true);
   const SideNames right = FindSide(names, false);
-  MappingBuilder builder("bvh");
+  MappingBuilder builder("bvh", 0.01);
   AddTrunk(clip, names, left, right, builder);
   AddLimbs(left, true, builder);
   AddLimbs(right, false, builder);

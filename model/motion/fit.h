@@ -53,7 +53,8 @@ class BoneNormaliser {
   std::vector<Mark> marks_;
 };
 
-/// How hard what pulls. Standard deviations of the least-squares terms.
+/// How hard what pulls: standard deviations of the least-squares terms, beside
+/// SourceMapping::accuracy_m.
 struct FitOptions {
   double position_m = 0.004;       ///< landmark positions
   double rest_rad = 1.2;           ///< every joint towards its rest rotation
@@ -61,7 +62,7 @@ struct FitOptions {
   double twist_rad = 0.7;          ///< of hips and shoulders about the bone below
   double foot_turn_rad = 0.35;     ///< of ankles about the shin
   double hinge_side_rad = 0.35;    ///< knees and elbows off their hinge axis
-  double hinge_limit_rad = 0.004;  ///< knees and elbows beyond straight
+  double hinge_limit_rad = 0.006;  ///< knees and elbows beyond straight
   double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
   int iterations = 3;              ///< per warm-started frame
   int first_iterations = 60;       ///< of a frame without a predecessor

@@ -52,7 +52,7 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
     : skeleton_(skeleton),
       marks_(skeleton, mapping),
       options_(options),
-      position_information_(1.0 / Square(options.position_m)),
+      accuracy_m_(mapping.accuracy_m),
       change_information_(1.0 / Square(options.change_rad * 30.0 / fps)) {
   const int joints = skeleton_.joints();
   const JointPlacement rest = ForwardKinematics(skeleton_, RestPose(skeleton_));
@@ -113,9 +113,10 @@ double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const Neighbours& neigh
                         const Pose& pose) {
   ForwardKinematics(skeleton_, pose, placement_);
   marks_.Positions(placement_, positions_);
+  const double position_information = 1.0 / Square(accuracy_m_);
   double cost = 0;
   for (int i = 0; i < marks_.size(); ++i) {
-    cost += Square(marks_[i].weight) * position_information_ *
+    cost += Square(marks_[i].weight) * position_information *
             (positions_.col(i) - targets.col(i)).squaredNorm();
   }
   for (int joint = 0; joint < skeleton_.joints(); ++joint) {
@@ -140,7 +141,7 @@ void FitProblem::AddPositionRows(const Eigen::Matrix3Xd& targets) {
   jacobian_.setZero();
   for (int i = 0; i < marks_.size(); ++i) {
     const LandmarkSet::Mark& mark = marks_[i];
-    const double root_information = mark.weight / options_.position_m;
+    const double root_information = mark.weight / accuracy_m_;
     residual_.segment<3>(3 * i) = root_information * (positions_.col(i) - targets.col(i));
     jacobian_.block<3, 3>(3 * i, 0) = root_information * Eigen::Matrix3d::Identity();
     for (const LandmarkSet::Point& point : mark.points) {

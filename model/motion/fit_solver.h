@@ -56,7 +56,7 @@ class FitProblem {
   const Skeleton skeleton_;
   const LandmarkSet marks_;
   const FitOptions options_;
-  double position_information_;
+  double accuracy_m_;
   double change_information_;
   std::vector<JointPrior> priors_;
   Eigen::Matrix3Xd rest_joints_, rest_marks_;

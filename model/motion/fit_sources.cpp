@@ -6,6 +6,7 @@ namespace choreo {
 SourceMapping IdentitySource(const Skeleton& skeleton) {
   SourceMapping mapping;
   mapping.name = skeleton.name;
+  mapping.accuracy_m = 0.002;
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     const std::string& name = skeleton.joint_names[joint];
     mapping.landmarks.push_back({.name = name,
@@ -29,7 +30,7 @@ const std::vector<std::string>& Tang2018JointNames() {
 }
 
 SourceMapping Tang2018Source() {
-  MappingBuilder builder("tang2018");
+  MappingBuilder builder("tang2018", 0.015);
   builder.Add("hips", "", {{"left_hip", 0.5}, {"right_hip", 0.5}},
               MappingBuilder::Between("left_hip", "right_hip"));
   builder.AddJoint("left_hip", "hips", "left_hip");

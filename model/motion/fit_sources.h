@@ -42,6 +42,9 @@ struct Landmark {
 struct SourceMapping {
   std::string name;
   std::vector<Landmark> landmarks;
+  /// How far its landmarks may be wrong, metres: standard deviation. The smaller, the closer the
+  /// fit; the larger, the more say have the joints' limits and smoothness.
+  double accuracy_m = 0.004;
   /// Source joints that touch the floor (for levelling and grounding).
   std::vector<std::string> feet;
 };

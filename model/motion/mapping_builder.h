@@ -11,7 +11,10 @@ namespace choreo {
 /// Builds a mapping landmark by landmark, parents first.
 class MappingBuilder {
  public:
-  explicit MappingBuilder(std::string name) { mapping_.name = std::move(name); }
+  MappingBuilder(std::string name, double accuracy_m) {
+    mapping_.name = std::move(name);
+    mapping_.accuracy_m = accuracy_m;
+  }
 
   /// `parent` is a landmark's name, empty for the first one.
   void Add(const std::string& name, const std::string& parent, JointBlend source,
