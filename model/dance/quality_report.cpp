@@ -69,7 +69,7 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   }
   if (!acceleration_.empty()) {
     std::vector<float> sorted = acceleration_;
-    const size_t rank = (sorted.size() - 1) * 95 / 100;
+    const size_t rank = (sorted.size() * 95 + 99) / 100 - 1;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
                      sorted.end());
     report.p95_acceleration = sorted[rank];

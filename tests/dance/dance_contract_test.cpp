@@ -1,0 +1,187 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/dance/dances.h"
+
+// What a stream answers to input that is wrong or comes at the wrong moment.
+namespace choreo {
+namespace {
+
+class DanceContract : public ::testing::Test {
+ protected:
+  std::string Refusal(const std::function<void(DanceStream&)>& message, ErrorCode code,
+                      bool with_audio = false) {
+    DanceConfig config;
+    if (with_audio) config.audio = DanceConfig::Audio{22050, 2, 0};
+    DanceStream stream(*scheduler_, config, std::make_shared<Recorder>());
+    try {
+      message(stream);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code) << error.what();
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::unique_ptr<Scheduler> scheduler_ = FakeScheduler();
+  Pose rest_ = RestPose(Skeleton::Smpl24());
+};
+
+TEST_F(DanceContract, AudioGapsAndOverlapsNameTheSampleExpected) {
+  const std::vector<float> samples(2000, 0.1F);  // 1000 of two channels
+  for (int64_t next : {999, 1001, 0}) {
+    const std::string refusal = Refusal(
+        [&](DanceStream& stream) {
+          stream.PushAudio(samples, 0);
+          stream.PushAudio(samples, next);
+        },
+        ErrorCode::kOutOfRange, true);
+    EXPECT_THAT(refusal, ::testing::StartsWith("audio.first_sample: " + std::to_string(next)));
+    EXPECT_THAT(refusal, ::testing::EndsWith("the sample expected is 1000"));
+  }
+}
+
+TEST_F(DanceContract, AudioThatIsNoAudioIsRefused) {
+  std::vector<float> samples(2000, 0.1F);
+  samples[1001] = std::nanf("");
+  EXPECT_THAT(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
+                      ErrorCode::kInvalidArgument, true),
+              ::testing::HasSubstr("sample 500 of channel 1"));
+  samples[1001] = 0;
+  samples.pop_back();
+  EXPECT_THAT(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
+                      ErrorCode::kInvalidArgument, true),
+              ::testing::HasSubstr("audio.data: 1999 values"));
+  EXPECT_EQ(
+      Refusal([](DanceStream& stream) { stream.EndOfAudio(); }, ErrorCode::kInvalidArgument, true),
+      "audio: ended without a sample");
+  EXPECT_EQ(
+      Refusal([](DanceStream& stream) { stream.HalfClose(); }, ErrorCode::kInvalidArgument, true),
+      "audio: ended without a sample");
+  EXPECT_EQ(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
+                    ErrorCode::kInvalidArgument),
+            "audio: comes without config.audio");
+  EXPECT_EQ(Refusal([](DanceStream& stream) { stream.EndOfAudio(); }, ErrorCode::kInvalidArgument),
+            "end_of_audio: comes without config.audio");
+}
+
+TEST_F(DanceContract, AudioBeyondTheLimitOrTheEndIsRefused) {
+  const std::vector<float> ten_seconds(2 * 220500, 0.0F);
+  EXPECT_THAT(Refusal(
+                  [&](DanceStream& stream) {
+                    // Paused, so that the test need not dance ten minutes; only the count matters
+                    // here.
+                    stream.SetPaused(true);
+                    for (int64_t i = 0; i < 61; ++i) stream.PushAudio(ten_seconds, 220500 * i);
+                  },
+                  ErrorCode::kInvalidArgument, true),
+              ::testing::HasSubstr("the limit is 600 s"));
+  EXPECT_EQ(Refusal(
+                [&](DanceStream& stream) {
+                  stream.PushAudio(ten_seconds, 0);
+                  stream.EndOfAudio();
+                  stream.PushAudio(ten_seconds, 220500);
+                },
+                ErrorCode::kFailedPrecondition, true),
+            "audio: comes after end_of_audio");
+  EXPECT_EQ(Refusal(
+                [&](DanceStream& stream) {
+                  stream.PushAudio(ten_seconds, 0);
+                  stream.EndOfAudio();
+                  stream.EndOfAudio();
+                },
+                ErrorCode::kFailedPrecondition, true),
+            "end_of_audio: came before");
+}
+
+TEST_F(DanceContract, KeysAreCountedInErrors) {
+  EXPECT_EQ(Refusal(
+                [&](DanceStream& stream) {
+                  for (int i = 0; i < 3; ++i) {
+                    stream.SetKey(std::to_string(i), AtFrame{10 * i + 10}, rest_);
+                  }
+                  Pose bad = rest_;
+                  bad.rotations(2, 16) = -7.9;
+                  stream.SetKey("3", AtFrame{100}, bad);
+                },
+                ErrorCode::kInvalidArgument),
+            "keyframes[3].rotations[16]: 7.9 rad exceeds 2π");
+  EXPECT_EQ(Refusal([](DanceStream& stream) { stream.RemoveKey("none"); }, ErrorCode::kNotFound),
+            "remove_keyframes[0].id: there is no key \"none\"");
+}
+
+TEST_F(DanceContract, ADanceNeedsAnEnd) {
+  for (auto close : {&DanceStream::KeysComplete, &DanceStream::HalfClose}) {
+    EXPECT_EQ(
+        Refusal([close](DanceStream& stream) { (stream.*close)(); }, ErrorCode::kInvalidArgument),
+        "keyframes_complete: the dance has no end: no keyframe, no music and no end_frame");
+  }
+}
+
+TEST_F(DanceContract, LateKeysAreAnsweredAndTheDanceGoesOn) {
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*scheduler_, {}, sink);
+  stream.GenerateUntil(0);
+  stream.SetKey("a", AtFrame{50}, rest_);
+  stream.GenerateUntil(60);
+  stream.SetKey("late", AtFrame{59}, rest_);
+  stream.SetKey("b", AtFrame{60}, rest_);
+  stream.KeysComplete();
+  const Recording recording = sink->WaitForEnd();
+  ASSERT_TRUE(recording.summary);
+  ASSERT_EQ(recording.rejected.size(), 1u);
+  EXPECT_EQ(recording.rejected[0].id, "late");
+  EXPECT_EQ(recording.rejected[0].earliest_frame, 60);
+  EXPECT_EQ(recording.reached.size(), 2u);
+}
+
+TEST_F(DanceContract, MessagesAfterTheEndAreIgnored) {
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*scheduler_, {}, sink);
+  stream.SetKey("a", AtFrame{20}, rest_);
+  stream.Cancel();
+  EXPECT_TRUE(sink->WaitForEnd().error);
+  stream.SetKey("b", AtFrame{40}, rest_);
+  stream.GenerateUntil(1000);
+  stream.KeysComplete();
+  stream.Cancel();
+  EXPECT_TRUE(scheduler_->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_EQ(sink->Snapshot().calls_after_end, 0);
+}
+
+TEST_F(DanceContract, StoppingTheSchedulerDrainsOrEndsDances) {
+  const Dance dance = RandomDance(31);
+  for (bool drain : {true, false}) {
+    const auto scheduler = FakeScheduler();
+    auto sink = std::make_shared<Recorder>();
+    DanceStream stream(*scheduler, dance.config, sink);
+    stream.SetPaused(true);  // so that it is surely under way when the stop comes
+    for (const Key& key : dance.keys) SendKey(stream, key);
+    stream.KeysComplete();
+    scheduler->Stop(drain);
+    stream.SetPaused(false);
+    const Recording recording = sink->WaitForEnd();
+    EXPECT_EQ(recording.summary.has_value(), drain);
+    if (!drain) {
+      EXPECT_EQ(recording.error->code(), ErrorCode::kUnavailable);
+    }
+  }
+}
+
+TEST_F(DanceContract, LatencyCountsWindowFilterAndResampling) {
+  const ModelInfo& model = scheduler_->model();
+  DanceConfig config;
+  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 0);
+  config.output_fps = 60;
+  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 2);
+  config.output_fps = 30;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 2);  // 1024 / 735 frames
+  config.output_fps = 120;
+  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 10);  // (1024 / 735 + 1) * 4
+}
+
+}  // namespace
+}  // namespace choreo

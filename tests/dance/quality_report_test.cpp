@@ -1,0 +1,97 @@
+#include "model/dance/quality_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+Pose Standing() { return RestPose(Skeleton::Smpl24()); }
+
+Motion Sliding(double metres_per_second, double height, int frames) {
+  Motion motion;
+  for (int i = 0; i < frames; ++i) {
+    Pose pose = Standing();
+    pose.root_position.x() += metres_per_second * i / 30;
+    pose.root_position.y() += height;
+    motion.frames.push_back(pose);
+  }
+  return motion;
+}
+
+TEST(QualityReport, SkatingIsAToeThatSlidesNearTheFloor) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  EXPECT_DOUBLE_EQ(MeasureMotion(skeleton, Sliding(0.3, 0, 31)).skate_ratio, 1);
+  EXPECT_DOUBLE_EQ(MeasureMotion(skeleton, Sliding(0.19, 0, 31)).skate_ratio, 0);
+  EXPECT_DOUBLE_EQ(MeasureMotion(skeleton, Sliding(0.3, 0.1, 31)).skate_ratio, 0);
+  // A third of the steps.
+  Motion motion = Sliding(0.3, 0, 11);
+  for (int i = 0; i < 20; ++i) motion.frames.push_back(motion.frames.back());
+  EXPECT_DOUBLE_EQ(MeasureMotion(skeleton, motion).skate_ratio, 10.0 / 30);
+}
+
+TEST(QualityReport, KinematicBeatsAreMaximaOfSpeed) {
+  const std::vector<float> speed = {0, 1, 3, 2, 2, 5, 5, 5, 4, 6};
+  // 3 at index 2 and the plateau of 5 from index 5 on; the 6 at the end may still rise.
+  EXPECT_EQ(KinematicBeats(speed), (std::vector<int64_t>{3, 6}));
+  EXPECT_TRUE(KinematicBeats({}).empty());
+  const std::vector<float> falling = {3, 2, 1};
+  EXPECT_TRUE(KinematicBeats(falling).empty());
+}
+
+TEST(QualityReport, BeatHitRateCountsKinematicBeatsNearMusicBeats) {
+  // The whole body sways: speed has its maxima where the sine crosses zero, every 15 frames.
+  Motion motion;
+  for (int i = 0; i < 121; ++i) {
+    Pose pose = Standing();
+    pose.root_position.x() = 0.3 * std::sin(3.14159265358979 * (i + 0.25) / 15);
+    motion.frames.push_back(pose);
+  }
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  std::vector<double> beats;
+  for (int i = 1; i < 8; ++i) beats.push_back(15.0 * i);
+  const QualityReport on = MeasureMotion(skeleton, motion, beats);
+  ASSERT_TRUE(on.beat_hit_rate);
+  EXPECT_DOUBLE_EQ(*on.beat_hit_rate, 1);
+  EXPECT_NEAR(*on.beat_coverage, 1, 0.15);
+  for (double& beat : beats) beat += 7;
+  EXPECT_DOUBLE_EQ(*MeasureMotion(skeleton, motion, beats).beat_hit_rate, 0);
+  EXPECT_FALSE(MeasureMotion(skeleton, motion).beat_hit_rate);
+  const std::vector<double> elsewhere = {-50, 500};
+  EXPECT_FALSE(MeasureMotion(skeleton, motion, elsewhere).beat_hit_rate);
+}
+
+TEST(QualityReport, AccelerationsAroundKeys) {
+  // At rest, then one step of 1 cm, then at rest: second differences of 1 cm on both sides.
+  QualityMeter meter(Skeleton::Smpl24(), 30, 100);
+  for (int i = 0; i < 40; ++i) {
+    Pose pose = Standing();
+    if (i >= 20) pose.root_position.x() += 0.01;
+    meter.Add({pose, {}, -2.0F});
+    if (i == 18 || i == 30) meter.AddKey(i == 18 ? "near" : "far", {0.5, 0, 0, 0.6});
+  }
+  const QualityReport report = meter.Report();
+  ASSERT_EQ(report.keys.size(), 2u);
+  EXPECT_EQ(report.first_frame, 100);
+  EXPECT_EQ(report.frames, 40);
+  EXPECT_EQ(report.keys[0].frame, 118);
+  EXPECT_NEAR(report.keys[0].max_acceleration, 9, 1e-3);  // 0.01 * 30^2
+  EXPECT_NEAR(report.keys[1].max_acceleration, 0, 1e-3);
+  EXPECT_NEAR(report.max_key_acceleration, 9, 1e-3);
+  EXPECT_NEAR(report.p95_acceleration, 9, 1e-3);  // 2 of 38 frames
+  EXPECT_DOUBLE_EQ(report.mean_log_likelihood, -2);
+  EXPECT_DOUBLE_EQ(report.keys[0].arrival.raw_error_m, 0.5);
+}
+
+TEST(QualityReport, AnEmptyDanceHasAReport) {
+  const QualityReport report = QualityMeter(Skeleton::Smpl24(), 30, 5).Report();
+  EXPECT_EQ(report.frames, 0);
+  EXPECT_EQ(report.skate_ratio, 0);
+  EXPECT_FALSE(report.beat_hit_rate);
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,148 @@
+#include "model/dance/transition.h"
+
+#include <gtest/gtest.h>
+
+#include "model/core/error.h"
+#include "tests/dance/poses.h"
+#include "tests/support/fake_engine.h"
+
+namespace choreo {
+namespace {
+
+TransitionRequest RandomRequest(uint32_t seed) {
+  std::mt19937 random(seed);
+  TransitionRequest request;
+  request.frames = 30;
+  request.history = MotionTo(RandomPose(random), 10, random);
+  request.target = WorldTarget{RandomPose(random), {}};
+  request.seed = seed;
+  return request;
+}
+
+TEST(Transition, FewerHistoryPosesHoldTheEarliest) {
+  const FakeEngine engine;
+  std::mt19937 random(1);
+  const std::vector<Pose> poses = MotionTo(RandomPose(random), 12, random);
+  const std::vector<Pose> none = FillHistory(engine.model(), {});
+  ASSERT_EQ(none.size(), 10u);
+  EXPECT_TRUE(SameBits(none[0], RoundToFloat(RestPose(Skeleton::Smpl24()))));
+  const std::vector<Pose> three = FillHistory(engine.model(), std::span(poses).first(3));
+  for (size_t i = 0; i < 8; ++i) EXPECT_TRUE(SameBits(three[i], RoundToFloat(poses[0])));
+  EXPECT_TRUE(SameBits(three[9], RoundToFloat(poses[2])));
+  const std::vector<Pose> last = FillHistory(engine.model(), poses);
+  for (size_t i = 0; i < 10; ++i) EXPECT_TRUE(SameBits(last[i], RoundToFloat(poses[i + 2])));
+}
+
+TEST(Transition, TheSpecStandsInTheCanonicalFrame) {
+  const FakeEngine engine;
+  TransitionRequest request = RandomRequest(2);
+  // Some joints wound up by whole turns, as after many pirouettes.
+  for (Pose& pose : request.history) {
+    const Eigen::Vector3d w = pose.rotations.col(5);
+    pose.rotations.col(5) = w * (1 + 4 * 3.14159265358979 / w.norm());
+  }
+  const TransitionRun run(engine.model(), request);
+  const std::vector<Pose>& history = run.spec().history;
+  ASSERT_EQ(history.size(), 10u);
+  EXPECT_NEAR(history.back().root_position.x(), 0, 1e-9);
+  EXPECT_NEAR(history.back().root_position.z(), 0, 1e-9);
+  EXPECT_NEAR(Heading(ExpMap(history.back().rotations.col(0))), 0, 1e-9);
+  for (int joint = 0; joint < 24; ++joint) {
+    EXPECT_LE(history.back().rotations.col(joint).norm(), 3.1416);
+    for (size_t i = 1; i < history.size(); ++i) {
+      EXPECT_LT((history[i].rotations.col(joint) - history[i - 1].rotations.col(joint)).norm(),
+                0.3);
+    }
+  }
+  // The target is where it was, seen from there.
+  const GroundFrame ground = GroundFrame::Of(RoundToFloat(request.history.back()));
+  EXPECT_LT(ComparePoses(Skeleton::Smpl24(), ground.ToWorld(run.spec().target->pose),
+                         request.target->pose)
+                .position_m,
+            1e-9);
+}
+
+TEST(Transition, FramesAreFloatsAndHitTheKey) {
+  FakeEngine engine;
+  const TransitionRequest request = RandomRequest(3);
+  std::optional<ArrivalResult> arrival;
+  const std::vector<DanceFrame> frames = RunTransition(engine, request, {}, &arrival);
+  ASSERT_EQ(frames.size(), 30u);
+  EXPECT_EQ(engine.free_slots(), engine.slots());
+  for (const DanceFrame& frame : frames) {
+    EXPECT_TRUE(SameBits(frame.pose, RoundToFloat(frame.pose)));
+  }
+  ASSERT_TRUE(arrival);
+  EXPECT_LT(arrival->final_error_m, 1e-5);
+  EXPECT_LT(arrival->final_error_deg, 1e-3);
+  EXPECT_GT(arrival->raw_error_m, arrival->final_error_m);
+}
+
+TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
+  FakeEngine engine;
+  TransitionRequest request = RandomRequest(4);
+  request.arrival.frames = 0;
+  request.temperature = 1;
+  std::optional<ArrivalResult> arrival;
+  const std::vector<DanceFrame> frames = RunTransition(engine, request, {}, &arrival);
+  ASSERT_TRUE(arrival);
+  const PoseError error =
+      ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.target->pose);
+  EXPECT_GT(error.position_m, 1e-3);
+  EXPECT_NEAR(arrival->raw_error_m, error.position_m, 1e-6);
+  EXPECT_NEAR(arrival->final_error_m, error.position_m, 1e-12);
+  EXPECT_EQ(arrival->correction_m, 0);
+}
+
+TEST(Transition, SpeedsThatTheWayAsksFor) {
+  const FakeEngine engine;
+  TransitionRequest request;
+  request.frames = 15;
+  Pose pose = RestPose(Skeleton::Smpl24());
+  pose.root_position.z() += 3;
+  pose.rotations.col(18) = Eigen::Vector3d(0, 2, 0);
+  request.target = WorldTarget{pose, {}};
+  RequiredSpeed speed = *TransitionRun(engine.model(), request).required_speed();
+  EXPECT_NEAR(speed.root_m_per_s, 6, 1e-5);
+  EXPECT_NEAR(speed.joint_rad_per_s, 4, 1e-5);
+  EXPECT_EQ(speed.joint, 18);
+  EXPECT_TRUE(speed.TooFast());
+  request.target->mask.root_position = false;
+  speed = *TransitionRun(engine.model(), request).required_speed();
+  EXPECT_EQ(speed.root_m_per_s, 0);
+  EXPECT_FALSE(speed.TooFast());
+  request.target.reset();
+  EXPECT_FALSE(TransitionRun(engine.model(), request).required_speed());
+}
+
+TEST(Transition, RefusesRequestsOfTheWrongShape) {
+  const FakeEngine engine;
+  const auto field =
+      [&engine](const std::function<void(TransitionRequest&)>& spoil) -> std::string {
+    TransitionRequest request = RandomRequest(5);
+    spoil(request);
+    try {
+      TransitionRun run(engine.model(), request);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      return error.field();
+    }
+    return "accepted";
+  };
+  const Pose other{Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, 23)};
+  EXPECT_EQ(field([](TransitionRequest&) {}), "accepted");
+  EXPECT_EQ(field([](TransitionRequest& r) { r.frames = 0; }), "frames");
+  EXPECT_EQ(field([](TransitionRequest& r) { r.frames = 1801; }), "frames");
+  EXPECT_EQ(field([&](TransitionRequest& r) { r.history[3] = other; }), "history[3].rotations");
+  EXPECT_EQ(field([&](TransitionRequest& r) { r.target->pose = other; }), "target.rotations");
+  EXPECT_EQ(field([&](TransitionRequest& r) { r.after = other; }), "after.rotations");
+  EXPECT_EQ(field([](TransitionRequest& r) { r.has_audio = true; }), "audio_history");
+  EXPECT_EQ(field([](TransitionRequest& r) {
+              r.after = r.target->pose;
+              r.target.reset();
+            }),
+            "after");
+}
+
+}  // namespace
+}  // namespace choreo

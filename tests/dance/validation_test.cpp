@@ -1,0 +1,127 @@
+#include "model/dance/validation.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "model/core/error.h"
+#include "tests/dance/dances.h"
+#include "tests/dance/poses.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string Refusal(const std::function<void()>& call,
+                    ErrorCode code = ErrorCode::kInvalidArgument) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Validation, PosesNameFieldValueAndLimit) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  const auto refusal = [&skeleton](const std::function<void(Pose&)>& spoil) {
+    Pose pose = RestPose(skeleton);
+    spoil(pose);
+    return Refusal([&] { ValidatePose(skeleton, pose, "keyframes[3]"); });
+  };
+  EXPECT_EQ(refusal([](Pose&) {}), "accepted");
+  EXPECT_EQ(refusal([](Pose& p) { p.rotations(1, 16) = 7.9; }),
+            "keyframes[3].rotations[16]: 7.9 rad exceeds 2π");
+  EXPECT_EQ(refusal([](Pose& p) { p.rotations(0, 2) = 6.28318531; }), "accepted");
+  EXPECT_EQ(refusal([](Pose& p) { p.rotations(2, 0) = kNan; }),
+            "keyframes[3].rotations[0]: nan is not finite");
+  EXPECT_EQ(refusal([](Pose& p) { p.rotations(2, 0) = -kInfinity; }),
+            "keyframes[3].rotations[0]: inf is not finite");
+  EXPECT_EQ(refusal([](Pose& p) { p.root_position.y() = kInfinity; }),
+            "keyframes[3].root_position[1]: inf is not finite");
+  EXPECT_EQ(refusal([](Pose& p) { p.root_position.z() = -10'001; }),
+            "keyframes[3].root_position[2]: -10001 m is further than 10000 m from the origin");
+  for (int joints : {0, 23, 25}) {
+    EXPECT_EQ(refusal([joints](Pose& p) { p.rotations = Eigen::Matrix3Xd::Zero(3, joints); }),
+              "keyframes[3].rotations: " + std::to_string(joints) + " joints, the model has 24");
+  }
+}
+
+TEST(Validation, MasksFitTheSkeletonAndAskForSomething) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  const auto refusal = [&skeleton](const PoseMask& mask) {
+    return Refusal([&] { ValidateMask(skeleton, mask, "target.mask"); });
+  };
+  EXPECT_EQ(refusal({}), "accepted");
+  EXPECT_EQ(refusal({false, {}}), "accepted");
+  EXPECT_EQ(refusal({true, std::vector<bool>(24, false)}), "accepted");
+  EXPECT_EQ(refusal({false, std::vector<bool>(24, false)}), "target.mask: asks for nothing");
+  EXPECT_EQ(refusal({true, std::vector<bool>(23, true)}),
+            "target.mask.joints: 23 joints, the model has 24");
+}
+
+TEST(Validation, ConfigsNameFieldValueAndLimit) {
+  const FakeEngine engine;
+  const auto refusal = [&engine](const std::function<void(DanceConfig&)>& spoil,
+                                 ErrorCode code = ErrorCode::kInvalidArgument) {
+    DanceConfig config;
+    spoil(config);
+    return Refusal([&] { config.Validate(engine.model()); }, code);
+  };
+  const Pose rest = RestPose(Skeleton::Smpl24());
+  const Continuation good{60, std::vector<Pose>(10, rest), "fake-1"};
+  EXPECT_EQ(refusal([](DanceConfig&) {}), "accepted");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = -0.1F; }),
+            "config.temperature: -0.1 is not in [0, 2]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = std::nanf(""); }),
+            "config.temperature: nan is not in [0, 2]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 0; }),
+            "config.output_fps: 0 is not in [1, 120]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 121; }),
+            "config.output_fps: 121 is not in [1, 120]");
+  EXPECT_EQ(refusal([&](DanceConfig& c) { c.history.assign(11, rest); }),
+            "config.history: 11 poses, the limit is 10");
+  EXPECT_EQ(refusal([&](DanceConfig& c) {
+              c.history.assign(2, rest);
+              c.history[1].rotations = Eigen::Matrix3Xd::Zero(3, 23);
+            }),
+            "config.history[1].rotations: 23 joints, the model has 24");
+  EXPECT_EQ(refusal([&](DanceConfig& c) { c.continuation = good; }), "accepted");
+  EXPECT_EQ(refusal([&](DanceConfig& c) {
+              c.continuation = good;
+              c.history.assign(1, rest);
+            }),
+            "config.history: and a continuation exclude each other");
+  EXPECT_EQ(refusal([&](DanceConfig& c) {
+              c.continuation = good;
+              c.continuation->poses.pop_back();
+            }),
+            "config.continuation.poses: 9 poses, the model needs 10");
+  EXPECT_EQ(refusal([&](DanceConfig& c) {
+              c.continuation = good;
+              c.continuation->frame = -1;
+            }),
+            "config.continuation.frame: -1 is not in [0, 108000]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.end_frame = 0; }),
+            "config.end_frame: 0 is not in [1, 108000]");
+  EXPECT_EQ(refusal([&](DanceConfig& c) {
+              c.continuation = good;
+              c.end_frame = 59;
+            }),
+            "config.end_frame: 59 is not in [60, 108000]");
+  EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{4000, 1, 0}; }), "accepted");
+  EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{44100, 9, 0}; }), "accepted");
+  EXPECT_NE(refusal(
+                [](DanceConfig& c) {
+                  c.audio = DanceConfig::Audio{44100, 2, 1};
+                },
+                ErrorCode::kOutOfRange),
+            "accepted");
+}
+
+}  // namespace
+}  // namespace choreo
