@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "model/formats/npz.h"
+#include "model/motion/contacts.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// SMPL motion in npz files, as AMASS, AIST++ and EDGE lay it out, and our own arrays beside them.
+///
+/// | file    | keys                                                   | up | trans           |
+/// |---------|--------------------------------------------------------|----|-----------------|
+/// | ours    | root_positions [F,3], rotations [F,24,3], fps          | y  | the pelvis      |
+/// | AMASS   | poses [F,72, 156 or 165], trans [F,3], mocap_framerate | z  | pelvis minus J0 |
+/// | AIST++  | smpl_poses [F,72], smpl_trans, smpl_scaling            | y  | pelvis minus J0 |
+/// | EDGE    | smpl_poses [F,72], smpl_trans                          | z  | the pelvis      |
+///
+/// J0 is SMPL's rest pelvis: the model's translation moves the whole rest body, whose pelvis is not
+/// at its origin; files with 55 joints mean SMPL-X's. Of 52 (SMPL-H) and 55 (SMPL-X) joints the 22
+/// of the body are read; the two hand joints of SMPL then stay at rest. Body shape (betas) is not
+/// applied: ours is the neutral body.
+namespace choreo {
+
+/// Rest position of the neutral body's pelvis in SMPL's own coordinates, metres.
+Eigen::Vector3d SmplRestPelvis();
+
+/// A pose of our world (Y up, position of the pelvis) as AMASS states it (Z up, SMPL's translation
+/// in `root_position`), and back. Only the root changes; its angle is in [0, pi] afterwards.
+Pose ToAmass(const Pose& pose);
+Pose FromAmass(const Pose& amass);
+
+/// Whether an archive has the keys of one of the layouts above.
+bool HasSmplMotion(const NpzArchive& npz);
+
+/// SMPL's 24 joints at the file's own rate (AIST++ 60, EDGE 30 where no key `fps` states it); where
+/// several layouts are present, the first of the table counts. Throws Error(kInvalidArgument)
+/// naming the array and its shape, or the keys that are absent.
+Motion ReadSmplMotion(const NpzArchive& npz);
+
+/// Adds the arrays of a motion: AMASS's (poses with 52 joints, trans, mocap_framerate, gender,
+/// betas), ours, and `contacts` [F, 4] if they are given. Throws Error(kInvalidArgument) for a
+/// skeleton other than SMPL's, a motion without frames, or contacts of another length.
+void AddSmplMotion(const Skeleton& skeleton, const Motion& motion,
+                   const std::vector<Contacts>* contacts, NpzArchive& npz);
+
+}  // namespace choreo

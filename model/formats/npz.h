@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "model/core/npy.h"
+
+namespace choreo {
+
+/// NumPy's `.npz`: a zip of named arrays, and of texts (zero-dimensional arrays of characters, such
+/// as AMASS's gender or our meta data). Written uncompressed with a fixed date, so that equal
+/// content gives equal bytes; read whether compressed or not. Members are looked up when asked
+/// for: an array of a kind that we cannot read (pickled objects) does no harm unless it is wanted.
+class NpzArchive {
+ public:
+  NpzArchive() = default;
+  /// Throws Error(kNotFound) for a file that cannot be opened, Error(kInvalidArgument) for one that
+  /// is no zip, is damaged, or holds more than 4 GiB.
+  static NpzArchive Read(const std::filesystem::path& path);
+  /// Error(kInternal) where the file cannot be written. Replaces the file at once or not at all.
+  void Write(const std::filesystem::path& path) const;
+
+  bool Has(const std::string& key) const { return members_.contains(key); }
+  /// Throws Error(kInvalidArgument) for a key that is absent, naming those that are there, and for
+  /// an array of another kind.
+  NpyArray Array(const std::string& key) const;
+  std::string Text(const std::string& key) const;
+
+  void SetArray(const std::string& key, const NpyArray& array);
+  /// UTF-8 in, numpy's str out. Throws Error(kInvalidArgument) for text that is not UTF-8.
+  void SetText(const std::string& key, const std::string& text);
+
+ private:
+  const std::string& Member(const std::string& key) const;
+
+  std::string name_ = "npz";
+  std::map<std::string, std::string> members_;  // bytes of each .npy, by key
+};
+
+}  // namespace choreo

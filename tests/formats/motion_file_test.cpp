@@ -1,0 +1,129 @@
+#include "model/formats/motion_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "model/formats/bvh.h"
+#include "model/formats/npz.h"
+#include "model/motion/kinematics.h"
+#include "tests/motion/motion_fixtures.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+const Skeleton& kSmpl = Skeleton::Smpl24();
+
+TEST(MotionFile, BothFormatsGiveTheMotionBack) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 21, 30, 30);
+  for (const auto& [name, tolerance_deg] : {std::pair("a.npz", 1e-9), std::pair("a.bvh", 1e-5)}) {
+    SCOPED_TRACE(name);
+    WriteMotion(folder / name, kSmpl, motion);
+    const Motion back = ReadMotion(folder / name, kSmpl);
+    EXPECT_EQ(back.fps, 30);
+    ASSERT_EQ(back.frames.size(), motion.frames.size());
+    for (size_t i = 0; i < motion.frames.size(); ++i) {
+      const PoseError error = ComparePoses(kSmpl, motion.frames[i], back.frames[i]);
+      EXPECT_LT(error.position_m, 1e-6);
+      EXPECT_LT(error.angle_deg, tolerance_deg);
+    }
+  }
+}
+
+// Our motion as a capture studio would hand it over: other names, inches, no hands, no collars'
+// rotations lost, and 12 cm above the floor.
+BvhFile StudioBvh(const Motion& motion) {
+  const std::map<std::string, std::string> names = {{"pelvis", "Hips"},
+                                                    {"left_hip", "LeftUpLeg"},
+                                                    {"left_knee", "LeftLeg"},
+                                                    {"left_ankle", "LeftFoot"},
+                                                    {"left_foot", "LeftToeBase"},
+                                                    {"right_hip", "RightUpLeg"},
+                                                    {"right_knee", "RightLeg"},
+                                                    {"right_ankle", "RightFoot"},
+                                                    {"right_foot", "RightToeBase"},
+                                                    {"spine1", "Spine"},
+                                                    {"spine2", "Spine1"},
+                                                    {"spine3", "Spine2"},
+                                                    {"neck", "Neck"},
+                                                    {"head", "Head"},
+                                                    {"left_collar", "LeftShoulder"},
+                                                    {"left_shoulder", "LeftArm"},
+                                                    {"left_elbow", "LeftForeArm"},
+                                                    {"left_wrist", "LeftHand"},
+                                                    {"right_collar", "RightShoulder"},
+                                                    {"right_shoulder", "RightArm"},
+                                                    {"right_elbow", "RightForeArm"},
+                                                    {"right_wrist", "RightHand"},
+                                                    {"left_hand", "LeftHandMiddle1"},
+                                                    {"right_hand", "RightHandMiddle1"}};
+  BvhFile file = MotionToBvh(kSmpl, motion);
+  for (BvhJoint& joint : file.joints) {
+    joint.offset /= 2.54;
+    if (!joint.end_site) joint.name = names.at(joint.name);
+  }
+  file.values.topRows(3) /= 2.54;
+  file.values.row(1).array() += 12 / 2.54;
+  return file;
+}
+
+TEST(MotionFile, FitsAForeignHierarchy) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 22, 60, 30);
+  WriteBvh(folder / "studio.bvh", StudioBvh(motion));
+  const Motion fitted = ReadMotion(folder / "studio.bvh", kSmpl);
+  EXPECT_EQ(fitted.fps, 30);
+  ASSERT_EQ(fitted.frames.size(), motion.frames.size());
+  // The same dance: travel and joints around the root. Height is the fit's own business (it stands
+  // the clip on the floor).
+  double sum = 0, travel = 0;
+  for (size_t i = 0; i < motion.frames.size(); ++i) {
+    const Eigen::Matrix3Xd a = JointPositions(kSmpl, motion.frames[i]);
+    const Eigen::Matrix3Xd b = JointPositions(kSmpl, fitted.frames[i]);
+    sum +=
+        ((a.colwise() - a.col(0).eval()) - (b.colwise() - b.col(0).eval())).colwise().norm().mean();
+    const Eigen::Vector3d apart = a.col(0) - b.col(0);
+    travel = std::max(travel, std::hypot(apart.x(), apart.z()));
+  }
+  EXPECT_LT(sum / static_cast<double>(motion.frames.size()), 0.03);
+  EXPECT_LT(travel, 0.05);
+}
+
+TEST(MotionFile, KeepsContactsInAnNpz) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 23, 3);
+  const std::vector<Contacts> contacts(3, Contacts{1, 1, 0, 0});
+  WriteMotion(folder / "a.npz", kSmpl, motion, &contacts);
+  EXPECT_EQ(NpzArchive::Read(folder / "a.npz").Array("contacts").shape,
+            (std::vector<int64_t>{3, 4}));
+}
+
+TEST(MotionFile, RefusesWithThePathInFront) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 24, 2);
+  ExpectError(ErrorCode::kInvalidArgument, "a.fbx: has the extension '.fbx', must be .npz or .bvh",
+              [&] { ReadMotion(folder / "a.fbx", kSmpl); });
+  ExpectError(ErrorCode::kInvalidArgument, "must be .npz or .bvh",
+              [&] { WriteMotion(folder / "a", kSmpl, motion); });
+  for (const char* name : {"a.npz", "a.bvh"}) {
+    ExpectError(ErrorCode::kNotFound, (folder / name).string(),
+                [&] { ReadMotion(folder / name, kSmpl); });
+  }
+  NpzArchive npz;
+  npz.SetArray("weights", {{1}, std::vector<double>{1}});
+  npz.Write(folder / "other.npz");
+  ExpectError(ErrorCode::kInvalidArgument, (folder / "other.npz").string(),
+              [&] { ReadMotion(folder / "other.npz", kSmpl); });
+  std::ofstream(folder / "box.bvh") << "HIERARCHY\nROOT box\n{\nOFFSET 0 0 0\n"
+                                       "CHANNELS 3 Xposition Yposition Zposition\n}\n"
+                                       "MOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n";
+  ExpectError(ErrorCode::kInvalidArgument, (folder / "box.bvh").string(),
+              [&] { ReadMotion(folder / "box.bvh", kSmpl); });
+}
+
+}  // namespace
+}  // namespace choreo

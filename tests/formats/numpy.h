@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace choreo {
+
+/// NumPy's own opinion, where a python3 has it.
+inline bool HaveNumpy() {
+  return std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0;
+}
+
+/// Runs a script (numpy is `np`, `path` the file) and returns what it prints.
+inline std::string RunNumpy(const std::filesystem::path& path, const std::string& script) {
+  const std::filesystem::path file = path.string() + ".py";
+  std::ofstream(file) << "import numpy as np\npath = '" << path.string() << "'\n" << script;
+  FILE* pipe = popen(("/usr/bin/python3 '" + file.string() + "' 2>&1").c_str(), "r");
+  std::string printed;
+  char buffer[256];
+  while (pipe && std::fgets(buffer, sizeof(buffer), pipe)) printed += buffer;
+  if (pipe) pclose(pipe);
+  return printed;
+}
+
+}  // namespace choreo
