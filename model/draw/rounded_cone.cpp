@@ -23,7 +23,7 @@ void IntersectBall(const Vector3f& centre, float radius, const Vector3f& origin,
   const float root = along * along - from.squaredNorm() + radius * radius;
   if (root < 0) return;
   const float distance = -along - std::sqrt(root);
-  Nearer(hit, distance, (from + distance * direction) / radius);
+  Nearer(hit, distance, (from + distance * direction).normalized());
 }
 
 }  // namespace

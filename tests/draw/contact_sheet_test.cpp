@@ -1,0 +1,93 @@
+#include "model/draw/contact_sheet.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/draw/decoded_png.h"
+#include "tests/motion/motion_fixtures.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+const Skeleton& kSmpl = Skeleton::Smpl24();
+constexpr uint32_t kKeyColour = 0xd99a00;
+
+ContactSheetOptions Small(std::vector<int64_t> keys = {}) {
+  ContactSheetOptions options;
+  options.title = "test";
+  options.frames = 4;
+  options.columns = 4;
+  options.tile_width = 60;
+  options.tile_height = 80;
+  options.key_frames = std::move(keys);
+  return options;
+}
+
+std::vector<int64_t> Shown(int64_t total, const ContactSheetOptions& options) {
+  std::vector<int64_t> frames;
+  for (const SheetFrame& one : ChooseSheetFrames(total, options)) {
+    frames.push_back(one.key ? -one.frame : one.frame);  // keys with a minus
+  }
+  return frames;
+}
+
+TEST(ContactSheet, ChoosesFramesEvenlyAndKeysExactly) {
+  using testing::ElementsAre;
+  EXPECT_THAT(Shown(31, Small()), ElementsAre(0, 10, 20, 30));
+  EXPECT_THAT(Shown(31, Small({12})), ElementsAre(0, -12, 20, 30));
+  EXPECT_THAT(Shown(31, Small({12, 13, 30})), ElementsAre(0, -12, -13, 20, -30));
+  EXPECT_THAT(Shown(2, Small()), ElementsAre(0, 1));
+  EXPECT_THAT(Shown(1, Small()), ElementsAre(0));
+  ContactSheetOptions one = Small();
+  one.frames = 1;
+  EXPECT_THAT(Shown(31, one), ElementsAre(0));
+  ExpectError(ErrorCode::kInvalidArgument, "options.key_frames: 31, must be 0 to 30",
+              [] { ChooseSheetFrames(31, Small({31})); });
+}
+
+TEST(ContactSheet, IsAPictureOfTheMotion) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 31);
+  DrawContactSheet(kSmpl, motion, Small(), folder / "a.png");
+  DrawContactSheet(kSmpl, motion, Small(), folder / "again.png");
+  DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 32, 31), Small(), folder / "other.png");
+  DrawContactSheet(kSmpl, motion, Small({12}), folder / "key.png");
+  const DecodedPng a(folder / "a.png"), again(folder / "again.png"), other(folder / "other.png"),
+      key(folder / "key.png");
+  EXPECT_EQ(a.width, 2 * 24 + 4 * 60 + 3 * 10);
+  EXPECT_GT(a.height, 80);
+  EXPECT_LT(a.height, 250);
+  EXPECT_GT(a.Colours(), 500u);
+  EXPECT_EQ(a.pixels, again.pixels);
+  EXPECT_NE(a.pixels, other.pixels);
+  EXPECT_EQ(a.Count(kKeyColour), 0);
+  EXPECT_GT(key.Count(kKeyColour), 200);
+}
+
+TEST(ContactSheet, BreaksIntoRows) {
+  const TemporaryFolder folder;
+  ContactSheetOptions options = Small();
+  options.columns = 2;
+  DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31), options, folder / "a.png");
+  const DecodedPng png(folder / "a.png");
+  EXPECT_EQ(png.width, 2 * 24 + 2 * 60 + 10);
+  EXPECT_GT(png.height, 160);
+}
+
+TEST(ContactSheet, RefusesWhatItCannotDraw) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 3);
+  ExpectError(ErrorCode::kInvalidArgument, "motion.frames: 0 frames",
+              [&] { DrawContactSheet(kSmpl, {}, Small(), folder / "a.png"); });
+  ContactSheetOptions tiny = Small();
+  tiny.tile_width = 4;
+  ExpectError(ErrorCode::kInvalidArgument, "options.tile_width: 4",
+              [&] { DrawContactSheet(kSmpl, motion, tiny, folder / "a.png"); });
+  ExpectError(ErrorCode::kInternal, "cannot be written",
+              [&] { DrawContactSheet(kSmpl, motion, Small(), folder / "absent/a.png"); });
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,106 @@
+#include "model/draw/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/draw/decoded_png.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+constexpr uint32_t kFirstLine = 0x0072b2;
+constexpr uint32_t kSecondLine = 0xd55e00;
+
+Plot Example() {
+  Plot plot{.title = "Losses",
+            .x_label = "step",
+            .y_label = "nats",
+            .series = {},
+            .log_y = false,
+            .width = 640,
+            .height = 400};
+  PlotSeries falling{.label = "training", .x = {}, .y = {}};
+  PlotSeries level{.label = "validation", .x = {}, .y = {}};
+  for (int i = 0; i <= 100; ++i) {
+    falling.x.push_back(i);
+    falling.y.push_back(std::exp(-i / 20.0));
+    level.x.push_back(i);
+    level.y.push_back(0.5);
+  }
+  plot.series = {falling, level};
+  return plot;
+}
+
+// Rows in which a line's own colour stands, in one column.
+std::vector<int> Rows(const DecodedPng& png, int x, uint32_t colour) {
+  std::vector<int> rows;
+  for (int y = 100; y < png.height; ++y) {
+    if (png.At(x, y) == colour) rows.push_back(y);
+  }
+  return rows;
+}
+
+TEST(Plot, DrawsEachLineWhereItsValuesAre) {
+  const TemporaryFolder folder;
+  DrawPlot(Example(), folder / "a.png");
+  const DecodedPng png(folder / "a.png");
+  EXPECT_EQ(png.width, 640);
+  EXPECT_EQ(png.height, 400);
+  EXPECT_GT(png.Count(0xffffff), 640 * 400 / 2);
+  EXPECT_GT(png.Count(kFirstLine), 200);
+  EXPECT_GT(png.Count(kSecondLine), 200);
+  // The falling line ends below the level one.
+  const std::vector<int> falling = Rows(png, 560, kFirstLine), level = Rows(png, 560, kSecondLine);
+  ASSERT_FALSE(falling.empty());
+  ASSERT_FALSE(level.empty());
+  EXPECT_GT(falling.front(), level.back() + 40);
+}
+
+TEST(Plot, LeavesOutPointsThatAreNoNumbersAndZeroOnALogarithmicAxis) {
+  const TemporaryFolder folder;
+  Plot plot = Example();
+  plot.series.resize(1);
+  DrawPlot(plot, folder / "whole.png");
+  for (int i = 40; i < 80; ++i) plot.series[0].y[i] = std::numeric_limits<double>::quiet_NaN();
+  DrawPlot(plot, folder / "gap.png");
+  const DecodedPng whole(folder / "whole.png"), gap(folder / "gap.png");
+  EXPECT_LT(gap.Count(kFirstLine), whole.Count(kFirstLine) - 100);
+  EXPECT_GT(gap.Count(kFirstLine), 50);
+  plot.log_y = true;
+  plot.series[0].y[90] = 0;
+  DrawPlot(plot, folder / "log.png");
+  EXPECT_GT(DecodedPng(folder / "log.png").Count(kFirstLine), 50);
+}
+
+TEST(Plot, IsDrawnEvenOfNothingOrOfOneValue) {
+  const TemporaryFolder folder;
+  DrawPlot(Plot{}, folder / "nothing.png");
+  EXPECT_EQ(DecodedPng(folder / "nothing.png").width, 1000);
+  for (const double value : {0.0, 1e-9, -3e7}) {
+    Plot plot;
+    plot.series = {{"one", {5}, {value}}};
+    DrawPlot(plot, folder / "one.png");
+    EXPECT_GT(DecodedPng(folder / "one.png").Count(kFirstLine), 5) << value;
+  }
+}
+
+TEST(Plot, RefusesWhatItCannotDraw) {
+  const TemporaryFolder folder;
+  Plot plot = Example();
+  plot.series[1].y.pop_back();
+  ExpectError(ErrorCode::kInvalidArgument, "plot.series['validation']: 101 x and 100 y",
+              [&] { DrawPlot(plot, folder / "a.png"); });
+  Plot small;
+  small.width = 10;
+  ExpectError(ErrorCode::kInvalidArgument, "plot.width: 10",
+              [&] { DrawPlot(small, folder / "a.png"); });
+  ExpectError(ErrorCode::kInternal, "cannot be written",
+              [&] { DrawPlot(Example(), folder / "absent/a.png"); });
+}
+
+}  // namespace
+}  // namespace choreo
