@@ -73,7 +73,20 @@ SourceSize BoneNormaliser::Measure(const PositionClip& clip) const {
   const double theirs = their_legs > 0 ? their_legs : their_bones;
   if (!(theirs > 1e-6)) throw InvalidArgument("clip", "all landmarks stand in one place");
   size.scale = ours / theirs;
+  size.height_scale = size.scale;
   return size;
+}
+
+double BoneNormaliser::HeightScale(const Eigen::Matrix3Xd& source) const {
+  double ours = 0, theirs = 0;
+  const bool legs =
+      std::any_of(marks_.begin(), marks_.end(), [](const Mark& mark) { return mark.leg; });
+  for (const Mark& mark : marks_) {
+    if (mark.parent < 0 || mark.leg != legs) continue;
+    ours += mark.rest_length;
+    theirs += (SourcePoint(mark, source) - SourcePoint(marks_[mark.parent], source)).norm();
+  }
+  return theirs > 1e-6 ? ours / theirs : 1.0;
 }
 
 void BoneNormaliser::Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
@@ -83,7 +96,8 @@ void BoneNormaliser::Apply(const Eigen::Matrix3Xd& source, const SourceSize& siz
     const Mark& mark = marks_[i];
     const Eigen::Vector3d point = SourcePoint(mark, source);
     if (mark.parent < 0) {
-      targets.col(i) = point * size.scale;
+      targets.col(i) =
+          point.cwiseProduct(Eigen::Vector3d(size.scale, size.height_scale, size.scale));
       continue;
     }
     const Eigen::Vector3d bone = point - SourcePoint(marks_[mark.parent], source);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <utility>
 
 #include "model/core/error.h"
 #include "model/motion/fit_solver.h"
@@ -15,29 +16,57 @@ namespace {
 constexpr double kLostDistance = 0.04;
 constexpr int kRefinementIterations = 2;
 
+// Over which heights are evened out, seconds. Longer than a jump, shorter than a recording's drift.
+constexpr double kGroundWindow = 4.0;
+constexpr double kSizeWindow = 1.0;
+constexpr double kBodyClearance = 0.05;
+
 double Quantile(std::vector<double> values, double q) {
   const auto index = static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + index, values.end());
   return values[index];
 }
 
-// Shifts the motion so that its feet stand on the floor, and returns the shift.
+// A running quantile, and its running mean: what a signal does slowly.
+std::vector<double> SlowQuantile(const std::vector<double>& values, double q,
+                                 double window_frames) {
+  const auto count = static_cast<int>(values.size());
+  const int half = std::max(1, static_cast<int>(std::lround(0.5 * window_frames)));
+  std::vector<double> quantiles(count), means(count);
+  const auto window = [&](int frame) {
+    return std::pair(std::max(0, frame - half), std::min(count, frame + half + 1));
+  };
+  for (int frame = 0; frame < count; ++frame) {
+    const auto [first, last] = window(frame);
+    quantiles[frame] = Quantile({values.begin() + first, values.begin() + last}, q);
+  }
+  for (int frame = 0; frame < count; ++frame) {
+    const auto [first, last] = window(frame);
+    means[frame] =
+        std::accumulate(quantiles.begin() + first, quantiles.begin() + last, 0.0) / (last - first);
+  }
+  return means;
+}
+
+// Brings the body down to the floor, and returns the mean of what was added.
 double Ground(const Skeleton& skeleton, Motion& motion) {
+  Eigen::RowVectorXd clearance = Eigen::RowVectorXd::Constant(skeleton.joints(), kBodyClearance);
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
+  for (const int foot : skeleton.feet) {
+    if (foot >= 0) clearance[foot] = rest(1, foot);
+  }
   std::vector<double> lowest;
+  lowest.reserve(motion.frames.size());
   JointPlacement placement;
   for (const Pose& pose : motion.frames) {
     ForwardKinematics(skeleton, pose, placement);
-    double height = std::numeric_limits<double>::infinity();
-    for (const int foot : skeleton.feet) {
-      if (foot >= 0) height = std::min(height, placement.positions(1, foot) - rest(1, foot));
-    }
-    lowest.push_back(height);
+    lowest.push_back((placement.positions.row(1) - clearance).minCoeff());
   }
-  const double shift = -Quantile(std::move(lowest), 0.05);
-  if (!std::isfinite(shift)) return 0;
-  for (Pose& pose : motion.frames) pose.root_position.y() += shift;
-  return shift;
+  const std::vector<double> floor = SlowQuantile(lowest, 0.1, kGroundWindow * motion.fps);
+  for (size_t frame = 0; frame < floor.size(); ++frame) {
+    motion.frames[frame].root_position.y() -= floor[frame];
+  }
+  return -std::accumulate(floor.begin(), floor.end(), 0.0) / static_cast<double>(floor.size());
 }
 
 }  // namespace
@@ -108,15 +137,21 @@ FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const 
                   const FitOptions& options) {
   ValidateClip(clip);
   const BoneNormaliser normaliser(skeleton, mapping, clip.joint_names);
-  const SourceSize size = normaliser.Measure(clip);
+  SourceSize size = normaliser.Measure(clip);
   const size_t count = clip.frames.size();
   FitResult result;
   Motion& motion = result.motion;
   motion.fps = clip.fps;
   motion.frames.reserve(count);
+  std::vector<double> height_scales;
+  height_scales.reserve(count);
+  for (const Eigen::Matrix3Xd& frame : clip.frames)
+    height_scales.push_back(normaliser.HeightScale(frame));
+  height_scales = SlowQuantile(height_scales, 0.5, kSizeWindow * clip.fps);
   std::vector<Eigen::Matrix3Xd> targets(count);
   PositionFitter fitter(skeleton, mapping, options, clip.fps);
   for (size_t frame = 0; frame < count; ++frame) {
+    size.height_scale = height_scales[frame];
     normaliser.Apply(clip.frames[frame], size, targets[frame]);
     motion.frames.push_back(fitter.Next(targets[frame]));
   }
@@ -145,7 +180,7 @@ FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const 
   }
   report.p95_error_m = Quantile(std::move(distances), 0.95);
   report.scale = size.scale;
-  report.ground_shift_m = Ground(skeleton, motion);
+  if (options.ground) report.ground_shift_m = Ground(skeleton, motion);
   return result;
 }
 

@@ -17,9 +17,9 @@ namespace choreo {
 
 /// The source's size, measured once per subject.
 struct SourceSize {
-  double scale = 1;  ///< our leg length over the source's: multiplies the root's travel
-  std::vector<double>
-      lengths;  ///< [landmarks] source metres from the parent landmark (median over a clip)
+  double scale = 1;             ///< our leg length over the source's: multiplies the root's travel
+  double height_scale = 1;      ///< the same at one moment: multiplies the root's height
+  std::vector<double> lengths;  ///< [landmarks] source metres from the parent landmark (median)
 };
 
 /// Turns source positions into the places where our landmarks belong. Immutable after construction.
@@ -32,6 +32,11 @@ class BoneNormaliser {
   /// Median landmark distances of a clip, and the scale from the legs' lengths (hip, knee, ankle;
   /// from all bones where a mapping has no knees).
   SourceSize Measure(const PositionClip& clip) const;
+
+  /// Our leg length over the source's in one frame. Recordings are sometimes cut together from
+  /// takes whose hips stand at different places in the body (tang2018: thighs of 46 and of 54 cm in
+  /// one clip): the root's height then needs a scale that changes in time.
+  double HeightScale(const Eigen::Matrix3Xd& source) const;
 
   /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. Does not
   /// allocate where `targets` has that size.
@@ -66,6 +71,7 @@ struct FitOptions {
   double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
   int iterations = 3;              ///< per warm-started frame
   int first_iterations = 60;       ///< of a frame without a predecessor
+  bool ground = true;              ///< FitClip alone: bring the body down to the floor
 };
 
 /// Fits frame after frame, causally: a frame's result depends on it and the frames before. Not
@@ -101,7 +107,7 @@ struct FitReport {
   std::vector<std::string> landmark_names;
   std::vector<double> landmark_error_m;  ///< [landmarks] mean
   double scale = 1;                      ///< SourceSize::scale
-  double ground_shift_m = 0;             ///< what was added to every height
+  double ground_shift_m = 0;             ///< what was added to the heights, on average
 };
 
 struct FitResult {
@@ -110,8 +116,9 @@ struct FitResult {
 };
 
 /// A whole clip: measure, normalise, fit forwards, refine once with both neighbours known (zero
-/// phase), and ground: the 5th percentile of the lowest foot joint's height above its rest height
-/// becomes 0. About 1 ms a frame.
+/// phase), and ground: the lowest point of the body, each foot joint taken at its rest height and
+/// any other joint at 5 cm, comes down to the floor at least every few seconds. What is taken off
+/// changes slowly, so that jumps stay. About 0.5 ms a frame.
 FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
                   const FitOptions& options = {});
 

@@ -13,6 +13,7 @@ namespace {
 constexpr double kFloorQuantile = 0.05;
 constexpr double kMaximalSlope = 0.15;
 constexpr double kLeastExtent = 1.0;
+constexpr double kDriftKnotSeconds = 15.0;
 
 // The lowest foot of every frame: [3, frames].
 Eigen::Matrix3Xd LowestFeet(const PositionClip& clip, const std::vector<int>& foot_joints) {
@@ -55,28 +56,45 @@ FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_
   FloorPlane plane;
   plane.height = Quantile(heights, kFloorQuantile);
   if (!tilts) return plane;
-  // Quantile regression by iteratively reweighted least squares, around the feet's centre for the
-  // sake of conditioning.
+  // Quantile regression by iteratively reweighted least squares. The height may drift in time,
+  // piecewise linearly between knots: a dancer who crosses a drifting floor once would otherwise
+  // seem to climb a slope.
+  const auto count = static_cast<int>(feet.cols());
+  const int knots =
+      1 + std::max(1, static_cast<int>(std::lround(count / clip.fps / kDriftKnotSeconds)));
   const Eigen::Vector3d centre = feet.rowwise().mean();
-  Eigen::Vector3d solution(plane.height, 0, 0);  // height at the centre, slopes
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(knots + 2);  // heights at the knots, slopes
+  solution.head(knots).setConstant(plane.height);
+  Eigen::VectorXd row(knots + 2);
   for (int iteration = 0; iteration < 50; ++iteration) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (Eigen::Index i = 0; i < feet.cols(); ++i) {
-      const Eigen::Vector3d row(1, feet(0, i) - centre.x(), feet(2, i) - centre.z());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(knots + 2, knots + 2);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(knots + 2);
+    for (int i = 0; i < count; ++i) {
+      const double place = static_cast<double>(i) / std::max(1, count - 1) * (knots - 1);
+      const int knot = std::min(static_cast<int>(place), knots - 2);
+      row.setZero();
+      row[knot] = knot + 1 - place;
+      row[knot + 1] = place - knot;
+      row[knots] = feet(0, i) - centre.x();
+      row[knots + 1] = feet(2, i) - centre.z();
       const double residual = feet(1, i) - row.dot(solution);
       const double weight = (residual > 0 ? kFloorQuantile : 1 - kFloorQuantile) /
                             std::max(std::abs(residual), 0.005);
       normal += weight * row * row.transpose();
       right += weight * feet(1, i) * row;
     }
+    // Knots during which no foot came down lean on the overall height.
+    for (int knot = 0; knot < knots; ++knot) {
+      normal(knot, knot) += 1e-3 * count;
+      right[knot] += 1e-3 * count * plane.height;
+    }
     solution = normal.ldlt().solve(right);
   }
-  const double slope = solution.tail<2>().norm();
-  if (slope > kMaximalSlope) solution.tail<2>() *= kMaximalSlope / slope;
-  plane.slope_x = solution[1];
-  plane.slope_z = solution[2];
-  plane.height = solution[0] - plane.slope_x * centre.x() - plane.slope_z * centre.z();
+  Eigen::Vector2d slope = solution.tail<2>();
+  if (slope.norm() > kMaximalSlope) slope *= kMaximalSlope / slope.norm();
+  plane.slope_x = slope.x();
+  plane.slope_z = slope.y();
+  plane.height = solution.head(knots).mean() - slope.x() * centre.x() - slope.y() * centre.z();
   return plane;
 }
 
