@@ -24,8 +24,16 @@ Vector3f Linear(const Colour& colour) {
 }
 
 uint8_t Encode(float linear) {
-  const float value = std::pow(std::clamp(linear, 0.0f, 1.0f), 1 / 2.2f);
-  return static_cast<uint8_t>(std::lround(255 * value));
+  // Fine enough for the steep dark end: a step of the table is less than one of the byte.
+  constexpr int kSteps = 1 << 15;
+  static const std::vector<uint8_t> table = [] {
+    std::vector<uint8_t> bytes(kSteps + 1);
+    for (int i = 0; i <= kSteps; ++i) {
+      bytes[i] = static_cast<uint8_t>(std::lround(255 * std::pow(double{1} * i / kSteps, 1 / 2.2)));
+    }
+    return bytes;
+  }();
+  return table[static_cast<size_t>(std::clamp(linear, 0.0f, 1.0f) * kSteps + 0.5f)];
 }
 
 float SmoothStep(float from, float to, float value) {
@@ -33,58 +41,95 @@ float SmoothStep(float from, float to, float value) {
   return t * t * (3 - 2 * t);
 }
 
-// Light that reaches the floor around a dancer, on a grid: most of what a floor pixel costs.
+// A part with the ball around it, which settles most questions without looking at the part.
+struct Bounded {
+  RoundedCone shape;
+  Vector3f middle;
+  float radius;
+
+  explicit Bounded(const RoundedCone& cone)
+      : shape(cone),
+        middle(0.5f * (cone.a + cone.b)),
+        radius(0.5f * (cone.b - cone.a).norm() + std::max(cone.radius_a, cone.radius_b)) {}
+
+  bool MeetsRay(const Vector3f& origin, const Vector3f& direction) const {
+    const Vector3f to = middle - origin;
+    const float along = to.dot(direction);
+    return along > -radius && to.squaredNorm() - along * along < radius * radius;
+  }
+  // Farther away than this it hides less than a hundredth of the sky.
+  bool HidesSky(const Vector3f& point) const {
+    const float reach = radius + 9 * 0.5f * (shape.radius_a + shape.radius_b);
+    return (middle - point).squaredNorm() < reach * reach;
+  }
+};
+
+// Light that reaches the floor around a dancer, worked out on a grid as large as her shadow.
 class FloorLight {
  public:
-  FloorLight(const std::vector<BodyPart>& parts, const Vector3f& middle, float reach,
-             const Vector3f& lamp)
-      : side_(2 + static_cast<int>(std::ceil(2 * reach / kShadowCell))),
-        low_x_(middle.x() - reach),
-        low_z_(middle.z() - reach),
-        lamp_(static_cast<size_t>(side_) * side_),
-        sky_(lamp_.size()) {
-    for (int row = 0; row < side_; ++row) {
-      for (int column = 0; column < side_; ++column) {
-        const Vector3f point(low_x_ + static_cast<float>(column) * kShadowCell, 0,
-                             low_z_ + static_cast<float>(row) * kShadowCell);
+  FloorLight(const std::vector<Bounded>& parts, const Vector3f& lamp) {
+    constexpr float kSkyMargin = 0.4f;
+    Eigen::Vector2f low = Eigen::Vector2f::Constant(1e9f), high = -low;
+    for (const Bounded& part : parts) {
+      const Vector3f& middle = part.middle;
+      const Vector3f shadow = middle - std::max(0.0f, middle.y()) / lamp.y() * lamp;
+      const float margin =
+          part.radius * (1 + 1 / lamp.y()) + 2 * kLampSpread * std::max(0.0f, middle.y());
+      for (const auto& [point, around] :
+           {std::pair(shadow, margin), std::pair(middle, part.radius + kSkyMargin)}) {
+        const Eigen::Vector2f on_floor(point.x(), point.z());
+        low = low.cwiseMin(on_floor - Eigen::Vector2f::Constant(around));
+        high = high.cwiseMax(on_floor + Eigen::Vector2f::Constant(around));
+      }
+    }
+    low_ = low;
+    columns_ = 2 + CellsIn(high.x() - low.x());
+    rows_ = 2 + CellsIn(high.y() - low.y());
+    light_.resize(static_cast<size_t>(columns_) * rows_);
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const Vector3f point(low_.x() + static_cast<float>(column) * kShadowCell, 0,
+                             low_.y() + static_cast<float>(row) * kShadowCell);
         float hidden = 0, open = 1;
-        for (const BodyPart& part : parts) {
+        for (const Bounded& part : parts) {
           hidden = std::max(hidden, ShadowOf(part.shape, point, lamp, kLampSpread));
-          open *= 1 - OcclusionBy(part.shape, point, Vector3f::UnitY());
+          if (part.HidesSky(point)) open *= 1 - OcclusionBy(part.shape, point, Vector3f::UnitY());
         }
-        const size_t index = static_cast<size_t>(row) * side_ + column;
-        lamp_[index] = 1 - hidden;
-        sky_[index] = open;
+        light_[static_cast<size_t>(row) * columns_ + column] = 0.45f * (1 - hidden) + 0.55f * open;
       }
     }
   }
 
   // Of the full light, 0 to 1.
   float At(float x, float z) const {
-    const auto last = static_cast<float>(side_ - 1) - 1e-3f;
-    const float u = std::clamp((x - low_x_) / kShadowCell, 0.0f, last);
-    const float v = std::clamp((z - low_z_) / kShadowCell, 0.0f, last);
+    const float u = (x - low_.x()) / kShadowCell, v = (z - low_.y()) / kShadowCell;
+    if (!(u >= 0 && v >= 0 && u < static_cast<float>(columns_ - 1) &&
+          v < static_cast<float>(rows_ - 1))) {
+      return 1;
+    }
     const auto column = static_cast<int>(u), row = static_cast<int>(v);
     const float s = u - static_cast<float>(column), t = v - static_cast<float>(row);
-    const auto value = [&](int r, int c) {
-      const size_t index = static_cast<size_t>(r) * side_ + c;
-      return 0.45f * lamp_[index] + 0.55f * sky_[index];
-    };
-    return (1 - t) * ((1 - s) * value(row, column) + s * value(row, column + 1)) +
-           t * ((1 - s) * value(row + 1, column) + s * value(row + 1, column + 1));
+    const float* at = &light_[static_cast<size_t>(row) * columns_ + column];
+    return (1 - t) * ((1 - s) * at[0] + s * at[1]) +
+           t * ((1 - s) * at[columns_] + s * at[columns_ + 1]);
   }
 
  private:
-  int side_;
-  float low_x_, low_z_;
-  std::vector<float> lamp_, sky_;
+  static int CellsIn(float length) {
+    constexpr float kMost = 20;  // metres: nobody is larger, whatever the pose says
+    return static_cast<int>(std::ceil(std::min(length, kMost) / kShadowCell));
+  }
+
+  Eigen::Vector2f low_;
+  int columns_, rows_;
+  std::vector<float> light_;
 };
 
 class Renderer {
  public:
-  Renderer(std::vector<BodyPart> parts, const View& view, const FrameStyle& style,
+  Renderer(const std::vector<BodyPart>& figure, const View& view, const FrameStyle& style,
            const Picture& picture)
-      : parts_(std::move(parts)),
+      : parts_(Bound(figure)),
         camera_(view, picture.width, picture.height),
         samples_(style.samples),
         columns_(picture.width * style.samples),
@@ -93,14 +138,14 @@ class Renderer {
         reach_(static_cast<float>(0.72 * view.extent *
                                   std::max(1.0, double{1} * picture.width / picture.height))),
         lamp_(LampDirection(view.azimuth)),
-        floor_light_(parts_, middle_, reach_, lamp_),
+        floor_light_(parts_, lamp_),
         grid_(static_cast<float>(style.grid_m)),
         background_(Linear(style.background)),
         floor_(Linear(style.floor)),
         distance_(static_cast<size_t>(columns_) * rows_, -1.0f),
         part_(distance_.size(), -1),
         normal_(distance_.size()) {
-    for (const BodyPart& part : parts_) colours_.push_back(Linear(part.colour));
+    for (const BodyPart& part : figure) colours_.push_back(Linear(part.colour));
   }
 
   void Render(Picture& picture) {
@@ -123,6 +168,12 @@ class Renderer {
   }
 
  private:
+  static std::vector<Bounded> Bound(const std::vector<BodyPart>& figure) {
+    std::vector<Bounded> parts;
+    for (const BodyPart& part : figure) parts.emplace_back(part.shape);
+    return parts;
+  }
+
   // From the left above the camera.
   static Vector3f LampDirection(double azimuth) {
     const double side = azimuth - 0.75;
@@ -148,7 +199,9 @@ class Renderer {
     const int bottom = std::min(rows_, 1 + static_cast<int>(std::max(a.bottom, b.bottom) * scale));
     for (int row = top; row < bottom; ++row) {
       for (int column = left; column < right; ++column) {
-        const RayHit hit = Intersect(shape, camera_.eye(), Ray(column, row));
+        const Vector3f ray = Ray(column, row);
+        if (!parts_[index].MeetsRay(camera_.eye(), ray)) continue;
+        const RayHit hit = Intersect(shape, camera_.eye(), ray);
         const size_t at = static_cast<size_t>(row) * columns_ + column;
         if (hit.distance < 0 || (part_[at] >= 0 && distance_[at] <= hit.distance)) continue;
         distance_[at] = hit.distance;
@@ -184,10 +237,13 @@ class Renderer {
                 const Vector3f& ray) const {
     const Vector3f start = point + kShadowBias * normal;
     float lit = 1, open = 1;
-    for (const BodyPart& part : parts_) {
+    for (const Bounded& part : parts_) {
       if (&part == &parts_[index]) continue;
-      if (lit > 0 && Intersect(part.shape, start, lamp_).distance > 0) lit = 0;
-      open *= 1 - 0.7f * OcclusionBy(part.shape, start, normal);
+      if (lit > 0 && part.MeetsRay(start, lamp_) &&
+          Intersect(part.shape, start, lamp_).distance > 0) {
+        lit = 0;
+      }
+      if (part.HidesSky(start)) open *= 1 - 0.7f * OcclusionBy(part.shape, start, normal);
     }
     const float lamp = lit * std::max(0.0f, normal.dot(lamp_));
     const float sky = open * (0.5f + 0.5f * normal.y());
@@ -218,7 +274,7 @@ class Renderer {
     return (1 - fade) * shade * floor_ + fade * background_;
   }
 
-  std::vector<BodyPart> parts_;
+  std::vector<Bounded> parts_;
   std::vector<Vector3f> colours_;
   Camera camera_;
   int samples_, columns_, rows_;
@@ -239,6 +295,9 @@ void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture) {
   if (style.samples < 1 || style.samples > 8) {
     throw InvalidArgument("style.samples", std::to_string(style.samples) + ", must be 1 to 8");
+  }
+  if (!pose.root_position.allFinite() || !pose.rotations.allFinite()) {
+    throw InvalidArgument("pose", "holds values that are not finite");
   }
   Renderer(BuildFigure(skeleton, pose), view, style, picture).Render(picture);
 }

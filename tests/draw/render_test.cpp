@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "model/draw/figure.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
@@ -109,6 +111,11 @@ TEST(Render, RefusesWhatItCannotDraw) {
   refuse("picture.width: 0", {}, {}, 0);
   refuse("view.extent", {.extent = 0}, {}, 10);
   refuse("style.samples: 9", {}, {.samples = 9}, 10);
+  Pose infinite = pose;
+  infinite.root_position.x() = std::numeric_limits<double>::infinity();
+  Picture wanted{.width = 10, .height = 10, .rgb = {}};
+  ExpectError(ErrorCode::kInvalidArgument, "pose: holds values that are not finite",
+              [&] { DrawFrame(kSmpl, infinite, {}, {}, wanted); });
   Pose other;
   other.rotations.setZero(3, 5);
   Picture picture{.width = 10, .height = 10, .rgb = {}};
