@@ -38,8 +38,8 @@ struct CommandLine {
   int exit_code = 0;
 };
 
-/// A flag goes before its environment variable (CHOREO_LISTEN, ...), that before the file that
-/// --config names (TOML or INI).
+/// A flag goes before the file that --config names (TOML or INI), that before the flag's
+/// environment variable (CHOREO_LISTEN, ...).
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 
 /// The checkpoint that ships: installed beside the program, or in the source tree that it was

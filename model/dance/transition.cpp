@@ -47,8 +47,13 @@ Pose Near(Pose pose, const Pose& previous) {
 }  // namespace
 
 Pose RoundToFloat(const Pose& pose) {
-  return {pose.root_position.cast<float>().cast<double>(),
-          pose.rotations.cast<float>().cast<double>()};
+  // GCC 12's SLP vectoriser folds double -> float -> double of neighbours into nothing (as in
+  // Eigen's cast<float>().cast<double>() of a Vector3d at -O3); it can't see through a volatile.
+  const auto round = [](double value) {
+    volatile float rounded = static_cast<float>(value);
+    return static_cast<double>(rounded);
+  };
+  return {pose.root_position.unaryExpr(round), pose.rotations.unaryExpr(round)};
 }
 
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses) {

@@ -1,0 +1,90 @@
+#include "server/config.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+CommandLine Parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "choreod");
+  return ParseCommandLine(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(ServerConfigTest, DefaultsAreValid) {
+  const CommandLine line = Parse({});
+  ASSERT_TRUE(line.config);
+  EXPECT_EQ(line.config->listen, "127.0.0.1:50051");
+  EXPECT_EQ(line.config->slots, 16);
+}
+
+TEST(ServerConfigTest, FlagsGoBeforeFileBeforeEnvironment) {
+  const std::string path = testing::TempDir() + "choreod_config_test.toml";
+  std::ofstream(path) << "slots = 3\nmax-streams = 4\nio-threads = 5\n";
+  ::setenv("CHOREO_SLOTS", "30", 1);
+  ::setenv("CHOREO_MAX_STREAMS", "40", 1);
+  ::setenv("CHOREO_MAX_WAITING", "50", 1);
+  const CommandLine line = Parse({"--config", path.c_str(), "--slots", "300"});
+  ::unsetenv("CHOREO_SLOTS");
+  ::unsetenv("CHOREO_MAX_STREAMS");
+  ::unsetenv("CHOREO_MAX_WAITING");
+  ASSERT_TRUE(line.config);
+  EXPECT_EQ(line.config->slots, 300);
+  EXPECT_EQ(line.config->max_streams, 4);
+  EXPECT_EQ(line.config->max_waiting, 50);
+  EXPECT_EQ(line.config->io_threads, 5);
+}
+
+TEST(ServerConfigTest, HelpExplainsAndLeaves) {
+  testing::internal::CaptureStdout();
+  const CommandLine line = Parse({"--help"});
+  const std::string help = testing::internal::GetCapturedStdout();
+  EXPECT_FALSE(line.config);
+  EXPECT_EQ(line.exit_code, 0);
+  for (const char* word : {"--listen", "--checkpoint", "--device", "--drain-seconds", "--tls-cert",
+                           "CHOREO_SLOTS", "--config"}) {
+    EXPECT_NE(help.find(word), std::string::npos) << word;
+  }
+}
+
+struct BadSetting {
+  const char* flag;
+  const char* value;
+};
+
+class BadServerConfigTest : public testing::TestWithParam<BadSetting> {};
+
+TEST_P(BadServerConfigTest, IsNamed) {
+  testing::internal::CaptureStderr();
+  const CommandLine line = Parse({GetParam().flag, GetParam().value});
+  const std::string message = testing::internal::GetCapturedStderr();
+  EXPECT_FALSE(line.config);
+  EXPECT_NE(line.exit_code, 0);
+  EXPECT_NE(message.find(GetParam().flag), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadServerConfigTest,
+    testing::Values(BadSetting{"--listen", "nowhere"}, BadSetting{"--listen", "host:"},
+                    BadSetting{"--slots", "0"}, BadSetting{"--slots", "many"},
+                    BadSetting{"--max-streams", "-1"}, BadSetting{"--log-level", "loud"},
+                    BadSetting{"--checkpoint", "/nonexistent.safetensors"},
+                    BadSetting{"--drain-seconds", "-3"}, BadSetting{"--frobnicate", "1"}));
+
+TEST(ServerConfigTest, ACertificateNeedsItsKey) {
+  ServerConfig config;
+  config.tls_certificate = "cert.pem";
+  try {
+    config.Validate();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.field(), "--tls-key");
+  }
+}
+
+}  // namespace
+}  // namespace choreo

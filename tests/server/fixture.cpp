@@ -1,0 +1,282 @@
+#include "tests/server/fixture.h"
+
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "google/rpc/status.pb.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+
+using std::chrono::milliseconds;
+
+ProbedEngine::ProbedEngine(int slots, std::string name, std::shared_ptr<EngineProbe> probe)
+    : FakeEngine(slots), probe_(std::move(probe)) {
+  model_.name = std::move(name);
+}
+
+ProbedEngine::~ProbedEngine() = default;
+
+void ProbedEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {
+  while (probe_->closed) std::this_thread::sleep_for(milliseconds(1));
+  probe_->largest_batch = std::max(probe_->largest_batch.load(), static_cast<int>(in.size()));
+  probe_->frames += static_cast<int64_t>(in.size());
+  FakeEngine::Step(in, out);
+}
+
+Answer::Joined Answer::Join(uint32_t candidate) const {
+  Joined joined;
+  for (const v1::Frames& message : frames) {
+    if (message.candidate() != candidate) continue;
+    if (joined.count == 0) joined.first_frame = message.first_frame();
+    EXPECT_EQ(message.first_frame(), joined.first_frame + joined.count);
+    EXPECT_EQ(message.root_positions_size(), 3 * message.count());
+    EXPECT_EQ(message.contacts_size(), 4 * message.count());
+    joined.count += message.count();
+    auto append = [](const auto& from, std::vector<float>& to) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(message.root_positions(), joined.root_positions);
+    append(message.rotations(), joined.rotations);
+    append(message.contacts(), joined.contacts);
+  }
+  return joined;
+}
+
+void Answer::Take(const v1::StreamDanceResponse& response) {
+  EXPECT_FALSE(summary) << "something comes after the summary";
+  if (response.has_header()) {
+    EXPECT_FALSE(header) << "a second header";
+    EXPECT_TRUE(frames.empty() && events.empty()) << "the header is not first";
+    header = response.header();
+  }
+  if (response.has_frames()) frames.push_back(response.frames());
+  if (response.has_event()) events.push_back(response.event());
+  if (response.has_continuation()) continuations.push_back(response.continuation());
+  if (response.has_summary()) summary = response.summary();
+}
+
+void Answer::Take(const v1::GenerateTransitionResponse& response) {
+  EXPECT_FALSE(transition_summary) << "something comes after the summary";
+  if (response.has_header()) header = response.header();
+  if (response.has_frames()) frames.push_back(response.frames());
+  if (response.has_event()) events.push_back(response.event());
+  if (response.has_summary()) transition_summary = response.summary();
+}
+
+DanceClient::DanceClient(v1::Choreography::Stub& stub, std::optional<milliseconds> deadline) {
+  if (deadline) context.set_deadline(std::chrono::system_clock::now() + *deadline);
+  stream_ = stub.StreamDance(&context);
+}
+
+DanceClient::~DanceClient() {
+  if (finished_) return;
+  Cancel();
+}
+
+void DanceClient::HalfClose() {
+  half_closed_ = true;
+  stream_->WritesDone();
+}
+
+const Answer& DanceClient::Cancel() {
+  half_closed_ = true;
+  context.TryCancel();
+  return Finish();
+}
+
+bool DanceClient::Send(const v1::DanceConfig& config) {
+  v1::StreamDanceRequest request;
+  *request.mutable_config() = config;
+  return Send(request);
+}
+
+bool DanceClient::SendKeyframe(const v1::Keyframe& keyframe) {
+  v1::StreamDanceRequest request;
+  *request.mutable_keyframe() = keyframe;
+  return Send(request);
+}
+
+bool DanceClient::SendAudio(const std::string& bytes, int64_t first_sample) {
+  v1::StreamDanceRequest request;
+  request.mutable_audio()->set_data(bytes);
+  request.mutable_audio()->set_first_sample(first_sample);
+  return Send(request);
+}
+
+bool DanceClient::SendKeyframesComplete() {
+  v1::StreamDanceRequest request;
+  request.mutable_keyframes_complete();
+  return Send(request);
+}
+
+bool DanceClient::SendEndOfAudio() {
+  v1::StreamDanceRequest request;
+  request.mutable_end_of_audio();
+  return Send(request);
+}
+
+bool DanceClient::SendGenerateUntil(int64_t frame) {
+  v1::StreamDanceRequest request;
+  request.mutable_generate_until()->set_frame(frame);
+  return Send(request);
+}
+
+bool DanceClient::ReadOne() {
+  v1::StreamDanceResponse response;
+  if (!stream_->Read(&response)) return false;
+  answer_.Take(response);
+  frames_ += response.frames().count();
+  return true;
+}
+
+bool DanceClient::ReadHeader() {
+  while (!answer_.header) {
+    if (!ReadOne()) return false;
+  }
+  return true;
+}
+
+bool DanceClient::ReadFrames(int64_t count) {
+  while (frames_ < count) {
+    if (!ReadOne()) return false;
+  }
+  return true;
+}
+
+const Answer& DanceClient::Finish() {
+  if (finished_) return answer_;
+  if (!half_closed_) HalfClose();
+  while (ReadOne()) {
+  }
+  answer_.status = stream_->Finish();
+  finished_ = true;
+  return answer_;
+}
+
+ServerTest::~ServerTest() { probe->closed = false; }
+
+void ServerTest::Start(int slots, std::function<void(ServerConfig&)> change,
+                       const std::vector<std::string>& names) {
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  if (change) change(config);
+  std::vector<Server::Engines> models;
+  for (const std::string& name : names) {
+    models.emplace_back().push_back(std::make_unique<ProbedEngine>(slots, name, probe));
+  }
+  server = std::make_unique<Server>(config, std::move(models));
+  channel = grpc::CreateChannel("127.0.0.1:" + std::to_string(server->port()),
+                                grpc::InsecureChannelCredentials());
+  stub_ = v1::Choreography::NewStub(channel);
+}
+
+v1::Choreography::Stub& ServerTest::stub() { return *stub_; }
+
+v1::DanceConfig ServerTest::Config(uint64_t seed) {
+  v1::DanceConfig config;
+  config.set_seed(seed);
+  return config;
+}
+
+v1::Pose ServerTest::KeyPose(double x, double z, float elbow) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  Pose rest = RestPose(skeleton);
+  rest.rotations(1, skeleton.left_elbow) = elbow;
+  v1::Pose pose;
+  pose.mutable_root_position()->set_x(x);
+  pose.mutable_root_position()->set_y(rest.root_position.y());
+  pose.mutable_root_position()->set_z(z);
+  for (const double value : rest.rotations.reshaped()) {
+    pose.add_rotations(static_cast<float>(value));
+  }
+  return pose;
+}
+
+v1::Keyframe ServerTest::Key(const std::string& id, int64_t frame, double x, double z,
+                             float elbow) {
+  v1::Keyframe key;
+  key.set_id(id);
+  key.set_frame(frame);
+  *key.mutable_pose() = KeyPose(x, z, elbow);
+  return key;
+}
+
+Answer ServerTest::Dance(const std::vector<v1::StreamDanceRequest>& requests) {
+  DanceClient client(stub());
+  for (const auto& request : requests) {
+    if (!client.Send(request)) break;
+  }
+  return client.Finish();
+}
+
+Answer ServerTest::Generate(const v1::GenerateTransitionRequest& request) {
+  grpc::ClientContext context;
+  const auto reader = stub().GenerateTransition(&context, request);
+  Answer answer;
+  v1::GenerateTransitionResponse response;
+  while (reader->Read(&response)) answer.Take(response);
+  answer.status = reader->Finish();
+  return answer;
+}
+
+std::string ServerTest::Music(double seconds) {
+  constexpr double kRate = 22'050;
+  const auto count = static_cast<size_t>(seconds * kRate);
+  std::string bytes(2 * count, '\0');
+  for (size_t i = 0; i < count; ++i) {
+    const double t = static_cast<double>(i) / kRate;
+    const double since_beat = std::fmod(t, 0.5);
+    const double tone = 220 * std::exp2(std::floor(std::fmod(t, 4) * 2) / 12);
+    const double value =
+        0.5 * std::exp(-8 * since_beat) * std::sin(2 * std::numbers::pi * tone * t);
+    const auto sample = static_cast<int16_t>(std::lround(32'000 * value));
+    bytes[2 * i] = static_cast<char>(sample & 0xFF);
+    bytes[2 * i + 1] = static_cast<char>((sample >> 8) & 0xFF);
+  }
+  return bytes;
+}
+
+v1::AudioFormat ServerTest::MusicFormat() {
+  v1::AudioFormat format;
+  format.set_encoding(v1::AUDIO_ENCODING_PCM_S16LE);
+  format.set_sample_rate(22'050);
+  format.set_channels(1);
+  return format;
+}
+
+void ServerTest::ExpectIdle() {
+  ExpectEventually([this] { return server->calls() == 0 && server->transitions() == 0; },
+                   "calls and slots return");
+}
+
+void ExpectEventually(const std::function<bool()>& condition, const std::string& what) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) {
+      ADD_FAILURE() << "never came about: " << what;
+      return;
+    }
+    std::this_thread::sleep_for(milliseconds(2));
+  }
+}
+
+Details DetailsOf(const grpc::Status& status) {
+  google::rpc::Status message;
+  EXPECT_TRUE(message.ParseFromString(status.error_details()));
+  EXPECT_EQ(message.code(), status.error_code());
+  EXPECT_EQ(message.message(), status.error_message());
+  Details details;
+  for (const auto& any : message.details()) {
+    if (any.Is<google::rpc::BadRequest>()) any.UnpackTo(&details.bad_request.emplace());
+    if (any.Is<google::rpc::ErrorInfo>()) any.UnpackTo(&details.error_info.emplace());
+    if (any.Is<google::rpc::RetryInfo>()) any.UnpackTo(&details.retry_info.emplace());
+  }
+  return details;
+}
+
+}  // namespace choreo

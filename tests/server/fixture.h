@@ -1,0 +1,147 @@
+#pragma once
+
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "choreo/v1/choreography.grpc.pb.h"
+#include "google/rpc/error_details.pb.h"
+#include "server/server.h"
+#include "tests/support/fake_engine.h"
+
+namespace choreo {
+
+/// What a test sees and does of an engine that the server owns.
+struct EngineProbe {
+  std::atomic<int> largest_batch = 0;
+  std::atomic<int64_t> frames = 0;
+  std::atomic<bool> closed = false;  ///< while true, no step is made
+};
+
+/// A FakeEngine that tells, and can be held up.
+class ProbedEngine final : public FakeEngine {
+ public:
+  ProbedEngine(int slots, std::string name, std::shared_ptr<EngineProbe> probe);
+  ~ProbedEngine() override;
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override;
+
+ private:
+  const std::shared_ptr<EngineProbe> probe_;
+};
+
+/// All that came back from a call.
+struct Answer {
+  std::optional<v1::Header> header;
+  std::vector<v1::Frames> frames;  ///< as the messages had them
+  std::vector<v1::Event> events;
+  std::vector<v1::Continuation> continuations;
+  std::optional<v1::DanceSummary> summary;
+  std::optional<v1::TransitionSummary> transition_summary;
+  grpc::Status status;
+
+  /// Numbers of a candidate's frames, joined; also checks that they come without gaps, from the
+  /// first one on.
+  struct Joined {
+    int64_t first_frame = 0;
+    int64_t count = 0;
+    std::vector<float> root_positions, rotations, contacts;
+    bool operator==(const Joined&) const = default;
+  };
+  Joined Join(uint32_t candidate = 0) const;
+
+  void Take(const v1::StreamDanceResponse& response);
+  void Take(const v1::GenerateTransitionResponse& response);
+};
+
+/// A StreamDance, read and written by the test's own thread.
+class DanceClient {
+ public:
+  explicit DanceClient(v1::Choreography::Stub& stub,
+                       std::optional<std::chrono::milliseconds> deadline = std::nullopt);
+  ~DanceClient();
+
+  grpc::ClientContext context;
+
+  bool Send(const v1::StreamDanceRequest& request) { return stream_->Write(request); }
+  bool Send(const v1::DanceConfig& config);
+  bool SendKeyframe(const v1::Keyframe& keyframe);
+  bool SendAudio(const std::string& bytes, int64_t first_sample);
+  bool SendKeyframesComplete();
+  bool SendEndOfAudio();
+  bool SendGenerateUntil(int64_t frame);
+  void HalfClose();
+  /// Cancels and reads to the end.
+  const Answer& Cancel();
+
+  /// Reads until this many frames have come in all; false if the stream ended before.
+  bool ReadFrames(int64_t count);
+  bool ReadHeader();
+  /// Half-closes, unless that was done, and reads all that is left.
+  const Answer& Finish();
+  const Answer& answer() const { return answer_; }
+
+ private:
+  bool ReadOne();
+
+  std::unique_ptr<grpc::ClientReaderWriter<v1::StreamDanceRequest, v1::StreamDanceResponse>>
+      stream_;
+  Answer answer_;
+  int64_t frames_ = 0;
+  bool half_closed_ = false;
+  bool finished_ = false;
+};
+
+/// A server and a client of it.
+class ServerTest : public ::testing::Test {
+ protected:
+  ~ServerTest() override;
+
+  /// Starts the server with models of these names, and connects to it.
+  void Start(int slots = 16, std::function<void(ServerConfig&)> change = {},
+             const std::vector<std::string>& names = {"fake"});
+  v1::Choreography::Stub& stub();
+
+  static v1::DanceConfig Config(uint64_t seed = 7);
+  /// At rest, its root moved over the floor and its left elbow bent.
+  static v1::Pose KeyPose(double x, double z, float elbow);
+  static v1::Keyframe Key(const std::string& id, int64_t frame, double x = 0.3, double z = 0.4,
+                          float elbow = 0.8F);
+  /// With a config, a key and the end, what comes of it.
+  Answer Dance(const std::vector<v1::StreamDanceRequest>& requests);
+  Answer Generate(const v1::GenerateTransitionRequest& request);
+
+  /// Mono 16-bit PCM of a melody with a beat, 22 050 Hz.
+  static std::string Music(double seconds);
+  static v1::AudioFormat MusicFormat();
+
+  /// Waits until no call and no transition is in progress.
+  void ExpectIdle();
+
+  std::shared_ptr<EngineProbe> probe = std::make_shared<EngineProbe>();
+  std::unique_ptr<Server> server;
+  std::shared_ptr<grpc::Channel> channel;
+
+ private:
+  std::unique_ptr<v1::Choreography::Stub> stub_;
+};
+
+/// Polls, for things that other threads bring about; fails after ten seconds.
+void ExpectEventually(const std::function<bool()>& condition, const std::string& what);
+
+/// Details of a status, as clients read them.
+struct Details {
+  std::optional<google::rpc::BadRequest> bad_request;
+  std::optional<google::rpc::ErrorInfo> error_info;
+  std::optional<google::rpc::RetryInfo> retry_info;
+};
+Details DetailsOf(const grpc::Status& status);
+
+}  // namespace choreo

@@ -1,0 +1,127 @@
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/support/byte_buffer.h>
+
+#include <condition_variable>
+#include <mutex>
+
+#include "tests/server/fixture.h"
+
+namespace choreo {
+namespace {
+
+// Health and reflection are called with raw bytes: their messages are not ours to generate.
+std::string CallRaw(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
+                    const std::string& request, bool stream) {
+  grpc::GenericStub stub(channel);
+  grpc::ClientContext context;
+  grpc::CompletionQueue queue;
+  const auto call = stub.PrepareCall(&context, method, &queue);
+  auto next = [&queue] {
+    void* tag = nullptr;
+    bool ok = false;
+    return queue.Next(&tag, &ok) && ok;
+  };
+  call->StartCall(nullptr);
+  EXPECT_TRUE(next());
+  const grpc::Slice slice(request);
+  call->Write(grpc::ByteBuffer(&slice, 1), nullptr);
+  EXPECT_TRUE(next());
+  if (!stream) {
+    call->WritesDone(nullptr);
+    EXPECT_TRUE(next());
+  }
+  grpc::ByteBuffer answer;
+  call->Read(&answer, nullptr);
+  EXPECT_TRUE(next());
+  grpc::Slice flat;
+  EXPECT_TRUE(answer.DumpToSingleSlice(&flat).ok());
+  if (stream) context.TryCancel();
+  grpc::Status status;
+  call->Finish(&status, nullptr);
+  EXPECT_TRUE(next());
+  return {reinterpret_cast<const char*>(flat.begin()), flat.size()};
+}
+
+class InfoTest : public ServerTest {};
+
+TEST_F(InfoTest, TellsModelLimitsAndDevices) {
+  Start(5);
+  grpc::ClientContext context;
+  v1::GetServerInfoResponse info;
+  ASSERT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
+  ASSERT_EQ(info.models_size(), 1);
+  const v1::ModelInfo& model = info.models(0);
+  EXPECT_EQ(model.name(), "fake");
+  EXPECT_EQ(model.fingerprint(), "fake-1");
+  EXPECT_EQ(model.skeleton().joint_names_size(), 24);
+  EXPECT_EQ(model.skeleton().offsets_size(), 72);
+  EXPECT_EQ(model.skeleton().parents(0), -1);
+  EXPECT_EQ(model.model_frame_rate(), 30);
+  EXPECT_EQ(model.history_frames(), 10);
+  EXPECT_EQ(model.controls_size(), 0);
+  // Ten frames of history and half a window, at least.
+  EXPECT_GT(model.audio_lead_s(), 10.0 / 30 + 1024.0 / 22050 - 1e-9);
+  EXPECT_LT(model.audio_lead_s(), 0.5);
+  EXPECT_GE(model.latency_frames(), 2);
+  EXPECT_EQ(info.limits().max_message_bytes(), 16 << 20);
+  EXPECT_EQ(info.limits().max_keyframes(), 1000);
+  EXPECT_EQ(info.limits().max_candidates(), 32);
+  ASSERT_EQ(info.devices_size(), 1);
+  EXPECT_EQ(info.devices(0), "fake:0");
+  EXPECT_EQ(info.slots(), 5);
+  EXPECT_EQ(info.version(), "0.1.0");
+}
+
+TEST_F(InfoTest, SeveralModels) {
+  Start(1, {}, {"first", "second"});
+  auto dancer = [this](const std::string& model) {
+    DanceClient client(stub());
+    v1::DanceConfig config = Config();
+    config.set_model(model);
+    client.Send(config);
+    client.SendKeyframe(Key("a", 5));
+    const Answer& answer = client.Finish();
+    EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
+    return answer.header ? answer.header->model() : "";
+  };
+  EXPECT_EQ(dancer(""), "first");
+  EXPECT_EQ(dancer("second"), "second");
+  EXPECT_THROW(Start(1, {}, {"twin", "twin"}), Error);
+}
+
+TEST_F(InfoTest, APortThatIsTakenIsNamed) {
+  Start();
+  ServerConfig config;
+  config.listen = "127.0.0.1:" + std::to_string(server->port());
+  std::vector<Server::Engines> models(1);
+  models[0].push_back(std::make_unique<FakeEngine>(1));
+  try {
+    const Server second(config, std::move(models));
+    FAIL() << "two servers listen on one port";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kUnavailable);
+    EXPECT_NE(std::string(error.what()).find(config.listen), std::string::npos);
+  }
+}
+
+TEST_F(InfoTest, HealthServes) {
+  Start();
+  const std::string serving("\x08\x01", 2);  // HealthCheckResponse{status: SERVING}
+  EXPECT_EQ(CallRaw(channel, "/grpc.health.v1.Health/Check", "", false), serving);
+  const std::string name = v1::Choreography::service_full_name();
+  const std::string request = std::string("\x0a") + static_cast<char>(name.size()) + name;
+  EXPECT_EQ(CallRaw(channel, "/grpc.health.v1.Health/Check", request, false), serving);
+}
+
+TEST_F(InfoTest, ReflectionListsTheService) {
+  Start();
+  const std::string list_services("\x3a\x00", 2);
+  const std::string answer =
+      CallRaw(channel, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo",
+              list_services, true);
+  EXPECT_NE(answer.find("choreo.v1.Choreography"), std::string::npos);
+  EXPECT_NE(answer.find("grpc.health.v1.Health"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,172 @@
+#include <thread>
+
+#include "tests/server/fixture.h"
+
+namespace choreo {
+namespace {
+
+using std::chrono::milliseconds;
+
+class LifecycleTest : public ServerTest {
+ protected:
+  // A dance that waits for more of its music.
+  std::unique_ptr<DanceClient> OpenEndedDance(std::optional<milliseconds> deadline = std::nullopt) {
+    auto client = std::make_unique<DanceClient>(stub(), deadline);
+    v1::DanceConfig config = Config();
+    *config.mutable_audio_format() = MusicFormat();
+    client->Send(config);
+    client->SendKeyframesComplete();
+    client->SendAudio(Music(1), 0);
+    return client;
+  }
+
+  void ExpectServes() {
+    DanceClient client(stub());
+    client.Send(Config());
+    client.SendKeyframe(Key("a", 20));
+    EXPECT_TRUE(client.Finish().status.ok());
+  }
+};
+
+TEST_F(LifecycleTest, ACancelledDanceGivesItsSlotBack) {
+  Start(/*slots=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
+  for (int round = 0; round < 3; ++round) {
+    const auto client = OpenEndedDance();
+    ASSERT_TRUE(client->ReadFrames(10));
+    EXPECT_EQ(server->transitions(), 1);
+    EXPECT_EQ(client->Cancel().status.error_code(), grpc::StatusCode::CANCELLED);
+    ExpectIdle();
+  }
+  ExpectServes();
+}
+
+TEST_F(LifecycleTest, ADeadlineGivesTheSlotBack) {
+  Start(/*slots=*/1);
+  const auto client = OpenEndedDance(milliseconds(300));
+  EXPECT_FALSE(client->ReadFrames(1'000));  // waits for music that never comes
+  EXPECT_EQ(client->Finish().status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+  ExpectIdle();
+}
+
+TEST_F(LifecycleTest, CancelledTransitionsGiveTheirSlotsBack) {
+  Start(/*slots=*/4);
+  probe->closed = true;
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(1000);
+  request.set_candidates(8);  // more than slots
+  grpc::ClientContext context;
+  const auto reader = stub().GenerateTransition(&context, request);
+  ExpectEventually([this] { return server->transitions() == 8; }, "8 transitions");
+  context.TryCancel();
+  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  probe->closed = false;
+  ExpectIdle();
+  ExpectServes();
+}
+
+TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
+  Start(16, [](ServerConfig& config) { config.max_streams = 2; });
+  const auto first = OpenEndedDance();
+  const auto second = OpenEndedDance();
+  ASSERT_TRUE(first->ReadFrames(5));
+  ASSERT_TRUE(second->ReadFrames(5));
+  DanceClient third(stub());
+  third.Send(Config());
+  const grpc::Status refused = third.Finish().status;
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_NE(refused.error_message().find('2'), std::string::npos);
+  const Details details = DetailsOf(refused);
+  ASSERT_TRUE(details.retry_info);
+  EXPECT_GE(details.retry_info->retry_delay().seconds(), 1);
+  EXPECT_EQ(details.error_info->reason(), "SERVER_FULL");
+
+  first->Cancel();
+  ExpectEventually([this] { return server->calls() == 1; }, "the place is free");
+  ExpectServes();
+}
+
+TEST_F(LifecycleTest, TransitionsBeyondTheSlotsAreRefused) {
+  Start(/*slots=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
+  const auto first = OpenEndedDance();
+  ASSERT_TRUE(first->ReadFrames(5));
+  DanceClient second(stub());
+  second.Send(Config());
+  second.SendKeyframe(Key("a", 20));
+  const grpc::Status refused = second.Finish().status;
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_TRUE(DetailsOf(refused).retry_info);
+}
+
+// Nothing is read: HTTP/2 fills, the outbox fills, the dance pauses. Then all of it comes.
+TEST_F(LifecycleTest, AClientThatDoesNotReadPausesItsDanceAlone) {
+  Start(4, [](ServerConfig& config) { config.outbox_kib = 16; });
+  DanceClient slow(stub());
+  v1::DanceConfig config = Config();
+  config.set_encoding(v1::ROTATION_ENCODING_MATRIX);  // 900 bytes a frame
+  config.set_frames(20'000);
+  slow.Send(config);
+  slow.SendKeyframesComplete();
+  int64_t before = -1;
+  ExpectEventually(
+      [&] {
+        const int64_t now = probe->frames;
+        const bool still = now == before && now > 0;
+        before = now;
+        std::this_thread::sleep_for(milliseconds(50));
+        return still;
+      },
+      "the dance pauses");
+  EXPECT_LT(probe->frames, 19'000);
+  ExpectServes();
+  const Answer& answer = slow.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join().count, 20'000);
+}
+
+TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
+  Start();
+  probe->closed = true;
+  DanceClient brief(stub());
+  brief.Send(Config());
+  brief.SendKeyframe(Key("a", 60));
+  brief.HalfClose();
+  ExpectEventually([this] { return server->transitions() == 1; }, "the dance is under way");
+  const auto endless = OpenEndedDance();
+  ExpectEventually([this] { return server->transitions() == 2; }, "the other dance too");
+
+  std::thread drain([this] { server->Drain(1.0); });
+  grpc::Status refused;
+  ExpectEventually(
+      [&] {
+        DanceClient late(stub());
+        late.Send(Config());
+        late.SendKeyframe(Key("a", 5));
+        refused = late.Finish().status;
+        return !refused.ok();
+      },
+      "new calls are refused");
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::UNAVAILABLE);
+  probe->closed = false;
+  const Answer& answer = brief.Finish();
+  EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join().count, 61);
+
+  ASSERT_TRUE(endless->ReadFrames(20));
+  while (endless->ReadFrames(1'000'000)) {
+  }
+  EXPECT_EQ(endless->Finish().status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  drain.join();
+  EXPECT_EQ(server->calls(), 0);
+}
+
+TEST_F(LifecycleTest, AServerMayGoWithCallsInProgress) {
+  Start();
+  const auto client = OpenEndedDance();
+  ASSERT_TRUE(client->ReadFrames(5));
+  server.reset();
+  EXPECT_FALSE(client->Finish().status.ok());
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,132 @@
+#include "server/outbox.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "choreo/v1/choreography.pb.h"
+
+namespace choreo {
+namespace {
+
+using Response = v1::StreamDanceResponse;
+
+struct RecordingWire : Outbox<Response>::Wire {
+  void Write(const Response* message) override {
+    EXPECT_FALSE(status) << "a write after the end";
+    written.push_back(*message);
+  }
+  void Finish(const grpc::Status& end) override {
+    EXPECT_FALSE(status) << "finished twice";
+    status = end;
+  }
+  std::vector<Response> written;
+  std::optional<grpc::Status> status;
+};
+
+Response Frames(int64_t first, int count, uint32_t candidate = 0) {
+  Response response;
+  auto* frames = response.mutable_frames();
+  frames->set_first_frame(first);
+  frames->set_count(count);
+  frames->set_candidate(candidate);
+  for (int i = 0; i < 3 * count; ++i) frames->add_root_positions(static_cast<float>(first + i / 3));
+  return response;
+}
+
+class OutboxTest : public testing::Test {
+ protected:
+  static constexpr size_t kMaxBytes = 1000;
+  RecordingWire wire;
+  std::vector<bool> pauses;
+  Outbox<Response> outbox{&wire, kMaxBytes, [this](bool paused) { pauses.push_back(paused); }};
+};
+
+TEST_F(OutboxTest, OneWriteAtATimeThenTheEnd) {
+  Response header;
+  header.mutable_header()->set_model("m");
+  outbox.Send(header);
+  outbox.Send(Frames(0, 1));
+  EXPECT_EQ(wire.written.size(), 1U);
+  outbox.Close(grpc::Status::OK);
+  outbox.Send(Frames(1, 1));  // too late
+  EXPECT_FALSE(outbox.open());
+  outbox.OnWriteDone(true);
+  EXPECT_EQ(wire.written.size(), 2U);
+  EXPECT_FALSE(wire.status);
+  outbox.OnWriteDone(true);
+  ASSERT_TRUE(wire.status);
+  EXPECT_TRUE(wire.status->ok());
+  EXPECT_EQ(wire.written.size(), 2U);
+}
+
+TEST_F(OutboxTest, FramesThatWaitAreJoined) {
+  outbox.Send(Frames(0, 1));  // on its way
+  for (int i = 1; i <= 70; ++i) outbox.Send(Frames(i, 1));
+  outbox.Send(Frames(0, 1, 1));  // of another candidate
+  outbox.Send(Frames(5, 1, 1));  // not the next one
+  std::vector<std::pair<int64_t, int>> parts;
+  for (size_t i = 0; i < wire.written.size(); ++i) {
+    const auto& frames = wire.written[i].frames();
+    parts.emplace_back(frames.first_frame(), frames.count());
+    EXPECT_EQ(frames.root_positions_size(), 3 * frames.count());
+    outbox.OnWriteDone(true);
+  }
+  EXPECT_EQ(parts,
+            (std::vector<std::pair<int64_t, int>>{{0, 1}, {1, 60}, {61, 10}, {0, 1}, {5, 1}}));
+}
+
+TEST_F(OutboxTest, ASlowClientPausesTheDance) {
+  int64_t frame = 0;
+  while (pauses.empty()) {
+    outbox.Send(Frames(frame, 10));
+    frame += 10;
+    ASSERT_LT(frame, 1000);
+  }
+  EXPECT_EQ(pauses, (std::vector<bool>{true}));
+  while (pauses.size() < 2 && wire.written.size() < 100) outbox.OnWriteDone(true);
+  EXPECT_EQ(pauses, (std::vector<bool>{true, false}));
+}
+
+TEST_F(OutboxTest, AbortDropsWhatWaits) {
+  outbox.Send(Frames(0, 1));
+  outbox.Send(Frames(1, 1));
+  outbox.Abort({grpc::StatusCode::UNAVAILABLE, "draining"});
+  EXPECT_FALSE(wire.status) << "finished with a write on its way";
+  outbox.OnWriteDone(true);
+  ASSERT_TRUE(wire.status);
+  EXPECT_EQ(wire.status->error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(wire.written.size(), 1U);
+}
+
+TEST_F(OutboxTest, AFailedWriteEndsTheCall) {
+  outbox.Send(Frames(0, 1));
+  outbox.Send(Frames(1, 1));
+  outbox.OnWriteDone(false);
+  ASSERT_TRUE(wire.status);
+  EXPECT_EQ(wire.status->error_code(), grpc::StatusCode::CANCELLED);
+}
+
+TEST_F(OutboxTest, TheFirstEndCounts) {
+  outbox.Send(Frames(0, 1));
+  outbox.Close({grpc::StatusCode::INVALID_ARGUMENT, "first"});
+  outbox.Close(grpc::Status::OK);
+  outbox.Abort({grpc::StatusCode::CANCELLED, "third"});
+  outbox.OnWriteDone(true);
+  ASSERT_TRUE(wire.status);
+  EXPECT_EQ(wire.status->error_message(), "first");
+  EXPECT_EQ(outbox.status().error_message(), "first");
+}
+
+TEST_F(OutboxTest, AHoldDefersTheEnd) {
+  {
+    const Outbox<Response>::Hold hold(outbox);
+    outbox.Close(grpc::Status::OK);
+    EXPECT_FALSE(wire.status);
+  }
+  EXPECT_TRUE(wire.status);
+}
+
+}  // namespace
+}  // namespace choreo

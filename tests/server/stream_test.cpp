@@ -1,0 +1,348 @@
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "model/motion/kinematics.h"
+#include "tests/server/fixture.h"
+
+namespace choreo {
+namespace {
+
+class StreamTest : public ServerTest {
+ protected:
+  v1::DanceConfig MusicConfig(uint64_t seed = 7) {
+    v1::DanceConfig config = Config(seed);
+    *config.mutable_audio_format() = MusicFormat();
+    return config;
+  }
+
+  // A dance with music and two keys; `chunk` bytes of music a message.
+  Answer MusicDance(uint64_t seed, size_t chunk, double seconds = 3) {
+    DanceClient client(stub());
+    client.Send(MusicConfig(seed));
+    client.SendKeyframe(Key("a", 30));
+    client.SendKeyframe(Key("b", 70, -0.2, 0.9, 1.5F));
+    const std::string music = Music(seconds);
+    for (size_t at = 0; at < music.size(); at += chunk) {
+      client.SendAudio(music.substr(at, chunk), static_cast<int64_t>(at / 2));
+    }
+    client.SendEndOfAudio();
+    client.SendKeyframesComplete();
+    return client.Finish();
+  }
+
+  static std::vector<std::string> ReachedKeys(const Answer& answer) {
+    std::vector<std::string> ids;
+    for (const v1::Event& event : answer.events) {
+      if (event.has_keyframe_reached()) ids.push_back(event.keyframe_reached().id());
+    }
+    return ids;
+  }
+};
+
+TEST_F(StreamTest, DancesThroughItsKeys) {
+  Start();
+  DanceClient client(stub());
+  client.Send(Config());
+  client.SendKeyframe(Key("a", 40));
+  client.SendKeyframe(Key("b", 90, -0.2, 0.9, 1.5F));
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+
+  ASSERT_TRUE(answer.header);
+  EXPECT_EQ(answer.header->model(), "fake");
+  EXPECT_EQ(answer.header->fingerprint(), "fake-1");
+  EXPECT_EQ(answer.header->seed(), 7U);
+  EXPECT_EQ(answer.header->frame_rate(), 30);
+  EXPECT_EQ(answer.header->encoding(), v1::ROTATION_ENCODING_AXIS_ANGLE);
+  EXPECT_EQ(answer.header->skeleton().joint_names_size(), 24);
+  EXPECT_TRUE(answer.header->exact_resume());
+
+  const Answer::Joined joined = answer.Join();
+  EXPECT_EQ(joined.first_frame, 0);
+  ASSERT_EQ(joined.count, 91);
+  ASSERT_EQ(joined.rotations.size(), 91U * 72U);
+  // The frame of key a is key a.
+  EXPECT_NEAR(joined.root_positions[40 * 3 + 0], 0.3, 1e-5);
+  EXPECT_NEAR(joined.root_positions[40 * 3 + 2], 0.4, 1e-5);
+  const auto elbow = static_cast<size_t>(Skeleton::Smpl24().left_elbow);
+  EXPECT_NEAR(joined.rotations[40 * 72 + 3 * elbow + 1], 0.8, 1e-5);
+  EXPECT_NEAR(joined.rotations[90 * 72 + 3 * elbow + 1], 1.5, 1e-5);
+
+  EXPECT_EQ(ReachedKeys(answer), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(answer.continuations.size(), 2U);
+  EXPECT_EQ(answer.continuations[0].frame(), 41);
+  EXPECT_EQ(answer.continuations[0].seed(), 7U);
+  EXPECT_EQ(answer.continuations[0].root_positions_size(), 30);
+
+  ASSERT_TRUE(answer.summary);
+  const v1::QualityReport& report = answer.summary->report();
+  EXPECT_EQ(report.frames(), 91);
+  ASSERT_EQ(report.keyframes_size(), 2);
+  EXPECT_EQ(report.keyframes(1).id(), "b");
+  EXPECT_EQ(report.keyframes(1).frame(), 90);
+  EXPECT_GT(report.keyframes(1).errors().raw_error_m(), 0);
+  EXPECT_LE(report.keyframes(1).errors().final_error_m(), 1e-3);
+  EXPECT_LE(report.keyframes(1).errors().final_error_deg(), 0.1);
+  EXPECT_FALSE(report.has_beat_hit_rate());
+  EXPECT_GT(answer.summary->timing().first_frame_latency_s(), 0);
+  EXPECT_GT(answer.summary->timing().real_time_factor(), 0);
+  ExpectIdle();
+}
+
+TEST_F(StreamTest, FramesFlowWhileMusicArrives) {
+  Start();
+  DanceClient client(stub());
+  client.Send(MusicConfig());
+  client.SendKeyframesComplete();
+  const std::string music = Music(4);
+  const size_t half = music.size() / 4 * 2;  // two seconds, whole samples
+  client.SendAudio(music.substr(0, half), 0);
+  // Nothing else is sent: two seconds of music make frames, but for the declared latency.
+  ASSERT_TRUE(client.ReadHeader());
+  const int ready = 60 - client.answer().header->latency_frames();
+  ASSERT_GT(ready, 30);
+  ASSERT_TRUE(client.ReadFrames(ready));
+  EXPECT_FALSE(client.answer().summary);
+
+  client.SendAudio(music.substr(half), static_cast<int64_t>(half / 2));
+  client.SendEndOfAudio();
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join().count, 120);
+  EXPECT_TRUE(answer.summary);
+}
+
+TEST_F(StreamTest, ChunksAndTimingDoNotMatter) {
+  Start();
+  const Answer whole = MusicDance(3, 1 << 20);
+  ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
+  const Answer parts = MusicDance(3, 2 * 1237);
+  EXPECT_EQ(whole.Join().count, 90);
+  EXPECT_TRUE(whole.Join() == parts.Join());
+  EXPECT_FALSE(whole.Join() == MusicDance(4, 1 << 20).Join()) << "the seed does nothing";
+}
+
+TEST_F(StreamTest, SameBitsAloneAndAmongFifteenOthers) {
+  Start(16);
+  const Answer alone = MusicDance(11, 8192);
+  ASSERT_TRUE(alone.status.ok()) << alone.status.error_message();
+
+  constexpr int kStreams = 16;
+  probe->closed = true;  // until all are in their slots
+  std::vector<Answer> answers(kStreams);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < kStreams; ++i) {
+    threads.emplace_back(
+        [&, i] { answers[static_cast<size_t>(i)] = MusicDance(i == 5 ? 11 : 100 + i, 8192); });
+  }
+  ExpectEventually([this] { return server->transitions() == kStreams; }, "16 transitions");
+  probe->closed = false;
+  for (auto& thread : threads) thread.join();
+  for (int i = 0; i < kStreams; ++i) {
+    const Answer& answer = answers[static_cast<size_t>(i)];
+    ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+    EXPECT_EQ(answer.Join() == alone.Join(), i == 5) << i;
+  }
+  EXPECT_GE(probe->largest_batch, kStreams - 1) << "streams are not stepped together";
+  ExpectIdle();
+}
+
+TEST_F(StreamTest, ResumesBitForBit) {
+  Start();
+  const std::string music = Music(3);
+  const Answer whole = MusicDance(21, 1 << 20);
+  ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
+  ASSERT_GE(whole.continuations.size(), 2U);
+  const v1::Continuation& from = whole.continuations[0];
+  EXPECT_EQ(from.frame(), 31);
+  EXPECT_GT(from.audio_from_sample(), 0);
+
+  DanceClient client(stub());
+  v1::DanceConfig config;  // its seed comes with the continuation
+  *config.mutable_audio_format() = MusicFormat();
+  config.mutable_audio_format()->set_first_sample(from.audio_from_sample());
+  *config.mutable_continuation() = from;
+  client.Send(config);
+  client.SendKeyframe(Key("a", 30));  // lies behind
+  client.SendKeyframe(Key("b", 70, -0.2, 0.9, 1.5F));
+  client.SendAudio(music.substr(static_cast<size_t>(2 * from.audio_from_sample())),
+                   from.audio_from_sample());
+  client.SendEndOfAudio();
+  client.SendKeyframesComplete();
+  const Answer& resumed = client.Finish();
+  ASSERT_TRUE(resumed.status.ok()) << resumed.status.error_message();
+  EXPECT_EQ(resumed.header->seed(), 21U);
+  EXPECT_EQ(resumed.header->first_frame(), 31);
+  EXPECT_EQ(ReachedKeys(resumed), (std::vector<std::string>{"b"}));
+
+  const Answer::Joined all = whole.Join();
+  const Answer::Joined rest = resumed.Join();
+  ASSERT_EQ(rest.first_frame, 31);
+  ASSERT_EQ(rest.count, all.count - 31);
+  EXPECT_TRUE(std::equal(rest.rotations.begin(), rest.rotations.end(),
+                         all.rotations.begin() + std::ptrdiff_t{31} * 72));
+  EXPECT_TRUE(std::equal(rest.root_positions.begin(), rest.root_positions.end(),
+                         all.root_positions.begin() + std::ptrdiff_t{31} * 3));
+}
+
+TEST_F(StreamTest, AnotherFingerprintIsRefusedUnlessAllowed) {
+  Start();
+  const Answer whole = MusicDance(21, 1 << 20);
+  ASSERT_FALSE(whole.continuations.empty());
+  v1::DanceConfig config = Config();
+  *config.mutable_continuation() = whole.continuations[0];
+  config.mutable_continuation()->set_fingerprint("other");
+  config.set_frames(60);
+  v1::StreamDanceRequest request;
+  *request.mutable_config() = config;
+  const Answer refused = Dance({request});
+  EXPECT_EQ(refused.status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_NE(refused.status.error_message().find("other"), std::string::npos);
+
+  request.mutable_config()->set_allow_inexact_resume(true);
+  const Answer allowed = Dance({request});
+  ASSERT_TRUE(allowed.status.ok()) << allowed.status.error_message();
+  EXPECT_FALSE(allowed.header->exact_resume());
+  ASSERT_FALSE(allowed.events.empty());
+  EXPECT_EQ(allowed.events[0].warning().code(), v1::WARNING_CODE_INEXACT_RESUME);
+
+  request.mutable_config()->mutable_continuation()->set_skeleton("spider8");
+  EXPECT_EQ(Dance({request}).status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+}
+
+TEST_F(StreamTest, LateKeysAreRejectedByEvent) {
+  Start();
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  config.set_frames(120);
+  client.Send(config);
+  client.SendGenerateUntil(1);  // keys will be edited
+  client.SendKeyframe(Key("a", 50));
+  client.SendKeyframe(Key("b", 100));
+  client.SendGenerateUntil(60);
+  ASSERT_TRUE(client.ReadFrames(51));
+  client.SendKeyframe(Key("late", 20));
+  client.SendKeyframe(Key("b", 90));  // moved, in time
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join().count, 120);
+  const auto rejected = std::find_if(answer.events.begin(), answer.events.end(),
+                                     [](const auto& e) { return e.has_keyframe_rejected(); });
+  ASSERT_NE(rejected, answer.events.end());
+  EXPECT_EQ(rejected->frame(), 20);
+  EXPECT_EQ(rejected->keyframe_rejected().id(), "late");
+  EXPECT_GE(rejected->keyframe_rejected().earliest_frame(), 60);
+  ASSERT_EQ(answer.summary->report().keyframes_size(), 2);
+  EXPECT_EQ(answer.summary->report().keyframes(1).frame(), 90);
+}
+
+TEST_F(StreamTest, TimesAndIntervalsPlaceKeys) {
+  Start();
+  DanceClient client(stub());
+  client.Send(Config());
+  v1::Keyframe first = Key("first", 0);
+  first.set_time(1.01);  // nearest frame: 30
+  client.SendKeyframe(first);
+  v1::Keyframe second = Key("second", 0, 0.1, 0.5);
+  second.set_interval_after_previous(25);
+  client.SendKeyframe(second);
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  ASSERT_EQ(answer.summary->report().keyframes_size(), 2);
+  EXPECT_EQ(answer.summary->report().keyframes(0).frame(), 30);
+  EXPECT_EQ(answer.summary->report().keyframes(1).frame(), 55);
+}
+
+TEST_F(StreamTest, MaskedKeysLeaveTheRestAlone) {
+  Start();
+  const auto elbow = static_cast<size_t>(Skeleton::Smpl24().left_elbow);
+  auto dance = [&](float other_elbow) {
+    v1::Keyframe key = Key("masked", 40);
+    key.mutable_pose()->clear_root_position();
+    key.mutable_mask()->add_joints(static_cast<int>(elbow));
+    const int right = 3 * Skeleton::Smpl24().right_elbow + 1;
+    key.mutable_pose()->set_rotations(right, other_elbow);  // masked out
+    DanceClient client(stub());
+    client.Send(Config());
+    client.SendKeyframe(key);
+    return client.Finish();
+  };
+  const Answer answer = dance(0);
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  const Answer::Joined joined = answer.Join();
+  EXPECT_NEAR(joined.rotations[40 * 72 + 3 * elbow + 1], 0.8, 1e-5);
+  EXPECT_TRUE(joined == dance(1.2F).Join());
+}
+
+TEST_F(StreamTest, OutputRateAndEncoding) {
+  Start();
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  config.set_frame_rate(60);
+  config.set_encoding(v1::ROTATION_ENCODING_QUATERNION);
+  client.Send(config);
+  client.SendKeyframe(Key("a", 30));
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.header->frame_rate(), 60);
+  EXPECT_EQ(answer.header->model_frame_rate(), 30);
+  EXPECT_EQ(answer.header->encoding(), v1::ROTATION_ENCODING_QUATERNION);
+  const Answer::Joined joined = answer.Join();
+  EXPECT_EQ(joined.count, 61);
+  ASSERT_EQ(joined.rotations.size(), static_cast<size_t>(joined.count) * 96);
+  for (size_t i = 0; i < joined.rotations.size(); i += 4) {
+    const float* q = &joined.rotations[i];
+    ASSERT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1, 1e-5);
+  }
+}
+
+// A WAV file in pieces, its bytes cut anywhere, dances as its samples do.
+TEST_F(StreamTest, FilesDanceAsTheirSamples) {
+  Start();
+  const std::string music = Music(3);
+  auto number = [](uint32_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
+    return text;
+  };
+  const auto size = static_cast<uint32_t>(music.size());
+  const std::string file = "RIFF" + number(36 + size, 4) + "WAVEfmt " + number(16, 4) +
+                           number(1, 2) + number(1, 2) + number(22'050, 4) + number(44'100, 4) +
+                           number(2, 2) + number(16, 2) + "data" + number(size, 4) + music;
+  DanceClient client(stub());
+  v1::DanceConfig config = Config(13);
+  config.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
+  client.Send(config);
+  client.SendKeyframe(Key("a", 30));
+  client.SendKeyframe(Key("b", 70, -0.2, 0.9, 1.5F));
+  constexpr size_t kPiece = 33'333;
+  for (size_t at = 0; at < file.size(); at += kPiece) {
+    client.SendAudio(file.substr(at, kPiece), static_cast<int64_t>(at));
+  }
+  const Answer& answer = client.Finish();  // half-closing ends file and keys
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_TRUE(answer.Join() == MusicDance(13, 1 << 20).Join());
+  // The server knows the beats of a file: every half second.
+  std::vector<double> beats;
+  for (const auto& event : answer.events) {
+    if (event.has_beat()) beats.push_back(event.time());
+  }
+  ASSERT_GE(beats.size(), 3U);
+  for (size_t i = 1; i < beats.size(); ++i) EXPECT_NEAR(beats[i] - beats[i - 1], 0.5, 0.06);
+  EXPECT_TRUE(answer.summary->report().has_beat_coverage());
+}
+
+TEST_F(StreamTest, WithoutASeedOneIsDrawnAndReported) {
+  Start();
+  auto seed = [this] {
+    DanceClient client(stub());
+    client.Send(v1::DanceConfig());
+    client.SendKeyframe(Key("a", 5));
+    return client.Finish().header->seed();
+  };
+  EXPECT_NE(seed(), seed());
+}
+
+}  // namespace
+}  // namespace choreo
