@@ -12,6 +12,7 @@ namespace {
 // Knees and elbows: least bend that is asked for, and the most that a body allows.
 constexpr double kLeastBend = 0.03;
 constexpr double kMostBend = 2.7;
+constexpr double kSineOfSureBend = 0.3;
 
 Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
   Eigen::Matrix3d k;
@@ -79,8 +80,9 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
         AxisInformation(skeleton_.offsets.col(ankle), options.foot_turn_rad, options.rest_rad);
   }
   const int unknowns = 3 + 3 * joints;
-  jacobian_.setZero(3 * marks_.size(), unknowns);
-  residual_.resize(3 * marks_.size());
+  const int rows = 3 * (marks_.size() + static_cast<int>(hinges_.size()));
+  jacobian_.setZero(rows, unknowns);
+  residual_.resize(rows);
   normal_.resize(unknowns, unknowns);
   damped_.resize(unknowns, unknowns);
   gradient_.resize(unknowns);
@@ -99,6 +101,20 @@ void FitProblem::SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towa
   prior.information = AxisInformation(axis, options_.rest_rad, options_.hinge_side_rad);
   if (upper < 0) return;
   priors_[upper].hinge_child = hinge;
+  const int upper_mark = marks_.AtJoint(upper);
+  const int hinge_mark = marks_.AtJoint(hinge);
+  for (int end = 0; end < marks_.size() && upper_mark >= 0 && hinge_mark >= 0; ++end) {
+    if (marks_[end].parent != hinge_mark) continue;
+    hinges_.push_back({.upper_joint = upper,
+                       .hinge_joint = hinge,
+                       .upper_mark = upper_mark,
+                       .hinge_mark = hinge_mark,
+                       .end_mark = end,
+                       .axis = prior.hinge_axis,
+                       .normal = Eigen::Vector3d::Zero(),
+                       .weight = 0});
+    break;
+  }
   priors_[upper].information = AxisInformation(bone, options_.twist_rad, options_.rest_rad);
 }
 
@@ -107,6 +123,20 @@ bool FitProblem::IsBelow(int joint, int ancestor) const {
     if (joint == ancestor) return true;
   }
   return false;
+}
+
+void FitProblem::AimHinges(const Eigen::Matrix3Xd& targets) {
+  for (Hinge& hinge : hinges_) {
+    const Eigen::Vector3d upper = targets.col(hinge.hinge_mark) - targets.col(hinge.upper_mark);
+    const Eigen::Vector3d lower = targets.col(hinge.end_mark) - targets.col(hinge.hinge_mark);
+    const Eigen::Vector3d normal = upper.cross(lower);
+    const double sine = normal.norm() / std::max(1e-9, upper.norm() * lower.norm());
+    // In a limb bent by less than the threshold the plane is noise, and may be that of a limb bent
+    // backwards.
+    const double sureness = std::max(0.0, sine - kSineOfSureBend) / (1.0 - kSineOfSureBend);
+    hinge.weight = sureness / options_.hinge_plane_rad;
+    if (sureness > 0) hinge.normal = normal.normalized();
+  }
 }
 
 double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours,
@@ -118,6 +148,10 @@ double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const Neighbours& neigh
   for (int i = 0; i < marks_.size(); ++i) {
     cost += Square(marks_[i].weight) * position_information *
             (positions_.col(i) - targets.col(i)).squaredNorm();
+  }
+  for (const Hinge& hinge : hinges_) {
+    const Eigen::Vector3d axis = placement_.rotations[hinge.upper_joint] * hinge.axis;
+    cost += Square(hinge.weight) * (axis - hinge.normal).squaredNorm();
   }
   for (int joint = 0; joint < skeleton_.joints(); ++joint) {
     const JointPrior& prior = priors_[joint];
@@ -160,15 +194,35 @@ void FitProblem::AddPositionRows(const Eigen::Matrix3Xd& targets) {
       }
     }
   }
-  normal_.setZero();
-  normal_.selfadjointView<Eigen::Lower>().rankUpdate(jacobian_.transpose());
-  gradient_.noalias() = jacobian_.transpose() * residual_;
+}
+
+void FitProblem::AddHingeRows() {
+  for (size_t i = 0; i < hinges_.size(); ++i) {
+    const Hinge& hinge = hinges_[i];
+    const auto row = static_cast<Eigen::Index>(3 * (marks_.size() + i));
+    const Eigen::Vector3d axis = placement_.rotations[hinge.upper_joint] * hinge.axis;
+    residual_.segment<3>(row) = hinge.weight * (axis - hinge.normal);
+    const Eigen::Matrix3d turned = -hinge.weight * CrossMatrix(axis);
+    for (int joint = hinge.upper_joint; joint >= 0; joint = skeleton_.parents[joint]) {
+      const int parent = skeleton_.parents[joint];
+      auto block = jacobian_.block<3, 3>(row, 3 + 3 * joint);
+      if (parent < 0) {
+        block = turned;
+      } else {
+        block.noalias() = turned * placement_.rotations[parent];
+      }
+    }
+  }
 }
 
 // Assumes that Cost ran on this pose.
 void FitProblem::Linearise(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours,
                            const Pose& pose) {
   AddPositionRows(targets);
+  AddHingeRows();
+  normal_.setZero();
+  normal_.selfadjointView<Eigen::Lower>().rankUpdate(jacobian_.transpose());
+  gradient_.noalias() = jacobian_.transpose() * residual_;
   for (int joint = 0; joint < skeleton_.joints(); ++joint) {
     const JointPrior& prior = priors_[joint];
     const Eigen::Vector3d w = pose.rotations.col(joint);
@@ -205,6 +259,7 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const Neighbours& neig
   for (int joint = 0; joint < skeleton_.joints(); ++joint) {
     pose.rotations.col(joint) = ExpFromQuaternion(QuaternionFromExp(pose.rotations.col(joint)));
   }
+  AimHinges(targets);
   trial_ = pose;
   double cost = Cost(targets, neighbours, pose);
   double damping = 1e-4;

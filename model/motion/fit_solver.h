@@ -47,9 +47,21 @@ class FitProblem {
     int hinge_child = -1;         ///< the hinge that this joint's twist aims (hip → knee)
   };
 
+  /// A bent limb's plane tells where its hinge axis points, which fixes the twist of the bone
+  /// above.
+  struct Hinge {
+    int upper_joint, hinge_joint;
+    int upper_mark, hinge_mark, end_mark;
+    Eigen::Vector3d axis;    ///< in the upper joint's frame
+    Eigen::Vector3d normal;  ///< of this frame's targets, unit length
+    double weight;           ///< of this frame: 0 for a straight limb
+  };
+
+  void AimHinges(const Eigen::Matrix3Xd& targets);
   double Cost(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours, const Pose& pose);
   void Linearise(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours, const Pose& pose);
   void AddPositionRows(const Eigen::Matrix3Xd& targets);
+  void AddHingeRows();
   void SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towards);
   bool IsBelow(int joint, int ancestor) const;
 
@@ -59,11 +71,12 @@ class FitProblem {
   double accuracy_m_;
   double change_information_;
   std::vector<JointPrior> priors_;
+  std::vector<Hinge> hinges_;
   Eigen::Matrix3Xd rest_joints_, rest_marks_;
 
   JointPlacement placement_;
   Eigen::Matrix3Xd positions_;
-  Eigen::MatrixXd jacobian_;  ///< [3 landmarks, 3 + 3 joints]
+  Eigen::MatrixXd jacobian_;  ///< [3 landmarks + 3 hinges, 3 + 3 joints]
   Eigen::VectorXd residual_;
   Eigen::MatrixXd normal_, damped_;
   Eigen::VectorXd gradient_, step_;
