@@ -1,6 +1,5 @@
 #include "model/motion/fit_solver.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -100,13 +99,11 @@ void FitProblem::SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towa
   prior.hinge_axis = axis.normalized();
   prior.information = AxisInformation(axis, options_.rest_rad, options_.hinge_side_rad);
   if (upper < 0) return;
-  priors_[upper].hinge_child = hinge;
   const int upper_mark = marks_.AtJoint(upper);
   const int hinge_mark = marks_.AtJoint(hinge);
   for (int end = 0; end < marks_.size() && upper_mark >= 0 && hinge_mark >= 0; ++end) {
     if (marks_[end].parent != hinge_mark) continue;
     hinges_.push_back({.upper_joint = upper,
-                       .hinge_joint = hinge,
                        .upper_mark = upper_mark,
                        .hinge_mark = hinge_mark,
                        .end_mark = end,
@@ -116,13 +113,6 @@ void FitProblem::SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towa
     break;
   }
   priors_[upper].information = AxisInformation(bone, options_.twist_rad, options_.rest_rad);
-}
-
-bool FitProblem::IsBelow(int joint, int ancestor) const {
-  for (joint = skeleton_.parents[joint]; joint >= 0; joint = skeleton_.parents[joint]) {
-    if (joint == ancestor) return true;
-  }
-  return false;
 }
 
 void FitProblem::AimHinges(const Eigen::Matrix3Xd& targets) {
@@ -296,78 +286,6 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const Neighbours& neig
   ForwardKinematics(skeleton_, pose, placement_);
   marks_.Positions(placement_, positions_);
   return std::sqrt((positions_ - targets).squaredNorm() / marks_.size());
-}
-
-void FitProblem::Initialise(const Eigen::Matrix3Xd& targets, Pose& pose) const {
-  const int joints = skeleton_.joints();
-  pose.rotations.setZero(3, joints);
-  Eigen::Matrix3Xd places(3, joints);
-  std::vector<Eigen::Matrix3d> turns(joints, Eigen::Matrix3d::Identity());
-  std::vector<char> below(marks_.size());
-  for (int joint = 0; joint < joints; ++joint) {
-    const int parent = skeleton_.parents[joint];
-    if (parent >= 0)
-      places.col(joint) = places.col(parent) + turns[parent] * skeleton_.offsets.col(joint);
-    // The root turns about the root landmark, whose place is known; every other joint about itself.
-    Eigen::Vector3d pivot_target = targets.col(0);
-    Eigen::Vector3d pivot_rest = rest_marks_.col(0);
-    if (parent >= 0) {
-      pivot_target = places.col(joint);
-      pivot_rest = rest_joints_.col(joint);
-    }
-    for (int i = 0; i < marks_.size(); ++i) {
-      below[i] =
-          (parent >= 0 || i > 0) &&
-          std::all_of(marks_[i].points.begin(), marks_[i].points.end(), [&](const auto& point) {
-            return IsBelow(point.joint, joint) || (point.joint == joint && !point.offset.isZero());
-          });
-    }
-    // Where nothing tells, the parent's rotation goes on.
-    const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];
-    Eigen::Matrix3d correlation = 1e-4 * carried;
-    bool told = false;
-    for (int i = 0; i < marks_.size(); ++i) {
-      if (!below[i] || (marks_[i].parent >= 0 && below[marks_[i].parent])) continue;
-      told = true;
-      correlation += marks_[i].weight * (targets.col(i) - pivot_target) *
-                     (rest_marks_.col(i) - pivot_rest).transpose();
-    }
-    if (const int hinge = priors_[joint].hinge_child; hinge >= 0) {
-      const int middle = marks_.AtJoint(hinge);
-      int end = -1;
-      for (int i = 0; i < marks_.size(); ++i) {
-        if (middle >= 0 && marks_[i].parent == middle) end = i;
-      }
-      if (end >= 0) {
-        const Eigen::Vector3d upper = (targets.col(middle) - pivot_target).normalized();
-        const Eigen::Vector3d lower = (targets.col(end) - targets.col(middle)).normalized();
-        const Eigen::Vector3d& axis = priors_[hinge].hinge_axis;
-        const Eigen::Vector3d plane = upper.cross(lower);
-        // A nearly straight limb whose plane says that it bends backwards is noise.
-        const bool plausible = plane.norm() > 0.3 || plane.dot(carried * axis) > 0;
-        if (plausible) correlation += 0.05 * plane * axis.transpose();
-      }
-    }
-    if (told) {
-      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
-                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
-      Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-      if (turn.determinant() < 0) {
-        Eigen::Matrix3d u = svd.matrixU();
-        u.col(2) = -u.col(2);
-        turn = u * svd.matrixV().transpose();
-      }
-      turns[joint] = turn;
-    } else {
-      turns[joint] = carried;
-    }
-    if (parent < 0) {
-      places.col(0) = targets.col(0) - turns[0] * (rest_marks_.col(0) - rest_joints_.col(0));
-      pose.root_position = places.col(0);
-    }
-    pose.rotations.col(joint) = LogMap(carried.transpose() * turns[joint]);
-    if (parent < 0) pose.rotations.col(0) = LogMap(turns[0]);
-  }
 }
 
 }  // namespace choreo

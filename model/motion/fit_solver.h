@@ -44,13 +44,12 @@ class FitProblem {
   struct JointPrior {
     Eigen::Matrix3d information;  ///< of log(R) around rest, inverse square radians
     Eigen::Vector3d hinge_axis;   ///< zero where the joint is no hinge
-    int hinge_child = -1;         ///< the hinge that this joint's twist aims (hip → knee)
   };
 
   /// A bent limb's plane tells where its hinge axis points, which fixes the twist of the bone
   /// above.
   struct Hinge {
-    int upper_joint, hinge_joint;
+    int upper_joint;
     int upper_mark, hinge_mark, end_mark;
     Eigen::Vector3d axis;    ///< in the upper joint's frame
     Eigen::Vector3d normal;  ///< of this frame's targets, unit length
