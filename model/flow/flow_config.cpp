@@ -37,7 +37,7 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     config.hidden = 192;
     config.recurrent = false;
     config.condition_width = 256;
-    config.planner = {.width = 192, .layers = 4, .heads = 6};
+    config.planner = {.width = 160, .layers = 3, .heads = 5};
     config.max_transition_frames = 150;
     config.temperature = 0.3;
     config.history_dropout = 0.2;

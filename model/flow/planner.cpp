@@ -17,6 +17,7 @@ namespace {
 constexpr int64_t kMaxDistance = 96;     // frames; farther apart counts as this far
 constexpr int64_t kEmbeddingWidth = 32;  // of each of the two frame counts
 constexpr double kRampFrames = 6;        // frames over which the residual grows from a fixed end
+constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's spread counts as one
 constexpr double kBasis = 10000;         // Eq. 9
 
 }  // namespace
@@ -76,9 +77,11 @@ Tensor PlannerBlockImpl::forward(const Tensor& x, const Tensor& distance) {
 
 PlannerImpl::PlannerImpl(int joints, const PlannerConfig& config)
     : joints_(joints), width_(config.width) {
-  // Token: root 3, rotations 6 a joint, key mask (joints + root), is-history, is-key, two frame
-  // counts.
-  const int64_t features = 3 + 6 * joints + joints + 1 + 2 + 2 * kEmbeddingWidth;
+  // Token: the pose, its step, the step that leaves the history (root 3, rotations 6 a joint,
+  // each), key mask (joints + root), is-history, is-key, two frame counts.
+  const int64_t features = 3 * (3 + 6 * joints) + joints + 1 + 2 + 2 * kEmbeddingWidth;
+  pose_mean_ = register_buffer("pose_mean", torch::zeros({3 + 6 * joints}));
+  pose_std_ = register_buffer("pose_std", torch::ones({3 + 6 * joints}));
   embed_ = register_module("embed", torch::nn::Linear(features, width_));
   blocks_ = register_module("blocks", torch::nn::ModuleList());
   for (int i = 0; i < config.layers; ++i) blocks_->push_back(PlannerBlock(width_, config.heads));
@@ -105,8 +108,15 @@ PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
   const Tensor present = transition.target_mask.amax(1).view({batch, 1, 1});
   const Tensor since = torch::arange(-history, frames, options).view({1, time});
   const Tensor left = (frames - 1) - since;
+  const Tensor poses = (torch::cat({position, six_d}, -1) - pose_mean_) / pose_std_;
+  // Velocities stand in the tokens: attention takes very long to find such small differences
+  // itself.
+  const Tensor steps_before = kVelocityScale * (poses - torch::roll(poses, 1, 1));
+  steps_before.narrow(1, 0, 1).zero_();
+  const Tensor leaving = steps_before.narrow(1, history - 1, 1).expand_as(poses);
   const Tensor tokens = torch::cat(
-      {position, six_d, transition.target_mask.unsqueeze(1).expand({batch, time, joints_ + 1}),
+      {poses, steps_before, leaving,
+       transition.target_mask.unsqueeze(1).expand({batch, time, joints_ + 1}),
        is_history.expand({batch, time, 1}), is_key * present,
        TimeEmbedding(since, kEmbeddingWidth).expand({batch, time, kEmbeddingWidth}),
        // Without a key nothing is awaited: the frames left must not matter.
@@ -128,13 +138,19 @@ PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
   const Tensor mask = transition.target_mask.unsqueeze(1);  // [batch, 1, joints + 1]
   const Tensor ramp = from_start.unsqueeze(-1) *
                       (1 - mask + mask * to_key.unsqueeze(-1));  // [batch, N, joints + 1]
-  const Tensor residual = head_(hidden);
+  const Tensor residual = head_(hidden) * pose_std_;
   const Tensor move = residual.narrow(2, 0, 3) * ramp.narrow(2, joints_, 1);
   const Tensor turn = residual.narrow(2, 3, 6 * joints_).view({batch, frames, joints_, 6}) *
                       ramp.narrow(2, 0, joints_).unsqueeze(-1);
   return {{line.position + move,
            MatrixFromSixDBatch(line_six_d.view({batch, frames, joints_, 6}) + turn)},
           hidden};
+}
+
+void PlannerImpl::SetPoseNormalisation(const Tensor& mean, const Tensor& std) {
+  torch::NoGradGuard no_grad;
+  pose_mean_.copy_(mean);
+  pose_std_.copy_(std);
 }
 
 }  // namespace choreo

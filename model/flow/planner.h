@@ -64,10 +64,14 @@ class PlannerImpl : public torch::nn::Module {
                            ///< flow to condition on
   };
   Plan forward(const TransitionTensors& transition);
+  /// Spread of real poses, [3 + 6 joints] (root position, 6D rotations): tokens and residuals are in
+  /// these units, without which training hardly moves.
+  void SetPoseNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
   int width() const { return width_; }
 
  private:
   int joints_, width_;
+  torch::Tensor pose_mean_, pose_std_;
   torch::nn::Linear embed_{nullptr}, head_{nullptr};
   torch::nn::LayerNorm norm_{nullptr};
   torch::nn::ModuleList blocks_;

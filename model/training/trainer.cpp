@@ -31,6 +31,9 @@ constexpr int kTypicalFrames = 60;  // a batch of windows this long has `batch` 
 constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
                  kContactFloor = 0.1;
 
+// Root position (m) and 6D rotations of real poses, for the planner's tokens.
+constexpr double kPoseFloor = 0.03;
+
 double StageRate(double peak, int64_t step, int64_t steps) {
   const double warm = std::min(1.0, static_cast<double>(step + 1) / kWarmUpSteps);
   const double progress =
@@ -61,6 +64,7 @@ class Run {
     model_ = FlowModel(ConfigOf(options), train_.skeleton());
     planner_steps_ = model_->has_planner() ? options.planner_steps : 0;
     SetAudioNormalisation();
+    if (model_->has_planner()) SetPoseNormalisation();
     model_->to(device_);
     planner_adam_ = std::make_unique<Adam>(*model_, "planner.");
     flow_adam_ = std::make_unique<Adam>(*model_, "flow.");
@@ -201,6 +205,20 @@ class Run {
       normalisation_.audio_std[i] = std::sqrt(std::max(1e-4, square[i] / count - mean * mean));
     }
     model_->SetNormalisation(normalisation_);
+  }
+
+  void SetPoseNormalisation() {
+    std::vector<torch::Tensor> seen;
+    for (int i = 0; i < kNormalisationBatches; ++i) {
+      Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
+      const MotionBatch batch = train_.Draw(options_.batch, model_->config().history_frames,
+                                            options_.rollout_frames, {.mirror = true}, &random);
+      seen.push_back(
+          torch::cat({batch.truth.position, SixDBatch(batch.truth.rotation).flatten(2)}, -1)
+              .flatten(0, 1));
+    }
+    const torch::Tensor all = torch::cat(seen);
+    model_->planner()->SetPoseNormalisation(all.mean(0), all.std(0).clamp_min(kPoseFloor));
   }
 
   // Statistics of the features that the flow will see, which with a planner are what the finished
