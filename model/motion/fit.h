@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/motion/fit_sources.h"
@@ -61,7 +62,6 @@ class BoneNormaliser {
 /// How hard what pulls: standard deviations of the least-squares terms, beside
 /// SourceMapping::accuracy_m.
 struct FitOptions {
-  double position_m = 0.004;       ///< landmark positions
   double rest_rad = 1.2;           ///< every joint towards its rest rotation
   double stiff_rad = 0.5;          ///< the same of spine, collars, neck, head, wrists and feet
   double twist_rad = 0.7;          ///< of hips and shoulders about the bone below

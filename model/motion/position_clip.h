@@ -40,8 +40,9 @@ struct FloorPlane {
 };
 
 /// The floor under a dancer, from the lowest of the given joints' positions: a robust plane that 95
-/// % of them stand above. Slopes are zero where the dancer covers less than a metre of ground in
-/// either direction, and never exceed 0.15.
+/// % of them stand above, found together with a drift of its height in time (tang2018's floors
+/// drift by up to 25 cm, which seen alone looks like a tilt). Slopes are zero where the dancer
+/// covers less than a metre of ground in either direction, and never exceed 0.15.
 FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_joints);
 
 /// Turns the clip about the origin so that the plane becomes horizontal, and drops it to y = 0.
