@@ -1,0 +1,254 @@
+#include "client/choreo_client.h"
+
+#include <algorithm>
+#include <map>
+#include <thread>
+
+#include "client/convert.h"
+#include "client/remote_dance.h"
+#include "client/replicas.h"
+
+namespace choreo::client {
+namespace {
+
+/// Calls `call(server, context)` until it succeeds or trying again is in vain.
+template <typename Call>
+void CallWithRetries(Replicas* replicas, const Call& call) {
+  Patience patience(replicas->options());
+  for (;;) {
+    grpc::ClientContext context;
+    if (patience.deadline()) context.set_deadline(*patience.deadline());
+    const Replicas::Server server = replicas->current();
+    const grpc::Status status = call(*server.stub, &context);
+    if (status.ok()) return;
+    const auto wait = patience.Next(status);
+    if (!wait) {
+      const Error error = ToError(status);
+      if (error.code() != ErrorCode::kUnavailable) throw error;
+      throw Error(ErrorCode::kUnavailable, server.address, error.what());
+    }
+    replicas->Leave(server);
+    std::this_thread::sleep_for(*wait);
+  }
+}
+
+v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
+  v1::GenerateTransitionRequest out;
+  DanceConfig config = request.config;
+  config.audio = request.audio.format;
+  *out.mutable_config() = ToProto(config);
+  out.set_frames(request.frames);
+  if (request.target) {
+    *out.mutable_target() = ToProto(*request.target, request.target_mask);
+    if (!request.target_mask.joints.empty()) {
+      *out.mutable_target_mask() = ToProto(request.target_mask);
+    }
+  }
+  switch (request.audio.format.kind) {
+    case AudioKind::kNone:
+      break;
+    case AudioKind::kPcmFloat:
+      out.mutable_audio()->set_data(ToPcmBytes(request.audio.samples));
+      break;
+    case AudioKind::kFile:
+      out.mutable_audio()->set_data(request.audio.bytes.data(), request.audio.bytes.size());
+      break;
+  }
+  if (request.audio.format.kind != AudioKind::kNone) {
+    out.mutable_audio()->set_first_sample(request.audio_first_sample);
+    out.mutable_config()->mutable_audio_format()->set_first_sample(request.audio_first_sample);
+  }
+  for (const Pose& pose : request.after) *out.add_after() = ToProto(pose);
+  out.set_candidates(static_cast<uint32_t>(request.candidates));
+  if (request.controls.root_path || request.controls.velocity_factors) {
+    *out.mutable_controls() = ToProto(request.controls);
+  }
+  return out;
+}
+
+/// Takes the answers of one GenerateTransition as they come.
+class TransitionCollector {
+ public:
+  void Take(const v1::GenerateTransitionResponse& response) {
+    if (response.has_header()) {
+      result_.header = FromProto(response.header());
+    } else if (response.has_frames()) {
+      Append(FromProto(response.frames(), result_.header.skeleton.joints()));
+    } else if (response.has_event()) {
+      const std::optional<Message> event = FromProto(response.event());
+      if (!event) return;
+      if (const auto* warning = std::get_if<Warning>(&*event)) result_.warnings.push_back(*warning);
+    } else if (response.has_summary()) {
+      complete_ = true;
+      for (const v1::Candidate& candidate : response.summary().candidates()) {
+        TransitionCandidate& best = candidates_[candidate.candidate()];
+        best.candidate = candidate.candidate();
+        best.report = FromProto(candidate.report(), response.summary().timing());
+        best.continuation = FromProto(candidate.continuation());
+        best.motion.fps = result_.header.fps;
+        result_.candidates.push_back(std::move(best));
+      }
+    }
+  }
+  bool complete() const { return complete_; }
+  TransitionResult Result() { return std::move(result_); }
+
+ private:
+  void Append(FrameBlock block) {
+    TransitionCandidate& candidate = candidates_[block.candidate];
+    std::move(block.poses.begin(), block.poses.end(), std::back_inserter(candidate.motion.frames));
+    candidate.contacts.insert(candidate.contacts.end(), block.contacts.begin(),
+                              block.contacts.end());
+  }
+
+  TransitionResult result_;
+  std::map<uint32_t, TransitionCandidate> candidates_;
+  bool complete_ = false;
+};
+
+/// Sorts the messages of a dance into its result.
+struct DanceCollector {
+  DanceResult* result;
+
+  void operator()(Header& header) const {
+    result->header = header;
+    result->motion.fps = header.fps;
+  }
+  void operator()(FrameBlock& block) const {
+    std::move(block.poses.begin(), block.poses.end(), std::back_inserter(result->motion.frames));
+    result->contacts.insert(result->contacts.end(), block.contacts.begin(), block.contacts.end());
+  }
+  void operator()(KeyRejected& rejected) const { result->rejected.push_back(rejected); }
+  void operator()(Beat& beat) const { result->beats.push_back(beat); }
+  void operator()(Warning& warning) const { result->warnings.push_back(warning); }
+  void operator()(Resumed&) const { ++result->resumes; }
+  void operator()(Report& report) const { result->report = report; }
+  void operator()(KeyReached&) const {}
+  void operator()(Continuation&) const {}
+};
+
+}  // namespace
+
+RemoteDance::RemoteDance(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RemoteDance::~RemoteDance() = default;
+
+void RemoteDance::SendSamples(std::span<const float> interleaved) {
+  const int bytes = impl_->bytes_per_sample();
+  if (impl_->audio_kind() != AudioKind::kPcmFloat || interleaved.size_bytes() % bytes != 0) {
+    throw InvalidArgument("samples",
+                          std::to_string(interleaved.size()) +
+                              " values are no whole samples of this dance's audio format");
+  }
+  impl_->SendMusic(ToPcmBytes(interleaved));
+}
+
+void RemoteDance::SendBytes(std::span<const std::byte> bytes) {
+  if (impl_->audio_kind() != AudioKind::kFile) {
+    throw InvalidArgument("bytes", "this dance's audio is not that of a file");
+  }
+  impl_->SendMusic({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void RemoteDance::EndAudio() {
+  v1::StreamDanceRequest request;
+  request.mutable_end_of_audio();
+  impl_->Send(std::move(request));
+}
+
+void RemoteDance::SendKey(const KeyPose& key) {
+  v1::StreamDanceRequest request;
+  *request.mutable_keyframe() = ToProto(key);
+  impl_->Send(std::move(request));
+}
+
+void RemoteDance::RemoveKey(const std::string& id) {
+  v1::StreamDanceRequest request;
+  request.mutable_remove_keyframe()->set_id(id);
+  impl_->Send(std::move(request));
+}
+
+void RemoteDance::SendControls(const Controls& controls) {
+  v1::StreamDanceRequest request;
+  *request.mutable_controls() = ToProto(controls);
+  impl_->Send(std::move(request));
+}
+
+void RemoteDance::GenerateUntil(int64_t frame) {
+  v1::StreamDanceRequest request;
+  request.mutable_generate_until()->set_frame(frame);
+  impl_->Send(std::move(request));
+}
+
+void RemoteDance::CompleteKeys() {
+  v1::StreamDanceRequest request;
+  request.mutable_keyframes_complete();
+  impl_->Send(std::move(request));
+}
+
+std::optional<Message> RemoteDance::Next() { return impl_->Next(); }
+void RemoteDance::Cancel() noexcept { impl_->Cancel(); }
+
+struct Client::Impl {
+  std::shared_ptr<Replicas> replicas;
+};
+
+Client::Client(Options options)
+    : impl_(std::make_unique<Impl>(Impl{std::make_shared<Replicas>(std::move(options))})) {}
+Client::~Client() = default;
+Client::Client(Client&&) noexcept = default;
+Client& Client::operator=(Client&&) noexcept = default;
+
+ServerDescription Client::GetServerInfo() const {
+  v1::GetServerInfoResponse response;
+  CallWithRetries(impl_->replicas.get(), [&](auto& stub, grpc::ClientContext* context) {
+    return stub.GetServerInfo(context, {}, &response);
+  });
+  return FromProto(response);
+}
+
+std::unique_ptr<RemoteDance> Client::StartDance(const DanceConfig& config) const {
+  return std::unique_ptr<RemoteDance>(
+      new RemoteDance(std::make_unique<RemoteDance::Impl>(impl_->replicas, config)));
+}
+
+DanceResult Client::Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
+                          const std::function<void(const Message&)>& observer) const {
+  config.audio = audio.format;
+  const std::unique_ptr<RemoteDance> dance = StartDance(config);
+  // Keys first: the first frames then need little of the music, and no key can come late.
+  for (const KeyPose& key : keys) dance->SendKey(key);
+  dance->CompleteKeys();
+  if (audio.format.kind == AudioKind::kPcmFloat) dance->SendSamples(audio.samples);
+  if (audio.format.kind == AudioKind::kFile) dance->SendBytes(audio.bytes);
+  if (audio.format.kind != AudioKind::kNone) dance->EndAudio();
+
+  DanceResult result;
+  while (std::optional<Message> message = dance->Next()) {
+    if (observer) observer(*message);
+    std::visit(DanceCollector{&result}, *message);
+  }
+  return result;
+}
+
+TransitionResult Client::GenerateTransition(const TransitionRequest& request) const {
+  const v1::GenerateTransitionRequest message = MakeRequest(request);
+  TransitionResult result;
+  CallWithRetries(impl_->replicas.get(),
+                  [&](auto& stub, grpc::ClientContext* context) -> grpc::Status {
+                    TransitionCollector collector;
+                    const auto reader = stub.GenerateTransition(context, message);
+                    v1::GenerateTransitionResponse response;
+                    while (reader->Read(&response)) collector.Take(response);
+                    grpc::Status status = reader->Finish();
+                    if (!status.ok()) return status;
+                    if (!collector.complete()) {
+                      return {grpc::StatusCode::UNAVAILABLE,
+                              "the server ended the transition before its summary"};
+                    }
+                    result = collector.Result();
+                    return status;
+                  });
+  return result;
+}
+
+}  // namespace choreo::client

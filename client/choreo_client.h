@@ -1,0 +1,332 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// The client of a choreod, in plain C++: no protobuf or gRPC type appears here.
+///
+/// Conventions are model/motion/'s: right-handed, Y up, metres, radians, seconds; rotations are
+/// axis-angle, local to the parent. Frames are numbered from the start of the music; all but
+/// FrameBlock::first_frame at the model's rate. Every failure is a choreo::Error with the server's
+/// own words, which name field, value and limit.
+namespace choreo::client {
+
+/// How to reach the servers, and how patiently.
+struct Options {
+  /// HOST:PORT or unix:PATH. Several are replicas: when one fails, the next is asked.
+  std::vector<std::string> addresses = {"127.0.0.1:50051"};
+  bool tls = false;
+  /// PEM file of the authority to trust, where `tls`; empty: the system's.
+  std::filesystem::path ca_certificate;
+  double connect_timeout_s = 5;  ///< for one attempt at one address
+  double deadline_s = 0;         ///< for a call, from its first attempt to its last frame; 0: none
+  int max_retries = 6;           ///< in a row without progress; 0: none, and no resume
+  double first_backoff_s = 0.1;  ///< doubled with each retry, up to 5 s
+  /// Go on when only a server of another fingerprint is left: smoothly, yet not as the dance would
+  /// have gone. `Resumed` says so.
+  bool allow_inexact_resume = false;
+};
+
+/// One model that a server has loaded.
+struct ModelDescription {
+  std::string name;
+  std::string fingerprint;  ///< equal fingerprints give equal bits
+  std::string licence;      ///< terms of the weights
+  std::string card;         ///< JSON
+  Skeleton skeleton;
+  double fps = 30;
+  int history_frames = 0;  ///< frames of the past that it looks at
+  double default_temperature = 0;
+  std::vector<std::string> controls;  ///< "root_path", "velocity_factors"
+  double audio_lead_s = 0;            ///< music that a transition wants before its first frame
+  int latency_frames = 0;             ///< how far the music must be ahead of the frame that is made
+};
+
+/// A server.
+struct ServerDescription {
+  std::string version;
+  std::vector<ModelDescription> models;  ///< the first is the default
+  std::vector<std::string> devices;
+  int slots = 0;
+  int active_streams = 0;
+  /// What the server refuses to go beyond.
+  struct Limits {
+    int64_t max_message_bytes = 0;
+    double max_audio_s = 0;
+    int64_t max_audio_file_bytes = 0;
+    int max_keyframes = 0;
+    int max_transition_frames = 0;
+    int max_candidates = 0;
+    double max_frame_rate = 0;
+    int max_streams = 0;
+  } limits;
+};
+
+/// What the music's bytes are.
+enum class AudioKind {
+  kNone,      ///< there is no music
+  kPcmFloat,  ///< interleaved float samples in [-1, 1]
+  kFile,      ///< a WAV, FLAC, Ogg or MP3 file; danced to once all of it has arrived
+};
+
+struct AudioFormat {
+  AudioKind kind = AudioKind::kNone;
+  int sample_rate = 0;  ///< of kPcmFloat, Hz, 8000 to 192000
+  int channels = 0;     ///< of kPcmFloat, 1 to 8
+};
+
+/// Music, whole.
+struct Audio {
+  AudioFormat format;
+  std::vector<float> samples;    ///< of kPcmFloat, interleaved
+  std::vector<std::byte> bytes;  ///< of kFile
+};
+
+/// A pose to be hit: to 1 mm and 0.1 degrees.
+struct KeyPose {
+  std::string id;                ///< unique; sent again, it replaces the key
+  std::optional<int64_t> frame;  ///< at the model's rate; or else:
+  double time_s = 0;             ///< rounded to the nearest frame
+  Pose pose;
+  PoseMask mask;
+};
+
+/// Where a dance can be taken up again, on any server of the same fingerprint. Opaque but for what
+/// it says of itself.
+struct Continuation {
+  int64_t frame = 0;              ///< the first that is still to be made
+  int64_t audio_from_sample = 0;  ///< music before it need not be sent again
+  std::string fingerprint;
+  std::string bytes;  ///< the whole, serialised
+};
+
+/// What a dance is made with.
+struct DanceConfig {
+  std::string model;  ///< empty: the server's first
+  double fps = 0;     ///< of the frames received, 1 to 120; 0: the model's
+  std::optional<uint64_t> seed;
+  std::optional<double> temperature;  ///< 0 to 2
+  /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
+  /// rest at the origin, facing +Z.
+  std::vector<Pose> history;
+  int64_t first_frame = 0;                   ///< number of the first frame made, with `history`
+  std::optional<Continuation> continuation;  ///< instead of `history`
+  AudioFormat audio;
+  std::optional<int64_t>
+      frames;  ///< the dance ends before this frame; otherwise with the music or the last key
+  /// Times of the music's beats, seconds, ascending: for Beat messages and the report, never for
+  /// the dance. Empty: the server finds them in a kFile, and knows none in a kPcmFloat.
+  std::vector<double> music_beats;
+};
+
+/// Wishes beside key poses and music, for models that know them.
+struct Controls {
+  /// Where the root goes: a smooth curve through (x, z) at these frames.
+  struct RootPath {
+    std::vector<int64_t> frames;
+    std::vector<Eigen::Vector2d> points;
+  };
+  /// Multipliers of a reference's speed at these frames, 0.1 to 10.
+  struct VelocityFactors {
+    std::vector<int64_t> frames;
+    std::vector<double> factors;
+    std::string reference;  ///< empty: the model's median profile
+  };
+  std::optional<RootPath> root_path;
+  std::optional<VelocityFactors> velocity_factors;
+};
+
+/// What the frames mean. The first answer.
+struct Header {
+  std::string model;
+  std::string fingerprint;
+  Skeleton skeleton;
+  uint64_t seed = 0;
+  double temperature = 0;
+  double fps = 30;        ///< of the frames received
+  double model_fps = 30;  ///< of every other frame number
+  int64_t first_frame = 0;
+  int latency_frames = 0;
+  std::string server_version;
+};
+
+/// Consecutive frames.
+struct FrameBlock {
+  int64_t first_frame = 0;  ///< at Header::fps
+  std::vector<Pose> poses;
+  std::vector<std::array<float, 4>> contacts;  ///< of Skeleton::feet, 0 to 1
+  uint32_t candidate = 0;                      ///< of a transition
+};
+
+/// How one key was hit. Distances and angles are the largest of any joint that the key asks for.
+struct KeyReached {
+  std::string id;
+  int64_t frame = 0;
+  double raw_error_m = 0;      ///< of the model's own frame
+  double final_error_m = 0;    ///< of the frame that was sent; at most 0.001
+  double final_error_deg = 0;  ///< the same; at most 0.1
+  double correction_m = 0;     ///< furthest that a joint was moved on the way to the key
+};
+
+/// A key came too late, and nothing changed.
+struct KeyRejected {
+  std::string id;
+  int64_t frame = 0;           ///< asked for
+  int64_t earliest_frame = 0;  ///< the first that a key could have now
+  std::string reason;
+};
+
+struct Beat {
+  int64_t frame = 0;
+  double time_s = 0;  ///< exact
+};
+
+struct Warning {
+  int64_t frame = 0;
+  std::string message;  ///< names the value and the limit
+};
+
+/// The server was lost and another one goes on; frames before `frame` are not sent again.
+struct Resumed {
+  std::string address;
+  int64_t frame = 0;   ///< at Header::fps
+  bool exact = true;   ///< false: of another fingerprint
+  std::string reason;  ///< what had happened
+};
+
+/// The end of a dance, and what it is worth. After a resume, `frames`, `log_likelihood`,
+/// `beat_hit_rate` and `skate_ratio` speak of the part since then; `keys` is complete all the same.
+struct Report {
+  int64_t frames = 0;  ///< at the model's rate
+  std::vector<KeyReached> keys;
+  double log_likelihood = 0;  ///< nats a frame
+  std::optional<double> beat_hit_rate;
+  double skate_ratio = 0;
+  double max_key_acceleration = 0;  ///< of a joint, within two frames of any key, m/s^2
+  double p95_acceleration = 0;      ///< of the frames' largest, m/s^2: to compare it with
+  double first_frame_latency_s = 0;
+  double elapsed_s = 0;
+  double real_time_factor = 0;  ///< seconds of dance a second
+};
+
+using Message = std::variant<Header, FrameBlock, KeyReached, KeyRejected, Beat, Warning,
+                             Continuation, Resumed, Report>;
+
+/// A dance in progress: say what is wanted while its frames arrive. When its server is lost, it
+/// goes on with the next one from the last continuation, frame for frame as if nothing had
+/// happened.
+///
+/// One thread may call Next while others call the rest. Nothing but Next blocks: what is said waits
+/// its turn in memory.
+class RemoteDance {
+ public:
+  ~RemoteDance();  ///< Cancel()s a dance that has not ended
+  RemoteDance(const RemoteDance&) = delete;
+  RemoteDance& operator=(const RemoteDance&) = delete;
+
+  /// The next interleaved samples, of a kPcmFloat dance.
+  void SendSamples(std::span<const float> interleaved);
+  /// The next bytes of a kFile dance.
+  void SendBytes(std::span<const std::byte> bytes);
+  void EndAudio();
+  void SendKey(const KeyPose& key);
+  void RemoveKey(const std::string& id);
+  void SendControls(const Controls& controls);
+  /// Frames before `frame` are final; later keys may still change.
+  void GenerateUntil(int64_t frame);
+  /// No further keys: the rest may be made.
+  void CompleteKeys();
+
+  /// The next message; blocks. After Report comes nullopt. Throws Error when the dance failed for
+  /// good.
+  std::optional<Message> Next();
+  /// Ends the dance; a Next in progress throws Error(kCancelled). Idempotent.
+  void Cancel() noexcept;
+
+ private:
+  friend class Client;
+  struct Impl;
+  explicit RemoteDance(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A dance that is complete.
+struct DanceResult {
+  Header header;
+  Motion motion;
+  std::vector<std::array<float, 4>> contacts;
+  std::vector<Beat> beats;
+  std::vector<Warning> warnings;
+  std::vector<KeyRejected> rejected;
+  Report report;
+  int resumes = 0;
+};
+
+/// One transition, alone.
+struct TransitionRequest {
+  DanceConfig config;          ///< its audio format is taken from `audio`
+  int frames = 0;              ///< at the model's rate, 2 to 1800
+  std::optional<Pose> target;  ///< of the last frame
+  PoseMask target_mask;
+  Audio audio;
+  int64_t audio_first_sample =
+      0;                    ///< number of its first sample, counted from the start of the music
+  std::vector<Pose> after;  ///< frames to lead into, at most 60
+  int candidates = 1;       ///< 1 to 32
+  Controls controls;
+};
+
+struct TransitionCandidate {
+  uint32_t candidate = 0;
+  Motion motion;
+  std::vector<std::array<float, 4>> contacts;
+  Report report;
+  Continuation continuation;
+};
+
+struct TransitionResult {
+  Header header;
+  std::vector<TransitionCandidate> candidates;  ///< best first
+  std::vector<Warning> warnings;
+};
+
+/// A client of one server or of several replicas. Connections are made when needed. Thread-safe.
+class Client {
+ public:
+  /// Throws Error(kInvalidArgument) for options that cannot be used.
+  explicit Client(Options options = {});
+  ~Client();
+  Client(Client&&) noexcept;
+  Client& operator=(Client&&) noexcept;
+
+  ServerDescription GetServerInfo() const;
+
+  /// Begins a dance that is steered while it goes on.
+  std::unique_ptr<RemoteDance> StartDance(const DanceConfig& config) const;
+
+  /// A whole dance to known music through known keys. `config.audio` is taken from `audio`.
+  /// `observer`, if any, sees each message as it comes.
+  DanceResult Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
+                    const std::function<void(const Message&)>& observer = {}) const;
+
+  TransitionResult GenerateTransition(const TransitionRequest& request) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace choreo::client

@@ -1,0 +1,108 @@
+#include "client/cli/choreography.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "model/motion/canonical.h"
+
+namespace choreo::cli {
+namespace {
+
+constexpr double kShortestInterval = 1.6;  // seconds; a change of pose needs about as long
+constexpr double kPlainInterval = 2.0;     // where no beat is heard
+constexpr double kWalkingSpeed = 0.28;     // metres a second, at most
+constexpr double kTurningSpeed = 0.35;     // radians a second, at most
+constexpr double kStageRadius = 1.2;       // metres; beyond it the way leads back
+
+/// Uniform draws that are the same with every standard library.
+class Dice {
+ public:
+  explicit Dice(uint64_t seed) : engine_(seed) {}
+  /// In [0, 1).
+  double Unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double Between(double low, double high) { return low + (high - low) * Unit(); }
+  size_t Below(size_t count) { return static_cast<size_t>(Unit() * static_cast<double>(count)); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Seconds at which keys stand, the first at 0. On beats: every 1, 2, 4, 8 ... beats, the fewest
+/// that leave time to move.
+std::vector<double> KeyTimes(double seconds, const std::vector<double>& beats) {
+  std::vector<double> times = {0};
+  if (beats.size() < 2) {
+    for (double t = kPlainInterval; t <= seconds; t += kPlainInterval) times.push_back(t);
+    return times;
+  }
+  const double period = (beats.back() - beats.front()) / static_cast<double>(beats.size() - 1);
+  size_t stride = 1;
+  while (period * static_cast<double>(stride) < kShortestInterval) stride *= 2;
+  for (size_t i = 0; i < beats.size(); i += stride) {
+    // Keys that the tracker's wavering would bring too close are left out, as is the last if the
+    // dance ends first.
+    if (beats[i] - times.back() >= 0.75 * kShortestInterval && beats[i] <= seconds)
+      times.push_back(beats[i]);
+  }
+  return times;
+}
+
+/// Where the dancer goes.
+class Walk {
+ public:
+  explicit Walk(Dice* dice) : dice_(dice) {}
+
+  /// The next place, `seconds` later.
+  GroundFrame Next(double seconds) {
+    const double distance = kWalkingSpeed * seconds * dice_->Between(0.4, 1.0);
+    const double way = place_.origin.norm() > kStageRadius
+                           ? std::atan2(-place_.origin.x(), -place_.origin.z())
+                           : dice_->Between(-M_PI, M_PI);
+    place_.origin += distance * Eigen::Vector3d(std::sin(way), 0, std::cos(way));
+    // The dancer comes to face the audience again: she never turns her back for long.
+    place_.heading += kTurningSpeed * seconds * dice_->Between(-1, 1);
+    place_.heading = std::clamp(place_.heading, -1.2, 1.2);
+    return place_;
+  }
+  const GroundFrame& place() const { return place_; }
+
+ private:
+  Dice* dice_;
+  GroundFrame place_;
+};
+
+}  // namespace
+
+std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
+                                         std::span<const LibraryPose> poses) {
+  if (!(request.seconds >= 2)) {
+    throw InvalidArgument(
+        "--seconds", std::to_string(request.seconds) + " is less than 2: too short for key poses");
+  }
+  Dice dice(request.seed);
+  Walk walk(&dice);
+  std::vector<client::KeyPose> keys;
+  std::vector<size_t> deck;  // a pose comes again when all have been danced
+  size_t last = poses.size();
+  double before = 0;
+  for (const double time : KeyTimes(request.seconds, request.beats)) {
+    if (deck.empty()) {
+      for (size_t i = 0; i < poses.size(); ++i) deck.push_back(i);
+    }
+    size_t drawn = dice.Below(deck.size());
+    if (deck[drawn] == last) drawn = (drawn + 1) % deck.size();
+    last = deck[drawn];
+    deck.erase(deck.begin() + static_cast<std::ptrdiff_t>(drawn));
+
+    const GroundFrame place = keys.empty() ? walk.place() : walk.Next(time - before);
+    before = time;
+    client::KeyPose& key = keys.emplace_back();
+    key.id = std::to_string(keys.size()) + "-" + poses[last].id;
+    key.time_s = time;
+    key.pose = place.ToWorld(poses[last].pose);
+  }
+  return keys;
+}
+
+}  // namespace choreo::cli

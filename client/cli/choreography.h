@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "client/choreo_client.h"
+#include "client/cli/pose_library.h"
+
+namespace choreo::cli {
+
+/// What to compose: key poses for a dance of `seconds`.
+struct CompositionRequest {
+  double seconds = 0;
+  std::vector<double> beats;  ///< seconds, ascending; may be empty
+  uint64_t seed = 0;
+};
+
+/// Key poses of the library on beats of the music: one to begin with, at second 0, then about one
+/// each bar, never the same twice in a row, walking over the floor within two metres of the origin
+/// and turning by and by. Where there are no beats, every two seconds. The same request gives the
+/// same keys. Throws Error(kInvalidArgument) for a dance of less than two seconds.
+std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
+                                         std::span<const LibraryPose> poses);
+
+}  // namespace choreo::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// The commands of `choreo`, one file each. Each adds itself to the program, with its help; when
+/// chosen, it runs while the command line is parsed. Failures are thrown as Error.
+namespace choreo::cli {
+
+void AddDanceCommand(CLI::App& program);
+void AddTransitionCommand(CLI::App& program);
+void AddAnalyzeCommand(CLI::App& program);
+void AddInfoCommand(CLI::App& program);
+void AddConvertCommand(CLI::App& program);
+void AddRenderCommand(CLI::App& program);
+
+}  // namespace choreo::cli

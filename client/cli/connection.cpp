@@ -1,0 +1,49 @@
+#include "client/cli/connection.h"
+
+#include <algorithm>
+
+namespace choreo::cli {
+
+void ServerOptions::AddTo(CLI::App& command) {
+  command
+      .add_option("--server", addresses,
+                  "HOST:PORT of a choreod; several are replicas that stand in for each other. "
+                  "Without it, one is started on this machine "
+                  "for as long as it is needed.")
+      ->envname("CHOREO_SERVER");
+  command.add_flag("--tls", tls, "Encrypt the connection.");
+  command.add_option("--ca", ca_certificate,
+                     "PEM file of the authority to trust, with --tls; default: the system's.");
+  command.add_option("--deadline", deadline_s, "Give up after this many seconds; 0: never.")
+      ->capture_default_str();
+}
+
+Connection::Connection(const ServerOptions& options) {
+  client::Options client_options;
+  client_options.tls = options.tls;
+  client_options.ca_certificate = options.ca_certificate;
+  client_options.deadline_s = options.deadline_s;
+  client_options.allow_inexact_resume = options.allow_inexact_resume;
+  if (options.addresses.empty()) {
+    own_ = std::make_unique<LocalServer>();
+    client_options.addresses = {own_->address()};
+  } else {
+    client_options.addresses = options.addresses;
+  }
+  client_ = std::make_unique<client::Client>(client_options);
+  server_ = client_->GetServerInfo();
+}
+
+const client::ModelDescription& Connection::model(const std::string& name) const {
+  if (name.empty()) return server_.models.front();
+  const auto found =
+      std::find_if(server_.models.begin(), server_.models.end(),
+                   [&](const client::ModelDescription& model) { return model.name == name; });
+  if (found != server_.models.end()) return *found;
+  std::string known;
+  for (const client::ModelDescription& model : server_.models)
+    known += (known.empty() ? "" : ", ") + model.name;
+  throw Error(ErrorCode::kNotFound, "--model", "the server has no \"" + name + "\", but " + known);
+}
+
+}  // namespace choreo::cli

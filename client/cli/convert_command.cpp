@@ -1,0 +1,40 @@
+#include <memory>
+
+#include "client/cli/commands.h"
+#include "model/formats/motion_file.h"
+#include "model/motion/contacts.h"
+#include "model/motion/resample.h"
+
+namespace choreo::cli {
+namespace {
+
+struct ConvertOptions {
+  std::string in;
+  std::string out;
+  double fps = 0;
+};
+
+void Run(const ConvertOptions& options) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  Motion motion = ReadMotion(options.in, skeleton);
+  if (options.fps > 0) motion = Resample(motion, options.fps);
+  const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
+  WriteMotion(options.out, skeleton, motion, &contacts);
+}
+
+}  // namespace
+
+void AddConvertCommand(CLI::App& program) {
+  auto options = std::make_shared<ConvertOptions>();
+  CLI::App* command = program.add_subcommand(
+      "convert",
+      "Read a motion and write it as another format: .bvh or .npz (SMPL, as AMASS).\n"
+      "A BVH of another skeleton is fitted to SMPL's.");
+  command->add_option("in", options->in, "Motion to read.")->required()->check(CLI::ExistingFile);
+  command->add_option("out", options->out, "FILE.npz or FILE.bvh to write.")->required();
+  command->add_option("--fps", options->fps, "Resample to this rate; default: as it is.")
+      ->check(CLI::PositiveNumber);
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,89 @@
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "client/cli/commands.h"
+#include "client/cli/connection.h"
+#include "client/cli/pose_library.h"
+
+namespace choreo::cli {
+namespace {
+
+struct InfoOptions {
+  ServerOptions server;
+  bool json = false;
+  bool poses = false;
+};
+
+nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
+  nlohmann::ordered_json json;
+  json["name"] = model.name;
+  json["fingerprint"] = model.fingerprint;
+  json["fps"] = model.fps;
+  json["history_frames"] = model.history_frames;
+  json["default_temperature"] = model.default_temperature;
+  json["latency_frames"] = model.latency_frames;
+  json["controls"] = model.controls;
+  json["skeleton"] = {{"name", model.skeleton.name}, {"joints", model.skeleton.joint_names}};
+  json["licence"] = model.licence;
+  // The card is JSON of the model's own; shown as text if a server sends anything else.
+  const auto card = nlohmann::ordered_json::parse(model.card, nullptr, false);
+  json["card"] = card.is_discarded() ? nlohmann::ordered_json(model.card) : card;
+  return json;
+}
+
+void PrintServer(const client::ServerDescription& server, bool as_json) {
+  if (as_json) {
+    nlohmann::ordered_json json;
+    json["version"] = server.version;
+    json["devices"] = server.devices;
+    json["slots"] = server.slots;
+    json["active_streams"] = server.active_streams;
+    json["limits"] = {{"max_audio_s", server.limits.max_audio_s},
+                      {"max_keyframes", server.limits.max_keyframes},
+                      {"max_transition_frames", server.limits.max_transition_frames},
+                      {"max_candidates", server.limits.max_candidates},
+                      {"max_streams", server.limits.max_streams},
+                      {"max_message_bytes", server.limits.max_message_bytes}};
+    for (const client::ModelDescription& model : server.models)
+      json["models"].push_back(ToJson(model));
+    std::cout << json.dump(2) << std::endl;
+    return;
+  }
+  std::printf("choreod %s, %d slots, %d calls in progress, on", server.version.c_str(),
+              server.slots, server.active_streams);
+  for (const std::string& device : server.devices) std::printf(" %s", device.c_str());
+  std::printf("\n");
+  for (const client::ModelDescription& model : server.models) {
+    std::printf(
+        "model %s: %s at %g fps, history %d frames, latency %d frames, temperature %g\n  "
+        "fingerprint %s\n  licence: %s\n",
+        model.name.c_str(), model.skeleton.name.c_str(), model.fps, model.history_frames,
+        model.latency_frames, model.default_temperature, model.fingerprint.c_str(),
+        model.licence.c_str());
+  }
+}
+
+void Run(const InfoOptions& options) {
+  if (options.poses) {
+    for (const LibraryPose& pose : PoseLibrary())
+      std::printf("%-14s %s\n", pose.id.c_str(), pose.description.c_str());
+    return;
+  }
+  PrintServer(Connection(options.server).server(), options.json);
+}
+
+}  // namespace
+
+void AddInfoCommand(CLI::App& program) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* command =
+      program.add_subcommand("info", "Show a server's models, licences, limits and devices.");
+  command->add_flag("--json", options->json, "Print everything as JSON, the model cards included.");
+  command->add_flag("--poses", options->poses, "List the key poses that ship instead.");
+  options->server.AddTo(*command);
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,206 @@
+#include "client/cli/key_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "model/formats/motion_file.h"
+#include "model/motion/resample.h"
+
+namespace choreo::cli {
+namespace {
+
+using client::KeyPose;
+using nlohmann::json;
+
+std::string Shown(const json& value) {
+  std::string text = value.dump();
+  if (text.size() > 40) text = text.substr(0, 37) + "...";
+  return text;
+}
+
+double Number(const json& value, const std::string& field) {
+  if (!value.is_number()) throw InvalidArgument(field, Shown(value) + " is not a number");
+  return value.get<double>();
+}
+
+Eigen::Vector3d Vector(const json& value, const std::string& field) {
+  if (!value.is_array() || value.size() != 3) {
+    throw InvalidArgument(field, Shown(value) + " is not a list of 3 numbers");
+  }
+  Eigen::Vector3d out;
+  for (int i = 0; i < 3; ++i) {
+    out[i] = Number(value[static_cast<size_t>(i)], field + "[" + std::to_string(i) + "]");
+  }
+  return out;
+}
+
+Eigen::Matrix3Xd Rotations(const json& value, const std::string& field, int joints) {
+  if (!value.is_array() || static_cast<int>(value.size()) != joints) {
+    const std::string has =
+        value.is_array() ? "has " + std::to_string(value.size()) + " entries" : "is no list";
+    throw InvalidArgument(field,
+                          has + ", not one for each of the " + std::to_string(joints) + " joints");
+  }
+  Eigen::Matrix3Xd out(3, joints);
+  for (int joint = 0; joint < joints; ++joint) {
+    const std::string path = field + "[" + std::to_string(joint) + "]";
+    out.col(joint) = Vector(value[static_cast<size_t>(joint)], path);
+    const double angle = out.col(joint).norm();
+    if (angle > 2 * M_PI) {
+      std::ostringstream message;
+      message << angle << " rad exceeds 2π; angles are in radians";
+      throw InvalidArgument(path, message.str());
+    }
+  }
+  return out;
+}
+
+std::vector<bool> Joints(const json& value, const std::string& field, const Skeleton& skeleton) {
+  if (!value.is_array() || value.empty()) {
+    throw InvalidArgument(field, Shown(value) + " is not a list of joint names");
+  }
+  std::vector<bool> out(static_cast<size_t>(skeleton.joints()), false);
+  for (const json& name : value) {
+    const int joint = name.is_string() ? skeleton.Find(name.get<std::string>()) : -1;
+    if (joint < 0) throw InvalidArgument(field, Shown(name) + " is no joint of " + skeleton.name);
+    out[static_cast<size_t>(joint)] = true;
+  }
+  return out;
+}
+
+KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& skeleton,
+                 size_t number) {
+  if (!value.is_object()) throw InvalidArgument(field, Shown(value) + " is not an object");
+  static const std::set<std::string> kMembers = {"id",        "time",  "frame", "root_position",
+                                                 "rotations", "joints"};
+  for (const auto& [member, ignored] : value.items()) {
+    if (!kMembers.contains(member)) {
+      throw InvalidArgument(
+          field + "." + member,
+          "is not known; a key has id, time or frame, root_position, rotations, joints");
+    }
+  }
+  KeyPose key;
+  key.id = "key" + std::to_string(number);
+  if (value.contains("id")) {
+    if (!value["id"].is_string() || value["id"].get<std::string>().empty()) {
+      throw InvalidArgument(field + ".id", Shown(value["id"]) + " is not a name");
+    }
+    key.id = value["id"].get<std::string>();
+  }
+  if (value.contains("time") == value.contains("frame")) {
+    throw InvalidArgument(field + ".time", value.contains("time")
+                                               ? "stands beside frame; only one may be there"
+                                               : "is missing, and so is frame");
+  }
+  if (value.contains("time")) {
+    key.time_s = Number(value["time"], field + ".time");
+    if (!(key.time_s >= 0))
+      throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is before 0");
+  } else {
+    if (!value["frame"].is_number_unsigned()) {
+      throw InvalidArgument(field + ".frame",
+                            Shown(value["frame"]) + " is not a whole number >= 0");
+    }
+    key.frame = value["frame"].get<int64_t>();
+  }
+  if (!value.contains("rotations")) throw InvalidArgument(field + ".rotations", "is missing");
+  key.pose.rotations = Rotations(value["rotations"], field + ".rotations", skeleton.joints());
+  key.mask.root_position = value.contains("root_position");
+  if (key.mask.root_position) {
+    key.pose.root_position = Vector(value["root_position"], field + ".root_position");
+  }
+  if (value.contains("joints"))
+    key.mask.joints = Joints(value["joints"], field + ".joints", skeleton);
+  return key;
+}
+
+std::string ReadText(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+double ParseSeconds(std::string_view text, const std::string& source) {
+  double seconds = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (code != std::errc() || end != text.data() + text.size() || !(seconds >= 0) ||
+      !std::isfinite(seconds)) {
+    throw InvalidArgument(source, "\"" + std::string(text) + "\" is not a time in seconds");
+  }
+  return seconds;
+}
+
+std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view times,
+                                    const std::string& source, const Skeleton& skeleton) {
+  const Motion motion = ReadMotion(path, skeleton);
+  const double duration = Duration(motion);
+  std::vector<KeyPose> keys;
+  while (true) {
+    const std::string_view item = times.substr(0, times.find(','));
+    const std::string_view from = item.substr(0, item.find('='));
+    const double at = ParseSeconds(from, source);
+    if (at > duration) {
+      std::ostringstream message;
+      message << "second " << at << " lies behind the motion's end at " << duration;
+      throw InvalidArgument(source, message.str());
+    }
+    KeyPose& key = keys.emplace_back();
+    key.id = std::filesystem::path(path).stem().string() + "@" + std::string(item);
+    key.pose = PoseAt(motion, at);
+    key.time_s =
+        from.size() == item.size() ? at : ParseSeconds(item.substr(from.size() + 1), source);
+    if (item.size() == times.size()) return keys;
+    times.remove_prefix(item.size() + 1);
+  }
+}
+
+}  // namespace
+
+std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
+                                  const Skeleton& skeleton) {
+  json root;
+  try {
+    root = json::parse(text);
+  } catch (const json::parse_error& error) {
+    throw InvalidArgument(name, "is not JSON: " + std::string(error.what()));
+  }
+  if (!root.is_object() || !root.contains("keyframes") || !root["keyframes"].is_array()) {
+    throw InvalidArgument(name, "has no list \"keyframes\"");
+  }
+  const json& list = root["keyframes"];
+  if (list.empty()) throw InvalidArgument(name + ":keyframes", "is empty");
+  std::vector<KeyPose> keys;
+  std::set<std::string> ids;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const std::string field = name + ":keyframes[" + std::to_string(i) + "]";
+    keys.push_back(ParseKey(list[i], field, skeleton, i + 1));
+    if (!ids.insert(keys.back().id).second) {
+      throw InvalidArgument(field + ".id",
+                            "\"" + keys.back().id + "\" stands for an earlier key already");
+    }
+  }
+  return keys;
+}
+
+std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton) {
+  // A file whose name has an @ is still a file.
+  const size_t at = std::filesystem::exists(source) ? std::string::npos : source.rfind('@');
+  if (at != std::string::npos) {
+    return ReadMotionKeys(source.substr(0, at), std::string_view(source).substr(at + 1), source,
+                          skeleton);
+  }
+  const std::string extension = std::filesystem::path(source).extension().string();
+  if (extension == ".bvh" || extension == ".npz") {
+    throw InvalidArgument(source,
+                          "is a motion: say which poses of it, as in " + source + "@1.2,3.4");
+  }
+  return ParseKeyFile(ReadText(source), source, skeleton);
+}
+
+}  // namespace choreo::cli

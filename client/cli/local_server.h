@@ -1,0 +1,34 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+
+namespace choreo::cli {
+
+/// A choreod of our own: started on a free port of this machine, stopped with this object, or when
+/// this process dies.
+class LocalServer {
+ public:
+  /// Starts the choreod that lies beside this program and returns when it listens. Throws
+  /// Error(kNotFound) if there is none, and Error(kUnavailable) if it does not listen within two
+  /// minutes; it has then said why on stderr.
+  LocalServer();
+  explicit LocalServer(const std::filesystem::path& program);
+  ~LocalServer();
+  LocalServer(const LocalServer&) = delete;
+  LocalServer& operator=(const LocalServer&) = delete;
+
+  const std::string& address() const { return address_; }
+
+ private:
+  /// Reads the line in which the server says where it listens; empty if it ends or takes too long.
+  static std::string ReadAddress(int from);
+  void Stop() noexcept;
+
+  pid_t process_ = -1;
+  std::string address_;
+};
+
+}  // namespace choreo::cli

@@ -1,0 +1,40 @@
+#include "client/cli/pose_library.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "client/cli/key_file.h"
+#include "client/cli/pose_sources.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo::cli {
+namespace {
+
+std::vector<LibraryPose> ParseLibrary() {
+  std::vector<LibraryPose> poses;
+  for (const PoseSource& source : kPoseSources) {
+    const auto keys = ParseKeyFile(source.json, source.name, Skeleton::Smpl24());
+    poses.push_back(
+        {keys.front().id, nlohmann::json::parse(source.json).at("description"), keys.front().pose});
+  }
+  return poses;
+}
+
+}  // namespace
+
+const std::vector<LibraryPose>& PoseLibrary() {
+  static const std::vector<LibraryPose> kPoses = ParseLibrary();
+  return kPoses;
+}
+
+const LibraryPose& FindLibraryPose(const std::string& id) {
+  const auto& poses = PoseLibrary();
+  const auto found = std::find_if(poses.begin(), poses.end(),
+                                  [&](const LibraryPose& pose) { return pose.id == id; });
+  if (found != poses.end()) return *found;
+  std::string known;
+  for (const LibraryPose& pose : poses) known += (known.empty() ? "" : ", ") + pose.id;
+  throw Error(ErrorCode::kNotFound, id, "is no pose of the library, which has " + known);
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "client/choreo_client.h"
+
+namespace choreo::cli {
+
+/// A dance's report as JSON: frames, fps, seed, fingerprint, keyframes (id, frame, raw_error_m,
+/// final_error_m, final_error_deg), log_likelihood (nats a frame), beat_hit_rate (null where there
+/// are no beats), skate_ratio, first_frame_latency_s, real_time_factor. Frames are counted at the
+/// model's rate, `fps`.
+std::string ReportJson(const client::Header& header, const client::Report& report);
+
+/// A few lines for people.
+std::string ReportText(const client::Header& header, const client::Report& report);
+
+/// Throws Error(kInternal) where the file cannot be written.
+void WriteText(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace choreo::cli

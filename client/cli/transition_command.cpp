@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "client/cli/commands.h"
+#include "client/cli/connection.h"
+#include "client/cli/key_file.h"
+#include "client/cli/music.h"
+#include "client/cli/pose_library.h"
+#include "client/cli/report.h"
+#include "model/formats/motion_file.h"
+
+namespace choreo::cli {
+namespace {
+
+struct TransitionOptions {
+  ServerOptions server;
+  std::string from;
+  std::string to;
+  int frames = 60;
+  std::string song;
+  double at_s = 0;
+  int candidates = 1;
+  std::optional<uint64_t> seed;
+  std::optional<double> temperature;
+  std::string model;
+  std::string out;
+  std::string report;
+};
+
+/// A pose by its name in the library, or the first one of what ReadKeys takes.
+client::KeyPose ReadPose(const std::string& source, const Skeleton& skeleton) {
+  const bool is_file = source.find_first_of(".@/") != std::string::npos;
+  if (is_file) return ReadKeys(source, skeleton).front();
+  client::KeyPose key;
+  key.pose = FindLibraryPose(source).pose;
+  return key;
+}
+
+void Run(const TransitionOptions& options) {
+  const Connection connection(options.server);
+  const client::ModelDescription& model = connection.model(options.model);
+
+  client::TransitionRequest request;
+  request.config.model = options.model;
+  request.config.seed = options.seed.value_or(0);
+  request.config.temperature = options.temperature;
+  request.config.first_frame = std::llround(options.at_s * model.fps);
+  request.config.history = {ReadPose(options.from, model.skeleton).pose};
+  request.frames = options.frames;
+  request.candidates = options.candidates;
+  const client::KeyPose target = ReadPose(options.to, model.skeleton);
+  request.target = target.pose;
+  request.target_mask = target.mask;
+  if (!options.song.empty()) {
+    request.audio = AudioFor(ReadMusic(options.song), options.at_s + options.frames / model.fps);
+  }
+  const client::TransitionResult result = connection.client().GenerateTransition(request);
+  for (const client::Warning& warning : result.warnings)
+    std::cerr << "warning: " << warning.message << '\n';
+
+  const std::filesystem::path out = options.out;
+  for (size_t rank = 0; rank < result.candidates.size(); ++rank) {
+    std::filesystem::path path = out;
+    if (rank > 0)
+      path.replace_filename(out.stem().string() + "." + std::to_string(rank + 1) +
+                            out.extension().string());
+    const client::TransitionCandidate& candidate = result.candidates[rank];
+    WriteMotion(path, result.header.skeleton, candidate.motion, &candidate.contacts);
+    std::cout << ReportText(result.header, candidate.report) << path.string() << std::endl;
+  }
+  if (!options.report.empty()) {
+    WriteText(options.report, ReportJson(result.header, result.candidates.front().report));
+  }
+}
+
+}  // namespace
+
+void AddTransitionCommand(CLI::App& program) {
+  auto options = std::make_shared<TransitionOptions>();
+  CLI::App* command =
+      program.add_subcommand("transition", "Move from one pose to another, with or without music.");
+  const std::string pose = "a pose of the library (contrapposto, ...), key file, or MOTION@SECOND.";
+  command->add_option("--from", options->from, "Where to begin: " + pose)->required();
+  command->add_option("--to", options->to, "Where to end: " + pose)->required();
+  command->add_option("-n,--frames", options->frames, "Length, in frames of the model.")
+      ->capture_default_str();
+  command->add_option("--song", options->song, "Music to move to.")->check(CLI::ExistingFile);
+  command->add_option("--at", options->at_s, "Second of the song at which it begins.")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--candidates", options->candidates,
+                   "Alternatives, 1 to 32; the best is FILE, the others FILE.2, ...")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Same seed, same motion. Default: 0.");
+  command->add_option("--temperature", options->temperature,
+                      "Variety, 0 (calm) to 2; default: the model's.");
+  command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
+  command->add_option("-o,--out", options->out, "FILE.npz or FILE.bvh to write.")->required();
+  command->add_option("--report", options->report, "JSON file to write the best one's report to.");
+  options->server.AddTo(*command);
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

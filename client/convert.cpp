@@ -1,0 +1,258 @@
+#include "client/convert.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace choreo::client {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "PCM is sent as it lies in memory");
+
+Error Broken(const std::string& what) {
+  return {ErrorCode::kInternal, "", "the server broke the protocol: " + what};
+}
+
+KeyReached ToKeyReached(const std::string& id, int64_t frame, const v1::KeyframeErrors& errors) {
+  return {id,
+          frame,
+          errors.raw_error_m(),
+          errors.final_error_m(),
+          errors.final_error_deg(),
+          errors.correction_m()};
+}
+
+}  // namespace
+
+v1::Pose ToProto(const Pose& pose) {
+  v1::Pose out;
+  out.mutable_root_position()->set_x(pose.root_position.x());
+  out.mutable_root_position()->set_y(pose.root_position.y());
+  out.mutable_root_position()->set_z(pose.root_position.z());
+  out.mutable_rotations()->Reserve(static_cast<int>(pose.rotations.size()));
+  for (const double value : pose.rotations.reshaped()) {
+    out.add_rotations(static_cast<float>(value));
+  }
+  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
+  return out;
+}
+
+v1::Pose ToProto(const Pose& pose, const PoseMask& mask) {
+  v1::Pose out = ToProto(pose);
+  if (!mask.root_position) out.clear_root_position();
+  return out;
+}
+
+v1::JointMask ToProto(const PoseMask& mask) {
+  v1::JointMask out;
+  for (size_t joint = 0; joint < mask.joints.size(); ++joint) {
+    if (mask.joints[joint]) out.add_joints(static_cast<int>(joint));
+  }
+  return out;
+}
+
+v1::Keyframe ToProto(const KeyPose& key) {
+  v1::Keyframe out;
+  out.set_id(key.id);
+  if (key.frame) {
+    out.set_frame(*key.frame);
+  } else {
+    out.set_time(key.time_s);
+  }
+  *out.mutable_pose() = ToProto(key.pose, key.mask);
+  if (!key.mask.joints.empty()) *out.mutable_mask() = ToProto(key.mask);
+  return out;
+}
+
+v1::Controls ToProto(const Controls& controls) {
+  v1::Controls out;
+  if (controls.root_path) {
+    for (const int64_t frame : controls.root_path->frames)
+      out.mutable_root_path()->add_frames(frame);
+    for (const Eigen::Vector2d& point : controls.root_path->points) {
+      out.mutable_root_path()->add_points(static_cast<float>(point.x()));
+      out.mutable_root_path()->add_points(static_cast<float>(point.y()));
+    }
+  }
+  if (controls.velocity_factors) {
+    auto* factors = out.mutable_velocity_factors();
+    for (const int64_t frame : controls.velocity_factors->frames) factors->add_frames(frame);
+    for (const double factor : controls.velocity_factors->factors) {
+      factors->add_factors(static_cast<float>(factor));
+    }
+    factors->set_reference(controls.velocity_factors->reference);
+  }
+  return out;
+}
+
+v1::DanceConfig ToProto(const DanceConfig& config) {
+  v1::DanceConfig out;
+  out.set_model(config.model);
+  out.set_frame_rate(config.fps);
+  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
+  if (config.seed) out.set_seed(*config.seed);
+  if (config.temperature) out.set_temperature(*config.temperature);
+  if (config.continuation) {
+    if (!out.mutable_continuation()->ParseFromString(config.continuation->bytes)) {
+      throw InvalidArgument("continuation", "the bytes are not those of a continuation");
+    }
+  } else if (!config.history.empty()) {
+    for (const Pose& pose : config.history) *out.mutable_history()->add_poses() = ToProto(pose);
+    out.mutable_history()->set_first_frame(config.first_frame);
+  }
+  switch (config.audio.kind) {
+    case AudioKind::kNone:
+      break;
+    case AudioKind::kPcmFloat:
+      out.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+      out.mutable_audio_format()->set_sample_rate(static_cast<uint32_t>(config.audio.sample_rate));
+      out.mutable_audio_format()->set_channels(static_cast<uint32_t>(config.audio.channels));
+      break;
+    case AudioKind::kFile:
+      out.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
+      break;
+  }
+  if (config.frames) out.set_frames(*config.frames);
+  out.mutable_music_beats()->Add(config.music_beats.begin(), config.music_beats.end());
+  return out;
+}
+
+std::string ToPcmBytes(std::span<const float> samples) {
+  std::string bytes(samples.size_bytes(), '\0');
+  std::memcpy(bytes.data(), samples.data(), bytes.size());
+  return bytes;
+}
+
+Skeleton FromProto(const v1::Skeleton& skeleton) {
+  Skeleton out;
+  const int joints = skeleton.parents_size();
+  if (skeleton.joint_names_size() != joints || skeleton.offsets_size() != 3 * joints ||
+      skeleton.feet_size() != static_cast<int>(out.feet.size())) {
+    throw Broken("a skeleton whose arrays differ in length");
+  }
+  out.name = skeleton.name();
+  out.joint_names.assign(skeleton.joint_names().begin(), skeleton.joint_names().end());
+  out.parents.assign(skeleton.parents().begin(), skeleton.parents().end());
+  out.offsets =
+      Eigen::Map<const Eigen::Matrix3Xf>(skeleton.offsets().data(), 3, joints).cast<double>();
+  out.AssignRoles();
+  out.pelvis_height = skeleton.pelvis_height();
+  std::copy(skeleton.feet().begin(), skeleton.feet().end(), out.feet.begin());
+  out.Validate();
+  return out;
+}
+
+Header FromProto(const v1::Header& header) {
+  Header out;
+  out.model = header.model();
+  out.fingerprint = header.fingerprint();
+  out.skeleton = FromProto(header.skeleton());
+  out.seed = header.seed();
+  out.temperature = header.temperature();
+  out.fps = header.frame_rate();
+  out.model_fps = header.model_frame_rate();
+  out.first_frame = header.first_frame();
+  out.latency_frames = header.latency_frames();
+  out.server_version = header.server_version();
+  if (!(out.fps > 0) || !(out.model_fps > 0)) throw Broken("a header without frame rates");
+  return out;
+}
+
+FrameBlock FromProto(const v1::Frames& frames, int joints) {
+  const int count = frames.count();
+  if (count < 1 || frames.root_positions_size() != 3 * count ||
+      frames.rotations_size() != 3 * count * joints || frames.contacts_size() != 4 * count) {
+    throw Broken("frames whose arrays do not have the length that their count asks for");
+  }
+  FrameBlock out;
+  out.first_frame = frames.first_frame();
+  out.candidate = frames.candidate();
+  out.poses.resize(static_cast<size_t>(count));
+  out.contacts.resize(out.poses.size());
+  const float* rotations = frames.rotations().data();
+  const float* roots = frames.root_positions().data();
+  const float* contacts = frames.contacts().data();
+  for (size_t i = 0; i < out.poses.size(); ++i) {
+    out.poses[i].root_position = Eigen::Map<const Eigen::Vector3f>(roots + 3 * i).cast<double>();
+    out.poses[i].rotations = Eigen::Map<const Eigen::Matrix3Xf>(
+                                 rotations + 3 * i * static_cast<size_t>(joints), 3, joints)
+                                 .cast<double>();
+    std::copy_n(contacts + 4 * i, 4, out.contacts[i].begin());
+  }
+  return out;
+}
+
+Continuation FromProto(const v1::Continuation& continuation) {
+  return {continuation.frame(), continuation.audio_from_sample(), continuation.fingerprint(),
+          continuation.SerializeAsString()};
+}
+
+Report FromProto(const v1::QualityReport& report, const v1::Timing& timing) {
+  Report out;
+  out.frames = report.frames();
+  for (const v1::KeyframeReport& key : report.keyframes()) {
+    out.keys.push_back(ToKeyReached(key.id(), key.frame(), key.errors()));
+  }
+  out.log_likelihood = report.log_likelihood();
+  if (report.has_beat_hit_rate()) out.beat_hit_rate = report.beat_hit_rate();
+  out.skate_ratio = report.skate_ratio();
+  out.max_key_acceleration = report.max_key_acceleration();
+  out.p95_acceleration = report.p95_acceleration();
+  out.first_frame_latency_s = timing.first_frame_latency_s();
+  out.elapsed_s = timing.elapsed_s();
+  out.real_time_factor = timing.real_time_factor();
+  return out;
+}
+
+ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
+  ServerDescription out;
+  out.version = response.version();
+  for (const v1::ModelInfo& model : response.models()) {
+    ModelDescription& added = out.models.emplace_back();
+    added.name = model.name();
+    added.fingerprint = model.fingerprint();
+    added.licence = model.licence();
+    added.card = model.card();
+    added.skeleton = FromProto(model.skeleton());
+    added.fps = model.model_frame_rate();
+    added.history_frames = model.history_frames();
+    added.default_temperature = model.default_temperature();
+    for (const int control : model.controls()) {
+      if (control == v1::CONTROL_ROOT_PATH) added.controls.emplace_back("root_path");
+      if (control == v1::CONTROL_VELOCITY_FACTORS) added.controls.emplace_back("velocity_factors");
+    }
+    added.audio_lead_s = model.audio_lead_s();
+    added.latency_frames = model.latency_frames();
+  }
+  if (out.models.empty()) throw Broken("a server without models");
+  out.devices.assign(response.devices().begin(), response.devices().end());
+  out.slots = response.slots();
+  out.active_streams = response.active_streams();
+  const v1::Limits& limits = response.limits();
+  out.limits = {limits.max_message_bytes(),     limits.max_audio_s(),
+                limits.max_audio_file_bytes(),  limits.max_keyframes(),
+                limits.max_transition_frames(), limits.max_candidates(),
+                limits.max_frame_rate(),        limits.max_streams()};
+  return out;
+}
+
+std::optional<Message> FromProto(const v1::Event& event) {
+  switch (event.event_case()) {
+    case v1::Event::kKeyframeReached:
+      return ToKeyReached(event.keyframe_reached().id(), event.frame(),
+                          event.keyframe_reached().errors());
+    case v1::Event::kKeyframeRejected:
+      return KeyRejected{event.keyframe_rejected().id(), event.frame(),
+                         event.keyframe_rejected().earliest_frame(),
+                         event.keyframe_rejected().reason()};
+    case v1::Event::kBeat:
+      return Beat{event.frame(), event.time()};
+    case v1::Event::kWarning:
+      return Warning{event.frame(), event.warning().message()};
+    case v1::Event::EVENT_NOT_SET:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace choreo::client

@@ -1,0 +1,68 @@
+#include "client/journal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace choreo::client {
+
+void Journal::Append(v1::StreamDanceRequest request) {
+  requests_.push_back(std::make_shared<const v1::StreamDanceRequest>(std::move(request)));
+}
+
+void Journal::AppendMusic(std::string bytes) {
+  const int64_t samples = static_cast<int64_t>(bytes.size()) / std::max(1, bytes_per_sample_);
+  v1::StreamDanceRequest request;
+  request.mutable_audio()->set_data(std::move(bytes));
+  request.mutable_audio()->set_first_sample(end_sample_);
+  end_sample_ += samples;
+  Append(std::move(request));
+}
+
+Journal::Request Journal::TakeNext() {
+  return next_ < requests_.size() ? requests_[next_++] : nullptr;
+}
+
+void Journal::ForgetMusicBefore(int64_t sample) {
+  if (bytes_per_sample_ == 0) return;
+  const auto is_past = [&](const Request& request) {
+    if (!request->has_audio()) return false;
+    const v1::Audio& audio = request->audio();
+    return audio.first_sample() + static_cast<int64_t>(audio.data().size()) / bytes_per_sample_ <=
+           sample;
+  };
+  // What is not sent yet is never past: the server cannot need less than it has.
+  const auto sent_end = requests_.begin() + static_cast<std::ptrdiff_t>(next_);
+  const auto kept_end = std::remove_if(requests_.begin(), sent_end, is_past);
+  next_ = static_cast<size_t>(kept_end - requests_.begin());
+  requests_.erase(kept_end, sent_end);
+}
+
+int64_t Journal::first_sample() const {
+  const auto music = std::find_if(requests_.begin(), requests_.end(),
+                                  [](const Request& request) { return request->has_audio(); });
+  return music == requests_.end() ? end_sample_ : (*music)->audio().first_sample();
+}
+
+std::vector<std::pair<std::string, int64_t>> Journal::KeysBefore(int64_t frame, double fps) const {
+  std::vector<std::pair<std::string, int64_t>> found;
+  std::map<std::string, int64_t> places;
+  for (const Request& request : requests_) {
+    std::string id;
+    if (request->has_keyframe()) {
+      const v1::Keyframe& key = request->keyframe();
+      id = key.id();
+      places[id] = key.has_frame() ? key.frame() : std::llround(key.time() * fps);
+    } else if (request->has_remove_keyframe()) {
+      id = request->remove_keyframe().id();
+    } else {
+      continue;
+    }
+    if (const auto place = places.find(id); place != places.end() && place->second < frame) {
+      found.emplace_back(*place);
+    }
+  }
+  return found;
+}
+
+}  // namespace choreo::client

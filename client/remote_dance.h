@@ -1,0 +1,92 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+#include "client/choreo_client.h"
+#include "client/convert.h"
+#include "client/journal.h"
+#include "client/replicas.h"
+#include "client/seen.h"
+
+namespace choreo::client {
+
+/// One call to one server. Its own thread sends what the journal holds, so that neither the caller
+/// nor Read waits for it. `mutex` guards the journal and is the owner's; the owner notifies after
+/// appending.
+class Attempt {
+ public:
+  Attempt(Replicas::Server server, const v1::StreamDanceRequest& first,
+          std::optional<Patience::Clock::time_point> deadline, Journal* journal, std::mutex* mutex);
+  ~Attempt();  ///< ends the call
+  Attempt(const Attempt&) = delete;
+  Attempt& operator=(const Attempt&) = delete;
+
+  const Replicas::Server& server() const { return server_; }
+  /// Blocks; false at the end of the call.
+  bool Read(v1::StreamDanceResponse* response) { return stream_->Read(response); }
+  /// After Read returned false: how the call ended.
+  grpc::Status Finish();
+  void NotifyAppended() { appended_.notify_one(); }
+  void Cancel() { context_.TryCancel(); }
+
+ private:
+  void SendLoop(const v1::StreamDanceRequest& first);
+
+  Replicas::Server server_;
+  Journal* journal_;
+  std::mutex* mutex_;
+  std::condition_variable appended_;
+  bool stop_ = false;  // guarded by *mutex_
+  bool finished_ = false;
+  grpc::ClientContext context_;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::StreamDanceRequest, v1::StreamDanceResponse>>
+      stream_;
+  std::thread sender_;
+};
+
+/// What RemoteDance is made of. Next() runs attempt after attempt until the summary.
+struct RemoteDance::Impl {
+ public:
+  Impl(std::shared_ptr<Replicas> replicas, const DanceConfig& config);
+  ~Impl();
+
+  void Send(v1::StreamDanceRequest request);
+  void SendMusic(std::string_view bytes);
+  int bytes_per_sample() const { return bytes_per_sample_; }
+  AudioKind audio_kind() const { return audio_kind_; }
+  std::optional<Message> Next();
+  void Cancel() noexcept;
+
+ private:
+  void Connect();
+  void Recover(const grpc::Status& status);
+  /// What the caller is to see of a response, if anything.
+  std::optional<Message> Handle(const v1::StreamDanceResponse& response);
+  Message HandleHeader(const v1::Header& header);
+  Message HandleSummary(const v1::DanceSummary& summary);
+
+  std::shared_ptr<Replicas> replicas_;
+  Patience patience_;
+  AudioKind audio_kind_;
+  int bytes_per_sample_;
+  v1::DanceConfig config_;  // touched by Next alone
+
+  std::mutex mutex_;  // guards what follows, and the attempt's lifetime against Cancel and Send
+  std::condition_variable woken_;
+  Journal journal_;
+  std::unique_ptr<Attempt> attempt_;
+  bool cancelled_ = false;
+
+  // Of Next alone.
+  std::optional<Header> header_;
+  std::optional<Seen> seen_;
+  std::vector<KeyReached> keys_;
+  std::string lost_because_;  // not empty: the next header is a resumption
+  bool complete_ = false;
+};
+
+}  // namespace choreo::client

@@ -1,0 +1,94 @@
+#include "client/replicas.h"
+
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <grpcpp/support/channel_arguments.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace choreo::client {
+namespace {
+
+constexpr double kLongestBackoff = 5;  // seconds
+
+std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
+  if (!options.tls) return grpc::InsecureChannelCredentials();
+  grpc::SslCredentialsOptions ssl;
+  if (!options.ca_certificate.empty()) {
+    std::ifstream file(options.ca_certificate, std::ios::binary);
+    if (!file) {
+      throw InvalidArgument("ca_certificate", "cannot read " + options.ca_certificate.string());
+    }
+    ssl.pem_root_certs.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  return grpc::SslCredentials(ssl);
+}
+
+void CheckNotNegative(const char* field, double value) {
+  if (!(value >= 0) || !std::isfinite(value)) {
+    throw InvalidArgument(field, std::to_string(value) + " is not a finite number >= 0");
+  }
+}
+
+}  // namespace
+
+Replicas::Replicas(Options options) : options_(std::move(options)) {
+  if (options_.addresses.empty()) throw InvalidArgument("addresses", "none is given");
+  CheckNotNegative("connect_timeout_s", options_.connect_timeout_s);
+  CheckNotNegative("deadline_s", options_.deadline_s);
+  CheckNotNegative("first_backoff_s", options_.first_backoff_s);
+  CheckNotNegative("max_retries", options_.max_retries);
+
+  const auto credentials = Credentials(options_);
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(-1);
+  // gRPC's name for the time that one attempt to connect may take.
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS,
+                   static_cast<int>(options_.connect_timeout_s * 1000));
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  for (const std::string& address : options_.addresses) {
+    if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
+    servers_.push_back({address, v1::Choreography::NewStub(
+                                     grpc::CreateCustomChannel(address, credentials, arguments))});
+  }
+}
+
+Replicas::Server Replicas::current() const {
+  const std::lock_guard lock(mutex_);
+  return servers_[current_];
+}
+
+void Replicas::Leave(const Server& failed) {
+  const std::lock_guard lock(mutex_);
+  if (servers_[current_].stub == failed.stub) current_ = (current_ + 1) % servers_.size();
+}
+
+Patience::Patience(const Options& options)
+    : max_retries_(options.max_retries),
+      first_backoff_s_(options.first_backoff_s),
+      jitter_(std::random_device{}()) {
+  if (options.deadline_s > 0) {
+    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(options.deadline_s));
+  }
+}
+
+std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& failed) {
+  const RetryAdvice advice = AdviceFor(failed);
+  if (!advice.retry || failures_ >= max_retries_) return std::nullopt;
+  const double doubled = std::min(kLongestBackoff, first_backoff_s_ * std::exp2(failures_));
+  ++failures_;
+  // Clients that lost the same server should not all come back at once.
+  const double spread = std::uniform_real_distribution<double>(0.5, 1.0)(jitter_);
+  const std::chrono::duration<double> wait(std::max(advice.wait_s, doubled * spread));
+  if (deadline_ && Clock::now() + std::chrono::duration_cast<Clock::duration>(wait) >= *deadline_) {
+    return std::nullopt;
+  }
+  return wait;
+}
+
+}  // namespace choreo::client

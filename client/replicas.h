@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "choreo/v1/choreography.grpc.pb.h"
+#include "client/choreo_client.h"
+#include "client/status.h"
+
+namespace choreo::client {
+
+/// The servers that may be asked, one at a time, and the one that is asked now. Thread-safe.
+class Replicas {
+ public:
+  struct Server {
+    std::string address;
+    std::shared_ptr<v1::Choreography::Stub> stub;
+  };
+
+  /// Throws Error(kInvalidArgument) for options that cannot be used.
+  explicit Replicas(Options options);
+
+  const Options& options() const { return options_; }
+  Server current() const;
+  /// The current one failed: go on to the next. Nothing happens if another caller went on already.
+  void Leave(const Server& failed);
+
+ private:
+  const Options options_;
+  mutable std::mutex mutex_;
+  std::vector<Server> servers_;
+  size_t current_ = 0;
+};
+
+/// When a call must be over, whatever its number of attempts; and how long to wait before the next
+/// attempt.
+class Patience {
+ public:
+  using Clock = std::chrono::system_clock;
+
+  explicit Patience(const Options& options);
+
+  std::optional<Clock::time_point> deadline() const { return deadline_; }
+  /// How long to wait after `failed` before trying again; none if trying again would not help, or
+  /// is no longer allowed.
+  std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed);
+  /// There was progress: count from the beginning.
+  void Reset() { failures_ = 0; }
+
+ private:
+  int max_retries_;
+  double first_backoff_s_;
+  std::optional<Clock::time_point> deadline_;
+  int failures_ = 0;
+  std::minstd_rand jitter_;
+};
+
+}  // namespace choreo::client

@@ -1,0 +1,53 @@
+#include "client/seen.h"
+
+namespace choreo::client {
+
+void Seen::Restart(int64_t frame, std::vector<KeyPlace> late) {
+  expected_ = {late.begin(), late.end()};
+  for (const KeyPlace& place : rejected_) {
+    if (place.second >= frame) expected_.insert(place);
+  }
+}
+
+bool Seen::Admit(FrameBlock* block) {
+  if (block->first_frame > next_frame_) {
+    throw Error(ErrorCode::kInternal, "",
+                "the server left out frames: " + std::to_string(block->first_frame) +
+                    " came where " + std::to_string(next_frame_) + " was due");
+  }
+  const auto known = static_cast<std::ptrdiff_t>(next_frame_ - block->first_frame);
+  if (known >= static_cast<std::ptrdiff_t>(block->poses.size())) return false;
+  block->poses.erase(block->poses.begin(), block->poses.begin() + known);
+  block->contacts.erase(block->contacts.begin(), block->contacts.begin() + known);
+  block->first_frame = next_frame_;
+  next_frame_ += static_cast<int64_t>(block->poses.size());
+  return true;
+}
+
+bool Seen::RejectionIsNew(const KeyPlace& place) {
+  if (const auto expected = expected_.find(place); expected != expected_.end()) {
+    expected_.erase(expected);
+    return false;
+  }
+  rejected_.insert(place);
+  return true;
+}
+
+bool Seen::Admit(const Message& message) {
+  if (const auto* rejected = std::get_if<KeyRejected>(&message)) {
+    return RejectionIsNew({rejected->id, rejected->frame});
+  }
+  if (const auto* reached = std::get_if<KeyReached>(&message)) {
+    return reached_.emplace(reached->id, reached->frame).second;
+  }
+  if (const auto* warning = std::get_if<Warning>(&message)) {
+    return warnings_.emplace(warning->message, warning->frame).second;
+  }
+  if (const auto* beat = std::get_if<Beat>(&message)) {
+    if (beat->frame <= last_beat_) return false;
+    last_beat_ = beat->frame;
+  }
+  return true;
+}
+
+}  // namespace choreo::client

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/choreo_client.h"
+
+namespace choreo::client {
+
+/// A key by its id, and its frame at the model's rate.
+using KeyPlace = std::pair<std::string, int64_t>;
+
+/// Tells what a resumed dance says again from what is new, so that the caller hears everything
+/// once. Not thread-safe.
+class Seen {
+ public:
+  explicit Seen(int64_t next_frame) : next_frame_(next_frame) {}
+
+  /// The next frame to be delivered, at the output rate.
+  int64_t next_frame() const { return next_frame_; }
+  /// Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it
+  /// will reject the keys that stand before: `late`, each as often as it was spoken of.
+  void Restart(int64_t frame, std::vector<KeyPlace> late);
+  /// Cuts away the frames that were delivered already; false if none is left. Throws
+  /// Error(kInternal) where frames are missing.
+  bool Admit(FrameBlock* block);
+  /// False for an event that was delivered already. For messages other than frames.
+  bool Admit(const Message& message);
+
+ private:
+  bool RejectionIsNew(const KeyPlace& place);
+
+  int64_t next_frame_;
+  std::multiset<KeyPlace> rejected_;  // delivered
+  std::multiset<KeyPlace> expected_;  // rejections that the present server is still to repeat
+  std::set<KeyPlace> reached_;
+  std::set<std::pair<std::string, int64_t>> warnings_;
+  int64_t last_beat_ = -1;
+};
+
+}  // namespace choreo::client

@@ -1,0 +1,69 @@
+#include "client/status.h"
+
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace choreo::client {
+namespace {
+
+ErrorCode ToCode(grpc::StatusCode code) {
+  switch (code) {
+    case grpc::StatusCode::INVALID_ARGUMENT:
+      return ErrorCode::kInvalidArgument;
+    case grpc::StatusCode::OUT_OF_RANGE:
+      return ErrorCode::kOutOfRange;
+    case grpc::StatusCode::NOT_FOUND:
+      return ErrorCode::kNotFound;
+    case grpc::StatusCode::FAILED_PRECONDITION:
+      return ErrorCode::kFailedPrecondition;
+    case grpc::StatusCode::RESOURCE_EXHAUSTED:
+      return ErrorCode::kResourceExhausted;
+    case grpc::StatusCode::UNIMPLEMENTED:
+      return ErrorCode::kUnimplemented;
+    case grpc::StatusCode::UNAVAILABLE:
+      return ErrorCode::kUnavailable;
+    case grpc::StatusCode::CANCELLED:
+      return ErrorCode::kCancelled;
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return ErrorCode::kDeadlineExceeded;
+    default:
+      return ErrorCode::kInternal;
+  }
+}
+
+/// The detail of type T, if the status carries one.
+template <typename T>
+bool FindDetail(const grpc::Status& status, T* detail) {
+  google::rpc::Status details;
+  if (!details.ParseFromString(status.error_details())) return false;
+  for (const auto& any : details.details()) {
+    if (any.UnpackTo(detail)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Error ToError(const grpc::Status& status) {
+  std::string field;
+  std::string message = status.error_message();
+  google::rpc::BadRequest bad_request;
+  if (FindDetail(status, &bad_request) && bad_request.field_violations_size() > 0) {
+    field = bad_request.field_violations(0).field();
+    // Error puts the field in front itself.
+    if (message.starts_with(field + ": ")) message.erase(0, field.size() + 2);
+  }
+  if (message.empty()) message = "the server failed without saying why";
+  return {ToCode(status.error_code()), field, message};
+}
+
+RetryAdvice AdviceFor(const grpc::Status& status) {
+  google::rpc::RetryInfo info;
+  const bool invited = FindDetail(status, &info);
+  const double wait = invited ? static_cast<double>(info.retry_delay().seconds()) +
+                                    1e-9 * info.retry_delay().nanos()
+                              : 0.0;
+  return {invited || status.error_code() == grpc::StatusCode::UNAVAILABLE, wait};
+}
+
+}  // namespace choreo::client
