@@ -35,6 +35,10 @@ void AddTrainCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--report-every", options->report_every, "Steps between reports")
       ->capture_default_str();
+  command
+      ->add_option("--stop-after", options->stop_after,
+                   "Leave after this many steps of the run, to be resumed; 0: to the end")
+      ->capture_default_str();
   command->add_option("--seed", options->seed)->capture_default_str();
   command->add_flag("--no-keys", options->no_keys, "Ablation: music alone");
   command->add_flag("--no-key-loss", options->no_key_loss, "Ablation: no key pose loss");

@@ -85,6 +85,7 @@ class Run {
                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       progress.Advance();
       if ((step_ + 1) % options_.report_every == 0 || step_ + 1 == total) Report();
+      if (step_ + 1 == options_.stop_after) return;
     }
     Finish();
   }

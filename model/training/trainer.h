@@ -24,6 +24,7 @@ struct TrainOptions {
   int shortest = 5, longest = 100;  ///< N of the training windows, frames
   int rollout_frames = 30;          ///< gamma of paper F
   int64_t report_every = 250;       ///< steps between validation, curves and saved state
+  int64_t stop_after = 0;  ///< leave after this many steps of the run, resumable; 0: to the end
   uint64_t seed = 1;
   /// Ablations (paper F, Table 1).
   bool no_keys = false, no_key_loss = false, no_time_embedding = false, forward_embedding = false;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "model/motion/contacts.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/skeleton.h"
+#include "model/training/prepared_clip.h"
+
+namespace choreo::testing_support {
+
+/// A clip of our own making: a dancer who walks a circle and swings her limbs, each joint at a rate
+/// of its own.
+inline PreparedClip SyntheticClip(const std::string& name, int frames, double phase, bool music) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  PreparedClip clip;
+  clip.name = name;
+  clip.source = "synthetic";
+  clip.motion.fps = 30;
+  for (int f = 0; f < frames; ++f) {
+    const double t = f / 30.0;
+    Pose pose = RestPose(skeleton);
+    pose.root_position += Eigen::Vector3d(std::sin(0.5 * t + phase), 0.02 * std::sin(3 * t),
+                                          std::cos(0.5 * t + phase));
+    for (int j = 0; j < skeleton.joints(); ++j) {
+      for (int axis = 0; axis < 3; ++axis) {
+        pose.rotations(axis, j) = 0.25 * std::sin((1 + 0.1 * j) * t + phase + axis);
+      }
+    }
+    clip.motion.frames.push_back(pose);
+  }
+  const std::vector<Contacts> contacts = DetectContacts(skeleton, clip.motion);
+  clip.contacts.resize(4, frames);
+  for (int f = 0; f < frames; ++f) {
+    for (int foot = 0; foot < 4; ++foot) {
+      clip.contacts(foot, f) = contacts[static_cast<size_t>(f)][static_cast<size_t>(foot)];
+    }
+  }
+  if (music) {
+    clip.audio.resize(40, frames);
+    for (int f = 0; f < frames; ++f) {
+      for (int i = 0; i < 40; ++i) clip.audio(i, f) = static_cast<float>(std::sin(0.3 * f + i));
+    }
+  }
+  return clip;
+}
+
+/// Five training clips, two of them with music, one for validation and one for testing, and their
+/// splits.json.
+inline void WriteSyntheticData(const std::filesystem::path& folder) {
+  for (int i = 0; i < 5; ++i) {
+    WritePreparedClip(folder, SyntheticClip("train_" + std::to_string(i), 120, i, i < 2));
+  }
+  WritePreparedClip(folder, SyntheticClip("held_out", 120, 0.5, true));
+  WritePreparedClip(folder, SyntheticClip("last", 120, 0.7, false));
+  std::ofstream(folder / "splits.json")
+      << R"({"synthetic": {"train": ["train_0", "train_1"], "validation": ["held_out"], "test": ["last"]}})";
+}
+
+}  // namespace choreo::testing_support

@@ -1,0 +1,70 @@
+#include "model/training/prepared_clip.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "model/core/error.h"
+#include "model/training/clip_split.h"
+#include "tests/support/synthetic_clips.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+using testing::ElementsAre;
+using testing_support::SyntheticClip;
+using testing_support::WriteSyntheticData;
+
+std::vector<std::string> Names(const std::vector<PreparedClip>& clips) {
+  std::vector<std::string> names;
+  for (const PreparedClip& clip : clips) names.push_back(clip.name);
+  return names;
+}
+
+TEST(PreparedClip, ComesBackAsFloatsOfWhatWasWritten) {
+  const TemporaryFolder folder;
+  PreparedClip clip = SyntheticClip("one", 70, 0.3, true);
+  clip.notes["terms"] = "ours";
+  WritePreparedClip(folder.path(), clip);
+  const PreparedClip back = ReadPreparedClip(folder.path() / "one.clip");
+  EXPECT_EQ(back.name, "one");
+  EXPECT_EQ(back.source, "synthetic");
+  EXPECT_EQ(back.notes.at("terms"), "ours");
+  ASSERT_EQ(back.motion.frames.size(), 70U);
+  for (size_t f = 0; f < 70; ++f) {
+    EXPECT_LT(
+        (back.motion.frames[f].rotations - clip.motion.frames[f].rotations).cwiseAbs().maxCoeff(),
+        1e-7);
+    EXPECT_LT((back.motion.frames[f].root_position - clip.motion.frames[f].root_position).norm(),
+              1e-6);
+  }
+  EXPECT_EQ(back.contacts, clip.contacts);
+  EXPECT_EQ(back.audio, clip.audio);
+}
+
+TEST(PreparedClip, AForeignFileIsNamed) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "bad.clip") << "not a clip";
+  try {
+    ReadPreparedClip(folder.path() / "bad.clip");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("bad.clip"));
+  }
+  EXPECT_THROW(ListPreparedClips(folder.path() / "nowhere"), Error);
+}
+
+TEST(LoadClips, FollowsTheSplitsAndTrainsOnWhatTheyDoNotName) {
+  const TemporaryFolder folder;
+  WriteSyntheticData(folder.path());
+  const auto load = [&](Split split) {
+    return Names(LoadClips({folder.path()}, folder.path() / "splits.json", split));
+  };
+  EXPECT_THAT(load(Split::kTrain),
+              ElementsAre("train_0", "train_1", "train_2", "train_3", "train_4"));
+  EXPECT_THAT(load(Split::kValidation), ElementsAre("held_out"));
+  EXPECT_THAT(load(Split::kTest), ElementsAre("last"));
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,145 @@
+#include "model/training/trainer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <torch/torch.h>
+
+#include "model/core/error.h"
+#include "model/flow/checkpoint.h"
+#include "model/training/adam.h"
+#include "model/training/losses.h"
+#include "tests/support/synthetic_clips.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+using testing_support::WriteSyntheticData;
+
+class TrainerTest : public testing::Test {
+ protected:
+  void SetUp() override { WriteSyntheticData(folder_.path()); }
+
+  // A run of a few steps on the synthetic clips.
+  TrainOptions Options(const std::string& name, int64_t flow_steps) const {
+    TrainOptions options;
+    options.preset = "ablation";
+    options.data = {folder_.path()};
+    options.splits = folder_.path() / "splits.json";
+    options.run = folder_.path() / name;
+    options.flow_steps = flow_steps;
+    options.batch = 8;
+    options.longest = 12;
+    options.rollout_frames = 4;
+    options.report_every = 2;
+    return options;
+  }
+
+  static std::string HashOf(const std::filesystem::path& run) {
+    return LoadCheckpoint(run / "checkpoint.safetensors").hash;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(TrainerTest, TheSameRunMakesTheSameCheckpointAndLeavesItsCurves) {
+  Train(Options("a", 4));
+  Train(Options("b", 4));
+  for (const char* file : {"curves.csv", "curves.png", "validation.png", "state.safetensors"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a" / file)) << file;
+  }
+  const Checkpoint a = LoadCheckpoint(folder_.path() / "a" / "checkpoint.safetensors");
+  const Checkpoint b = LoadCheckpoint(folder_.path() / "b" / "checkpoint.safetensors");
+  const auto expected = b.model->named_parameters();
+  for (const auto& item : a.model->named_parameters()) {
+    EXPECT_TRUE(torch::equal(item.value(), expected[item.key()])) << item.key();
+  }
+}
+
+TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
+  Train(Options("whole", 4));
+  // Killed after the report of step 2: what is left is its state. The learning rate must be that of
+  // a run of 4 steps.
+  TrainOptions options = Options("halves", 4);
+  Train(options);
+  const Safetensors finished = ReadSafetensors(options.run / "state.safetensors");
+  EXPECT_EQ(finished.metadata.at("step"), "4");
+  std::filesystem::remove_all(options.run);
+  options.stop_after = 2;
+  Train(options);
+  EXPECT_EQ(ReadSafetensors(options.run / "state.safetensors").metadata.at("step"), "2");
+  EXPECT_FALSE(std::filesystem::exists(options.run / "checkpoint.safetensors"));
+  options.stop_after = 0;
+  options.resume = true;
+  Train(options);
+  const Checkpoint whole = LoadCheckpoint(folder_.path() / "whole" / "checkpoint.safetensors");
+  const Checkpoint halves = LoadCheckpoint(options.run / "checkpoint.safetensors");
+  const auto expected = whole.model->named_parameters();
+  for (const auto& item : halves.model->named_parameters()) {
+    EXPECT_TRUE(torch::equal(item.value(), expected[item.key()])) << item.key();
+  }
+}
+
+TEST_F(TrainerTest, UnusableOptionsAreNamed) {
+  const auto failure = [](TrainOptions options) -> std::string {
+    try {
+      options.Validate();
+    } catch (const Error& error) {
+      return error.field();
+    }
+    return "";
+  };
+  TrainOptions options = Options("x", 4);
+  EXPECT_EQ(failure(options), "");
+  options.batch = 1;
+  EXPECT_EQ(failure(options), "--batch");
+  options = Options("x", 0);
+  EXPECT_EQ(failure(options), "--flow-steps");
+  options = Options("x", 4);
+  options.longest = 3;
+  EXPECT_EQ(failure(options), "--longest");
+}
+
+TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
+  const ClipStore store({folder_.path()}, folder_.path() / "splits.json", Split::kTrain);
+  Random random(5);
+  const MotionBatch batch = store.Draw(6, 10, 20, {}, &random);
+  EXPECT_EQ(batch.transition.frames, 20);
+  EXPECT_EQ(batch.features.sizes(), (std::vector<int64_t>{6, 30, 82}));
+  // The last history frame stands over the origin, facing +Z; the key is the last frame.
+  const torch::Tensor last = batch.transition.history_position.select(1, 9);
+  EXPECT_LT(last.select(1, 0).abs().max().item<double>(), 1e-6);
+  EXPECT_LT(last.select(1, 2).abs().max().item<double>(), 1e-6);
+  EXPECT_TRUE(torch::equal(batch.transition.target_position, batch.truth.position.select(1, 19)));
+  EXPECT_GT(batch.has_audio.sum().item<double>() + 6, 6);  // two of five clips have music
+  // Truth has no distance from itself, interpolation does.
+  const TorchKinematics kinematics(store.skeleton());
+  EXPECT_LT(JointDistance(kinematics, batch.truth, batch.truth).max().item<double>(), 1e-4);
+  EXPECT_GT(
+      JointDistance(kinematics, Interpolate(batch.transition), batch.truth).min().item<double>(),
+      1e-3);
+}
+
+TEST(AdamTest, TakesTheStepsOfTheReference) {
+  // One parameter, gradient 2 w: torch's own Adam is the reference.
+  torch::nn::Linear ours(2, 1), reference(2, 1);
+  {
+    torch::NoGradGuard no_grad;
+    reference->weight.copy_(ours->weight);
+    reference->bias.copy_(ours->bias);
+  }
+  Adam adam(*ours, "");
+  torch::optim::Adam optimiser(reference->parameters(), torch::optim::AdamOptions(0.01));
+  for (int step = 0; step < 20; ++step) {
+    adam.ZeroGrad();
+    ours->weight.square().sum().backward();
+    adam.Step(0.01, 1e9);
+    optimiser.zero_grad();
+    reference->weight.square().sum().backward();
+    optimiser.step();
+  }
+  EXPECT_TRUE(torch::allclose(ours->weight, reference->weight, 1e-5, 1e-7));
+}
+
+}  // namespace
+}  // namespace choreo
