@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "model/core/error.h"
 #include "model/core/progress.h"
@@ -48,6 +49,23 @@ FlowConfig ConfigOf(const TrainOptions& options) {
   config.time_embedding = !options.no_time_embedding;
   config.forward_embedding = options.forward_embedding;
   return config;
+}
+
+// What a stranger types to train the same.
+std::string CommandOf(const TrainOptions& options) {
+  std::ostringstream command;
+  command << "choreo-lab train --preset " << options.preset;
+  for (const auto& folder : options.data) command << " --data " << folder.filename().string();
+  command << " --splits " << options.splits.filename().string() << " --planner-steps "
+          << options.planner_steps << " --flow-steps " << options.flow_steps << " --batch "
+          << options.batch << " --planner-rate " << options.planner_rate << " --flow-rate "
+          << options.flow_rate << " --shortest " << options.shortest << " --longest "
+          << options.longest << " --rollout-frames " << options.rollout_frames << " --seed "
+          << options.seed << (options.no_keys ? " --no-keys" : "")
+          << (options.no_key_loss ? " --no-key-loss" : "")
+          << (options.no_time_embedding ? " --no-time-embedding" : "")
+          << (options.forward_embedding ? " --forward-embedding" : "");
+  return command.str();
 }
 
 // One run in progress. Each step draws from a generator of its own, so a resumed run goes on
@@ -308,19 +326,31 @@ class Run {
                          {"nll_nats_per_dimension", row.likelihood},
                          {"raw_key_error_m", row.key_error_m}});
     }
-    nlohmann::json parts = nlohmann::json::object();
+    nlohmann::json sources = nlohmann::json::object(), terms = nlohmann::json::object();
     for (const auto& clip : train_.clips()) {
-      parts[clip.source] = parts.value(clip.source, 0) + 1;
+      sources[clip.source] = sources.value(clip.source, 0) + 1;
+      const auto stated = clip.notes.find("terms");
+      const std::string of = stated == clip.notes.end() ? "not stated" : stated->second;
+      terms[of] = terms.value(of, 0) + 1;
     }
     const nlohmann::json card = {
         {"preset", options_.preset},
         {"data",
-         {{"clips_by_source", parts}, {"frames", train_.frames()}, {"hash", train_.Hash()}}},
-        {"licence", "see model/checkpoints/LICENSE"},
+         {{"clips_by_layout", sources},
+          {"clips_by_terms", terms},
+          {"frames", train_.frames()},
+          {"hash", train_.Hash()}}},
+        {"licence", "the terms of the data that it was trained on: model/checkpoints/LICENSE"},
+        {"command", CommandOf(options_)},
         {"steps", {{"planner", planner_steps_}, {"flow", options_.flow_steps}}},
-        {"seed", options_.seed},
         {"seconds", std::round(seconds_)},
-        {"validation", figures}};
+        {"validation", figures},
+        {"limits",
+         "Trained on transitions of " + std::to_string(options_.shortest) + " to " +
+             std::to_string(options_.longest) +
+             " frames at 30 fps. The plan does not hear the music, the flow around it does; steps "
+             "are not aligned to beats. Without keys it drifts towards calm poses. Feet may slide. "
+             "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
     const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
     std::printf("%s\n", card.dump(2).c_str());
     std::printf("checkpoint %s, content hash %s\n",
