@@ -12,14 +12,16 @@ namespace choreo {
 /// Leads a model's frames onto a key, frame by frame, without look-ahead (DESIGN section 5).
 ///
 /// Over the last A frames of a transition the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is
-/// the model's frame, w rises smoothly from 0 to 1, and h_t is the next frame of the path from
-/// y_{t-1}, with the velocity that y has there, to the key. That path has the least sum of squared
-/// accelerations (second differences) of all; its acceleration falls to zero at the key and its
-/// velocity there is free, so the dance passes through the key and moves on. Followed from frame to
-/// frame it closes the loop: what the model adds in between is made up for in the frames that are
-/// left, and with w = 1 in the last frame the key is hit to rounding. Root position and joint
-/// rotations (on the tangent space at y_{t-1}) are treated alike; degrees of freedom that the key's
-/// mask leaves free pass through untouched.
+/// the model's frame, w rises smoothly from 0 to 1 over the first two thirds of them, and h_t is
+/// the next frame of the path from y_{t-1}, with the velocity that y has there, to the key. Of all
+/// paths it is the one with the least sum of squared accelerations (second differences) that passes
+/// the key with the velocity of the model's own frames, so that the dance moves on through the key.
+/// (With a free end it would race through the key with what it has to make up for, and be braked by
+/// what follows. Measured on real dances with keys set 10 cm off: docs/decisions.md.) Followed from
+/// frame to frame it closes the loop: what the model adds in between is made up for in the frames
+/// that are left, and with w = 1 in the last ones the key is hit to rounding. Root position and
+/// joint rotations (on the tangent space at y_{t-1}) are treated alike; degrees of freedom that the
+/// key's mask leaves free pass through untouched.
 ///
 /// All poses stand in one frame (the transition's canonical one). Not thread-safe.
 class Arrival {
@@ -31,34 +33,37 @@ class Arrival {
   /// `before`: the last one or two poses before frame 0, oldest first. `after`: the pose one frame
   /// after the key, where the motion that follows is known (the edit of one interval, loops): the
   /// path then also arrives with the velocity towards it.
-  Arrival(Options options, int transition_frames, const Target& target, std::vector<Pose> before,
-          std::optional<Pose> after = std::nullopt);
+  Arrival(Options options, int transition_frames, const Target& target,
+          const std::vector<Pose>& before, const std::optional<Pose>& after = std::nullopt);
 
   /// The emitted pose of the next frame; call once for each of the transition's frames, in order.
   Pose Apply(const Pose& raw);
 
  private:
+  /// A step from one frame to the next.
   struct Velocity {
     Eigen::Vector3d root;
-    Eigen::Matrix3Xd joints;
+    Eigen::Matrix3Xd
+        joints;  // [3, joints] radians, each on the tangent space at the joint's former rotation
   };
-  // The next of `frames_left` steps along the path; `end_velocity` may be null.
+  static Velocity Between(const Pose& a, const Pose& b);
+  // The next of `frames_left` steps along the path.
   static Eigen::Vector3d Step(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity,
-                              const Eigen::Vector3d* end_velocity, int frames_left);
+                              const Eigen::Vector3d& end_velocity, int frames_left);
   bool Asked(int joint) const;
   void Remember(const Pose& emitted);
 
-  Options options_;
   int frames_;
   int window_;
   int next_ = 0;
   Target target_;
-  std::optional<Velocity> end_velocity_;
-  Pose previous_;
-  Eigen::Vector3d root_velocity_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3Xd joint_velocity_;  // [3, joints] radians a frame
-  Eigen::Matrix3Xd expected_way_;    // [3, joints] what is left to turn if all goes to plan: keeps
-                                     // its sense near pi
+  std::optional<Velocity> after_;  // from the key on, where it is known
+  Pose previous_;                  // emitted last
+  Velocity velocity_;              // to it, from the one before
+  Pose last_raw_;
+  Velocity model_velocity_;        // of the model's own frames, smoothed
+  Eigen::Matrix3Xd expected_way_;  // [3, joints] what is left to turn if all goes to plan: keeps
+                                   // its sense near pi
   bool has_expected_way_ = false;
 };
 
