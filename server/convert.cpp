@@ -444,7 +444,7 @@ void FromContinuation(const Continuation& continuation, const ModelInfo& model, 
   out->set_frame(continuation.frame);
   if (audio_format != nullptr && audio_format->encoding() != v1::AUDIO_ENCODING_FILE) {
     out->set_audio_from_sample(
-        DanceStream::LatestFirstSample(continuation.frame, audio_format->sample_rate(), model));
+        LatestFirstSample(continuation.frame, audio_format->sample_rate(), model));
   }
   out->set_fingerprint(continuation.fingerprint);
   out->set_seed(seed);
@@ -511,7 +511,7 @@ void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
   constexpr int64_t kSomeFrame = 3'000;
   out->set_audio_lead_s(
       static_cast<double>(kSomeFrame) / model.fps -
-      static_cast<double>(DanceStream::LatestFirstSample(kSomeFrame, kMinSampleRate, model)) /
+      static_cast<double>(LatestFirstSample(kSomeFrame, kMinSampleRate, model)) /
           kMinSampleRate);
   DanceConfig config;
   config.output_fps = model.fps;

@@ -13,6 +13,7 @@
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
 #include "model/dance/playback_clock.h"
+#include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 
 namespace choreo {
@@ -74,10 +75,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
     return;
   }
-  if (model.audio_features != kMfccCount || model.fps != 30) {
-    throw Error(ErrorCode::kUnimplemented, "audio", "this model does not take music");
-  }
-  CheckAudioFormat(sample_rate, channels, "audio");
+  ValidateAudioStart(model, sample_rate, channels, first_sample, first, "audio");
   if (samples.empty()) throw InvalidArgument("audio", "has no samples");
   if (samples.size() % static_cast<size_t>(channels) != 0) {
     throw InvalidArgument("audio.data", std::to_string(samples.size()) +
@@ -85,12 +83,6 @@ void GroupRequest::Validate(const ModelInfo& model) const {
                                             std::to_string(channels) + " channels");
   }
   CheckFinite(samples, channels, first_sample);
-  const int64_t latest = DanceStream::LatestFirstSample(first, sample_rate, model);
-  if (first_sample < 0 || first_sample > latest) {
-    throw Error(ErrorCode::kOutOfRange, "audio.first_sample",
-                std::to_string(first_sample) + " is not in [0, " + std::to_string(latest) +
-                    "], so frame " + std::to_string(first) + " could not hear what lies before it");
-  }
 }
 
 void RankCandidates(std::vector<CandidateReport>& candidates) {
@@ -233,7 +225,7 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
       mailbox_(std::move(sink)) {
   if (!HasAudio(request)) return;
   // Of a long song only what the transition hears.
-  const int64_t first = DanceStream::LatestFirstSample(first_frame_, request.sample_rate, model_);
+  const int64_t first = LatestFirstSample(first_frame_, request.sample_rate, model_);
   const size_t channels = static_cast<size_t>(request.channels);
   const size_t skipped = std::min(static_cast<size_t>(first - request.first_sample) * channels,
                                   request.samples.size());

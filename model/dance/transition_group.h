@@ -6,9 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "model/dance/dance_stream.h"
+#include "model/dance/dance_config.h"
 #include "model/dance/quality_report.h"
 #include "model/dance/transition.h"
+#include "model/dance/warning.h"
 #include "model/engine/scheduler.h"
 
 namespace choreo {
@@ -28,7 +29,7 @@ struct GroupRequest {
   std::optional<Pose> after;
 
   /// The music around the transition, whole: samples from `first_sample` (absolute) on. It must
-  /// begin no later than DanceStream::LatestFirstSample; beyond its end is silence. Empty samples
+  /// begin no later than LatestFirstSample; beyond its end is silence. Empty samples
   /// with a rate of 0: no music.
   double sample_rate = 0;
   int channels = 0;

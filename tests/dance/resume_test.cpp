@@ -15,9 +15,9 @@ Recording Resume(Scheduler& scheduler, const Dance& dance, const Continuation& c
   config.continuation = continuation;
   int64_t from = 0;
   if (config.audio) {
-    from = std::min(DanceStream::LatestFirstSample(continuation.frame, config.audio->sample_rate,
-                                                   scheduler.model()),
-                    static_cast<int64_t>(dance.samples.size()) / config.audio->channels);
+    from = std::min(
+        LatestFirstSample(continuation.frame, config.audio->sample_rate, scheduler.model()),
+        static_cast<int64_t>(dance.samples.size()) / config.audio->channels);
     config.audio->first_sample = from;
   }
   auto sink = std::make_shared<Recorder>();
@@ -139,8 +139,7 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
   const Recording whole = Perform(*scheduler, dance);
   DanceConfig config = dance.config;
   config.continuation = whole.continuations.back();
-  const int64_t latest =
-      DanceStream::LatestFirstSample(config.continuation->frame, 22050, scheduler->model());
+  const int64_t latest = LatestFirstSample(config.continuation->frame, 22050, scheduler->model());
   EXPECT_GT(latest, 0);
   config.audio->first_sample = latest;
   EXPECT_NO_THROW(config.Validate(scheduler->model()));

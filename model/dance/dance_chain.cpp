@@ -1,0 +1,280 @@
+#include "model/dance/dance_chain.h"
+
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/dance/playback_clock.h"
+#include "model/dance/warning.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+// What a key that stands on the very first frame makes of the neutral stance before it.
+Pose StanceOfFirstKey(const Skeleton& skeleton, const Key& key) {
+  Pose stance = RestPose(skeleton);
+  if (key.mask.root_position) stance.root_position = key.pose.root_position;
+  for (int joint = 0; joint < skeleton.joints(); ++joint) {
+    if (key.mask.joints.empty() || key.mask.joints[static_cast<size_t>(joint)]) {
+      stance.rotations.col(joint) = key.pose.rotations.col(joint);
+    }
+  }
+  return stance;
+}
+
+}  // namespace
+
+/// One transition of the chain.
+class DanceChain::Job : public StepJob {
+ public:
+  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, const TransitionRequest& request)
+      : chain_(std::move(chain)),
+        segment_(segment),
+        run_(chain_->model_, request),
+        row_(static_cast<size_t>(chain_->model_.audio_features)) {}
+
+  const TransitionSpec& spec() const override { return run_.spec(); }
+
+  bool NextInput(StepInput* input) override {
+    if (chain_->paused_) return false;
+    const int64_t frame = segment_.from + run_.done();
+    std::lock_guard lock(chain_->mutex_);
+    if (!chain_->timeline_.Certain(frame)) return false;
+    if (chain_->audio_) {
+      if (!chain_->audio_->CopyRow(frame, row_)) return false;
+      input->audio_row = row_;
+    }
+    input->previous = run_.previous();
+    return true;
+  }
+
+  bool OnFrame(const StepOutput& raw) override {
+    bool more = false;
+    {
+      std::lock_guard lock(chain_->mutex_);
+      const DanceFrame frame = run_.Take(raw);
+      chain_->Emit(segment_, run_, frame);
+      const std::optional<int64_t> end = chain_->timeline_.End();
+      more = run_.done() < run_.frames() && !(end && chain_->next_frame_ >= *end);
+    }
+    chain_->mailbox_.Deliver();
+    return more;
+  }
+
+  void OnDone(const Error* failure) noexcept override {
+    {
+      std::lock_guard lock(chain_->mutex_);
+      chain_->job_ = nullptr;
+      if (failure != nullptr && !retired_) {
+        chain_->Fail(*failure);
+      } else {
+        if (run_.done() > 0) chain_->PostContinuation();
+        chain_->Advance(/*inherits=*/true);
+      }
+    }
+    chain_->mailbox_.Deliver();
+  }
+
+  double NextDeadline() const override {
+    const int64_t frame = segment_.from + run_.done() - chain_->first_frame_;
+    return chain_->start_time_ + static_cast<double>(frame) / chain_->model_.fps;
+  }
+
+  bool Cancelled() const override { return retired_ || chain_->cancelled_; }
+
+  /// The dance turned out to end before this transition's next frame: it ends in good order.
+  void Retire() { retired_ = true; }
+
+ private:
+  const std::shared_ptr<DanceChain> chain_;
+  const Segment segment_;
+  TransitionRun run_;
+  std::vector<float> row_;
+  std::atomic<bool> retired_ = false;
+};
+
+DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
+                       std::shared_ptr<DanceSink> sink)
+    : scheduler_(scheduler),
+      model_(scheduler.model()),
+      config_(config),
+      first_frame_(config.FirstFrame()),
+      start_time_(PlaybackClock()),
+      mailbox_(std::move(sink)),
+      timeline_({model_.fps, first_frame_, config.end_frame, config.audio.has_value(),
+                 model_.max_transition_frames}),
+      next_frame_(first_frame_),
+      meter_(model_.skeleton, model_.fps, first_frame_),
+      output_(model_.fps, config.output_fps, first_frame_,
+              config.continuation ? std::optional(RoundToFloat(config.continuation->poses.back()))
+                                  : std::nullopt),
+      music_beats_(config.music_beats) {
+  if (config.audio) {
+    audio_.emplace(config.audio->sample_rate, config.audio->channels, config.audio->first_sample);
+  }
+  const std::vector<Pose>& given =
+      config.continuation ? config.continuation->poses : config.history;
+  if (given.empty()) return;
+  const std::vector<Pose> history = FillHistory(model_, given);
+  history_.assign(history.begin(), history.end());
+}
+
+void DanceChain::Begin() {
+  if (config_.continuation && config_.continuation->fingerprint != model_.fingerprint) {
+    Post(InexactResume(*config_.continuation, model_));
+    mailbox_.Deliver();
+  }
+}
+
+void DanceChain::Change(const std::function<void(Timeline&)>& change) {
+  {
+    std::lock_guard lock(mutex_);
+    if (over_) return;
+    change(timeline_);
+    RetireIfOver();
+    Advance(/*inherits=*/false);
+    WakeJob();
+  }
+  mailbox_.Deliver();
+}
+
+bool DanceChain::over() const {
+  std::lock_guard lock(mutex_);
+  return over_;
+}
+
+void DanceChain::SetMusicBeats(std::vector<double> seconds) {
+  std::lock_guard lock(mutex_);
+  music_beats_ = std::move(seconds);
+}
+
+void DanceChain::SetPaused(bool paused) {
+  paused_ = paused;
+  if (paused) return;
+  std::lock_guard lock(mutex_);
+  WakeJob();
+}
+
+void DanceChain::Cancel() noexcept {
+  cancelled_ = true;
+  {
+    std::lock_guard lock(mutex_);
+    if (job_ != nullptr) {
+      WakeJob();  // OnDone follows
+    } else {
+      Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
+    }
+  }
+  mailbox_.Deliver();
+}
+
+void DanceChain::WakeJob() {
+  if (job_ != nullptr) scheduler_.Wake(job_);
+}
+
+void DanceChain::RetireIfOver() {
+  const std::optional<int64_t> end = timeline_.End();
+  // No step can be under way past the end: NextInput lets only certain frames through.
+  if (job_ != nullptr && end && next_frame_ >= *end) job_->Retire();
+}
+
+bool DanceChain::MayStart(bool inherits) const {
+  if (!timeline_.Certain(segment_->from)) return false;
+  // A slot that is held already is kept while the music catches up; a new one is asked for when the
+  // first frame can be made. Rows before the first frame are there once that frame's predecessor
+  // has been danced.
+  return !audio_ || audio_->ready() > (inherits ? segment_->from - 1 : segment_->from);
+}
+
+void DanceChain::Advance(bool inherits) {
+  if (over_ || job_ != nullptr) return;
+  if (cancelled_) return Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
+  const std::optional<int64_t> end = timeline_.End();
+  if (timeline_.complete() && end && next_frame_ >= *end) return Summarise();
+  if (!segment_) segment_ = timeline_.Next();
+  if (segment_ && MayStart(inherits)) Start();
+}
+
+void DanceChain::Start() {
+  if (history_.empty()) {
+    const bool on_key = segment_->key && segment_->to == 1;
+    const Pose stance =
+        on_key ? StanceOfFirstKey(model_.skeleton, *segment_->key) : RestPose(model_.skeleton);
+    const std::vector<Pose> history = FillHistory(model_, {&stance, 1});
+    history_.assign(history.begin(), history.end());
+  }
+  TransitionRequest request;
+  request.frames = static_cast<int>(segment_->to - segment_->from);
+  request.history.assign(history_.begin(), history_.end());
+  if (segment_->key) request.target = WorldTarget{segment_->key->pose, segment_->key->mask};
+  request.seed = config_.seed;
+  request.candidate = config_.candidate;
+  request.first_frame = segment_->from;
+  request.temperature =
+      config_.temperature.value_or(static_cast<float>(model_.default_temperature));
+  try {
+    if (audio_) {
+      request.has_audio = true;
+      request.audio_history = audio_->History(segment_->from, model_.history_frames);
+    }
+    auto job = std::make_shared<Job>(shared_from_this(), *segment_, request);
+    job_ = job.get();
+    scheduler_.Submit(std::move(job));
+    segment_.reset();
+  } catch (const Error& error) {
+    job_ = nullptr;
+    Fail(error);
+  }
+}
+
+void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame) {
+  if (run.done() == 1) {
+    const std::optional<RequiredSpeed> speed = run.required_speed();
+    if (speed && speed->TooFast()) {
+      Post(IntervalTooShort(model_.skeleton, segment.key->id, segment.from,
+                            segment.to - segment.from, *speed));
+    }
+  }
+  ++next_frame_;
+  history_.push_back(frame.pose);
+  history_.pop_front();
+  meter_.Add(frame);
+  OutputFrames frames = output_.Push(frame);
+  if (!frames.poses.empty()) {
+    mailbox_.Post([frames = std::move(frames)](DanceSink& sink) {
+      sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
+    });
+  }
+  if (run.arrival()) {
+    meter_.AddKey(segment.key->id, *run.arrival());
+    const int64_t key_frame = segment.to - 1;
+    Post(KeyReached{segment.key->id, key_frame, static_cast<double>(key_frame) / model_.fps,
+                    *run.arrival()});
+  }
+}
+
+void DanceChain::Post(const DanceEvent& event) {
+  mailbox_.Post([event](DanceSink& sink) { sink.OnEvent(event); });
+}
+
+void DanceChain::PostContinuation() {
+  Continuation continuation{next_frame_, {history_.begin(), history_.end()}, model_.fingerprint};
+  mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
+    sink.OnContinuation(continuation);
+  });
+}
+
+void DanceChain::Summarise() {
+  over_ = true;
+  std::vector<double> beats;
+  for (double seconds : music_beats_) beats.push_back(seconds * model_.fps);
+  mailbox_.Post([report = meter_.Report(beats)](DanceSink& sink) { sink.OnSummary(report); });
+}
+
+void DanceChain::Fail(const Error& error) {
+  if (over_) return;
+  over_ = true;
+  mailbox_.Post([error](DanceSink& sink) { sink.OnError(error); });
+}
+
+}  // namespace choreo

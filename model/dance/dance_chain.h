@@ -1,0 +1,91 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "model/dance/audio_feed.h"
+#include "model/dance/dance_config.h"
+#include "model/dance/dance_sink.h"
+#include "model/dance/mailbox.h"
+#include "model/dance/output_rate.h"
+#include "model/dance/quality_report.h"
+#include "model/dance/timeline.h"
+#include "model/dance/transition.h"
+#include "model/engine/scheduler.h"
+
+namespace choreo {
+
+/// The chain of transitions behind a DanceStream: takes what the timeline has planned, runs it
+/// through the scheduler one transition after the other, and tells the sink. Thread-safe. Lock
+/// order: the chain's before the scheduler's and the audio feed's; the sink is called under none.
+/// Kept alive by its running job.
+class DanceChain : public std::enable_shared_from_this<DanceChain> {
+ public:
+  /// The config must be valid.
+  DanceChain(Scheduler& scheduler, const DanceConfig& config, std::shared_ptr<DanceSink> sink);
+
+  /// What there is to say before the first message.
+  void Begin();
+
+  /// Applies a change (of the keys, or of what is known of the music) and goes on from there. What
+  /// the change throws passes through and leaves the chain as it was. Without effect once the dance
+  /// is over.
+  void Change(const std::function<void(Timeline&)>& change);
+
+  /// Tells the sink of an event; only inside a change.
+  void Post(const DanceEvent& event);
+
+  /// The last call to the sink is made or under way.
+  bool over() const;
+
+  /// Null for a dance without music. Only one thread at a time may push.
+  AudioFeed* audio() { return audio_ ? &*audio_ : nullptr; }
+
+  void SetMusicBeats(std::vector<double> seconds);
+  void SetPaused(bool paused);
+  void Cancel() noexcept;
+
+ private:
+  class Job;
+
+  // Those below are called with mutex_ held.
+  void Advance(bool inherits);
+  void Start();
+  bool MayStart(bool inherits) const;
+  void RetireIfOver();
+  void WakeJob();
+  void PostContinuation();
+  void Summarise();
+  void Fail(const Error& error);
+  void Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame);
+
+  Scheduler& scheduler_;
+  const ModelInfo& model_;
+  const DanceConfig config_;
+  const int64_t first_frame_;
+  const double start_time_;
+  std::atomic<bool> cancelled_ = false;
+  std::atomic<bool> paused_ = false;
+  Mailbox<DanceSink> mailbox_;
+  std::optional<AudioFeed> audio_;
+
+  mutable std::mutex mutex_;  // of what follows
+  Timeline timeline_;
+  // The last tau poses; empty until the first transition of a dance that is given none.
+  std::deque<Pose> history_;
+  int64_t next_frame_;              // to be emitted
+  std::optional<Segment> segment_;  // to be danced next, not yet submitted
+  Job* job_ = nullptr;              // submitted and not done; the scheduler keeps it alive
+  bool over_ = false;               // the last call to the sink is posted
+  QualityMeter meter_;
+  OutputRate output_;
+  std::vector<double> music_beats_;  // seconds
+};
+
+}  // namespace choreo

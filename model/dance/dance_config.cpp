@@ -1,0 +1,62 @@
+#include "model/dance/dance_config.h"
+
+#include <algorithm>
+#include <string>
+
+#include "model/audio/feature_stream.h"
+#include "model/audio/format.h"
+#include "model/core/error.h"
+#include "model/dance/timeline.h"
+#include "model/dance/validation.h"
+
+namespace choreo {
+
+void DanceConfig::Validate(const ModelInfo& model) const {
+  if (temperature) ValidateTemperature(*temperature, "config.temperature");
+  ValidateOutputFps(output_fps, "config.output_fps");
+  if (history.size() > static_cast<size_t>(model.history_frames)) {
+    throw InvalidArgument("config.history", std::to_string(history.size()) +
+                                                " poses, the limit is " +
+                                                std::to_string(model.history_frames));
+  }
+  ValidateHistory(model.skeleton, history, "config.history");
+  if (continuation) {
+    if (!history.empty()) {
+      throw InvalidArgument("config.history", "and a continuation exclude each other");
+    }
+    ValidateContinuation(model, *continuation, allow_inexact_resume, "config.continuation");
+  }
+  const int64_t first = FirstFrame();
+  if (end_frame && (*end_frame <= 0 || *end_frame < first || *end_frame > kMaxDanceFrames)) {
+    throw InvalidArgument("config.end_frame", std::to_string(*end_frame) + " is not in [" +
+                                                  std::to_string(std::max<int64_t>(first, 1)) +
+                                                  ", " + std::to_string(kMaxDanceFrames) + "]");
+  }
+  if (audio) {
+    ValidateAudioStart(model, audio->sample_rate, audio->channels, audio->first_sample, first,
+                       "config.audio");
+  }
+}
+
+int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model) {
+  return FeatureStream::FirstSampleFor(std::max<int64_t>(0, first_frame - model.history_frames),
+                                       sample_rate);
+}
+
+void ValidateAudioStart(const ModelInfo& model, double sample_rate, int channels,
+                        int64_t first_sample, int64_t first_frame, const std::string& field) {
+  // Rows come at 30 a second (FeatureStream).
+  if (model.audio_features != kMfccCount || model.fps != 30) {
+    throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
+  }
+  CheckAudioFormat(sample_rate, channels, field);
+  const int64_t latest = LatestFirstSample(first_frame, sample_rate, model);
+  if (first_sample < 0 || first_sample > latest) {
+    throw Error(ErrorCode::kOutOfRange, field + ".first_sample",
+                std::to_string(first_sample) + " is not in [0, " + std::to_string(latest) +
+                    "], so frame " + std::to_string(first_frame) +
+                    " could not hear what lies before it");
+  }
+}
+
+}  // namespace choreo

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "model/core/error.h"
+#include "model/dance/quality_report.h"
+#include "model/dance/timeline.h"
+#include "model/dance/transition.h"
+#include "model/dance/warning.h"
+
+namespace choreo {
+
+/// A key was reached, in the frames delivered just before.
+struct KeyReached {
+  std::string id;
+  int64_t frame = 0;  ///< model rate
+  double time = 0;    ///< seconds, of that frame
+  ArrivalResult arrival;
+};
+
+using DanceEvent = std::variant<KeyReached, KeyRejection, DanceWarning>;
+
+/// Listens to a dance. Calls come one at a time, in order, from a worker thread or from the thread
+/// that sent a message, with no lock of the stream held: they may call the stream (SetPaused,
+/// Cancel), and must not block. The last call is OnSummary or OnError, exactly once.
+class DanceSink {
+ public:
+  virtual ~DanceSink() = default;
+  /// Output rate; `first_frame` counts output frames from time 0. The spans live for the call.
+  virtual void OnFrames(int64_t first_frame, std::span<const Pose> poses,
+                        std::span<const std::array<float, 4>> contacts) = 0;
+  virtual void OnEvent(const DanceEvent& event) = 0;
+  /// At each transition's end, after its frames and events.
+  virtual void OnContinuation(const Continuation& continuation) = 0;
+  virtual void OnSummary(const QualityReport& report) = 0;
+  /// kCancelled after Cancel; kResourceExhausted if the scheduler had no room; else what failed.
+  virtual void OnError(const Error& error) = 0;
+};
+
+}  // namespace choreo
