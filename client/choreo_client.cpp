@@ -21,13 +21,12 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
     const Replicas::Server server = replicas->current();
     const grpc::Status status = call(*server.stub, &context);
     if (status.ok()) return;
-    const auto wait = patience.Next(status);
+    const auto wait = patience.Next(status, replicas->Leave(server));
     if (!wait) {
       const Error error = ToError(status);
       if (error.code() != ErrorCode::kUnavailable) throw error;
       throw Error(ErrorCode::kUnavailable, server.address, error.what());
     }
-    replicas->Leave(server);
     std::this_thread::sleep_for(*wait);
   }
 }

@@ -30,7 +30,7 @@ struct Options {
   std::vector<std::string> addresses = {"127.0.0.1:50051"};
   bool tls = false;
   /// PEM file of the authority to trust, where `tls`; empty: the system's.
-  std::filesystem::path ca_certificate;
+  std::filesystem::path ca_certificate = {};
   double connect_timeout_s = 5;  ///< for one attempt at one address
   double deadline_s = 0;         ///< for a call, from its first attempt to its last frame; 0: none
   int max_retries = 6;           ///< in a row without progress; 0: none, and no resume
@@ -42,24 +42,24 @@ struct Options {
 
 /// One model that a server has loaded.
 struct ModelDescription {
-  std::string name;
-  std::string fingerprint;  ///< equal fingerprints give equal bits
-  std::string licence;      ///< terms of the weights
-  std::string card;         ///< JSON
-  Skeleton skeleton;
+  std::string name = {};
+  std::string fingerprint = {};  ///< equal fingerprints give equal bits
+  std::string licence = {};      ///< terms of the weights
+  std::string card = {};         ///< JSON
+  Skeleton skeleton = {};
   double fps = 30;
   int history_frames = 0;  ///< frames of the past that it looks at
   double default_temperature = 0;
-  std::vector<std::string> controls;  ///< "root_path", "velocity_factors"
-  double audio_lead_s = 0;            ///< music that a transition wants before its first frame
-  int latency_frames = 0;             ///< how far the music must be ahead of the frame that is made
+  std::vector<std::string> controls = {};  ///< "root_path", "velocity_factors"
+  double audio_lead_s = 0;                 ///< music that a transition wants before its first frame
+  int latency_frames = 0;  ///< how far the music must be ahead of the frame that is made
 };
 
 /// A server.
 struct ServerDescription {
-  std::string version;
-  std::vector<ModelDescription> models;  ///< the first is the default
-  std::vector<std::string> devices;
+  std::string version = {};
+  std::vector<ModelDescription> models = {};  ///< the first is the default
+  std::vector<std::string> devices = {};
   int slots = 0;
   int active_streams = 0;
   /// What the server refuses to go beyond.
@@ -90,18 +90,18 @@ struct AudioFormat {
 
 /// Music, whole.
 struct Audio {
-  AudioFormat format;
-  std::vector<float> samples;    ///< of kPcmFloat, interleaved
-  std::vector<std::byte> bytes;  ///< of kFile
+  AudioFormat format = {};
+  std::vector<float> samples = {};    ///< of kPcmFloat, interleaved
+  std::vector<std::byte> bytes = {};  ///< of kFile
 };
 
 /// A pose to be hit: to 1 mm and 0.1 degrees.
 struct KeyPose {
-  std::string id;                ///< unique; sent again, it replaces the key
-  std::optional<int64_t> frame;  ///< at the model's rate; or else:
-  double time_s = 0;             ///< rounded to the nearest frame
-  Pose pose;
-  PoseMask mask;
+  std::string id = {};                ///< unique; sent again, it replaces the key
+  std::optional<int64_t> frame = {};  ///< at the model's rate; or else:
+  double time_s = 0;                  ///< rounded to the nearest frame
+  Pose pose = {};
+  PoseMask mask = {};
 };
 
 /// Where a dance can be taken up again, on any server of the same fingerprint. Opaque but for what
@@ -109,71 +109,71 @@ struct KeyPose {
 struct Continuation {
   int64_t frame = 0;              ///< the first that is still to be made
   int64_t audio_from_sample = 0;  ///< music before it need not be sent again
-  std::string fingerprint;
-  std::string bytes;  ///< the whole, serialised
+  std::string fingerprint = {};
+  std::string bytes = {};  ///< the whole, serialised
 };
 
 /// What a dance is made with.
 struct DanceConfig {
-  std::string model;  ///< empty: the server's first
-  double fps = 0;     ///< of the frames received, 1 to 120; 0: the model's
-  std::optional<uint64_t> seed;
-  std::optional<double> temperature;  ///< 0 to 2
+  std::string model = {};  ///< empty: the server's first
+  double fps = 0;          ///< of the frames received, 1 to 120; 0: the model's
+  std::optional<uint64_t> seed = {};
+  std::optional<double> temperature = {};  ///< 0 to 2
   /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
   /// rest at the origin, facing +Z.
-  std::vector<Pose> history;
-  int64_t first_frame = 0;                   ///< number of the first frame made, with `history`
-  std::optional<Continuation> continuation;  ///< instead of `history`
-  AudioFormat audio;
-  std::optional<int64_t>
-      frames;  ///< the dance ends before this frame; otherwise with the music or the last key
+  std::vector<Pose> history = {};
+  int64_t first_frame = 0;  ///< number of the first frame made, with `history`
+  std::optional<Continuation> continuation = {};  ///< instead of `history`
+  AudioFormat audio = {};
+  std::optional<int64_t> frames =
+      {};  ///< the dance ends before this frame; otherwise with the music or the last key
   /// Times of the music's beats, seconds, ascending: for Beat messages and the report, never for
   /// the dance. Empty: the server finds them in a kFile, and knows none in a kPcmFloat.
-  std::vector<double> music_beats;
+  std::vector<double> music_beats = {};
 };
 
 /// Wishes beside key poses and music, for models that know them.
 struct Controls {
   /// Where the root goes: a smooth curve through (x, z) at these frames.
   struct RootPath {
-    std::vector<int64_t> frames;
-    std::vector<Eigen::Vector2d> points;
+    std::vector<int64_t> frames = {};
+    std::vector<Eigen::Vector2d> points = {};
   };
   /// Multipliers of a reference's speed at these frames, 0.1 to 10.
   struct VelocityFactors {
-    std::vector<int64_t> frames;
-    std::vector<double> factors;
-    std::string reference;  ///< empty: the model's median profile
+    std::vector<int64_t> frames = {};
+    std::vector<double> factors = {};
+    std::string reference = {};  ///< empty: the model's median profile
   };
-  std::optional<RootPath> root_path;
-  std::optional<VelocityFactors> velocity_factors;
+  std::optional<RootPath> root_path = {};
+  std::optional<VelocityFactors> velocity_factors = {};
 };
 
 /// What the frames mean. The first answer.
 struct Header {
-  std::string model;
-  std::string fingerprint;
-  Skeleton skeleton;
+  std::string model = {};
+  std::string fingerprint = {};
+  Skeleton skeleton = {};
   uint64_t seed = 0;
   double temperature = 0;
   double fps = 30;        ///< of the frames received
   double model_fps = 30;  ///< of every other frame number
   int64_t first_frame = 0;
   int latency_frames = 0;
-  std::string server_version;
+  std::string server_version = {};
 };
 
 /// Consecutive frames.
 struct FrameBlock {
   int64_t first_frame = 0;  ///< at Header::fps
-  std::vector<Pose> poses;
-  std::vector<std::array<float, 4>> contacts;  ///< of Skeleton::feet, 0 to 1
-  uint32_t candidate = 0;                      ///< of a transition
+  std::vector<Pose> poses = {};
+  std::vector<std::array<float, 4>> contacts = {};  ///< of Skeleton::feet, 0 to 1
+  uint32_t candidate = 0;                           ///< of a transition
 };
 
 /// How one key was hit. Distances and angles are the largest of any joint that the key asks for.
 struct KeyReached {
-  std::string id;
+  std::string id = {};
   int64_t frame = 0;
   double raw_error_m = 0;      ///< of the model's own frame
   double final_error_m = 0;    ///< of the frame that was sent; at most 0.001
@@ -183,10 +183,10 @@ struct KeyReached {
 
 /// A key came too late, and nothing changed.
 struct KeyRejected {
-  std::string id;
+  std::string id = {};
   int64_t frame = 0;           ///< asked for
   int64_t earliest_frame = 0;  ///< the first that a key could have now
-  std::string reason;
+  std::string reason = {};
 };
 
 struct Beat {
@@ -196,24 +196,24 @@ struct Beat {
 
 struct Warning {
   int64_t frame = 0;
-  std::string message;  ///< names the value and the limit
+  std::string message = {};  ///< names the value and the limit
 };
 
 /// The server was lost and another one goes on; frames before `frame` are not sent again.
 struct Resumed {
-  std::string address;
-  int64_t frame = 0;   ///< at Header::fps
-  bool exact = true;   ///< false: of another fingerprint
-  std::string reason;  ///< what had happened
+  std::string address = {};
+  int64_t frame = 0;        ///< at Header::fps
+  bool exact = true;        ///< false: of another fingerprint
+  std::string reason = {};  ///< what had happened
 };
 
 /// The end of a dance, and what it is worth. After a resume, `frames`, `log_likelihood`,
 /// `beat_hit_rate` and `skate_ratio` speak of the part since then; `keys` is complete all the same.
 struct Report {
   int64_t frames = 0;  ///< at the model's rate
-  std::vector<KeyReached> keys;
+  std::vector<KeyReached> keys = {};
   double log_likelihood = 0;  ///< nats a frame
-  std::optional<double> beat_hit_rate;
+  std::optional<double> beat_hit_rate = {};
   double skate_ratio = 0;
   double max_key_acceleration = 0;  ///< of a joint, within two frames of any key, m/s^2
   double p95_acceleration = 0;      ///< of the frames' largest, m/s^2: to compare it with
@@ -265,42 +265,42 @@ class RemoteDance {
 
 /// A dance that is complete.
 struct DanceResult {
-  Header header;
-  Motion motion;
-  std::vector<std::array<float, 4>> contacts;
-  std::vector<Beat> beats;
-  std::vector<Warning> warnings;
-  std::vector<KeyRejected> rejected;
-  Report report;
+  Header header = {};
+  Motion motion = {};
+  std::vector<std::array<float, 4>> contacts = {};
+  std::vector<Beat> beats = {};
+  std::vector<Warning> warnings = {};
+  std::vector<KeyRejected> rejected = {};
+  Report report = {};
   int resumes = 0;
 };
 
 /// One transition, alone.
 struct TransitionRequest {
-  DanceConfig config;          ///< its audio format is taken from `audio`
-  int frames = 0;              ///< at the model's rate, 2 to 1800
-  std::optional<Pose> target;  ///< of the last frame
-  PoseMask target_mask;
-  Audio audio;
+  DanceConfig config = {};          ///< its audio format is taken from `audio`
+  int frames = 0;                   ///< at the model's rate, 2 to 1800
+  std::optional<Pose> target = {};  ///< of the last frame
+  PoseMask target_mask = {};
+  Audio audio = {};
   int64_t audio_first_sample =
-      0;                    ///< number of its first sample, counted from the start of the music
-  std::vector<Pose> after;  ///< frames to lead into, at most 60
-  int candidates = 1;       ///< 1 to 32
-  Controls controls;
+      0;  ///< number of its first sample, counted from the start of the music
+  std::vector<Pose> after = {};  ///< frames to lead into, at most 60
+  int candidates = 1;            ///< 1 to 32
+  Controls controls = {};
 };
 
 struct TransitionCandidate {
   uint32_t candidate = 0;
-  Motion motion;
-  std::vector<std::array<float, 4>> contacts;
-  Report report;
-  Continuation continuation;
+  Motion motion = {};
+  std::vector<std::array<float, 4>> contacts = {};
+  Report report = {};
+  Continuation continuation = {};
 };
 
 struct TransitionResult {
-  Header header;
-  std::vector<TransitionCandidate> candidates;  ///< best first
-  std::vector<Warning> warnings;
+  Header header = {};
+  std::vector<TransitionCandidate> candidates = {};  ///< best first
+  std::vector<Warning> warnings = {};
 };
 
 /// A client of one server or of several replicas. Connections are made when needed. Thread-safe.

@@ -119,13 +119,12 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
   const Replicas::Server failed = attempt_->server();
   attempt_.reset();
   if (cancelled_) throw Error(ErrorCode::kCancelled, "", "the dance was cancelled");
-  const auto wait = patience_.Next(status);
+  const auto wait = patience_.Next(status, replicas_->Leave(failed));
   if (!wait) {
     const Error error = ToError(status);
     if (error.code() != ErrorCode::kUnavailable) throw error;
     throw Error(ErrorCode::kUnavailable, failed.address, error.what());
   }
-  replicas_->Leave(failed);
   woken_.wait_for(lock, *wait, [&] { return cancelled_; });
   if (!header_) return;
   lost_because_ = status.error_message().empty() ? "lost" : status.error_message();

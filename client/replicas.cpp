@@ -62,9 +62,10 @@ Replicas::Server Replicas::current() const {
   return servers_[current_];
 }
 
-void Replicas::Leave(const Server& failed) {
+bool Replicas::Leave(const Server& failed) {
   const std::lock_guard lock(mutex_);
   if (servers_[current_].stub == failed.stub) current_ = (current_ + 1) % servers_.size();
+  return servers_.size() > 1;
 }
 
 Patience::Patience(const Options& options)
@@ -77,14 +78,17 @@ Patience::Patience(const Options& options)
   }
 }
 
-std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& failed) {
+std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& failed,
+                                                            bool elsewhere) {
   const RetryAdvice advice = AdviceFor(failed);
   if (!advice.retry || failures_ >= max_retries_) return std::nullopt;
   const double doubled = std::min(kLongestBackoff, first_backoff_s_ * std::exp2(failures_));
   ++failures_;
   // Clients that lost the same server should not all come back at once.
   const double spread = std::uniform_real_distribution<double>(0.5, 1.0)(jitter_);
-  const std::chrono::duration<double> wait(std::max(advice.wait_s, doubled * spread));
+  // What a server asks for concerns itself.
+  const std::chrono::duration<double> wait(
+      std::max(elsewhere ? 0 : advice.wait_s, doubled * spread));
   if (deadline_ && Clock::now() + std::chrono::duration_cast<Clock::duration>(wait) >= *deadline_) {
     return std::nullopt;
   }

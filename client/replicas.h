@@ -27,8 +27,9 @@ class Replicas {
 
   const Options& options() const { return options_; }
   Server current() const;
-  /// The current one failed: go on to the next. Nothing happens if another caller went on already.
-  void Leave(const Server& failed);
+  /// This one failed: go on to the next, unless another caller went on already. False where there
+  /// is no other.
+  bool Leave(const Server& failed);
 
  private:
   const Options options_;
@@ -46,9 +47,9 @@ class Patience {
   explicit Patience(const Options& options);
 
   std::optional<Clock::time_point> deadline() const { return deadline_; }
-  /// How long to wait after `failed` before trying again; none if trying again would not help, or
-  /// is no longer allowed.
-  std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed);
+  /// How long to wait after `failed` before trying again, the same server or another one
+  /// (`elsewhere`); none if trying again would not help, or is no longer allowed.
+  std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed, bool elsewhere);
   /// There was progress: count from the beginning.
   void Reset() { failures_ = 0; }
 

@@ -19,6 +19,11 @@ struct AnalyzeOptions {
 
 void Run(const AnalyzeOptions& options) {
   const Music music = ReadMusic(options.song);
+  if (!options.features.empty()) {
+    const FeatureMatrix rows = Mfcc(music.mono);
+    WriteNpy(options.features, {{rows.rows(), rows.cols()},
+                                std::vector<float>(rows.data(), rows.data() + rows.size())});
+  }
   if (options.json) {
     nlohmann::ordered_json json;
     json["duration_s"] = music.audio.seconds();
@@ -31,10 +36,6 @@ void Run(const AnalyzeOptions& options) {
                 music.audio.seconds(), music.audio.sample_rate, music.audio.channels,
                 music.tempo_bpm, music.beats.size());
   }
-  if (options.features.empty()) return;
-  const FeatureMatrix rows = Mfcc(music.mono);
-  WriteNpy(options.features, {{rows.rows(), rows.cols()},
-                              std::vector<float>(rows.data(), rows.data() + rows.size())});
 }
 
 }  // namespace

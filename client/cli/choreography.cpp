@@ -29,21 +29,25 @@ class Dice {
 };
 
 /// Seconds at which keys stand, the first at 0. On beats: every 1, 2, 4, 8 ... beats, the fewest
-/// that leave time to move.
+/// that leave time to move. Before the first and after the last beat that is heard, the count goes
+/// on.
 std::vector<double> KeyTimes(double seconds, const std::vector<double>& beats) {
-  std::vector<double> times = {0};
-  if (beats.size() < 2) {
-    for (double t = kPlainInterval; t <= seconds; t += kPlainInterval) times.push_back(t);
-    return times;
+  double period = kPlainInterval;
+  std::vector<double> counts = {0};
+  if (beats.size() >= 2) {
+    period = (beats.back() - beats.front()) / static_cast<double>(beats.size() - 1);
+    counts = beats;
   }
-  const double period = (beats.back() - beats.front()) / static_cast<double>(beats.size() - 1);
+  while (counts.front() > period) counts.insert(counts.begin(), counts.front() - period);
+  while (counts.back() + period < seconds) counts.push_back(counts.back() + period);
+
   size_t stride = 1;
   while (period * static_cast<double>(stride) < kShortestInterval) stride *= 2;
-  for (size_t i = 0; i < beats.size(); i += stride) {
-    // Keys that the tracker's wavering would bring too close are left out, as is the last if the
-    // dance ends first.
-    if (beats[i] - times.back() >= 0.75 * kShortestInterval && beats[i] <= seconds)
-      times.push_back(beats[i]);
+  std::vector<double> times = {0};
+  for (size_t i = 0; i < counts.size(); i += stride) {
+    // What a wavering count would bring too close is left out, as is what lies behind the end.
+    if (counts[i] - times.back() >= 0.75 * kShortestInterval && counts[i] < seconds)
+      times.push_back(counts[i]);
   }
   return times;
 }

@@ -12,7 +12,7 @@ namespace choreo::cli {
 /// What to compose: key poses for a dance of `seconds`.
 struct CompositionRequest {
   double seconds = 0;
-  std::vector<double> beats;  ///< seconds, ascending; may be empty
+  std::vector<double> beats = {};  ///< seconds, ascending; may be empty
   uint64_t seed = 0;
 };
 

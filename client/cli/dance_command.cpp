@@ -57,6 +57,24 @@ std::vector<client::KeyPose> ChooseKeys(const DanceOptions& options, const Music
   return keys;
 }
 
+/// What is promised of a dance: every key is in it, hit to 1 mm.
+void CheckKeys(const std::vector<client::KeyPose>& keys, const client::Report& report) {
+  constexpr double kPromise = 0.001;  // metres
+  for (const client::KeyPose& key : keys) {
+    const auto reached =
+        std::find_if(report.keys.begin(), report.keys.end(),
+                     [&](const client::KeyReached& candidate) { return candidate.id == key.id; });
+    if (reached == report.keys.end()) {
+      throw Error(ErrorCode::kInternal, key.id, "the dance has no such key pose");
+    }
+    if (!(reached->final_error_m <= kPromise)) {
+      throw Error(
+          ErrorCode::kInternal, key.id,
+          "was missed by " + std::to_string(1000 * reached->final_error_m) + " mm, more than 1 mm");
+    }
+  }
+}
+
 /// Shows messages while they come.
 class Display {
  public:
@@ -65,7 +83,8 @@ class Display {
   void operator()(const client::Message& message) {
     if (const auto* header = std::get_if<client::Header>(&message)) {
       bar_ = std::make_unique<ProgressBar>(
-          "dancing", std::llround(static_cast<double>(frames_) * header->fps / model_fps_));
+          "dancing",
+          1 + static_cast<int64_t>(static_cast<double>(frames_ - 1) * header->fps / model_fps_));
     } else if (const auto* block = std::get_if<client::FrameBlock>(&message)) {
       bar_->Advance(static_cast<int64_t>(block->poses.size()));
     } else if (const auto* key = std::get_if<client::KeyReached>(&message)) {
@@ -121,6 +140,7 @@ void Run(const DanceOptions& options) {
   WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
   if (!options.report.empty()) WriteText(options.report, ReportJson(dance.header, dance.report));
   std::cout << ReportText(dance.header, dance.report) << out.string() << std::endl;
+  CheckKeys(keys, dance.report);
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Dances 24 seconds of a real song through key poses of client/poses, and shows what came of it.
+#   scripts/demo.sh BIN_DIRECTORY OUT_DIRECTORY
+set -euo pipefail
+choreo=$1/choreo
+out=$2
+song="/usr/share/games/fretsonfire/data/songs/sectoid/Escape from chaosland/song.ogg"
+mkdir -p "$out"
+
+# No server is named, so choreo starts the choreod beside it, and stops it afterwards. It fails if a key pose is missed by more than 1 mm.
+"$choreo" dance "$song" --seconds 24 --seed 1 --out "$out/dance.npz" --report "$out/report.json"
+"$choreo" convert "$out/dance.npz" "$out/dance.bvh"
+"$choreo" render "$out/dance.npz" --report "$out/report.json" --out "$out/sheet.png" \
+  --title "24 s of \"Escape from chaosland\"; key poses are framed"
+
+keys=$(grep -c '"id"' "$out/report.json")
+if [[ $keys -lt 4 ]]; then
+  echo "demo.sh: only $keys key poses were danced through, at least 4 are wanted" >&2
+  exit 1
+fi
+echo
+echo "A dance through $keys key poses:"
+for file in dance.npz dance.bvh sheet.png report.json; do
+  printf '  %-11s %8d bytes  %s\n' "$file" "$(stat -c %s "$out/$file")" "$(realpath "$out/$file")"
+done

@@ -1,0 +1,117 @@
+#include "client/cli/choreography.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/motion/kinematics.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo::cli {
+namespace {
+
+std::vector<double> EvenBeats(double first, double period, int count) {
+  std::vector<double> beats;
+  for (int i = 0; i < count; ++i) beats.push_back(first + period * i);
+  return beats;
+}
+
+/// What follows the number in a key's id.
+std::string PoseOf(const client::KeyPose& key) { return key.id.substr(key.id.find('-') + 1); }
+
+TEST(ChoreographyTest, PutsKeysOnBeats) {
+  const auto beats = EvenBeats(0.3, 0.5, 60);
+  const auto keys = ComposeKeys({.seconds = 24, .beats = beats, .seed = 5}, PoseLibrary());
+  ASSERT_GE(keys.size(), 8U);
+  EXPECT_EQ(keys[0].time_s, 0);
+  for (size_t i = 1; i < keys.size(); ++i) {
+    EXPECT_NE(std::find(beats.begin(), beats.end(), keys[i].time_s), beats.end()) << keys[i].time_s;
+    EXPECT_NEAR(keys[i].time_s - keys[i - 1].time_s, i == 1 ? 2.3 : 2.0, 1e-9);
+    EXPECT_LT(keys[i].time_s, 24);
+  }
+}
+
+TEST(ChoreographyTest, CountsOnBeforeTheFirstBeatAndWithoutAny) {
+  const auto late =
+      ComposeKeys({.seconds = 12, .beats = EvenBeats(6, 0.5, 12), .seed = 5}, PoseLibrary());
+  EXPECT_GE(late.size(), 5U);
+  const auto silent = ComposeKeys({.seconds = 12, .beats = {}, .seed = 5}, PoseLibrary());
+  EXPECT_EQ(silent.size(), 6U);
+}
+
+TEST(ChoreographyTest, LeavesTimeBetweenKeysAtAnyTempo) {
+  for (const double period : {0.2, 0.33, 0.44, 0.7, 1.1, 1.9}) {
+    const auto keys = ComposeKeys(
+        {.seconds = 30, .beats = EvenBeats(0.1, period, static_cast<int>(30 / period)), .seed = 1},
+        PoseLibrary());
+    ASSERT_GE(keys.size(), 4U) << period;
+    for (size_t i = 1; i < keys.size(); ++i) {
+      EXPECT_GE(keys[i].time_s - keys[i - 1].time_s, 1.2) << period;
+      EXPECT_LE(keys[i].time_s - keys[i - 1].time_s, 2 * 3.8) << period;
+    }
+  }
+}
+
+TEST(ChoreographyTest, NeverRepeatsAPoseAtOnceAndDancesThemAll) {
+  std::set<std::string> danced;
+  const auto keys = ComposeKeys({.seconds = 100, .beats = {}, .seed = 11}, PoseLibrary());
+  for (size_t i = 0; i < keys.size(); ++i) {
+    danced.insert(PoseOf(keys[i]));
+    if (i > 0) {
+      EXPECT_NE(PoseOf(keys[i]), PoseOf(keys[i - 1]));
+    }
+  }
+  EXPECT_EQ(danced.size(), PoseLibrary().size());
+}
+
+TEST(ChoreographyTest, WalksAtALeisurelyPaceOnTheStage) {
+  const auto keys = ComposeKeys({.seconds = 300, .beats = {}, .seed = 2}, PoseLibrary());
+  double furthest = 0;
+  for (size_t i = 1; i < keys.size(); ++i) {
+    const Eigen::Vector3d step = keys[i].pose.root_position - keys[i - 1].pose.root_position;
+    // Poses lean up to 15 cm off their place.
+    EXPECT_LE(std::hypot(step.x(), step.z()), 0.28 * 2 + 0.35);
+    furthest = std::max(furthest,
+                        std::hypot(keys[i].pose.root_position.x(), keys[i].pose.root_position.z()));
+    EXPECT_EQ(keys[i].pose.root_position.y(),
+              FindLibraryPose(PoseOf(keys[i])).pose.root_position.y());
+  }
+  EXPECT_GT(furthest, 0.6);
+  EXPECT_LT(furthest, 2.0);
+}
+
+TEST(ChoreographyTest, MovesAPoseWithoutChangingIt) {
+  for (const client::KeyPose& key :
+       ComposeKeys({.seconds = 40, .beats = {}, .seed = 9}, PoseLibrary())) {
+    const Pose& source = FindLibraryPose(PoseOf(key)).pose;
+    const Eigen::MatrixXd moved = key.pose.rotations.rightCols(23);
+    EXPECT_EQ(moved, source.rotations.rightCols(23)) << key.id;
+  }
+}
+
+TEST(ChoreographyTest, DependsOnTheSeedAlone) {
+  const auto compose = [](uint64_t seed) {
+    return ComposeKeys({.seconds = 20, .beats = {}, .seed = seed}, PoseLibrary());
+  };
+  const auto a = compose(3);
+  const auto b = compose(3);
+  const auto c = compose(4);
+  ASSERT_EQ(a.size(), b.size());
+  bool differs = false;
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].id, b[i].id);
+    EXPECT_EQ(a[i].pose.root_position, b[i].pose.root_position);
+    differs = differs || a[i].id != c[i].id;
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST(ChoreographyTest, RefusesADanceThatIsTooShort) {
+  ExpectError(ErrorCode::kInvalidArgument, "--seconds",
+              [] { ComposeKeys({.seconds = 1, .beats = {}, .seed = 0}, PoseLibrary()); });
+}
+
+}  // namespace
+}  // namespace choreo::cli

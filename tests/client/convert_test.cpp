@@ -1,0 +1,64 @@
+#include "client/convert.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/expect_error.h"
+
+namespace choreo::client {
+namespace {
+
+v1::Frames TwoFrames(int joints) {
+  v1::Frames frames;
+  frames.set_first_frame(7);
+  frames.set_count(2);
+  for (int i = 0; i < 6; ++i) frames.add_root_positions(static_cast<float>(i));
+  for (int i = 0; i < 2 * 3 * joints; ++i) frames.add_rotations(static_cast<float>(100 + i));
+  for (int i = 0; i < 8; ++i) frames.add_contacts(static_cast<float>(i));
+  return frames;
+}
+
+TEST(ClientConvertTest, UnpacksFrames) {
+  const FrameBlock block = FromProto(TwoFrames(3), 3);
+  EXPECT_EQ(block.first_frame, 7);
+  ASSERT_EQ(block.poses.size(), 2U);
+  EXPECT_EQ(block.poses[1].root_position, Eigen::Vector3d(3, 4, 5));
+  EXPECT_EQ(block.poses[1].rotations.col(2), Eigen::Vector3d(115, 116, 117));
+  EXPECT_EQ(block.contacts[1][3], 7);
+}
+
+TEST(ClientConvertTest, RefusesFramesOfTheWrongLength) {
+  ExpectError(ErrorCode::kInternal, "broke the protocol", [] { FromProto(TwoFrames(3), 4); });
+  v1::Frames none = TwoFrames(3);
+  none.set_count(0);
+  ExpectError(ErrorCode::kInternal, "broke the protocol", [&] { FromProto(none, 3); });
+}
+
+TEST(ClientConvertTest, PassesOverEventsOfTheFuture) {
+  EXPECT_FALSE(FromProto(v1::Event()).has_value());
+}
+
+TEST(ClientConvertTest, AKeyAsksForWhatItsMaskSays) {
+  KeyPose key;
+  key.id = "a";
+  key.frame = 12;
+  key.pose.rotations = Eigen::Matrix3Xd::Random(3, 4);
+  key.mask.root_position = false;
+  key.mask.joints = {false, true, false, true};
+  const v1::Keyframe proto = ToProto(key);
+  EXPECT_EQ(proto.frame(), 12);
+  EXPECT_FALSE(proto.pose().has_root_position());
+  EXPECT_EQ(std::vector<int>(proto.mask().joints().begin(), proto.mask().joints().end()),
+            (std::vector<int>{1, 3}));
+  ASSERT_EQ(proto.pose().rotations_size(), 12);
+  EXPECT_EQ(proto.pose().rotations(4), static_cast<float>(key.pose.rotations(1, 1)));
+}
+
+TEST(ClientConvertTest, RefusesContinuationsThatAreNone) {
+  DanceConfig config;
+  config.continuation =
+      Continuation{.frame = 3, .audio_from_sample = 0, .fingerprint = "", .bytes = "\xff\xff"};
+  ExpectError(ErrorCode::kInvalidArgument, "continuation", [&] { ToProto(config); });
+}
+
+}  // namespace
+}  // namespace choreo::client

@@ -1,0 +1,99 @@
+#include "client/journal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace choreo::client {
+namespace {
+
+using testing::ElementsAre;
+using testing::Pair;
+
+v1::StreamDanceRequest KeyAt(const std::string& id, int64_t frame) {
+  v1::StreamDanceRequest request;
+  request.mutable_keyframe()->set_id(id);
+  request.mutable_keyframe()->set_frame(frame);
+  return request;
+}
+
+v1::StreamDanceRequest Removal(const std::string& id) {
+  v1::StreamDanceRequest request;
+  request.mutable_remove_keyframe()->set_id(id);
+  return request;
+}
+
+int Drain(Journal* journal) {
+  int taken = 0;
+  while (journal->TakeNext()) ++taken;
+  return taken;
+}
+
+TEST(JournalTest, SaysEverythingInOrderAndAgainAfterARewind) {
+  Journal journal(4, 0);
+  journal.Append(KeyAt("a", 10));
+  journal.AppendMusic(std::string(8, 'x'));
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    EXPECT_EQ(journal.TakeNext()->keyframe().id(), "a");
+    EXPECT_EQ(journal.TakeNext()->audio().data().size(), 8U);
+    EXPECT_EQ(journal.TakeNext(), nullptr);
+    journal.Rewind();
+  }
+}
+
+TEST(JournalTest, NumbersTheMusic) {
+  Journal journal(4, 100);
+  EXPECT_EQ(journal.first_sample(), 100);
+  journal.AppendMusic(std::string(40, 'x'));
+  journal.AppendMusic(std::string(20, 'x'));
+  EXPECT_EQ(journal.TakeNext()->audio().first_sample(), 100);
+  EXPECT_EQ(journal.TakeNext()->audio().first_sample(), 110);
+}
+
+TEST(JournalTest, ForgetsMusicThatIsNoLongerNeededAndNothingElse) {
+  Journal journal(4, 0);
+  journal.AppendMusic(std::string(40, 'x'));  // samples 0 to 9
+  journal.Append(KeyAt("a", 10));
+  journal.AppendMusic(std::string(40, 'x'));  // 10 to 19
+  journal.AppendMusic(std::string(40, 'x'));  // 20 to 29
+  EXPECT_EQ(Drain(&journal), 4);
+  journal.ForgetMusicBefore(19);
+  EXPECT_EQ(journal.first_sample(), 10);
+  EXPECT_EQ(journal.TakeNext(), nullptr);
+  journal.AppendMusic(std::string(40, 'x'));
+  EXPECT_EQ(journal.TakeNext()->audio().first_sample(), 30);
+  journal.Rewind();
+  EXPECT_EQ(Drain(&journal), 4);
+}
+
+TEST(JournalTest, KeepsWhatWasNotSentAndAllOfAFile) {
+  Journal samples(4, 0);
+  samples.AppendMusic(std::string(40, 'x'));
+  samples.ForgetMusicBefore(1000);
+  EXPECT_EQ(Drain(&samples), 1);
+
+  Journal file(0, 0);
+  file.AppendMusic("RIFF");
+  file.AppendMusic("WAVE");
+  EXPECT_EQ(Drain(&file), 2);
+  file.ForgetMusicBefore(1000);
+  file.Rewind();
+  EXPECT_EQ(file.TakeNext()->audio().first_sample(), 0);
+  EXPECT_EQ(file.TakeNext()->audio().first_sample(), 4);
+}
+
+TEST(JournalTest, KnowsWhichMessagesComeTooLateForAResumption) {
+  Journal journal(0, 0);
+  journal.Append(KeyAt("a", 10));
+  journal.Append(KeyAt("b", 50));
+  v1::StreamDanceRequest timed;
+  timed.mutable_keyframe()->set_id("c");
+  timed.mutable_keyframe()->set_time(1.0);
+  journal.Append(timed);
+  journal.Append(KeyAt("a", 70));  // moved
+  journal.Append(Removal("c"));
+  journal.Append(Removal("b"));
+  EXPECT_THAT(journal.KeysBefore(40, 30), ElementsAre(Pair("a", 10), Pair("c", 30), Pair("c", 30)));
+}
+
+}  // namespace
+}  // namespace choreo::client

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/server.h"
+#include "tests/support/fake_engine.h"
+
+namespace choreo {
+
+/// A FakeEngine of any fingerprint.
+class NamedFakeEngine final : public FakeEngine {
+ public:
+  explicit NamedFakeEngine(std::string fingerprint) { model_.fingerprint = std::move(fingerprint); }
+};
+
+/// A real server in this process, on a free port.
+class TestServer {
+ public:
+  explicit TestServer(const std::string& fingerprint = "fake-1") {
+    ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    std::vector<Server::Engines> models(1);
+    models[0].push_back(std::make_unique<NamedFakeEngine>(fingerprint));
+    server_ = std::make_unique<Server>(config, std::move(models));
+    address_ = "127.0.0.1:" + std::to_string(server_->port());
+  }
+
+  const std::string& address() const { return address_; }
+  int calls() const { return server_->calls(); }
+  /// At once, with all its calls.
+  void Die() { server_->Drain(0); }
+
+ private:
+  std::unique_ptr<Server> server_;
+  std::string address_;
+};
+
+}  // namespace choreo
