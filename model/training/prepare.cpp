@@ -14,6 +14,7 @@
 #include "model/motion/fit.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
+#include "model/training/jolts.h"
 #include "model/training/prepared_clip.h"
 
 namespace choreo {
@@ -24,6 +25,8 @@ using nlohmann::json;
 constexpr double kModelFps = 30;
 constexpr double kTopSpeed = 15;  // m/s of any joint; faster is a defect of the recording
 constexpr int kShortestFrames = 60;
+constexpr size_t kLongestCalibration = 6;  // frames
+constexpr double kMusicSlack = 0.5;        // s by which music may be shorter than its dance
 
 // The longest run of frames in which no joint jumps. What lies outside is cut.
 std::pair<size_t, size_t> LongestCleanRun(const PositionClip& clip) {
@@ -42,14 +45,54 @@ std::pair<size_t, size_t> LongestCleanRun(const PositionClip& clip) {
   return {best_begin, best_end};
 }
 
-// MFCC rows of the motion's frames; frame 0 plays at `start_s` of the music.
-Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skipped_s) {
+// Many recordings begin with a calibration pose, a frame or two from which the dancer jumps into
+// the dance: the first frame that is dance.
+size_t SkipCalibration(const PositionClip& clip) {
+  size_t begin = 0;
+  for (size_t f = 1; f <= kLongestCalibration && f < clip.frames.size(); ++f) {
+    const double step = (clip.frames[f] - clip.frames[f - 1]).colwise().norm().maxCoeff();
+    if (step * clip.fps > kTopSpeed) begin = f;
+  }
+  return begin;
+}
+
+// Cuts a fitted motion at the frames where the body snaps; returns how many frames that cost.
+size_t KeepLongestRun(const Skeleton& skeleton, Motion& motion, double& skipped_s, json& warnings) {
+  std::vector<int> ends = FindBreaks(skeleton, motion);
+  if (ends.empty()) return 0;
+  ends.push_back(static_cast<int>(motion.frames.size()));
+  int begin = 0, best = 0, longest = 0;
+  for (const int end : ends) {
+    if (end - begin > longest) {
+      best = begin;
+      longest = end - begin;
+    }
+    begin = end;
+  }
+  const size_t all = motion.frames.size();
+  motion.frames = {motion.frames.begin() + best, motion.frames.begin() + best + longest};
+  skipped_s += best / motion.fps;
+  warnings.push_back("the body snaps: kept frames " + std::to_string(best) + " to " +
+                     std::to_string(best + longest - 1) + " of " + std::to_string(all));
+  return all - motion.frames.size();
+}
+
+// MFCC rows of the motion's frames; the recording's first frame plays at music_start_s.
+Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skipped_s,
+                          json& warnings) {
   const DecodedAudio audio = DecodeAudioFile(recording.music);
   FeatureStream stream(audio.sample_rate, audio.channels);
   stream.Push(audio.interleaved);
   stream.Finish();
   const auto first =
       static_cast<int64_t>(std::lround((recording.music_start_s + skipped_s) * kModelFps));
+  const double missing_s =
+      (static_cast<double>(first) + static_cast<double>(frames)) / kModelFps - audio.seconds();
+  if (missing_s > kMusicSlack) {
+    char text[80];
+    std::snprintf(text, sizeof(text), "the music ends %.1f s before the dance", missing_s);
+    warnings.push_back(text);
+  }
   Eigen::MatrixXf rows(static_cast<Eigen::Index>(stream.Row(0).size()),
                        static_cast<Eigen::Index>(frames));
   for (size_t f = 0; f < frames; ++f) {
@@ -69,6 +112,8 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   Prepared result;
   json& report = result.report;
   report["name"] = recording.name;
+  report["warnings"] = json::array();
+  json& warnings = report["warnings"];
   double skipped_s = 0;
   Motion motion;
   if (recording.motion) {
@@ -77,13 +122,20 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   } else {
     PositionClip clip = recording.positions;
     ValidateClip(clip);
+    const size_t calibration = SkipCalibration(clip);
+    clip.frames.erase(clip.frames.begin(),
+                      clip.frames.begin() + static_cast<std::ptrdiff_t>(calibration));
     int replaced = 0;
     clip = RemoveSpikes(clip, kTopSpeed, 6, &replaced);
     const auto [begin, end] = LongestCleanRun(clip);
-    const size_t cut = clip.frames.size() - (end - begin);
+    size_t cut = calibration + clip.frames.size() - (end - begin);
+    if (cut > calibration) {
+      warnings.push_back("a joint jumps: kept frames " + std::to_string(calibration + begin) +
+                         " to " + std::to_string(calibration + end - 1));
+    }
     clip.frames = {clip.frames.begin() + static_cast<std::ptrdiff_t>(begin),
                    clip.frames.begin() + static_cast<std::ptrdiff_t>(end)};
-    skipped_s = static_cast<double>(begin) / clip.fps * recording.time_scale;
+    skipped_s = static_cast<double>(calibration + begin) / clip.fps * recording.time_scale;
     if (recording.cutoff_hz > 0) clip = LowPass(clip, recording.cutoff_hz);
     if (recording.tilted_floor) {
       std::vector<int> feet;
@@ -96,6 +148,10 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
     clip = ResamplePositions(clip, kModelFps, recording.time_scale);
     FitResult fit = FitClip(clip, recording.mapping, skeleton);
     motion = std::move(fit.motion);
+    cut += KeepLongestRun(skeleton, motion, skipped_s, warnings);
+    const LimbRepair limbs = RepairLimbs(skeleton, motion);
+    report["limb_frames_repaired"] = limbs.frames;
+    if (limbs.left > 0) warnings.push_back(std::to_string(limbs.left) + " snapping limbs left");
     report["fit_error_m"] = fit.report.mean_error_m;
     report["fit_p95_m"] = fit.report.p95_error_m;
     report["scale"] = fit.report.scale;
@@ -123,7 +179,11 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
     }
   }
   report["contact_share"] = clip.contacts.mean();
-  if (!recording.music.empty()) clip.audio = MusicRows(recording, motion.frames.size(), skipped_s);
+  if (!recording.music.empty()) {
+    clip.audio = MusicRows(recording, motion.frames.size(), skipped_s, warnings);
+  } else if (options.layout == "tang2018") {
+    warnings.push_back("no music");
+  }
   report["music"] = !recording.music.empty();
   clip.motion = std::move(motion);
   clip.notes = {{"terms", options.terms}, {"preparation", report.dump()}};
@@ -151,15 +211,18 @@ int Prepare(const PrepareOptions& options) {
         progress.Advance(1, sources[i].name);
       }
     };
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < options.jobs; ++i) workers.emplace_back(work);
+    {
+      std::vector<std::jthread> workers;
+      for (int i = 0; i < options.jobs; ++i) workers.emplace_back(work);
+    }
+    progress.Finish();
   }
 
   int prepared = 0;
   int64_t frames = 0;
   double error = 0;
-  std::printf("%-28s %8s %9s %9s %8s %6s  %s\n", "clip", "frames", "fit cm", "p95 cm", "contact",
-              "cut", "music");
+  std::printf("%-28s %8s %7s %7s %8s %8s %5s %9s %6s  %s\n", "clip", "frames", "fit cm", "p95 cm",
+              "floor cm", "contact", "cut", "repaired", "music", "warnings");
   for (const json& report : reports) {
     const std::string name = report.at("name");
     if (report.contains("skipped")) {
@@ -170,12 +233,17 @@ int Prepare(const PrepareOptions& options) {
     ++prepared;
     frames += report.at("frames").get<int64_t>();
     error += report.at("fit_error_m").get<double>() * report.at("frames").get<double>();
-    std::printf("%-28s %8lld %9.2f %9.2f %8.2f %6lld  %s\n", name.c_str(),
+    std::string warnings;
+    for (const auto& warning : report.at("warnings")) {
+      warnings += (warnings.empty() ? "" : "; ") + warning.get<std::string>();
+    }
+    std::printf("%-28s %8lld %7.2f %7.2f %8.1f %8.2f %5lld %9lld %6s  %s\n", name.c_str(),
                 static_cast<long long>(report.at("frames").get<int64_t>()),
                 100 * report.at("fit_error_m").get<double>(), 100 * report.value("fit_p95_m", 0.0),
-                report.at("contact_share").get<double>(),
+                100 * report.value("ground_shift_m", 0.0), report.at("contact_share").get<double>(),
                 static_cast<long long>(report.value("frames_cut", 0)),
-                report.at("music").get<bool>() ? "yes" : "no");
+                static_cast<long long>(report.value("limb_frames_repaired", 0)),
+                report.at("music").get<bool>() ? "yes" : "no", warnings.c_str());
   }
   if (prepared > 0) {
     std::printf("%d of %zu clips, %lld frames (%.1f min), mean fit error %.2f cm\n", prepared,

@@ -16,8 +16,9 @@ void AddPrepareCommand(CLI::App& app) {
       ->check(CLI::IsMember({"tang2018", "bvh", "amass"}));
   command->add_option("input", options->input, "Folder of recordings")->required();
   command->add_option("output", options->output, "Folder for the clips")->required();
-  command->add_option("--frame-rate", options->frame_rates,
-                      "PREFIX FPS: what the files of these clips should have said");
+  command->add_option(
+      "--frame-rate", options->frame_rates,
+      "PREFIX FPS: the true rate of clips whose header is wrong (cmu_dance: salsa 60)");
   command->add_option("--time-scale", options->time_scales,
                       "PREFIX FACTOR: stretch these clips in time");
   command->add_option("--terms", options->terms, "Terms of use, kept with every clip")

@@ -165,6 +165,13 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
   }
   std::sort(sources.begin(), sources.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });
+  const auto twice =
+      std::adjacent_find(sources.begin(), sources.end(),
+                         [](const auto& a, const auto& b) { return a.name == b.name; });
+  if (twice != sources.end()) {
+    throw InvalidArgument(options.input.string(),
+                          "two recordings would both become '" + twice->name + ".clip'");
+  }
   return sources;
 }
 
