@@ -39,6 +39,12 @@ int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field) {
   }
 }
 
+int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
+  if (value >= least && value <= most) return value;
+  throw InvalidArgument(field, std::to_string(value) + " is not in [" + std::to_string(least) +
+                                   ", " + std::to_string(most) + "]");
+}
+
 Eigen::Vector3d FromQuaternionNumbers(const float* v, const std::string& field) {
   const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
   if (!(std::abs(q.norm() - 1) <= kUnitTolerance)) {
@@ -72,11 +78,7 @@ std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) 
     poses.push_back(ToPose(history.poses(i), model.skeleton, At(field, i)));
   }
   ValidateHistory(model.skeleton, poses, field);
-  if (history.first_frame() < 0 || history.first_frame() > kMaxDanceFrames) {
-    throw InvalidArgument("config.history.first_frame", std::to_string(history.first_frame()) +
-                                                            " is not in [0, " +
-                                                            std::to_string(kMaxDanceFrames) + "]");
-  }
+  CheckedIn(history.first_frame(), 0, kMaxDanceFrames, "config.history.first_frame");
   const size_t kept = std::min(poses.size(), static_cast<size_t>(model.history_frames));
   poses.erase(poses.begin(), poses.end() - static_cast<std::ptrdiff_t>(kept));
   return poses;
@@ -158,13 +160,8 @@ void CheckMusic(const v1::AudioFormat& format) {
       choreo::CheckAudioFormat(format.sample_rate(),
                                static_cast<int>(std::min<uint32_t>(format.channels(), 1U << 30)),
                                field);
-      if (format.first_sample() < 0 ||
-          format.first_sample() > int64_t{kMaxAudioSeconds} * format.sample_rate()) {
-        throw InvalidArgument(field + ".first_sample",
-                              std::to_string(format.first_sample()) + " is not in [0, " +
-                                  std::to_string(int64_t{kMaxAudioSeconds} * format.sample_rate()) +
-                                  "]");
-      }
+      CheckedIn(format.first_sample(), 0, int64_t{kMaxAudioSeconds} * format.sample_rate(),
+                field + ".first_sample");
       return;
     case v1::AUDIO_ENCODING_FILE:
       for (const auto& [name, value] :
@@ -258,14 +255,10 @@ KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& 
     case v1::Keyframe::kTime:
       return AtTime{keyframe.time()};
     case v1::Keyframe::kIntervalAfterPrevious:
-      if (keyframe.interval_after_previous() < kMinKeyDistance ||
-          keyframe.interval_after_previous() > kMaxDanceFrames) {
-        throw InvalidArgument(field + ".interval_after_previous",
-                              std::to_string(keyframe.interval_after_previous()) +
-                                  " frames is not in [" + std::to_string(kMinKeyDistance) + ", " +
-                                  std::to_string(kMaxDanceFrames) + "]");
-      }
-      return AfterPrevious{static_cast<double>(keyframe.interval_after_previous()) / fps};
+      return AfterPrevious{
+          static_cast<double>(CheckedIn(keyframe.interval_after_previous(), kMinKeyDistance,
+                                        kMaxDanceFrames, field + ".interval_after_previous")) /
+          fps};
     case v1::Keyframe::WHEN_NOT_SET:
       break;
   }
@@ -286,12 +279,10 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
       config.history.clear();
     }
   }
+  const int64_t first = config.continuation ? config.continuation->frame : 0;
   if (message.has_frames()) {
-    if (message.frames() < 1 || message.frames() > kMaxDanceFrames) {
-      throw InvalidArgument("config.frames", std::to_string(message.frames()) + " is not in [1, " +
-                                                 std::to_string(kMaxDanceFrames) + "]");
-    }
-    config.end_frame = message.frames();
+    config.end_frame =
+        CheckedIn(message.frames(), std::max<int64_t>(first, 1), kMaxDanceFrames, "config.frames");
   }
   if (message.has_audio_format()) {
     const v1::AudioFormat& format = message.audio_format();
@@ -301,6 +292,15 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
             ? DanceConfig::Audio{kFileAudioRate, 1, 0}
             : DanceConfig::Audio{static_cast<double>(format.sample_rate()),
                                  static_cast<int>(format.channels()), format.first_sample()};
+  }
+  if (config.audio) {
+    const int64_t latest = LatestFirstSample(first, config.audio->sample_rate, model);
+    if (config.audio->first_sample > latest) {
+      throw Error(ErrorCode::kOutOfRange, "config.audio_format.first_sample",
+                  std::to_string(config.audio->first_sample) + " is after " +
+                      std::to_string(latest) + ", the last one to start at for frame " +
+                      std::to_string(first));
+    }
   }
   config.Validate(model);
   return config;
@@ -319,11 +319,8 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
     throw InvalidArgument("config.frames", "is for StreamDance; GenerateTransition has its own");
   }
   request.frames = message.frames();
-  if (message.candidates() > static_cast<uint32_t>(kMaxCandidates)) {
-    throw InvalidArgument("candidates", std::to_string(message.candidates()) + " is not in [0, " +
-                                            std::to_string(kMaxCandidates) + "]");
-  }
-  request.candidates = message.candidates() == 0 ? 1 : static_cast<int>(message.candidates());
+  request.candidates = std::max(
+      1, static_cast<int>(CheckedIn(message.candidates(), 0, kMaxCandidates, "candidates")));
   if (message.has_target()) {
     request.target =
         ToTarget(message.target(), message.has_target_mask() ? &message.target_mask() : nullptr,

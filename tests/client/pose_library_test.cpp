@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <cmath>
+#include <ostream>
 
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::cli {
+
+/// What GoogleTest calls the parameter.
+void PrintTo(const LibraryPose& pose, std::ostream* out) { *out << pose.id; }
+
 namespace {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }

@@ -318,12 +318,12 @@ INSTANTIATE_TEST_SUITE_P(
                       WithKey([](auto& k) { k.set_interval_after_previous(0); }),
                       kInvalid,
                       "keyframes[0].interval_after_previous",
-                      {"0 frames", "2"}},
+                      {"0 ", "[2, "}},
         BadStreamCase{"IntervalNegative",
                       WithKey([](auto& k) { k.set_interval_after_previous(-7); }),
                       kInvalid,
                       "keyframes[0].interval_after_previous",
-                      {"-7 frames"}},
+                      {"-7"}},
         BadStreamCase{"IntervalHuge",
                       WithKey([](auto& k) {
                         k.set_interval_after_previous(std::numeric_limits<int64_t>::max());
@@ -393,7 +393,7 @@ INSTANTIATE_TEST_SUITE_P(
                         return Requests{config};
                       },
                       grpc::StatusCode::OUT_OF_RANGE,
-                      "config.audio.first_sample",
+                      "config.audio_format.first_sample",
                       {"5000"}},
         BadStreamCase{"NaN",
                       [](const Key&) {
