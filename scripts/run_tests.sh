@@ -8,12 +8,14 @@ trap 'rm -f "$report"' EXIT
 
 # Each test program gets one thread of BLAS: ctest already uses every core.
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
-# A log needs no line for every test that passes.
-progress=()
-[[ -t 1 ]] && progress=(--progress)
 rc=0
-ctest --test-dir "$build" --output-on-failure "${progress[@]}" -j "$(nproc)" --no-tests=error \
-  --output-junit "$report" | grep -vE '^ +Start +[0-9]+: |   Passed  ' || rc=${PIPESTATUS[0]}
+run=(ctest --test-dir "$build" --output-on-failure -j "$(nproc)" --no-tests=error --output-junit "$report")
+if [[ -t 1 ]]; then
+  "${run[@]}" --progress || rc=$?
+else
+  # A log needs no line for every test that passes.
+  "${run[@]}" | grep -vE '^ +Start +[0-9]+: |   Passed  ' || rc=${PIPESTATUS[0]}
+fi
 
 # The first line with these attributes belongs to the <testsuite>, which counts all.
 attribute() { grep -oE -m1 "$1=\"[0-9]+\"" "$report" | head -1 | tr -dc 0-9 || true; }
