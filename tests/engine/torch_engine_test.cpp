@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <torch/torch.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -69,10 +70,11 @@ class TorchEngineTest : public testing::TestWithParam<Shape> {
   void SetUp() override {
     SetTorchThreads(1);
     model_ = RandomModel(GetParam());
-    // Tests of one program may run side by side.
+    // Tests may run side by side, and so may whole builds.
     std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
     std::ranges::replace(name, '/', '_');
-    path_ = std::filesystem::path(testing::TempDir()) / ("torch_engine_" + name + ".safetensors");
+    path_ = std::filesystem::path(testing::TempDir()) /
+            ("torch_engine_" + name + "_" + std::to_string(getpid()) + ".safetensors");
     SaveCheckpoint(path_, model_, {{"licence", "none: random weights"}});
   }
   void TearDown() override { std::filesystem::remove(path_); }
