@@ -279,10 +279,9 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
       config.history.clear();
     }
   }
-  const int64_t first = config.continuation ? config.continuation->frame : 0;
   if (message.has_frames()) {
-    config.end_frame =
-        CheckedIn(message.frames(), std::max<int64_t>(first, 1), kMaxDanceFrames, "config.frames");
+    config.end_frame = CheckedIn(message.frames(), std::max<int64_t>(config.FirstFrame(), 1),
+                                 kMaxDanceFrames, "config.frames");
   }
   if (message.has_audio_format()) {
     const v1::AudioFormat& format = message.audio_format();
@@ -294,13 +293,8 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
                                  static_cast<int>(format.channels()), format.first_sample()};
   }
   if (config.audio) {
-    const int64_t latest = LatestFirstSample(first, config.audio->sample_rate, model);
-    if (config.audio->first_sample > latest) {
-      throw Error(ErrorCode::kOutOfRange, "config.audio_format.first_sample",
-                  std::to_string(config.audio->first_sample) + " is after " +
-                      std::to_string(latest) + ", the last one to start at for frame " +
-                      std::to_string(first));
-    }
+    ValidateAudioStart(model, config.audio->sample_rate, config.audio->channels,
+                       config.audio->first_sample, config.FirstFrame(), "config.audio_format");
   }
   config.Validate(model);
   return config;
@@ -506,10 +500,9 @@ void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
   out->set_default_temperature(model.default_temperature);
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;
-  out->set_audio_lead_s(
-      static_cast<double>(kSomeFrame) / model.fps -
-      static_cast<double>(LatestFirstSample(kSomeFrame, kMinSampleRate, model)) /
-          kMinSampleRate);
+  out->set_audio_lead_s(static_cast<double>(kSomeFrame) / model.fps -
+                        static_cast<double>(LatestFirstSample(kSomeFrame, kMinSampleRate, model)) /
+                            kMinSampleRate);
   DanceConfig config;
   config.output_fps = model.fps;
   config.audio = DanceConfig::Audio{kMinSampleRate, 1, 0};

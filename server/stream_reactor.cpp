@@ -132,7 +132,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     if (message.has_audio_format()) audio_ = message.audio_format();
     const bool exact =
         !config.continuation || config.continuation->fingerprint == model.fingerprint;
-    SendHeader(model, message, config, config.continuation ? config.continuation->frame : 0, exact);
+    SendHeader(model, message, config, config.FirstFrame(), exact);
     Adopt(std::make_shared<DanceStream>(scheduler, config, shared_from_this()));
   }
 

@@ -62,7 +62,7 @@ Recording Tang(const std::string& name, const PrepareOptions& options) {
   return recording;
 }
 
-// NAME.npy [frames, 24, 3] beside NAME.ogg, which begins with the motion.
+// NAME.npy [frames, 24, 3] beside NAME.ogg (.wav, .mp3), which begins with the motion.
 Recording ReadTangNpy(const fs::path& path, const PrepareOptions& options) {
   Recording recording = Tang(path.stem().string(), options);
   const NpyArray array = ReadNpy(path);
@@ -73,7 +73,9 @@ Recording ReadTangNpy(const fs::path& path, const PrepareOptions& options) {
   recording.positions = TangPositions(array.shape[0], [&](int64_t f, int r) {
     return Eigen::Vector3d(values.data() + (f * 24 + r) * 3);
   });
-  recording.music = FirstExisting({fs::path(path).replace_extension(".ogg")});
+  recording.music = FirstExisting({fs::path(path).replace_extension(".ogg"),
+                                   fs::path(path).replace_extension(".wav"),
+                                   fs::path(path).replace_extension(".mp3")});
   return recording;
 }
 

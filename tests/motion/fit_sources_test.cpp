@@ -10,6 +10,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
+#include "tests/support/tang2018_markers.h"
 
 namespace choreo {
 namespace {
@@ -191,46 +192,6 @@ TEST(BvhSource, NamesTheJointThatIsMissing) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("RightLeg"), std::string::npos);
   }
-}
-
-// The markers of tang2018 on a dancer of ours.
-PositionClip Tang2018Markers(const Motion& motion) {
-  PositionClip clip;
-  clip.fps = motion.fps;
-  clip.joint_names = Tang2018JointNames();
-  for (const Pose& pose : motion.frames) {
-    const JointPlacement placement = ForwardKinematics(Smpl(), pose);
-    Eigen::Matrix3Xd positions(3, clip.joint_names.size());
-    for (size_t i = 0; i < clip.joint_names.size(); ++i) {
-      const std::string& name = clip.joint_names[i];
-      const bool left = name.starts_with("left_");
-      const double out = left ? 1 : -1;
-      const std::string side = left ? "left_" : "right_";
-      std::string joint = name;
-      Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-      if (name.ends_with("temple")) {
-        joint = "head";
-        offset << 0.05 * out, 0.07, -0.01;
-      } else if (name == "waist") {
-        joint = "pelvis";
-        offset << 0, 0.04, 0.03;
-      } else if (name.ends_with("heel")) {
-        joint = side + "ankle";
-        offset << 0, -0.05, -0.06;
-      } else if (name.ends_with("ankle")) {
-        offset << 0.025 * out, 0, 0;
-      } else if (name.ends_with("toes")) {
-        joint = side + "foot";
-      } else if (name.ends_with("thumb")) {
-        joint = side + "hand";
-      }
-      const int index = Smpl().Find(joint);
-      positions.col(static_cast<Eigen::Index>(i)) =
-          placement.positions.col(index) + placement.rotations[index] * offset;
-    }
-    clip.frames.push_back(positions);
-  }
-  return clip;
 }
 
 TEST(Tang2018Source, FollowsItsMarkers) {

@@ -64,10 +64,8 @@ TEST_F(PrepareTest, AmassComesThroughAndABrokenFileIsNamedAndSkipped) {
   EXPECT_EQ(by_name.at("subject_walk").at("frames"), 90);
 }
 
-TEST_F(PrepareTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
-  PrepareOptions options = Options("bvh");
-  options.frame_rates = {{"inches", 30.0}};
-  BvhFile file = MotionToBvh(Skeleton::Smpl24(), SyntheticClip("walk", 90, 0.2, false).motion);
+// Our skeleton under the joint names of motion capture, which make it a foreign one.
+BvhFile Renamed(BvhFile file) {
   const std::map<std::string, std::string> names = {
       {"pelvis", "Hips"},   {"spine1", "Spine"}, {"spine2", "Spine1"},   {"spine3", "Spine2"},
       {"neck", "Neck"},     {"head", "Head"},    {"hip", "UpLeg"},       {"knee", "Leg"},
@@ -82,8 +80,16 @@ TEST_F(PrepareTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
   }
   for (BvhJoint& joint : file.joints) {
     if (joint.end_site) joint.name = file.joints[static_cast<size_t>(joint.parent)].name + "_end";
-    joint.offset /= 2.54;
   }
+  return file;
+}
+
+TEST_F(PrepareTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
+  PrepareOptions options = Options("bvh");
+  options.frame_rates = {{"inches", 30.0}};
+  BvhFile file =
+      Renamed(MotionToBvh(Skeleton::Smpl24(), SyntheticClip("walk", 90, 0.2, false).motion));
+  for (BvhJoint& joint : file.joints) joint.offset /= 2.54;
   // Inches instead of centimetres, and a header that lies about the rate.
   file.values.topRows(3) /= 2.54;
   file.frame_time = 1.0 / 120;
@@ -93,6 +99,21 @@ TEST_F(PrepareTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
   const nlohmann::json report = Report().at(0);
   EXPECT_LT(report.at("fit_error_m").get<double>(), 0.02);
   EXPECT_NEAR(report.at("frames").get<double>(), 90, 1);
+}
+
+TEST_F(PrepareTest, ACalibrationPoseAtTheStartIsCut) {
+  const PrepareOptions options = Options("bvh");
+  Motion motion = SyntheticClip("walk", 90, 0.2, false).motion;
+  for (Pose& pose : motion.frames) {  // arms down, then a T-pose in front of it
+    pose.rotations(2, Skeleton::Smpl24().Find("left_shoulder")) -= 1.2;
+    pose.rotations(2, Skeleton::Smpl24().Find("right_shoulder")) += 1.2;
+  }
+  motion.frames.insert(motion.frames.begin(), RestPose(Skeleton::Smpl24()));
+  WriteBvh(options.input / "walk.bvh", Renamed(MotionToBvh(Skeleton::Smpl24(), motion)));
+
+  ASSERT_EQ(Prepare(options), 1);
+  EXPECT_EQ(ReadPreparedClip(options.output / "walk.clip").motion.frames.size(), 90U);
+  EXPECT_EQ(Report().at(0).at("frames_cut"), 1);
 }
 
 TEST_F(PrepareTest, NothingToPrepareIsAnError) {

@@ -1,0 +1,206 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "model/audio/feature_stream.h"
+#include "model/core/error.h"
+#include "model/core/npy.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/resample.h"
+#include "model/training/prepare.h"
+#include "model/training/prepared_clip.h"
+#include "tests/support/synthetic_clips.h"
+#include "tests/support/tang2018_markers.h"
+#include "tests/support/temporary_folder.h"
+
+/// Recordings of our own making in the two layouts of tang2018.
+namespace choreo {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr int kRate = 22050;
+
+const Skeleton& Smpl() { return Skeleton::Smpl24(); }
+
+// Four seconds, at the 25 fps of the recordings, in centimetres, above a floor that rises by
+// `slope` to the dancer's left.
+PositionClip Record(double slope) {
+  Motion motion = testing_support::SyntheticClip("dance", 121, 0.3, false).motion;
+  PositionClip clip = Tang2018Markers(Resample(motion, 25));
+  for (Eigen::Matrix3Xd& frame : clip.frames) {
+    frame.row(1) += slope * frame.row(0);
+    frame *= 100;
+  }
+  return clip;
+}
+
+// Row 0 is the world centre, the others stand relative to it.
+void WriteNpyLayout(const std::filesystem::path& path, const PositionClip& clip) {
+  NpyArray array{{static_cast<int64_t>(clip.frames.size()), 24, 3}, std::vector<float>()};
+  auto& values = std::get<std::vector<float>>(array.values);
+  for (const Eigen::Matrix3Xd& frame : clip.frames) {
+    const Eigen::Vector3d centre = frame.rowwise().mean();
+    for (int row = 0; row < 24; ++row) {
+      const Eigen::Vector3d point = row == 0 ? centre : frame.col(row - 1) - centre;
+      for (const double value : point) values.push_back(static_cast<float>(value));
+    }
+  }
+  WriteNpy(path, array);
+}
+
+void WritePublicLayout(const std::filesystem::path& folder, const PositionClip& clip, int start) {
+  std::filesystem::create_directories(folder);
+  json skeletons = {{"length", clip.frames.size()}};
+  for (const Eigen::Matrix3Xd& frame : clip.frames) {
+    const Eigen::Vector3d centre = frame.rowwise().mean();
+    skeletons["center"].push_back({centre.x(), centre.y(), centre.z()});
+    json joints;
+    for (Eigen::Index i = 0; i < frame.cols(); ++i) {
+      const Eigen::Vector3d point = frame.col(i) - centre;
+      joints.push_back({point.x(), point.y(), point.z()});
+    }
+    skeletons["skeletons"].push_back(joints);
+  }
+  std::ofstream(folder / "skeletons.json") << skeletons;
+  std::ofstream(folder / "config.json")
+      << json{{"start_position", start}, {"end_position", start + clip.frames.size()}};
+}
+
+// A tone that rises all the time, so that every row of features is another.
+std::vector<float> Music(double seconds) {
+  std::vector<float> samples;
+  for (int i = 0; i < seconds * kRate; ++i) {
+    const double t = static_cast<double>(i) / kRate;
+    samples.push_back(static_cast<float>(
+        std::round(16000 * std::sin(2 * M_PI * (200 * t + 60 * t * t))) / 32768));
+  }
+  return samples;
+}
+
+void WriteWav(const std::filesystem::path& path, const std::vector<float>& samples) {
+  std::ofstream out(path, std::ios::binary);
+  const auto put = [&](uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) out.put(static_cast<char>(value >> (8 * i) & 0xff));
+  };
+  const auto size = static_cast<uint32_t>(2 * samples.size());
+  out << "RIFF";
+  put(36 + size, 4);
+  out << "WAVEfmt ";
+  put(16, 4), put(1, 2), put(1, 2), put(kRate, 4), put(2 * kRate, 4), put(2, 2), put(16, 2);
+  out << "data";
+  put(size, 4);
+  for (const float sample : samples) {
+    put(static_cast<uint16_t>(static_cast<int16_t>(std::lround(sample * 32768))), 2);
+  }
+}
+
+class Tang2018Test : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_ / "in"); }
+  int Run() {
+    PrepareOptions options;
+    options.layout = "tang2018";
+    options.input = folder_ / "in";
+    options.output = folder_ / "out";
+    options.jobs = 2;
+    return Prepare(options);
+  }
+  PreparedClip Clip(const std::string& name) {
+    return ReadPreparedClip(folder_ / "out" / (name + ".clip"));
+  }
+  json Report(const std::string& name) {
+    std::ifstream file(folder_ / "out" / "report.json");
+    for (const json& report : json::parse(file)) {
+      if (report.at("name") == name) return report;
+    }
+    return nullptr;
+  }
+  // Whether frame f of the clip hears row f + first of the music.
+  static void ExpectMusicFrom(int64_t first, const PreparedClip& clip,
+                              const std::vector<float>& samples) {
+    FeatureStream stream(kRate, 1);
+    stream.Push(samples);
+    stream.Finish();
+    ASSERT_EQ(clip.audio.cols(), static_cast<Eigen::Index>(clip.motion.frames.size()));
+    for (Eigen::Index f = 0; f < clip.audio.cols(); f += 7) {
+      const auto row = stream.Row(first + f);
+      EXPECT_TRUE(clip.audio.col(f).isApprox(
+          Eigen::Map<const Eigen::VectorXf>(row.data(), static_cast<Eigen::Index>(row.size()))))
+          << "frame " << f;
+    }
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Tang2018Test, BothLayoutsGiveTheSameDanceEachWithItsMusic) {
+  const PositionClip clip = Record(0);
+  const std::vector<float> music = Music(8);
+  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", clip);
+  WriteWav(folder_ / "in" / "DANCE_C_1.wav", music);
+  WritePublicLayout(folder_ / "in" / "DANCE_C_2", clip, 50);
+  WriteWav(folder_ / "in" / "DANCE_C_2" / "audio.wav", music);
+
+  ASSERT_EQ(Run(), 2);
+  const PreparedClip one = Clip("DANCE_C_1"), two = Clip("DANCE_C_2");
+  ASSERT_EQ(one.motion.frames.size(), 121U);
+  ASSERT_EQ(two.motion.frames.size(), 121U);
+  for (size_t f = 0; f < 121; f += 10) {
+    EXPECT_LT(ComparePoses(Smpl(), one.motion.frames[f], two.motion.frames[f]).position_m, 1e-3);
+  }
+  ExpectMusicFrom(0, one, music);
+  ExpectMusicFrom(60, two, music);  // 50 frames of 25 a second
+  EXPECT_LT(Report("DANCE_C_1").at("fit_error_m").get<double>(), 0.03);
+  EXPECT_TRUE(Report("DANCE_C_1").at("warnings").empty());
+}
+
+TEST_F(Tang2018Test, WaltzIsStretchedToItsMusic) {
+  WriteNpyLayout(folder_ / "in" / "DANCE_W_1.npy", Record(0));
+  ASSERT_EQ(Run(), 1);
+  // 4 s x 1.0125 at 30 fps.
+  EXPECT_EQ(Clip("DANCE_W_1").motion.frames.size(), 122U);
+  EXPECT_THAT(Report("DANCE_W_1").at("warnings").get<std::vector<std::string>>(),
+              Contains("no music"));
+}
+
+TEST_F(Tang2018Test, MusicThatEndsEarlyIsReported) {
+  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", Record(0));
+  WriteWav(folder_ / "in" / "DANCE_C_1.wav", Music(2));
+  ASSERT_EQ(Run(), 1);
+  EXPECT_THAT(Report("DANCE_C_1").at("warnings").get<std::vector<std::string>>(),
+              Contains(HasSubstr("the music ends 2.0 s before")));
+}
+
+TEST_F(Tang2018Test, ATiltedFloorIsLevelled) {
+  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", Record(0.06));
+  ASSERT_EQ(Run(), 1);
+  const Motion motion = Clip("DANCE_C_1").motion;
+  const Motion truth = testing_support::SyntheticClip("dance", 121, 0.3, false).motion;
+  // Walking a circle of 2 m across, the dancer would rise and fall by 12 cm.
+  double low = 1e9, high = -1e9;
+  for (size_t f = 0; f < motion.frames.size(); ++f) {
+    const double off = motion.frames[f].root_position.y() - truth.frames[f].root_position.y();
+    low = std::min(low, off);
+    high = std::max(high, off);
+  }
+  EXPECT_LT(high - low, 0.06);
+}
+
+TEST_F(Tang2018Test, TwoRecordingsOfOneNameAreRefused) {
+  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", Record(0));
+  WritePublicLayout(folder_ / "in" / "DANCE_C_1", Record(0), 0);
+  try {
+    Run();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'DANCE_C_1.clip'"));
+  }
+}
+
+}  // namespace
+}  // namespace choreo
