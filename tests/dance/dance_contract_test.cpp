@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <functional>
 #include <thread>
 
@@ -177,7 +176,6 @@ TEST_F(DanceContract, StoppingTheSchedulerDrainsOrEndsDances) {
 TEST_F(DanceContract, ChaosEndsEveryDanceOnceAndFreesEverySlot) {
   const auto scheduler = FakeScheduler(3, 2, 4);
   std::vector<std::thread> clients;
-  std::atomic<int> ended = 0, summaries = 0;
   for (uint32_t client = 0; client < 6; ++client) {
     clients.emplace_back([&, client] {
       std::mt19937 random(client);
@@ -185,7 +183,7 @@ TEST_F(DanceContract, ChaosEndsEveryDanceOnceAndFreesEverySlot) {
         const Dance dance = RandomDance(static_cast<uint32_t>(random()), round % 2 == 0 ? 1.5 : 0);
         auto sink = std::make_shared<Recorder>();
         std::weak_ptr<DanceStream> handle;
-        const size_t stop_at = random() % 200;
+        const size_t stop_at = round % 4 == 3 ? 0 : 1 + random() % 200;  // 0: never
         sink->on_frames = [&handle, stop_at](size_t count) {
           const std::shared_ptr<DanceStream> alive = handle.lock();
           if (alive != nullptr && count == stop_at) alive->Cancel();
@@ -195,25 +193,26 @@ TEST_F(DanceContract, ChaosEndsEveryDanceOnceAndFreesEverySlot) {
         for (const Key& key : dance.keys) SendKey(*stream, key);
         if (random() % 4 == 0) stream->SetPaused(true);
         if (dance.config.audio) SendSong(*stream, dance);
-        if (random() % 3 > 0) stream->HalfClose();
+        const bool patient = round % 4 == 3;
+        if (patient || random() % 3 > 0) stream->HalfClose();
         stream->SetPaused(false);
-        if (random() % 2 == 0)
+        if (random() % 2 == 0) {
           sink->Wait([](const Recording& r) { return r.poses.size() > 20 || r.ended(); });
+        }
+        if (patient) sink->WaitForEnd();
         if (random() % 3 == 0) stream->Cancel();
         stream.reset();  // cancels too
         const Recording recording = sink->WaitForEnd();
         EXPECT_TRUE(recording.in_order);
         EXPECT_EQ(recording.calls_after_end, 0);
         EXPECT_NE(recording.summary.has_value(), recording.error.has_value());
-        ++ended;
-        summaries += recording.summary.has_value() ? 1 : 0;
+        if (patient) {
+          EXPECT_TRUE(recording.summary);
+        }
       }
     });
   }
   for (std::thread& client : clients) client.join();
-  EXPECT_EQ(ended, 6 * 40);
-  EXPECT_GT(summaries, 0);
-  EXPECT_LT(summaries, 6 * 40);
   EXPECT_TRUE(scheduler->WaitUntilIdle(std::chrono::seconds(30)));
   EXPECT_EQ(scheduler->stats().active, 0);
   EXPECT_TRUE(Perform(*scheduler, RandomDance(32)).summary);
