@@ -7,7 +7,7 @@ install(TARGETS choreo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS choreo_client choreo_motion choreo_proto EXPORT choreoTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo)
-install(FILES client/choreo_client.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/client)
+install(FILES client/choreo_client.h client/edit.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/client)
 install(FILES model/core/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/core)
 install(DIRECTORY model/motion DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY proto/choreo DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo/proto FILES_MATCHING PATTERN "*.proto")

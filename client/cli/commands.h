@@ -8,6 +8,7 @@ namespace choreo::cli {
 
 void AddDanceCommand(CLI::App& program);
 void AddTransitionCommand(CLI::App& program);
+void AddEditCommand(CLI::App& program);
 void AddAnalyzeCommand(CLI::App& program);
 void AddInfoCommand(CLI::App& program);
 void AddConvertCommand(CLI::App& program);

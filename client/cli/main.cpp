@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   choreo::cli::AddDanceCommand(program);
   choreo::cli::AddTransitionCommand(program);
+  choreo::cli::AddEditCommand(program);
   choreo::cli::AddAnalyzeCommand(program);
   choreo::cli::AddInfoCommand(program);
   choreo::cli::AddConvertCommand(program);

@@ -1,11 +1,10 @@
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/cli/commands.h"
-#include "model/core/error.h"
+#include "client/cli/report.h"
 #include "model/draw/contact_sheet.h"
 #include "model/formats/motion_file.h"
 
@@ -21,11 +20,7 @@ struct RenderOptions {
 
 /// The frames of the motion at which a dance's report has its keys.
 std::vector<int64_t> KeyFrames(const std::string& path, const Motion& motion) {
-  std::ifstream file(path);
-  const auto report = nlohmann::json::parse(file, nullptr, false);
-  if (report.is_discarded() || !report.contains("keyframes") || !report.contains("fps")) {
-    throw InvalidArgument(path, "is not the report of a dance");
-  }
+  const auto report = ReadReport(path);
   std::vector<int64_t> frames;
   for (const auto& key : report["keyframes"]) {
     const double seconds = key.at("frame").get<double>() / report["fps"].get<double>();

@@ -25,11 +25,7 @@ std::string ReportJson(const client::Header& header, const client::Report& repor
   json["fingerprint"] = header.fingerprint;
   json["keyframes"] = nlohmann::ordered_json::array();
   for (const client::KeyReached& key : report.keys) {
-    json["keyframes"].push_back({{"id", key.id},
-                                 {"frame", key.frame},
-                                 {"raw_error_m", key.raw_error_m},
-                                 {"final_error_m", key.final_error_m},
-                                 {"final_error_deg", key.final_error_deg}});
+    json["keyframes"].push_back(KeyJson(key));
   }
   json["log_likelihood"] = report.log_likelihood;
   json["beat_hit_rate"] = nullptr;
@@ -38,6 +34,32 @@ std::string ReportJson(const client::Header& header, const client::Report& repor
   json["first_frame_latency_s"] = report.first_frame_latency_s;
   json["real_time_factor"] = report.real_time_factor;
   return json.dump(2) + "\n";
+}
+
+nlohmann::ordered_json KeyJson(const client::KeyReached& key) {
+  return {{"id", key.id},
+          {"frame", key.frame},
+          {"raw_error_m", key.raw_error_m},
+          {"final_error_m", key.final_error_m},
+          {"final_error_deg", key.final_error_deg}};
+}
+
+nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  auto report = nlohmann::ordered_json::parse(file, nullptr, false);
+  if (!report.is_object() || !report.contains("keyframes") || !report["keyframes"].is_array() ||
+      !report.contains("fps") || !report["fps"].is_number() || !(report["fps"] > 0)) {
+    throw InvalidArgument(path.string(), "is not the report of a dance");
+  }
+  for (size_t i = 0; i < report["keyframes"].size(); ++i) {
+    const auto& key = report["keyframes"][i];
+    if (!key.is_object() || !key.contains("frame") || !key["frame"].is_number_unsigned() ||
+        !key.contains("id") || !key["id"].is_string()) {
+      throw InvalidArgument(path.string() + ":keyframes[" + std::to_string(i) + "]",
+                            "has no id, or no frame that is a whole number >= 0");
+    }
+  }
+  return report;
 }
 
 std::string ReportText(const client::Header& header, const client::Report& report) {

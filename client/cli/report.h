@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "client/choreo_client.h"
@@ -12,6 +13,13 @@ namespace choreo::cli {
 /// are no beats), skate_ratio, first_frame_latency_s, real_time_factor. Frames are counted at the
 /// model's rate, `fps`.
 std::string ReportJson(const client::Header& header, const client::Report& report);
+
+/// One key of such a report.
+nlohmann::ordered_json KeyJson(const client::KeyReached& key);
+
+/// A report that ReportJson wrote: its fps and keyframes are as they should be. Throws
+/// Error(kInvalidArgument) whose field begins with the path.
+nlohmann::ordered_json ReadReport(const std::filesystem::path& path);
 
 /// A few lines for people.
 std::string ReportText(const client::Header& header, const client::Report& report);

@@ -5,9 +5,8 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
-#include "client/cli/key_file.h"
 #include "client/cli/music.h"
-#include "client/cli/pose_library.h"
+#include "client/cli/pose_source.h"
 #include "client/cli/report.h"
 #include "model/formats/motion_file.h"
 
@@ -29,15 +28,6 @@ struct TransitionOptions {
   std::string report;
 };
 
-/// A pose by its name in the library, or the first one of what ReadKeys takes.
-client::KeyPose ReadPose(const std::string& source, const Skeleton& skeleton) {
-  const bool is_file = source.find_first_of(".@/") != std::string::npos;
-  if (is_file) return ReadKeys(source, skeleton).front();
-  client::KeyPose key;
-  key.pose = FindLibraryPose(source).pose;
-  return key;
-}
-
 void Run(const TransitionOptions& options) {
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
@@ -47,10 +37,10 @@ void Run(const TransitionOptions& options) {
   request.config.seed = options.seed.value_or(0);
   request.config.temperature = options.temperature;
   request.config.first_frame = std::llround(options.at_s * model.fps);
-  request.config.history = {ReadPose(options.from, model.skeleton).pose};
+  request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
   request.candidates = options.candidates;
-  const client::KeyPose target = ReadPose(options.to, model.skeleton);
+  const client::KeyPose target = ReadPose(options.to, model.skeleton).key;
   request.target = target.pose;
   request.target_mask = target.mask;
   if (!options.song.empty()) {

@@ -1,10 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -13,9 +10,8 @@
 #include "model/core/npy.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
+#include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
-#include "tests/client/test_server.h"
-#include "tests/support/temporary_folder.h"
 
 namespace choreo {
 namespace {
@@ -23,38 +19,6 @@ namespace {
 using testing::HasSubstr;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
-
-struct Outcome {
-  int code = -1;
-  std::string said;  ///< stdout and stderr
-};
-
-/// Runs `choreo` as a shell would.
-Outcome Choreo(const std::string& arguments) {
-  const std::string command = "'" CHOREO_PROGRAM "' " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer;
-  while (const size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
-    outcome.said.append(buffer.data(), count);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
-nlohmann::json ReadJson(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return nlohmann::json::parse(file);
-}
-
-class CommandTest : public testing::Test {
- protected:
-  std::string At(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
-  std::string Server() const { return " --server " + server_.address() + " "; }
-
-  TemporaryFolder folder_;
-  TestServer server_;
-};
 
 TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   WriteClicks(folder_ / "song.wav", 10);
@@ -193,7 +157,7 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("swim").code, 2);
   EXPECT_EQ(Choreo("dance").code, 2);
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
-  for (const char* command : {"", "dance", "transition", "analyze", "info", "convert", "render"}) {
+  for (const char* command : {"", "dance", "transition", "edit", "analyze", "info", "convert", "render"}) {
     const Outcome outcome = Choreo(std::string(command) + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << command;

@@ -1,0 +1,17 @@
+#include "client/cli/pose_source.h"
+
+#include "client/cli/key_file.h"
+#include "client/cli/pose_library.h"
+
+namespace choreo::cli {
+
+NamedPose ReadPose(const std::string& source, const Skeleton& skeleton) {
+  const bool is_file = source.find_first_of(".@/") != std::string::npos;
+  if (is_file) return {ReadKeys(source, skeleton).front()};
+  client::KeyPose key;
+  key.id = source;
+  key.pose = FindLibraryPose(source).pose;
+  return {key, false};
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "client/choreo_client.h"
+
+namespace choreo::cli {
+
+/// One pose that was named on a command line.
+struct NamedPose {
+  client::KeyPose key;
+  bool has_place = true;  ///< false for one of the library: it stands around the origin, facing +Z
+};
+
+/// A pose by its name in the library, or the first one of what ReadKeys takes (key_file.h): a key
+/// file, or MOTION@SECOND. Errors as theirs.
+NamedPose ReadPose(const std::string& source, const Skeleton& skeleton);
+
+}  // namespace choreo::cli

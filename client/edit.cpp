@@ -1,0 +1,239 @@
+#include "client/edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/motion/resample.h"
+
+namespace choreo::client {
+namespace {
+
+constexpr int64_t kLeadIn = 10;         // poses of what follows that are sent
+constexpr double kRounding = 1e-6;      // of frame numbers
+constexpr double kMusicBeyond_s = 0.5;  // the last frame hears a little beyond itself
+
+using Contacts = std::array<float, 4>;
+
+/// New frames, at the model's rate, from `first` on.
+struct Part {
+  int64_t first = 0;
+  std::vector<Pose> poses;
+  std::vector<Contacts> contacts;
+};
+
+int64_t Whole(double number) { return static_cast<int64_t>(number); }
+
+/// A dance that is being edited, seen at the model's rate.
+class Edit {
+ public:
+  Edit(const Client& client, const FinishedDance& dance, const EditOptions& options)
+      : client_(client), options_(options) {
+    result_.dance = dance;
+    if (dance.motion.frames.empty()) throw InvalidArgument("dance", "has no frames");
+    if (!dance.contacts.empty() && dance.contacts.size() != dance.motion.frames.size()) {
+      throw InvalidArgument("dance", std::to_string(dance.contacts.size()) + " contacts, but " +
+                                         std::to_string(dance.motion.frames.size()) + " frames");
+    }
+    if (options.audio.format.kind == AudioKind::kFile) {
+      throw InvalidArgument("audio", "is a file; only samples can be cut");
+    }
+    const Motion& motion = dance.motion;
+    poses_ = motion.fps == fps() ? motion.frames : Resample(motion, fps()).frames;
+  }
+
+  double fps() const { return options_.model.fps; }
+  int64_t frames() const { return static_cast<int64_t>(poses_.size()); }
+  /// From `first` to the end or to `kLeadIn` poses.
+  std::vector<Pose> From(int64_t first) const { return Poses(first, first + kLeadIn); }
+  const Pose& pose(int64_t frame) const { return poses_[static_cast<size_t>(frame)]; }
+
+  /// The transition behind frame `from` (-1: from rest at the origin).
+  TransitionRequest After(int64_t from, int64_t frames) const {
+    TransitionRequest request = Request(from + 1, frames);
+    request.config.history = Poses(from + 1 - options_.model.history_frames, from + 1);
+    request.config.first_frame = from + 1;
+    return request;
+  }
+  /// One that goes on from another.
+  TransitionRequest Behind(const TransitionCandidate& before, int64_t frames) const {
+    TransitionRequest request = Request(before.continuation.frame, frames);
+    request.config.continuation = before.continuation;
+    return request;
+  }
+
+  /// Its only candidate.
+  TransitionCandidate Generate(const TransitionRequest& request) {
+    TransitionResult result = client_.GenerateTransition(request);
+    std::move(result.warnings.begin(), result.warnings.end(), std::back_inserter(result_.warnings));
+    return std::move(result.candidates.front());
+  }
+
+  /// Puts new frames into the dance; `next` stands behind the last of them, if anything does. What
+  /// stands before and behind them stays: at the dance's own rate, new frames lie strictly between.
+  void Splice(const Part& part, const std::optional<Pose>& next) {
+    Motion& motion = result_.dance.motion;
+    const double rate = motion.fps / fps();
+    Motion curve{.fps = fps(), .frames = part.poses};
+    int64_t start = part.first;  // of the curve
+    int64_t first = 0;
+    if (part.first > 0) {
+      curve.frames.insert(curve.frames.begin(), pose(--start));
+      first = Whole(std::floor(static_cast<double>(start) * rate + kRounding)) + 1;
+    }
+    auto end = static_cast<int64_t>(motion.frames.size());
+    if (next) {
+      const int64_t behind = part.first + static_cast<int64_t>(part.poses.size());
+      curve.frames.push_back(*next);
+      end = Whole(std::ceil(static_cast<double>(behind) * rate - kRounding));
+    }
+    if (end > static_cast<int64_t>(motion.frames.size())) {
+      motion.frames.resize(static_cast<size_t>(end));
+    }
+    for (int64_t frame = first; frame < end; ++frame) {
+      motion.frames[static_cast<size_t>(frame)] = PoseAt(
+          curve, static_cast<double>(frame) / motion.fps - static_cast<double>(start) / fps());
+    }
+    SpliceContacts(part, first, end);
+  }
+
+  EditedDance Take() { return std::move(result_); }
+  EditedDance& result() { return result_; }
+
+ private:
+  /// [first, end), as far as there are such.
+  std::vector<Pose> Poses(int64_t first, int64_t end) const {
+    first = std::clamp<int64_t>(first, 0, frames());
+    end = std::clamp<int64_t>(end, first, frames());
+    return {poses_.begin() + first, poses_.begin() + end};
+  }
+
+  TransitionRequest Request(int64_t first, int64_t frames) const {
+    TransitionRequest request;
+    request.config.model = options_.model.name;
+    request.config.seed = options_.seed;
+    request.config.temperature = options_.temperature;
+    request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
+    AddMusic(first, frames, &request);
+    return request;
+  }
+
+  /// As much of the song as the frames hear: a message has a limit, a song has none.
+  void AddMusic(int64_t first, int64_t frames, TransitionRequest* request) const {
+    const Audio& song = options_.audio;
+    if (song.format.kind == AudioKind::kNone) return;
+    const auto channels = static_cast<size_t>(song.format.channels);
+    const auto total = static_cast<int64_t>(song.samples.size() / channels);
+    if (total == 0) throw InvalidArgument("audio", "has no samples");
+    const auto sample = [&](double seconds) {
+      return Whole(std::floor(seconds * song.format.sample_rate));
+    };
+    const double start = static_cast<double>(first) / fps();
+    const double end = start + static_cast<double>(frames) / fps() + kMusicBeyond_s;
+    // Behind the song's end there is silence, which its last sample says as well as any.
+    const int64_t from =
+        std::clamp<int64_t>(sample(start - options_.model.audio_lead_s) - 1, 0, total - 1);
+    const int64_t to = std::clamp<int64_t>(sample(end), from + 1, total);
+    request->audio.format = song.format;
+    request->audio_first_sample = from;
+    request->audio.samples.assign(song.samples.begin() + from * static_cast<int64_t>(channels),
+                                  song.samples.begin() + to * static_cast<int64_t>(channels));
+  }
+
+  /// Those of the nearest new frame.
+  void SpliceContacts(const Part& part, int64_t first, int64_t end) {
+    result_.first_changed = first;
+    result_.end_changed = end;
+    std::vector<Contacts>& contacts = result_.dance.contacts;
+    if (contacts.empty()) return;
+    contacts.resize(result_.dance.motion.frames.size());
+    for (int64_t frame = first; frame < end; ++frame) {
+      const double at = static_cast<double>(frame) / result_.dance.motion.fps * fps();
+      const int64_t nearest = std::clamp<int64_t>(std::llround(at) - part.first, 0,
+                                                  static_cast<int64_t>(part.contacts.size()) - 1);
+      contacts[static_cast<size_t>(frame)] = part.contacts[static_cast<size_t>(nearest)];
+    }
+  }
+
+  const Client& client_;
+  const EditOptions& options_;
+  std::vector<Pose> poses_;
+  EditedDance result_;
+};
+
+void CheckKeyEdit(int64_t frame, int64_t from, int64_t to, int64_t frames) {
+  const std::string at = "frame " + std::to_string(frame);
+  if (frame < 0 || frame >= frames) {
+    throw InvalidArgument("key.frame", std::to_string(frame) + " is not in the dance, [0, " +
+                                           std::to_string(frames - 1) + "]");
+  }
+  if (frame == 0 ? from != -1 : from < 0 || frame - from < 2) {
+    throw InvalidArgument("from",
+                          std::to_string(from) + " with a key at " + at + ": must be " +
+                              (frame == 0 ? "-1" : "at least 2 before it and in the dance"));
+  }
+  if (frame == frames - 1 ? to != frames : to >= frames || to - frame < 2) {
+    throw InvalidArgument(
+        "to", std::to_string(to) + " with a key at " + at + ": must be " +
+                  (frame == frames - 1 ? std::to_string(frames)
+                                       : "at least 2 after it and in the dance, which has " +
+                                             std::to_string(frames) + " frames"));
+  }
+}
+
+}  // namespace
+
+int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& model) {
+  if (dance.motion.frames.empty()) throw InvalidArgument("dance", "has no frames");
+  return Whole(std::floor(Duration(dance.motion) * model.fps + kRounding)) + 1;
+}
+
+EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditOptions& options,
+                   const KeyEdit& edit) {
+  Edit work(client, dance, options);
+  const int64_t frame = edit.key.frame.value_or(std::llround(edit.key.time_s * work.fps()));
+  CheckKeyEdit(frame, edit.from, edit.to, work.frames());
+
+  TransitionRequest request = work.After(edit.from, frame - edit.from);
+  request.target = edit.key.pose;
+  request.target_mask = edit.key.mask;
+  const TransitionCandidate onto = work.Generate(request);
+  Part part{edit.from + 1, onto.motion.frames, onto.contacts};
+  std::optional<Pose> next;
+  if (edit.to < work.frames()) {
+    request = work.Behind(onto, edit.to - frame);
+    next = request.target = work.pose(edit.to);
+    request.after = work.From(edit.to + 1);
+    const TransitionCandidate away = work.Generate(request);
+    // The last one is the frame that stays.
+    part.poses.insert(part.poses.end(), away.motion.frames.begin(), away.motion.frames.end() - 1);
+    part.contacts.insert(part.contacts.end(), away.contacts.begin(), away.contacts.end() - 1);
+  }
+  work.Splice(part, next);
+  for (KeyReached key : onto.report.keys) {
+    key.id = edit.key.id;
+    work.result().keys.push_back(key);
+  }
+  return work.Take();
+}
+
+EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
+                      int64_t from) {
+  Edit work(client, dance, options);
+  if (from < 0 || from > work.frames() - 2) {
+    throw InvalidArgument("from", std::to_string(from) + " is not in [0, " +
+                                      std::to_string(work.frames() - 2) +
+                                      "]: at least one frame must lead back");
+  }
+  // The first frame once more, behind the last.
+  TransitionRequest request = work.After(from, work.frames() - from);
+  request.target = work.pose(0);
+  request.after = work.From(1);
+  const TransitionCandidate back = work.Generate(request);
+  work.Splice({from + 1,
+               {back.motion.frames.begin(), back.motion.frames.end() - 1},
+               {back.contacts.begin(), back.contacts.end() - 1}},
+              work.pose(0));
+  return work.Take();
+}
+
+}  // namespace choreo::client

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "client/choreo_client.h"
+
+/// Changes of a dance that is finished. Frames that an edit does not touch stay as they are, bit
+/// for bit; those between are danced anew by GenerateTransition, from what stands before them into
+/// what follows, so that neither end shows.
+///
+/// Frame numbers count at the model's rate from the dance's first frame; the dance itself may have
+/// any rate: it is then sampled at the model's, and the new frames are interpolated at its own.
+namespace choreo::client {
+
+/// A dance, its first frame at the beginning of the music.
+struct FinishedDance {
+  Motion motion = {};
+  std::vector<std::array<float, 4>> contacts = {};  ///< one a frame, or none at all
+};
+
+/// How the new frames are danced.
+struct EditOptions {
+  ModelDescription model = {};             ///< of the client's server
+  uint64_t seed = 0;                       ///< same seed, same edit
+  std::optional<double> temperature = {};  ///< 0 to 2
+  Audio audio = {};                        ///< the song from its start, kPcmFloat; or none
+};
+
+/// A key pose set into a dance: the frames between `from` and `to`, both exclusive, change.
+struct KeyEdit {
+  KeyPose key = {};  ///< its frame is in the dance; what stands there is replaced
+  /// The last frame that stays before the key, at least 2 before it; -1 for a key at frame 0.
+  int64_t from = 0;
+  /// The first that stays behind it, at least 2 after it; the number of the dance's frames for a
+  /// key at its last.
+  int64_t to = 0;
+};
+
+/// What became of a dance.
+struct EditedDance {
+  FinishedDance dance = {};
+  int64_t first_changed = 0;          ///< frame of the dance, at its own rate
+  int64_t end_changed = 0;            ///< the frame behind the last changed one, likewise
+  std::vector<KeyReached> keys = {};  ///< the one that was set
+  std::vector<Warning> warnings = {};
+};
+
+/// The number of a dance's frames at the model's rate. Throws Error(kInvalidArgument) for a dance
+/// without frames.
+int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& model);
+
+/// Sets a key pose. Throws Error(kInvalidArgument) whose field is "key.frame", "from", "to",
+/// "audio" or "dance", and what GenerateTransition throws.
+EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditOptions& options,
+                   const KeyEdit& edit);
+
+/// Makes a dance seamless: the frames behind `from`, at least one, lead back into the first ones. A
+/// dance of another rate than the model's gets the frames that are missing to the next of the
+/// model's. Errors as above.
+EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
+                      int64_t from);
+
+}  // namespace choreo::client
