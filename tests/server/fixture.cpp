@@ -241,6 +241,19 @@ std::string ServerTest::Music(double seconds) {
   return bytes;
 }
 
+std::string ServerTest::Wav(const std::string& samples, int bytes_per_sample) {
+  const auto number = [](size_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
+    return text;
+  };
+  const auto width = static_cast<size_t>(bytes_per_sample);
+  return "RIFF" + number(36 + samples.size(), 4) + "WAVEfmt " + number(16, 4) +
+         number(width == 4 ? 3 : 1, 2) + number(1, 2) + number(22'050, 4) +
+         number(22'050 * width, 4) + number(width, 2) + number(8 * width, 2) + "data" +
+         number(samples.size(), 4) + samples;
+}
+
 v1::AudioFormat ServerTest::MusicFormat() {
   v1::AudioFormat format;
   format.set_encoding(v1::AUDIO_ENCODING_PCM_S16LE);

@@ -121,6 +121,8 @@ class ServerTest : public ::testing::Test {
   /// Mono 16-bit PCM of a melody with a beat, 22 050 Hz.
   static std::string Music(double seconds);
   static v1::AudioFormat MusicFormat();
+  /// A WAV file, mono, 22 050 Hz: of 16-bit samples as Music gives them, or of floats.
+  static std::string Wav(const std::string& samples, int bytes_per_sample = 2);
 
   /// Waits until no call and no transition is in progress.
   void ExpectIdle();

@@ -1,3 +1,6 @@
+#include <unistd.h>
+
+#include <fstream>
 #include <thread>
 
 #include "tests/server/fixture.h"
@@ -155,6 +158,41 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   }
   EXPECT_EQ(endless->Finish().status.error_code(), grpc::StatusCode::UNAVAILABLE);
   ExpectEventually([this] { return server->calls() == 0; }, "all calls are over");
+}
+
+int64_t ResidentBytes() {
+  std::ifstream statm("/proc/self/statm");
+  int64_t total = 0;
+  int64_t resident = 0;
+  statm >> total >> resident;
+  return resident * ::sysconf(_SC_PAGESIZE);
+}
+
+// Clients that go in the middle of a song that is a file: the server holds all of it until its end.
+TEST_F(LifecycleTest, MemoryComesBackFromClientsThatAreGone) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer keeps what is freed";
+#endif
+  Start();
+  constexpr int64_t kPiece = 4 << 20;
+  v1::DanceConfig config = Config();
+  config.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
+  const std::string piece(kPiece, 'x');
+  const auto leave_early = [&](int rounds) {
+    for (int round = 0; round < rounds; ++round) {
+      DanceClient client(stub());
+      client.Send(config);
+      client.SendAudio(piece, 0);
+      client.SendAudio(piece, kPiece);
+      ASSERT_TRUE(client.ReadHeader());
+      client.Cancel();
+    }
+    ExpectIdle();
+  };
+  leave_early(4);
+  const int64_t before = ResidentBytes();
+  leave_early(20);
+  EXPECT_LT(ResidentBytes() - before, 10 * kPiece) << "of " << 20 * 2 * kPiece << " sent";
 }
 
 TEST_F(LifecycleTest, AServerMayGoWithCallsInProgress) {

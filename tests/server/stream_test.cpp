@@ -113,79 +113,6 @@ TEST_F(StreamTest, FramesFlowWhileMusicArrives) {
   EXPECT_TRUE(answer.summary);
 }
 
-TEST_F(StreamTest, ChunksAndTimingDoNotMatter) {
-  Start();
-  const Answer whole = MusicDance(3, 1 << 20);
-  ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
-  const Answer parts = MusicDance(3, 2 * 1237);
-  EXPECT_EQ(whole.Join().count, 90);
-  EXPECT_TRUE(whole.Join() == parts.Join());
-  EXPECT_FALSE(whole.Join() == MusicDance(4, 1 << 20).Join()) << "the seed does nothing";
-}
-
-TEST_F(StreamTest, SameBitsAloneAndAmongFifteenOthers) {
-  Start(16);
-  const Answer alone = MusicDance(11, 8192);
-  ASSERT_TRUE(alone.status.ok()) << alone.status.error_message();
-
-  constexpr int kStreams = 16;
-  probe->closed = true;  // until all are in their slots
-  std::vector<Answer> answers(kStreams);
-  std::vector<std::thread> threads;
-  for (int i = 0; i < kStreams; ++i) {
-    threads.emplace_back(
-        [&, i] { answers[static_cast<size_t>(i)] = MusicDance(i == 5 ? 11 : 100 + i, 8192); });
-  }
-  ExpectEventually([this] { return server->transitions() == kStreams; }, "16 transitions");
-  probe->closed = false;
-  for (auto& thread : threads) thread.join();
-  for (int i = 0; i < kStreams; ++i) {
-    const Answer& answer = answers[static_cast<size_t>(i)];
-    ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
-    EXPECT_EQ(answer.Join() == alone.Join(), i == 5) << i;
-  }
-  EXPECT_GE(probe->largest_batch, kStreams - 1) << "streams are not stepped together";
-  ExpectIdle();
-}
-
-TEST_F(StreamTest, ResumesBitForBit) {
-  Start();
-  const std::string music = Music(3);
-  const Answer whole = MusicDance(21, 1 << 20);
-  ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
-  ASSERT_GE(whole.continuations.size(), 2U);
-  const v1::Continuation& from = whole.continuations[0];
-  EXPECT_EQ(from.frame(), 31);
-  EXPECT_GT(from.audio_from_sample(), 0);
-
-  DanceClient client(stub());
-  v1::DanceConfig config;  // its seed comes with the continuation
-  *config.mutable_audio_format() = MusicFormat();
-  config.mutable_audio_format()->set_first_sample(from.audio_from_sample());
-  *config.mutable_continuation() = from;
-  client.Send(config);
-  client.SendKeyframe(Key("a", 30));  // lies behind
-  client.SendKeyframe(Key("b", 70, -0.2, 0.9, 1.5F));
-  client.SendAudio(music.substr(static_cast<size_t>(2 * from.audio_from_sample())),
-                   from.audio_from_sample());
-  client.SendEndOfAudio();
-  client.SendKeyframesComplete();
-  const Answer& resumed = client.Finish();
-  ASSERT_TRUE(resumed.status.ok()) << resumed.status.error_message();
-  EXPECT_EQ(resumed.header->seed(), 21U);
-  EXPECT_EQ(resumed.header->first_frame(), 31);
-  EXPECT_EQ(ReachedKeys(resumed), (std::vector<std::string>{"b"}));
-
-  const Answer::Joined all = whole.Join();
-  const Answer::Joined rest = resumed.Join();
-  ASSERT_EQ(rest.first_frame, 31);
-  ASSERT_EQ(rest.count, all.count - 31);
-  EXPECT_TRUE(std::equal(rest.rotations.begin(), rest.rotations.end(),
-                         all.rotations.begin() + std::ptrdiff_t{31} * 72));
-  EXPECT_TRUE(std::equal(rest.root_positions.begin(), rest.root_positions.end(),
-                         all.root_positions.begin() + std::ptrdiff_t{31} * 3));
-}
-
 TEST_F(StreamTest, AnotherFingerprintIsRefusedUnlessAllowed) {
   Start();
   const Answer whole = MusicDance(21, 1 << 20);
@@ -301,15 +228,7 @@ TEST_F(StreamTest, OutputRateAndEncoding) {
 TEST_F(StreamTest, FilesDanceAsTheirSamples) {
   Start();
   const std::string music = Music(3);
-  auto number = [](uint32_t value, int bytes) {
-    std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
-    return text;
-  };
-  const auto size = static_cast<uint32_t>(music.size());
-  const std::string file = "RIFF" + number(36 + size, 4) + "WAVEfmt " + number(16, 4) +
-                           number(1, 2) + number(1, 2) + number(22'050, 4) + number(44'100, 4) +
-                           number(2, 2) + number(16, 2) + "data" + number(size, 4) + music;
+  const std::string file = Wav(music);
   DanceClient client(stub());
   v1::DanceConfig config = Config(13);
   config.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);

@@ -1,0 +1,154 @@
+#include <cmath>
+#include <limits>
+
+#include "tests/server/bad_stream.h"
+
+namespace choreo {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(
+    Keys, BadStreamTest,
+    testing::Values(
+        BadStreamCase{"NoPose",
+                      WithKey([](auto& k) { k.clear_pose(); }),
+                      kInvalid,
+                      "keyframes[0].pose",
+                      {"missing"}},
+        BadStreamCase{"NoWhen",
+                      WithKey([](auto& k) { k.clear_when(); }),
+                      kInvalid,
+                      "keyframes[0]",
+                      {"frame, time"}},
+        BadStreamCase{"NoId",
+                      WithKey([](auto& k) { k.clear_id(); }),
+                      kInvalid,
+                      "keyframes[0].id",
+                      {"0 bytes"}},
+        BadStreamCase{"NoJoints",
+                      WithKey([](auto& k) { k.mutable_pose()->clear_rotations(); }),
+                      kInvalid,
+                      "keyframes[0].rotations",
+                      {"0 joints", "24"}},
+        BadStreamCase{"Joints23",
+                      WithKey([](auto& k) { k.mutable_pose()->mutable_rotations()->Truncate(69); }),
+                      kInvalid,
+                      "keyframes[0].rotations",
+                      {"23 joints", "24"}},
+        BadStreamCase{"Joints25",
+                      WithKey([](auto& k) {
+                        for (int i = 0; i < 3; ++i) k.mutable_pose()->add_rotations(0);
+                      }),
+                      kInvalid,
+                      "keyframes[0].rotations",
+                      {"25 joints", "24"}},
+        BadStreamCase{"NaN",
+                      WithKey([](auto& k) {
+                        k.mutable_pose()->set_rotations(50,
+                                                        std::numeric_limits<float>::quiet_NaN());
+                      }),
+                      kInvalid,
+                      "keyframes[0].rotations[16]",
+                      {"nan", "not finite"}},
+        BadStreamCase{"Infinite",
+                      WithKey([](auto& k) {
+                        k.mutable_pose()->set_rotations(0, std::numeric_limits<float>::infinity());
+                      }),
+                      kInvalid,
+                      "keyframes[0].rotations[0]",
+                      {"inf", "not finite"}},
+        BadStreamCase{"AbsurdRotation",
+                      WithKey([](auto& k) { k.mutable_pose()->set_rotations(48, 7.9F); }),
+                      kInvalid,
+                      "keyframes[0].rotations[16]",
+                      {"7.9 rad", "2π"}},
+        BadStreamCase{
+            "AbsurdPosition",
+            WithKey([](auto& k) { k.mutable_pose()->mutable_root_position()->set_z(2e4); }),
+            kInvalid,
+            "keyframes[0].root_position[2]",
+            {"20000", "10000"}},
+        BadStreamCase{"PositionNaN",
+                      WithKey([](auto& k) {
+                        k.mutable_pose()->mutable_root_position()->set_x(std::nan(""));
+                      }),
+                      kInvalid,
+                      "keyframes[0].root_position[0]",
+                      {"nan"}},
+        BadStreamCase{"PositionInfinite",
+                      WithKey([](auto& k) {
+                        k.mutable_pose()->mutable_root_position()->set_y(
+                            std::numeric_limits<double>::infinity());
+                      }),
+                      kInvalid,
+                      "keyframes[0].root_position[1]",
+                      {"inf", "not finite"}},
+        BadStreamCase{"NegativeFrame",
+                      WithKey([](auto& k) { k.set_frame(-1); }),
+                      kInvalid,
+                      "keyframes[0].frame",
+                      {"-1"}},
+        BadStreamCase{"HugeFrame",
+                      WithKey([](auto& k) { k.set_frame(int64_t{1} << 62); }),
+                      kInvalid,
+                      "keyframes[0].frame",
+                      {"4611686018427387904"}},
+        BadStreamCase{"TimeNaN",
+                      WithKey([](auto& k) { k.set_time(std::nan("")); }),
+                      kInvalid,
+                      "keyframes[0].time",
+                      {"nan"}},
+        BadStreamCase{"IntervalZero",
+                      WithKey([](auto& k) { k.set_interval_after_previous(0); }),
+                      kInvalid,
+                      "keyframes[0].interval_after_previous",
+                      {"0 ", "[2, "}},
+        BadStreamCase{"IntervalNegative",
+                      WithKey([](auto& k) { k.set_interval_after_previous(-7); }),
+                      kInvalid,
+                      "keyframes[0].interval_after_previous",
+                      {"-7"}},
+        BadStreamCase{"IntervalHuge",
+                      WithKey([](auto& k) {
+                        k.set_interval_after_previous(std::numeric_limits<int64_t>::max());
+                      }),
+                      kInvalid,
+                      "keyframes[0].interval_after_previous",
+                      {"9223372036854775807"}},
+        BadStreamCase{"MaskTwice",
+                      WithKey([](auto& k) {
+                        k.mutable_mask()->add_joints(3);
+                        k.mutable_mask()->add_joints(3);
+                      }),
+                      kInvalid,
+                      "keyframes[0].mask.joints[1]",
+                      {"3"}},
+        BadStreamCase{"MaskBeyond",
+                      WithKey([](auto& k) { k.mutable_mask()->add_joints(24); }),
+                      kInvalid,
+                      "keyframes[0].mask.joints[0]",
+                      {"24", "23"}},
+        BadStreamCase{"TooClose",
+                      [](Key key) {
+                        Requests requests = {MusicConfigRequest(), key};
+                        key.mutable_keyframe()->set_id("next");
+                        key.mutable_keyframe()->set_frame(41);
+                        requests.push_back(key);
+                        return requests;
+                      },
+                      kInvalid,
+                      "keyframes[1].frame",
+                      {"41", "40"}},
+        BadStreamCase{"TwoIdsOnOneFrame",
+                      [](Key key) {
+                        Requests requests = {MusicConfigRequest(), key};
+                        key.mutable_keyframe()->set_id("twin");
+                        requests.push_back(key);
+                        return requests;
+                      },
+                      kInvalid,
+                      "keyframes[1].frame",
+                      {"40", "k"}}),
+    NameOf);
+
+}  // namespace
+}  // namespace choreo

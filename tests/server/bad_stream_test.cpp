@@ -1,0 +1,208 @@
+#include <cmath>
+
+#include "tests/server/bad_stream.h"
+
+namespace choreo {
+namespace {
+
+TEST_P(BadStreamTest, IsNamedAndTheServerGoesOn) {
+  Start();
+  v1::StreamDanceRequest key;
+  *key.mutable_keyframe() = Key("k", 40);
+  const Answer answer = Dance(GetParam().requests(key));
+  EXPECT_EQ(answer.status.error_code(), GetParam().code) << answer.status.error_message();
+  EXPECT_FALSE(answer.summary);
+  for (const std::string& word : GetParam().says) {
+    EXPECT_NE(answer.status.error_message().find(word), std::string::npos)
+        << '"' << word << "\" is not in: " << answer.status.error_message();
+  }
+  const Details details = DetailsOf(answer.status);
+  ASSERT_TRUE(details.error_info);
+  EXPECT_EQ(details.error_info->domain(), "choreo");
+  ASSERT_TRUE(details.bad_request) << answer.status.error_message();
+  EXPECT_EQ(details.bad_request->field_violations(0).field(), GetParam().field);
+
+  const Answer good = Dance({ConfigRequest(), key});
+  EXPECT_TRUE(good.status.ok()) << good.status.error_message();
+  EXPECT_EQ(good.Join().count, 41);
+  ExpectIdle();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Order, BadStreamTest,
+    testing::Values(
+        BadStreamCase{
+            "Nothing", [](const Key&) { return Requests{}; }, kInvalid, "config", {"missing"}},
+        BadStreamCase{"NoConfig",
+                      [](const Key& key) { return Requests{key}; },
+                      kInvalid,
+                      "config",
+                      {"missing", "first"}},
+        BadStreamCase{"TwoConfigs",
+                      [](const Key&) {
+                        return Requests{ConfigRequest(), ConfigRequest()};
+                      },
+                      kInvalid,
+                      "config",
+                      {"once"}},
+        BadStreamCase{"EmptyMessage",
+                      [](const Key&) {
+                        return Requests{ConfigRequest(), v1::StreamDanceRequest()};
+                      },
+                      kInvalid,
+                      "request",
+                      {"empty"}},
+        BadStreamCase{"HalfCloseAfterConfig",
+                      [](const Key&) { return Requests{ConfigRequest()}; },
+                      kInvalid,
+                      "keyframes_complete",
+                      {"no end"}},
+        BadStreamCase{"KeysAfterComplete",
+                      [](const Key& key) {
+                        v1::StreamDanceRequest complete;
+                        complete.mutable_keyframes_complete();
+                        v1::StreamDanceRequest config = MusicConfigRequest();
+                        return Requests{config, key, complete, key};
+                      },
+                      kInvalid,
+                      "keyframes[1]",
+                      {"keyframes_complete"}},
+        BadStreamCase{"GenerateUntilBackwards",
+                      [](const Key&) {
+                        v1::StreamDanceRequest until;
+                        until.mutable_generate_until()->set_frame(50);
+                        v1::StreamDanceRequest back;
+                        back.mutable_generate_until()->set_frame(40);
+                        return Requests{ConfigRequest(), until, back};
+                      },
+                      kInvalid,
+                      "generate_until.frame",
+                      {"40", "50"}},
+        BadStreamCase{"RemovedIdThatNeverWas",
+                      [](const Key& key) {
+                        v1::StreamDanceRequest remove;
+                        remove.mutable_remove_keyframe()->set_id("ghost");
+                        return Requests{ConfigRequest(), key, remove};
+                      },
+                      grpc::StatusCode::NOT_FOUND,
+                      "remove_keyframes[0].id",
+                      {"ghost"}},
+        BadStreamCase{"Control",
+                      [](const Key&) {
+                        v1::StreamDanceRequest controls;
+                        controls.mutable_controls()->mutable_velocity_factors();
+                        return Requests{ConfigRequest(), controls};
+                      },
+                      grpc::StatusCode::UNIMPLEMENTED,
+                      "controls.velocity_factors",
+                      {"fake"}}),
+    NameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Config, BadStreamTest,
+    testing::Values(
+        BadStreamCase{"UnknownModel",
+                      WithConfig([](auto& c) { c.set_model("paper"); }),
+                      grpc::StatusCode::NOT_FOUND,
+                      "config.model",
+                      {"paper", "fake"}},
+        BadStreamCase{"FrameRate",
+                      WithConfig([](auto& c) { c.set_frame_rate(121); }),
+                      kInvalid,
+                      "config.frame_rate",
+                      {"121", "120"}},
+        BadStreamCase{"FrameRateNaN",
+                      WithConfig([](auto& c) { c.set_frame_rate(std::nan("")); }),
+                      kInvalid,
+                      "config.frame_rate",
+                      {"nan"}},
+        BadStreamCase{"Temperature",
+                      WithConfig([](auto& c) { c.set_temperature(-0.5); }),
+                      kInvalid,
+                      "config.temperature",
+                      {"-0.5", "[0, 2]"}},
+        BadStreamCase{"Frames",
+                      WithConfig([](auto& c) { c.set_frames(0); }),
+                      kInvalid,
+                      "config.frames",
+                      {"0", "108000"}},
+        BadStreamCase{
+            "Encoding",
+            WithConfig([](auto& c) { c.set_encoding(static_cast<v1::RotationEncoding>(17)); }),
+            kInvalid,
+            "config.encoding",
+            {"17"}},
+        BadStreamCase{"AudioEncoding",
+                      WithConfig([](auto& c) { c.mutable_audio_format(); }),
+                      kInvalid,
+                      "config.audio_format.encoding",
+                      {"PCM_F32LE"}},
+        BadStreamCase{"SampleRate",
+                      WithConfig([](auto& c) {
+                        c.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_S16LE);
+                        c.mutable_audio_format()->set_sample_rate(7999);
+                        c.mutable_audio_format()->set_channels(1);
+                      }),
+                      kInvalid,
+                      "config.audio_format.sample_rate",
+                      {"7999", "8000"}},
+        BadStreamCase{"Channels",
+                      WithConfig([](auto& c) {
+                        c.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_S16LE);
+                        c.mutable_audio_format()->set_sample_rate(44100);
+                        c.mutable_audio_format()->set_channels(9);
+                      }),
+                      kInvalid,
+                      "config.audio_format.channels",
+                      {"9", "8"}},
+        BadStreamCase{"Beats",
+                      WithConfig([](auto& c) {
+                        c.add_music_beats(1);
+                        c.add_music_beats(1);
+                      }),
+                      kInvalid,
+                      "config.music_beats[1]",
+                      {"1 s"}},
+        BadStreamCase{"HistoryOfAnotherSkeleton",
+                      WithConfig([](auto& c) {
+                        v1::Pose* pose = c.mutable_history()->add_poses();
+                        pose->mutable_root_position()->set_y(1);
+                        pose->mutable_rotations()->Resize(3 * 23, 0.0F);
+                      }),
+                      kInvalid,
+                      "config.history.poses[0].rotations",
+                      {"23 joints", "24"}},
+        BadStreamCase{"ContinuationOfAnotherSkeleton",
+                      WithConfig([](auto& c) {
+                        v1::Continuation* from = c.mutable_continuation();
+                        from->set_skeleton("tang23");
+                        from->set_fingerprint("fake-1");
+                        from->mutable_root_positions()->Resize(3 * 10, 0.0F);
+                        from->mutable_rotations()->Resize(3 * 10 * 23, 0.0F);
+                      }),
+                      grpc::StatusCode::FAILED_PRECONDITION,
+                      "config.continuation.skeleton",
+                      {"tang23", "smpl24"}},
+        BadStreamCase{"ContinuationOf23Joints",
+                      WithConfig([](auto& c) {
+                        v1::Continuation* from = c.mutable_continuation();
+                        from->set_skeleton("smpl24");
+                        from->set_fingerprint("fake-1");
+                        from->mutable_root_positions()->Resize(3 * 10, 0.0F);
+                        from->mutable_rotations()->Resize(3 * 10 * 23, 0.0F);
+                      }),
+                      kInvalid,
+                      "config.continuation.rotations",
+                      {"690", "720"}},
+        BadStreamCase{"ShortContinuation",
+                      WithConfig([](auto& c) {
+                        c.mutable_continuation()->set_skeleton("smpl24");
+                        c.mutable_continuation()->add_root_positions(1);
+                      }),
+                      kInvalid,
+                      "config.continuation.root_positions",
+                      {"1 ", "30"}}),
+    NameOf);
+
+}  // namespace
+}  // namespace choreo

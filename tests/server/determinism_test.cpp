@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <thread>
+
+#include "tests/server/fixture.h"
+
+/// The answer is a function of the ordered messages: not of the load, of how music is cut, of when
+/// a message comes, nor of where a dance was taken up.
+namespace choreo {
+namespace {
+
+class DeterminismTest : public ServerTest {
+ protected:
+  static v1::DanceConfig MusicConfig(uint64_t seed) {
+    v1::DanceConfig config = Config(seed);
+    *config.mutable_audio_format() = MusicFormat();
+    return config;
+  }
+  static v1::Keyframe SecondKey() { return Key("b", 70, -0.2, 0.9, 1.5F); }
+
+  // A dance with music and two keys; `chunk` bytes of music a message.
+  Answer Stream(uint64_t seed, size_t chunk) {
+    DanceClient client(stub());
+    client.Send(MusicConfig(seed));
+    client.SendKeyframe(Key("a", 30));
+    client.SendKeyframe(SecondKey());
+    for (size_t at = 0; at < music_.size(); at += chunk) {
+      client.SendAudio(music_.substr(at, chunk), static_cast<int64_t>(at / 2));
+    }
+    client.SendEndOfAudio();
+    client.SendKeyframesComplete();
+    return client.Finish();
+  }
+
+  // The way to the first of these keys.
+  Answer Transition(uint64_t seed) {
+    v1::GenerateTransitionRequest request;
+    *request.mutable_config() = MusicConfig(seed);
+    request.set_frames(31);
+    *request.mutable_target() = Key("a", 30).pose();
+    request.mutable_audio()->set_data(music_);
+    return Generate(request);
+  }
+
+  const std::string music_ = Music(3);
+};
+
+TEST_F(DeterminismTest, ChunksDoNotMatter) {
+  Start();
+  const Answer whole = Stream(3, 1 << 20);
+  ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
+  EXPECT_EQ(whole.Join().count, 90);
+  EXPECT_TRUE(whole.Join() == Stream(3, 2 * 1237).Join());
+  EXPECT_FALSE(whole.Join() == Stream(4, 1 << 20).Join()) << "the seed does nothing";
+}
+
+// Each message is sent when all frames that it made possible have come; or all of them at once.
+TEST_F(DeterminismTest, TimingDoesNotMatter) {
+  Start();
+  const Answer at_once = Stream(3, 2 * 735 * 7);
+  ASSERT_TRUE(at_once.status.ok()) << at_once.status.error_message();
+
+  DanceClient client(stub());
+  client.Send(MusicConfig(3));
+  ASSERT_TRUE(client.ReadHeader());
+  client.SendKeyframe(Key("a", 30));
+  client.SendKeyframe(SecondKey());
+  constexpr size_t kChunk = size_t{2} * 735 * 7;  // seven frames
+  const int latency = client.answer().header->latency_frames();
+  for (size_t at = 0; at < music_.size(); at += kChunk) {
+    client.SendAudio(music_.substr(at, kChunk), static_cast<int64_t>(at / 2));
+    const auto heard =
+        static_cast<int64_t>(std::min(at + kChunk, music_.size()) / 2 / 735) - latency;
+    // Keys grant frames up to the second one.
+    ASSERT_TRUE(client.ReadFrames(std::clamp<int64_t>(heard, 0, 71)));
+  }
+  client.SendEndOfAudio();
+  client.SendKeyframesComplete();
+  EXPECT_TRUE(client.Finish().Join() == at_once.Join());
+}
+
+// Streams and transitions step together, with others of other seeds and chunks.
+TEST_F(DeterminismTest, SameBitsAloneAndAmong31Others) {
+  constexpr int kCalls = 32;
+  Start(kCalls);
+  const Answer stream = Stream(11, 8192);
+  const Answer transition = Transition(11);
+  ASSERT_TRUE(stream.status.ok()) << stream.status.error_message();
+  ASSERT_TRUE(transition.status.ok()) << transition.status.error_message();
+
+  probe->closed = true;  // until all are in their slots
+  std::vector<Answer> answers(kCalls);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < kCalls; ++i) {
+    threads.emplace_back([&, i] {
+      const auto seed = static_cast<uint64_t>(i / 2 == 5 ? 11 : 100 + i);
+      answers[static_cast<size_t>(i)] =
+          i % 2 == 0 ? Stream(seed, 2 * static_cast<size_t>(500 + 321 * i)) : Transition(seed);
+    });
+  }
+  ExpectEventually([this] { return server->transitions() == kCalls; }, "32 transitions");
+  probe->closed = false;
+  for (auto& thread : threads) thread.join();
+  for (int i = 0; i < kCalls; ++i) {
+    const Answer& answer = answers[static_cast<size_t>(i)];
+    ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+    EXPECT_EQ(answer.Join() == (i % 2 == 0 ? stream : transition).Join(), i / 2 == 5) << i;
+  }
+  EXPECT_GE(probe->largest_batch, kCalls - 1) << "calls are not stepped together";
+  ExpectIdle();
+}
+
+TEST_F(DeterminismTest, ResumedItIsTheSame) {
+  Start();
+  const Answer whole = Stream(21, 1 << 20);
+  ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
+  ASSERT_GE(whole.continuations.size(), 2U);
+  const v1::Continuation& from = whole.continuations[0];
+  EXPECT_EQ(from.frame(), 31);
+  EXPECT_GT(from.audio_from_sample(), 0);
+
+  DanceClient client(stub());
+  v1::DanceConfig config;  // its seed comes with the continuation
+  *config.mutable_audio_format() = MusicFormat();
+  config.mutable_audio_format()->set_first_sample(from.audio_from_sample());
+  *config.mutable_continuation() = from;
+  client.Send(config);
+  client.SendKeyframe(Key("a", 30));  // lies behind
+  client.SendKeyframe(SecondKey());
+  client.SendAudio(music_.substr(static_cast<size_t>(2 * from.audio_from_sample())),
+                   from.audio_from_sample());
+  client.SendEndOfAudio();
+  client.SendKeyframesComplete();
+  const Answer& resumed = client.Finish();
+  ASSERT_TRUE(resumed.status.ok()) << resumed.status.error_message();
+  EXPECT_EQ(resumed.header->seed(), 21U);
+  EXPECT_EQ(resumed.header->first_frame(), 31);
+  EXPECT_EQ(std::count_if(resumed.events.begin(), resumed.events.end(),
+                          [](const v1::Event& event) { return event.has_keyframe_reached(); }),
+            1);
+
+  const Answer::Joined all = whole.Join();
+  const Answer::Joined rest = resumed.Join();
+  ASSERT_EQ(rest.first_frame, 31);
+  ASSERT_EQ(rest.count, all.count - 31);
+  EXPECT_TRUE(std::equal(rest.rotations.begin(), rest.rotations.end(),
+                         all.rotations.begin() + std::ptrdiff_t{31} * 72));
+  EXPECT_TRUE(std::equal(rest.root_positions.begin(), rest.root_positions.end(),
+                         all.root_positions.begin() + std::ptrdiff_t{31} * 3));
+}
+
+}  // namespace
+}  // namespace choreo

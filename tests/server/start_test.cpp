@@ -1,0 +1,89 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "model/core/safetensors.h"
+#include "tests/support/temporary_folder.h"
+
+/// choreod as people start it, with checkpoints that it can't serve: it leaves at once, with one
+/// line that names the file, what is wrong in it and why.
+namespace choreo {
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string said;  ///< stdout and stderr
+};
+
+Outcome StartWith(const std::filesystem::path& checkpoint) {
+  const std::string command = "'" CHOREOD_PROGRAM
+                              "' --log-level critical --listen 127.0.0.1:0 "
+                              "--checkpoint '" +
+                              checkpoint.string() + "' 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  Outcome outcome;
+  std::array<char, 4096> buffer;
+  while (const size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
+    outcome.said.append(buffer.data(), count);
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+class StartTest : public testing::Test {
+ protected:
+  StartTest() { std::filesystem::copy_file(SHIPPED_CHECKPOINT, path_); }
+
+  void ExpectRefused(const std::vector<std::string>& says) {
+    const Outcome outcome = StartWith(path_);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
+    EXPECT_THAT(outcome.said, testing::HasSubstr(path_.string()));
+    for (const std::string& word : says) EXPECT_THAT(outcome.said, testing::HasSubstr(word));
+  }
+
+  void ChangeMetadata(const std::string& key, const std::string& value) {
+    Safetensors content = ReadSafetensors(path_);
+    content.metadata[key] = value;
+    WriteSafetensors(path_, content);
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "model.safetensors";
+};
+
+TEST_F(StartTest, ATruncatedCheckpoint) {
+  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
+  ExpectRefused({"tensor ", "truncated"});
+}
+
+TEST_F(StartTest, ACheckpointOfAnotherVersion) {
+  ChangeMetadata("format", "choreo-flow-9");
+  ExpectRefused({"format 'choreo-flow-9'", "this build reads 'choreo-flow-"});
+}
+
+TEST_F(StartTest, ACheckpointWithAWrongHash) {
+  ChangeMetadata("hash", std::string(32, '0'));
+  ExpectRefused({"content hash ", "the file states 00000000000000000000000000000000"});
+}
+
+TEST_F(StartTest, ACheckpointWithAChangedWeight) {
+  std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(-1, std::ios::end);
+  file.put('\x7f');
+  file.close();
+  ExpectRefused({"content hash ", "damaged or was edited"});
+}
+
+TEST_F(StartTest, AFileThatIsNone) {
+  std::ofstream(path_) << "just a line of text";
+  ExpectRefused({"not a usable safetensors file"});
+}
+
+}  // namespace
+}  // namespace choreo
