@@ -23,12 +23,13 @@ constexpr std::chrono::seconds kStopLimit{10};
 constexpr const char* kListens = "choreod listens on ";
 
 /// In the child: becomes the server. Does not return.
-[[noreturn]] void Become(const std::filesystem::path& program, int to, pid_t parent) {
+[[noreturn]] void Become(const std::filesystem::path& program, const std::string& listen, int to,
+                         pid_t parent) {
   // Whatever happens to us, it does not stay behind. The parent may have died before this line.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
   dup2(to, STDOUT_FILENO);
-  execl(program.c_str(), "choreod", "--listen", "127.0.0.1:0", "--log-level", "warning", nullptr);
+  execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning", nullptr);
   _exit(127);
 }
 
@@ -37,7 +38,7 @@ constexpr const char* kListens = "choreod listens on ";
 LocalServer::LocalServer()
     : LocalServer(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod") {}
 
-LocalServer::LocalServer(const std::filesystem::path& program) {
+LocalServer::LocalServer(const std::filesystem::path& program, const std::string& listen) {
   if (access(program.c_str(), X_OK) != 0) {
     throw Error(ErrorCode::kNotFound, program.string(),
                 "is not there to be started; name a server with --server");
@@ -47,7 +48,7 @@ LocalServer::LocalServer(const std::filesystem::path& program) {
     throw Error(ErrorCode::kInternal, "", std::string("pipe: ") + std::strerror(errno));
   const pid_t self = getpid();
   process_ = fork();
-  if (process_ == 0) Become(program, ends[1], self);
+  if (process_ == 0) Become(program, listen, ends[1], self);
   close(ends[1]);
   if (process_ > 0) address_ = ReadAddress(ends[0]);
   close(ends[0]);

@@ -15,12 +15,15 @@ class LocalServer {
   /// Error(kNotFound) if there is none, and Error(kUnavailable) if it does not listen within two
   /// minutes; it has then said why on stderr.
   LocalServer();
-  explicit LocalServer(const std::filesystem::path& program);
+  /// `listen`: HOST:PORT; port 0 takes a free one.
+  explicit LocalServer(const std::filesystem::path& program,
+                       const std::string& listen = "127.0.0.1:0");
   ~LocalServer();
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
 
   const std::string& address() const { return address_; }
+  pid_t process() const { return process_; }
 
  private:
   /// Reads the line in which the server says where it listens; empty if it ends or takes too long.

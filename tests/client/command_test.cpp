@@ -157,7 +157,8 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("swim").code, 2);
   EXPECT_EQ(Choreo("dance").code, 2);
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
-  for (const char* command : {"", "dance", "transition", "edit", "analyze", "info", "convert", "render"}) {
+  for (const char* command :
+       {"", "dance", "transition", "edit", "analyze", "info", "convert", "render"}) {
     const Outcome outcome = Choreo(std::string(command) + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << command;

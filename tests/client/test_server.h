@@ -30,6 +30,7 @@ class TestServer {
 
   const std::string& address() const { return address_; }
   int calls() const { return server_->calls(); }
+  int transitions() const { return server_->transitions(); }
   /// At once, with all its calls.
   void Die() { server_->Drain(0); }
 

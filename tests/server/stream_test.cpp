@@ -164,6 +164,35 @@ TEST_F(StreamTest, LateKeysAreRejectedByEvent) {
   EXPECT_EQ(answer.summary->report().keyframes(1).frame(), 90);
 }
 
+TEST_F(StreamTest, KeysAreAddedMovedAndRemovedBehindTheFrontier) {
+  Start();
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  config.set_frames(120);
+  client.Send(config);
+  client.SendGenerateUntil(1);  // keys will be edited
+  client.SendKeyframe(Key("a", 30));
+  client.SendKeyframe(Key("b", 60));
+  client.SendKeyframe(Key("c", 90));
+  client.SendGenerateUntil(31);
+  ASSERT_TRUE(client.ReadFrames(31));
+  v1::StreamDanceRequest remove;
+  remove.mutable_remove_keyframe()->set_id("b");
+  client.Send(remove);
+  client.SendKeyframe(Key("c", 100));
+  v1::Keyframe added = Key("d", 75);
+  added.mutable_pose()->clear_root_position();
+  client.SendKeyframe(added);
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join().count, 120);
+  EXPECT_EQ(ReachedKeys(answer), (std::vector<std::string>{"a", "d", "c"}));
+  const v1::QualityReport& report = answer.summary->report();
+  ASSERT_EQ(report.keyframes_size(), 3);
+  EXPECT_EQ(report.keyframes(1).frame(), 75);
+  EXPECT_EQ(report.keyframes(2).frame(), 100);
+}
+
 TEST_F(StreamTest, TimesAndIntervalsPlaceKeys) {
   Start();
   DanceClient client(stub());

@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "client/choreo_client.h"
+#include "client/cli/local_server.h"
+#include "client/cli/pose_library.h"
+#include "tests/client/test_music.h"
+#include "tests/client/test_server.h"
+
+/// Processes that are killed in the middle of a dance.
+namespace choreo::client {
+namespace {
+
+using cli::LocalServer;
+
+/// Gone at once, without a word to its clients.
+void Kill(const LocalServer& server) { ASSERT_EQ(::kill(server.process(), SIGKILL), 0); }
+
+Options Patient(const std::vector<const LocalServer*>& servers) {
+  Options options;
+  for (const LocalServer* server : servers) options.addresses.push_back(server->address());
+  options.first_backoff_s = 0.01;
+  options.max_retries = 12;
+  return options;
+}
+
+struct Danced {
+  Motion motion;
+  std::vector<std::string> reached;
+  int resumes = 0;
+  Report report;
+};
+
+/// Eight seconds to music that comes half a second at a time, each when all frames of the one
+/// before have come: the server never has what it would need to be further ahead. `before_frame` is
+/// told the number of frames so far.
+Danced DanceLive(const Client& client, bool with_keys,
+                 const std::function<void(int64_t)>& before_frame) {
+  constexpr int64_t kPiece = 22050 / 2;
+  const Audio audio = ClicksAudio(8);
+  const auto dance = client.StartDance({.seed = 9, .audio = audio.format});
+  if (with_keys) {
+    for (const auto& [id, frame] : {std::pair("kick", 50), {"groove", 110}, {"arabesque", 200}}) {
+      KeyPose key;
+      key.id = id;
+      key.frame = frame;
+      key.pose = cli::FindLibraryPose(id).pose;
+      dance->SendKey(key);
+    }
+  }
+  dance->CompleteKeys();
+  Danced danced;
+  int latency = 0;
+  const auto read = [&](int64_t frames) {
+    while (static_cast<int64_t>(danced.motion.frames.size()) < frames) {
+      before_frame(static_cast<int64_t>(danced.motion.frames.size()));
+      const std::optional<Message> message = dance->Next();
+      if (!message) return;
+      if (const auto* header = std::get_if<Header>(&*message)) {
+        latency = header->latency_frames;
+      } else if (const auto* block = std::get_if<FrameBlock>(&*message)) {
+        danced.motion.frames.insert(danced.motion.frames.end(), block->poses.begin(),
+                                    block->poses.end());
+      } else if (const auto* key = std::get_if<KeyReached>(&*message)) {
+        danced.reached.push_back(key->id);
+      } else if (std::holds_alternative<Resumed>(*message)) {
+        ++danced.resumes;
+      } else if (const auto* report = std::get_if<Report>(&*message)) {
+        danced.report = *report;
+      }
+    }
+  };
+  const auto total = static_cast<int64_t>(audio.samples.size());
+  for (int64_t at = 0; at < total; at += kPiece) {
+    const int64_t end = std::min(at + kPiece, total);
+    dance->SendSamples(
+        std::span(audio.samples).subspan(static_cast<size_t>(at), static_cast<size_t>(end - at)));
+    read(end / 735 - std::max(2, latency));
+  }
+  dance->EndAudio();
+  read(std::numeric_limits<int64_t>::max());
+  return danced;
+}
+
+void ExpectSame(const Danced& a, const Danced& b) {
+  ASSERT_EQ(a.motion.frames.size(), b.motion.frames.size());
+  for (size_t i = 0; i < a.motion.frames.size(); ++i) {
+    ASSERT_EQ(a.motion.frames[i].root_position, b.motion.frames[i].root_position) << i;
+    ASSERT_EQ(a.motion.frames[i].rotations, b.motion.frames[i].rotations) << i;
+  }
+  EXPECT_EQ(a.reached, b.reached);
+  EXPECT_EQ(a.report.keys.size(), b.report.keys.size());
+}
+
+struct Killings {
+  bool with_keys;
+  uint32_t seed;
+};
+void PrintTo(const Killings& killings, std::ostream* out) {
+  *out << (killings.with_keys ? "keys" : "music_only") << killings.seed;
+}
+
+class KillTest : public testing::TestWithParam<Killings> {};
+
+// Of three replicas two are killed, each while it is dancing, at frames drawn at random.
+TEST_P(KillTest, TheDanceIsTheSameToTheBit) {
+  const std::filesystem::path program = FAKE_CHOREOD;
+  const bool with_keys = GetParam().with_keys;
+  const LocalServer undisturbed(program);
+  const Danced wanted = DanceLive(Client(Patient({&undisturbed})), with_keys, [](int64_t) {});
+  ASSERT_EQ(wanted.motion.frames.size(), 240U);
+  ASSERT_EQ(wanted.reached.size(), with_keys ? 3U : 0U);
+
+  std::mt19937 random(GetParam().seed);
+  const auto first = static_cast<int64_t>(random() % 120);
+  const auto second = first + 1 + static_cast<int64_t>(random() % 110);
+  SCOPED_TRACE("killed at frames " + std::to_string(first) + " and " + std::to_string(second));
+  const LocalServer a(program);
+  const LocalServer b(program);
+  const LocalServer c(program);
+  int killed = 0;
+  const Danced danced = DanceLive(Client(Patient({&a, &b, &c})), with_keys, [&](int64_t frames) {
+    if (killed == 0 && frames >= first) {
+      Kill(a);
+      ++killed;
+    } else if (killed == 1 && frames >= second) {
+      Kill(b);
+      ++killed;
+    }
+  });
+  ExpectSame(danced, wanted);
+  EXPECT_EQ(killed, 2);
+  EXPECT_GE(danced.resumes, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(AtRandom, KillTest,
+                         testing::Values(Killings{true, 1}, Killings{true, 2}, Killings{true, 3},
+                                         Killings{false, 1}, Killings{false, 2},
+                                         Killings{false, 3}),
+                         [](const auto& suite) { return testing::PrintToString(suite.param); });
+
+// There is one address, and what is started there anew knows nothing of the dance.
+TEST(KillTest, AServerThatComesBackGoesOn) {
+  const std::filesystem::path program = FAKE_CHOREOD;
+  auto server = std::make_unique<LocalServer>(program);
+  const std::string address = server->address();
+  const Client client(Patient({server.get()}));
+  const Danced wanted = DanceLive(client, true, [](int64_t) {});
+  bool killed = false;
+  const Danced danced = DanceLive(client, true, [&](int64_t frames) {
+    if (killed || frames < 100) return;
+    killed = true;
+    Kill(*server);
+    server = std::make_unique<LocalServer>(program, address);
+  });
+  ExpectSame(danced, wanted);
+  EXPECT_EQ(danced.resumes, 1);
+}
+
+// The server that people run, with the model that ships.
+TEST(KillTest, TheShippedModelGoesOnBitForBit) {
+  const std::filesystem::path program = CHOREOD_PROGRAM;
+  const LocalServer a(program);
+  const LocalServer b(program);
+  const Danced wanted = DanceLive(Client(Patient({&b})), true, [](int64_t) {});
+  bool killed = false;
+  const Danced danced = DanceLive(Client(Patient({&a, &b})), true, [&](int64_t frames) {
+    if (killed || frames < 77) return;
+    killed = true;
+    Kill(a);
+  });
+  ExpectSame(danced, wanted);
+  EXPECT_EQ(danced.resumes, 1);
+}
+
+// The other way round: a client's process is killed while it is served.
+TEST(KillTest, AKilledClientGivesItsSlotsBack) {
+  TestServer server;
+  std::vector<std::string> arguments = {
+      CHOREO_PROGRAM, "transition", "--from", "groove",       "--to", "kick",     "--out",
+      "/dev/null",    "--frames",   "1800",   "--candidates", "32",   "--server", server.address()};
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  pid_t process = 0;
+  ASSERT_EQ(posix_spawn(&process, CHOREO_PROGRAM, nullptr, nullptr, pointers.data(), environ), 0);
+  const auto until = [](const std::function<bool()>& condition) {
+    for (int i = 0; i < 5000 && !condition(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return condition();
+  };
+  const bool served = until([&] { return server.transitions() > 0; });
+  ::kill(process, SIGKILL);
+  ::waitpid(process, nullptr, 0);
+  EXPECT_TRUE(served);
+  EXPECT_TRUE(until([&] { return server.calls() == 0 && server.transitions() == 0; }));
+  EXPECT_EQ(Client({.addresses = {server.address()}}).Dance({.frames = 30}, {}, {}).report.frames,
+            30);
+}
+
+}  // namespace
+}  // namespace choreo::client
