@@ -3,7 +3,10 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
+#include <limits>
 #include <random>
 #include <thread>
 
@@ -12,6 +15,7 @@
 #include "client/cli/pose_library.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
+#include "tests/support/sanitizers.h"
 
 /// Processes that are killed in the middle of a dance.
 namespace choreo::client {
@@ -165,6 +169,7 @@ TEST(KillTest, AServerThatComesBackGoesOn) {
 
 // The server that people run, with the model that ships.
 TEST(KillTest, TheShippedModelGoesOnBitForBit) {
+  if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
   const std::filesystem::path program = CHOREOD_PROGRAM;
   const LocalServer a(program);
   const LocalServer b(program);

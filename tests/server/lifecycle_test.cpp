@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "tests/server/fixture.h"
+#include "tests/support/sanitizers.h"
 
 namespace choreo {
 namespace {
@@ -170,9 +171,7 @@ int64_t ResidentBytes() {
 
 // Clients that go in the middle of a song that is a file: the server holds all of it until its end.
 TEST_F(LifecycleTest, MemoryComesBackFromClientsThatAreGone) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer keeps what is freed";
-#endif
+  if (kSanitized) GTEST_SKIP() << "the sanitizer keeps what is freed";
   Start();
   constexpr int64_t kPiece = 4 << 20;
   v1::DanceConfig config = Config();

@@ -162,6 +162,18 @@ INSTANTIATE_TEST_SUITE_P(
                          r.clear_target();
                        },
                        kInvalid, "after", "target"},
+        BadRequestCase{"AfterOfAnotherSkeleton",
+                       [](R& r) {
+                         *r.add_after() = r.target();
+                         *r.add_after() = r.target();
+                         r.mutable_after(1)->mutable_rotations()->Truncate(69);
+                       },
+                       kInvalid, "after[1].rotations", "23 joints"},
+        BadRequestCase{"TooManyAfter",
+                       [](R& r) {
+                         for (int i = 0; i < 61; ++i) *r.add_after() = r.target();
+                       },
+                       kInvalid, "after", "61 poses, more than 60"},
         BadRequestCase{"AudioWithoutFormat", [](R& r) { r.mutable_audio()->set_data("abcd"); },
                        kInvalid, "audio", "config.audio_format"},
         BadRequestCase{"FormatWithoutAudio",
