@@ -11,10 +11,10 @@
 
 #include "choreo/v1/choreography.pb.h"
 #include "model/dance/dance_stream.h"
-#include "server/convert.h"
 #include "server/outbox.h"
 #include "server/serving.h"
 #include "server/status.h"
+#include "server/write_response.h"
 
 namespace choreo {
 

@@ -53,8 +53,13 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                  "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_STREAMS")
       ->capture_default_str();
+  app.add_option("--workers", config.workers,
+                 "Workers of the CPU, which share the slots. 0: one for every usable core.")
+      ->envname("CHOREO_WORKERS")
+      ->capture_default_str();
   app.add_option("--threads", config.threads,
-                 "Threads of one matrix product; 0 takes every core that may be used.")
+                 "Threads of one matrix product. 1 is the fastest for small models; replicas that "
+                 "take over each other's dances must agree.")
       ->envname("CHOREO_THREADS")
       ->capture_default_str();
   app.add_option("--io-threads", config.io_threads,
@@ -95,7 +100,8 @@ void ServerConfig::Validate() const {
   CheckRange("--slots", slots, 1, 4096);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);
-  CheckRange("--threads", threads, 0, 1024);
+  CheckRange("--workers", workers, 0, 1024);
+  CheckRange("--threads", threads, 1, 1024);
   CheckRange("--io-threads", io_threads, 1, 256);
   CheckRange("--drain-seconds", drain_seconds, 0, 3600);
   CheckRange("--outbox-kib", outbox_kib, 1, 65536);

@@ -19,7 +19,8 @@ struct ServerConfig {
   int slots = 16;               ///< transitions in progress at once, for each model and device
   int max_waiting = 64;         ///< transitions that may wait for a slot, for each model
   int max_streams = 64;         ///< calls in progress at once; those beyond are refused
-  int threads = 0;              ///< of one matrix product; 0: every usable core
+  int workers = 0;              ///< of the CPU, an engine each; 0: one for every usable core
+  int threads = 1;              ///< of one matrix product; part of the fingerprint
   int io_threads = 2;           ///< that decode files and long pieces of music
   double drain_seconds = 20;    ///< that streams get to finish after SIGTERM
   int outbox_kib = 256;         ///< of answers that wait for a slow client before its dance pauses

@@ -3,6 +3,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "model/core/error.h"
@@ -29,13 +30,23 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
   const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
   std::vector<std::filesystem::path> checkpoints = config.checkpoints;
   if (checkpoints.empty()) checkpoints.push_back(ShippedCheckpoint());
+  // One small network does not keep several cores busy: each gets a worker, with its share of the
+  // slots.
+  std::vector<Device> workers = devices;
+  int slots = config.slots;
+  if (devices.front().kind == Device::Kind::kCpu) {
+    const int wanted = config.workers == 0 ? UsableCores() : config.workers;
+    const int count = std::min(wanted, config.slots);
+    workers.assign(static_cast<size_t>(count), devices.front());
+    slots = (config.slots + count - 1) / count;
+  }
   std::vector<Server::Engines> models;
   for (const auto& path : checkpoints) {
-    models.push_back(MakeTorchEngines(path, devices, config.slots));
+    models.push_back(MakeTorchEngines(path, workers, slots));
     const StepEngine& engine = *models.back().front();
-    spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} devices ({}, ...), {} slots each",
-                 path.string(), engine.model().name, engine.model().fingerprint, devices.size(),
-                 engine.device(), engine.slots());
+    spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...) of {} slots",
+                 path.string(), engine.model().name, engine.model().fingerprint, workers.size(),
+                 engine.device(), slots);
   }
   return models;
 }
@@ -44,11 +55,9 @@ void Run(const ServerConfig& config) {
   const sigset_t stop_signals = BlockStopSignals();
   const BlasInfo blas = DetectBlas();
   RequireFastBlas(blas);
-  const int threads = config.threads == 0 ? UsableCores() : config.threads;
-  SetMathThreads(threads);
-  SetTorchThreads(threads);
+  SetTorchThreads(config.threads);
   FlushDenormals();
-  spdlog::info("{} threads, BLAS {}", threads, blas.name);
+  spdlog::info("BLAS {}", blas.name);
 
   Server server(config, LoadModels(config));
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));

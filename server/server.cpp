@@ -12,7 +12,7 @@
 #include <iterator>
 
 #include "model/core/error.h"
-#include "server/convert.h"
+#include "server/read_request.h"
 #include "server/service.h"
 #include "server/serving.h"
 

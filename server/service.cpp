@@ -5,9 +5,10 @@
 #include "model/audio/format.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
-#include "server/convert.h"
+#include "server/read_request.h"
 #include "server/stream_reactor.h"
 #include "server/transition_reactor.h"
+#include "server/write_response.h"
 
 namespace choreo {
 

@@ -11,7 +11,9 @@
 #include "model/audio/decode.h"
 #include "model/dance/dance_stream.h"
 #include "server/call_session.h"
-#include "server/convert.h"
+#include "server/read_pose.h"
+#include "server/read_request.h"
+#include "server/write_response.h"
 
 namespace choreo {
 namespace {

@@ -9,7 +9,8 @@
 #include "model/audio/decode.h"
 #include "model/dance/transition_group.h"
 #include "server/call_session.h"
-#include "server/convert.h"
+#include "server/read_request.h"
+#include "server/write_response.h"
 
 namespace choreo {
 namespace {

@@ -73,6 +73,7 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
                      sorted.end());
     report.p95_acceleration = sorted[rank];
+    report.max_acceleration = *std::ranges::max_element(acceleration_);
   }
 
   std::vector<double> beats;

@@ -39,6 +39,7 @@ struct QualityReport {
   /// 95th percentile over the frames of the largest joint acceleration, m/s^2: what to hold
   /// max_key_acceleration against.
   double p95_acceleration = 0;
+  double max_acceleration = 0;  ///< the largest of any frame and joint, m/s^2
 };
 
 /// Gathers a QualityReport while a dance goes by, in a few numbers a frame. Frames come in order.

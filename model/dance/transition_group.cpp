@@ -19,71 +19,11 @@
 namespace choreo {
 namespace {
 
-bool HasAudio(const GroupRequest& request) { return request.sample_rate != 0; }
-
-int64_t FirstFrame(const GroupRequest& request) {
-  return request.continuation ? request.continuation->frame : request.first_frame;
-}
-
-const std::vector<Pose>& History(const GroupRequest& request) {
-  return request.continuation ? request.continuation->poses : request.history;
-}
-
 double KeyError(const CandidateReport& report) {
   return report.quality.keys.empty() ? 0 : report.quality.keys.front().arrival.raw_error_m;
 }
 
 }  // namespace
-
-void GroupRequest::Validate(const ModelInfo& model) const {
-  if (candidates < 1 || candidates > kMaxCandidates) {
-    throw InvalidArgument("candidates", std::to_string(candidates) + " is not in [1, " +
-                                            std::to_string(kMaxCandidates) + "]");
-  }
-  if (temperature) ValidateTemperature(*temperature, "temperature");
-  ValidateOutputFps(output_fps, "output_fps");
-  const int longest = std::min(kMaxTransitionFrames, model.max_transition_frames);
-  if (frames < 1 || frames > longest) {
-    throw InvalidArgument(
-        "frames", std::to_string(frames) + " is not in [1, " + std::to_string(longest) + "]");
-  }
-  if (history.size() > static_cast<size_t>(model.history_frames)) {
-    throw InvalidArgument("history", std::to_string(history.size()) + " poses, the limit is " +
-                                         std::to_string(model.history_frames));
-  }
-  ValidateHistory(model.skeleton, history, "history");
-  if (continuation) {
-    if (!history.empty()) {
-      throw InvalidArgument("history", "and a continuation exclude each other");
-    }
-    ValidateContinuation(model, *continuation, allow_inexact_resume, "continuation");
-  }
-  const int64_t first = FirstFrame(*this);
-  if (first < 0 || first > kMaxDanceFrames) {
-    throw InvalidArgument("first_frame", std::to_string(first) + " is not in [0, " +
-                                             std::to_string(kMaxDanceFrames) + "]");
-  }
-  if (target) {
-    ValidatePose(model.skeleton, target->pose, "target");
-    ValidateMask(model.skeleton, target->mask, "target.mask");
-  }
-  if (after) {
-    if (!target) throw InvalidArgument("after", "needs a target");
-    ValidatePose(model.skeleton, *after, "after");
-  }
-  if (!HasAudio(*this)) {
-    if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
-    return;
-  }
-  ValidateAudioStart(model, sample_rate, channels, first_sample, first, "audio");
-  if (samples.empty()) throw InvalidArgument("audio", "has no samples");
-  if (samples.size() % static_cast<size_t>(channels) != 0) {
-    throw InvalidArgument("audio.data", std::to_string(samples.size()) +
-                                            " values are no multiple of the " +
-                                            std::to_string(channels) + " channels");
-  }
-  CheckFinite(samples, channels, first_sample);
-}
 
 void RankCandidates(std::vector<CandidateReport>& candidates) {
   constexpr double kErrorStep = 0.01;  // metres
@@ -215,7 +155,7 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
                             std::shared_ptr<GroupSink> sink)
     : scheduler_(scheduler),
       model_(scheduler.model()),
-      first_frame_(FirstFrame(request)),
+      first_frame_(request.FirstFrame()),
       request_([&request] {
         GroupRequest rest = request;
         rest.samples.clear();
@@ -223,7 +163,7 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
         return rest;
       }()),
       mailbox_(std::move(sink)) {
-  if (!HasAudio(request)) return;
+  if (!request.has_audio()) return;
   // Of a long song only what the transition hears.
   const int64_t first = LatestFirstSample(first_frame_, request.sample_rate, model_);
   const size_t channels = static_cast<size_t>(request.channels);
@@ -245,7 +185,7 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
 void TransitionGroup::Impl::Begin() {
   TransitionRequest transition;
   transition.frames = request_.frames;
-  transition.history = History(request_);
+  transition.history = request_.History();
   transition.target = request_.target;
   transition.after = request_.after;
   transition.has_audio = audio_.has_value();

@@ -51,6 +51,10 @@ struct TransitionSpec {
   float temperature = 0.3F;
 };
 
+/// Throws Error(kInvalidArgument) naming the field unless the spec has the model's shape: frames,
+/// history, joints, mask and music rows.
+void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model);
+
 /// One slot's share of a step.
 struct StepInput {
   int slot = 0;

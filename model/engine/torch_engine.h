@@ -14,10 +14,6 @@
 /// Rows are stepped in tiles of one fixed size, padded, so that a row's bits depend neither on its
 /// slot nor on who steps with it. That is verified when an engine is made, with random rows in
 /// every place; where it doesn't hold, tiles shrink to one row, and standard error says so.
-///
-/// What a frame's history holds is what was emitted: its features are encoded anew from the poses
-/// that StepInput::previous hands back (velocities between them, contacts as motion/contacts.h
-/// detects them), so a transition is a function of poses alone.
 namespace choreo {
 
 /// What LibTorch can use here.

@@ -30,22 +30,36 @@ struct EvalOptions {
 nlohmann::json EvaluateTable(StepEngine& engine, const std::vector<PreparedClip>& clips,
                              const EvalOptions& options) {
   nlohmann::json table = nlohmann::json::array();
-  std::printf("%8s %8s %14s %10s %8s %12s %14s %12s\n", "frames", "windows", "interp. cm",
-              "model cm", "ratio", "raw key cm", "final key mm", "final deg");
+  std::printf("%6s %7s %10s %8s %6s | %-28s | %9s %9s | %-24s | %-13s\n", "frames", "windows",
+              "interp. cm", "model cm", "ratio", "raw key cm: mean median worst", "final mm",
+              "final deg", "m/s^2: p95 (real) max (real)", "skate (real)");
   for (const int frames : options.lengths) {
     const TransitionRow row =
         EvaluateTransitions(engine, clips, frames, options.windows_per_clip, options.temperature);
-    std::printf("%8d %8d %14.2f %10.2f %8.3f %12.2f %14.4f %12.5f\n", row.frames, row.windows,
-                100 * row.interpolation_m, 100 * row.model_m, row.ratio(), 100 * row.raw_key_m,
-                1000 * row.final_key_m, row.final_key_deg);
+    std::printf(
+        "%6d %7d %10.2f %8.2f %6.3f | %12.2f %6.2f %7.2f   | %9.4f %9.5f | %7.1f (%5.1f) %5.0f "
+        "(%4.0f) | %4.2f (%4.2f)\n",
+        row.frames, row.windows, 100 * row.interpolation_m, 100 * row.model_m, row.ratio(),
+        100 * row.raw_key_m, 100 * row.raw_key_median_m, 100 * row.raw_key_worst_m,
+        1000 * row.final_key_m, row.final_key_deg, row.p95_acceleration, row.real_p95_acceleration,
+        row.max_acceleration, row.real_max_acceleration, row.skate_ratio, row.real_skate_ratio);
     table.push_back({{"frames", row.frames},
                      {"windows", row.windows},
                      {"interpolation_m", row.interpolation_m},
                      {"model_m", row.model_m},
                      {"ratio", row.ratio()},
                      {"raw_key_m", row.raw_key_m},
+                     {"raw_key_median_m", row.raw_key_median_m},
+                     {"raw_key_worst_m", row.raw_key_worst_m},
+                     {"worst_window", row.worst_window},
                      {"final_key_m", row.final_key_m},
                      {"final_key_deg", row.final_key_deg},
+                     {"p95_acceleration", row.p95_acceleration},
+                     {"real_p95_acceleration", row.real_p95_acceleration},
+                     {"max_acceleration", row.max_acceleration},
+                     {"real_max_acceleration", row.real_max_acceleration},
+                     {"skate_ratio", row.skate_ratio},
+                     {"real_skate_ratio", row.real_skate_ratio},
                      {"log_likelihood", row.mean_log_likelihood}});
   }
   return table;

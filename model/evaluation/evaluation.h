@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "model/engine/step_engine.h"
@@ -16,11 +17,17 @@ struct TransitionRow {
   double interpolation_m = 0;  ///< L2P (paper F, Table 2): distance of global joint positions, mean
                                ///< over joints, frames, windows
   double model_m = 0;          ///< the same of the dance as served
-  double raw_key_m =
-      0;  ///< mean over windows of the worst joint's error at the key, without arrival
-  double final_key_m = 0;  ///< the worst of all windows, as served
+  /// The worst joint's error at the key, without arrival: mean, median and worst over windows.
+  double raw_key_m = 0, raw_key_median_m = 0, raw_key_worst_m = 0;
+  std::string worst_window;  ///< clip and first frame of the worst one
+  double final_key_m = 0;    ///< the worst of all windows, as served
   double final_key_deg = 0;
-  double mean_log_likelihood = 0;  ///< nats a frame, of what was sampled
+  /// Largest joint acceleration of a frame, 95th percentile over frames, mean over windows, m/s^2,
+  /// and the largest of all; of the dance and of what was really danced.
+  double p95_acceleration = 0, max_acceleration = 0;
+  double real_p95_acceleration = 0, real_max_acceleration = 0;
+  double skate_ratio = 0, real_skate_ratio = 0;  ///< mean over windows (quality_report.h)
+  double mean_log_likelihood = 0;                ///< nats a frame, of what was sampled
 
   double ratio() const { return model_m / interpolation_m; }
 };

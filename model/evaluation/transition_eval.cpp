@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <numeric>
 
+#include "model/dance/quality_report.h"
 #include "model/dance/transition.h"
 #include "model/evaluation/evaluation.h"
 #include "model/motion/kinematics.h"
@@ -20,6 +22,7 @@ TransitionRow EvaluateTransitions(StepEngine& engine, const std::vector<Prepared
   const int tau = model.history_frames;
   TransitionRow row;
   row.frames = frames;
+  std::vector<double> raw;
   for (const PreparedClip& clip : clips) {
     const std::vector<Pose>& poses = clip.motion.frames;
     const int spare = static_cast<int>(poses.size()) - tau - frames;
@@ -55,16 +58,40 @@ TransitionRow EvaluateTransitions(StepEngine& engine, const std::vector<Prepared
       row.interpolation_m += line_sum / frames;
       row.final_key_m = std::max(row.final_key_m, arrival->final_error_m);
       row.final_key_deg = std::max(row.final_key_deg, arrival->final_error_deg);
+      // The last history frames in front: a jolt at the start counts.
+      Motion danced{.fps = model.fps, .frames = {request.history.end() - 2, request.history.end()}};
+      Motion real = danced;
+      for (int t = 0; t < frames; ++t) {
+        danced.frames.push_back(dance[static_cast<size_t>(t)].pose);
+        real.frames.push_back(poses[static_cast<size_t>(start + tau + t)]);
+      }
+      const QualityReport ours = MeasureMotion(model.skeleton, danced);
+      const QualityReport theirs = MeasureMotion(model.skeleton, real);
+      row.p95_acceleration += ours.p95_acceleration;
+      row.max_acceleration = std::max(row.max_acceleration, ours.max_acceleration);
+      row.skate_ratio += ours.skate_ratio;
+      row.real_p95_acceleration += theirs.p95_acceleration;
+      row.real_max_acceleration = std::max(row.real_max_acceleration, theirs.max_acceleration);
+      row.real_skate_ratio += theirs.skate_ratio;
       // Raw means raw: the same noise, nothing steering towards the key.
       request.arrival.frames = 0;
       RunTransition(engine, request, rows, &arrival);
-      row.raw_key_m += arrival->raw_error_m;
+      raw.push_back(arrival->raw_error_m);
+      if (raw.back() > row.raw_key_worst_m) {
+        row.raw_key_worst_m = raw.back();
+        row.worst_window = clip.name + "@" + std::to_string(start + tau);
+      }
       ++row.windows;
     }
   }
-  for (double* sum :
-       {&row.model_m, &row.interpolation_m, &row.raw_key_m, &row.mean_log_likelihood}) {
-    *sum /= std::max(1, row.windows);
+  if (raw.empty()) return row;
+  row.raw_key_m = std::accumulate(raw.begin(), raw.end(), 0.0);
+  std::ranges::nth_element(raw, raw.begin() + static_cast<std::ptrdiff_t>(raw.size() / 2));
+  row.raw_key_median_m = raw[raw.size() / 2];
+  for (double* sum : {&row.model_m, &row.interpolation_m, &row.raw_key_m, &row.mean_log_likelihood,
+                      &row.p95_acceleration, &row.real_p95_acceleration, &row.skate_ratio,
+                      &row.real_skate_ratio}) {
+    *sum /= row.windows;
   }
   return row;
 }

@@ -15,6 +15,14 @@ namespace {
 // Past frames and music beyond this many standard deviations are outliers that training never saw:
 // keep them in range.
 constexpr double kFeatureClamp = 6.0;
+// Sampled frames beyond this many standard deviations bend softly towards one more: what they feed
+// back can't run away, and a roll-out that tries to still has a gradient.
+constexpr double kSampleBound = 3.0;
+
+Tensor BoundSample(const Tensor& x) {
+  const Tensor inside = x.clamp(-kSampleBound, kSampleBound);
+  return inside + (x - inside).tanh();
+}
 
 // paper F 3.2.1: root 3, rotations, velocities 3, contacts 4.
 int FeatureWidth(const Skeleton& skeleton) { return 3 + 3 * skeleton.joints() + 3 + 4; }
@@ -115,8 +123,7 @@ FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& 
       flow_->Inverse(noise.unsqueeze(1), condition, inverse_weights, state, &log_det).squeeze(1);
   const double log_two_pi = std::log(2 * M_PI);
   const Tensor base = -0.5 * (noise.square().sum(1) + log_two_pi * width_);
-  return {x.clamp(-kFeatureClamp, kFeatureClamp) * feature_std_ + feature_mean_,
-          base + log_det.squeeze(1)};
+  return {BoundSample(x) * feature_std_ + feature_mean_, base + log_det.squeeze(1)};
 }
 
 std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const Tensor& audio,
@@ -161,12 +168,16 @@ void FlowModelImpl::InitialiseActNorm(const Tensor& features, const Tensor& audi
   flow_->InitialiseActNorm(x, condition);
 }
 
-void FlowModelImpl::SetNormalisation(const Normalisation& normalisation) {
+void FlowModelImpl::SetFeatureNormalisation(const Tensor& mean, const Tensor& std) {
   torch::NoGradGuard no_grad;
-  feature_mean_.copy_(normalisation.feature_mean);
-  feature_std_.copy_(normalisation.feature_std);
-  audio_mean_.copy_(normalisation.audio_mean);
-  audio_std_.copy_(normalisation.audio_std);
+  feature_mean_.copy_(mean);
+  feature_std_.copy_(std);
+}
+
+void FlowModelImpl::SetAudioNormalisation(const Tensor& mean, const Tensor& std) {
+  torch::NoGradGuard no_grad;
+  audio_mean_.copy_(mean);
+  audio_std_.copy_(std);
 }
 
 }  // namespace choreo

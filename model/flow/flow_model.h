@@ -23,12 +23,6 @@ struct TransitionContext {
   torch::Tensor static_condition;
 };
 
-/// Feature statistics; width = PoseCodec::width().
-struct Normalisation {
-  torch::Tensor feature_mean, feature_std;  ///< [width]
-  torch::Tensor audio_mean, audio_std;      ///< [audio_features]
-};
-
 class FlowModelImpl : public torch::nn::Module {
  public:
   FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton);
@@ -81,7 +75,9 @@ class FlowModelImpl : public torch::nn::Module {
                         const torch::Tensor& has_audio, const TransitionContext& context,
                         const torch::Tensor& noise);
 
-  void SetNormalisation(const Normalisation& normalisation);
+  /// Statistics by which the network's inputs are standardised: [width], [audio_features].
+  void SetFeatureNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
+  void SetAudioNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
   bool has_planner() const { return !planner_.is_empty(); }
   Planner planner() const { return planner_; }
   CouplingFlow flow() const { return flow_; }

@@ -19,6 +19,19 @@ constexpr int64_t kEmbeddingWidth = 32;  // of each of the two frame counts
 constexpr double kRampFrames = 6;        // frames over which the residual grows from a fixed end
 constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's spread counts as one
 constexpr double kBasis = 10000;         // Eq. 9
+constexpr double kLeastAlong = 0.25, kAlongSoftness = 0.1;  // of BoundedSixD
+
+// `line` plus `turn`, both [..., 6]. A column that the turn nearly cancels would flip by half a
+// turn from one frame to the next, as plans of half turns (left or right?) did: so its share along
+// the line's own column stays positive, softly. Turns below 60 degrees stay as they are.
+Tensor BoundedSixD(const Tensor& line, const Tensor& turn) {
+  const Tensor column = line.unflatten(-1, {2, 3});
+  const Tensor sum = column + turn.unflatten(-1, {2, 3});
+  const Tensor along = (column * sum).sum(-1, true);
+  const Tensor kept =
+      kLeastAlong + kAlongSoftness * torch::softplus((along - kLeastAlong) / kAlongSoftness);
+  return (sum + (kept - along) * column).flatten(-2);
+}
 
 }  // namespace
 
@@ -143,7 +156,7 @@ PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
   const Tensor turn = residual.narrow(2, 3, 6 * joints_).view({batch, frames, joints_, 6}) *
                       ramp.narrow(2, 0, joints_).unsqueeze(-1);
   return {{line.position + move,
-           MatrixFromSixDBatch(line_six_d.view({batch, frames, joints_, 6}) + turn)},
+           MatrixFromSixDBatch(BoundedSixD(line_six_d.view({batch, frames, joints_, 6}), turn))},
           hidden};
 }
 

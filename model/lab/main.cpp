@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "model/core/threads.h"
 #include "model/evaluation/eval_command.h"
 
 #ifdef CHOREO_SERVICE
@@ -18,6 +19,8 @@ int main(int argc, char** argv) {
   choreo::AddTrainCommand(app);
   choreo::AddEvalCommand(app);
   try {
+    choreo::RequireFastBlas(choreo::DetectBlas());
+    choreo::FlushDenormals();
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);

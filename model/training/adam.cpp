@@ -88,14 +88,4 @@ void Adam::Import(const Safetensors& content) {
   steps_ = std::stoll(content.metadata.at("adam.steps"));
 }
 
-double GradientNorm(const torch::nn::Module& module, const std::string& prefix) {
-  std::vector<torch::Tensor> gradients;
-  for (const auto& item : module.named_parameters()) {
-    if (item.key().rfind(prefix, 0) == 0 && item.value().grad().defined()) {
-      gradients.push_back(item.value().grad());
-    }
-  }
-  return NormOf(gradients);
-}
-
 }  // namespace choreo

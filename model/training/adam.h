@@ -36,7 +36,4 @@ class Adam {
   int64_t skipped_ = 0;
 };
 
-/// L2 norm of all gradients of `module`'s parameters that start with `prefix`.
-double GradientNorm(const torch::nn::Module& module, const std::string& prefix);
-
 }  // namespace choreo

@@ -17,12 +17,6 @@ ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
                      const std::filesystem::path& splits_file, Split split)
     : clips_(LoadClips(folders, splits_file, split)), skeleton_(Skeleton::Smpl24()) {}
 
-int64_t ClipStore::frames() const {
-  int64_t total = 0;
-  for (const auto& clip : clips_) total += static_cast<int64_t>(clip.motion.frames.size());
-  return total;
-}
-
 std::string ClipStore::Hash() const {
   XXH64_hash_t hash = 0;
   for (const auto& clip : clips_) {

@@ -46,7 +46,6 @@ class ClipStore {
 
   const std::vector<PreparedClip>& clips() const { return clips_; }
   const Skeleton& skeleton() const { return skeleton_; }
-  int64_t frames() const;
   /// XXH3 of every clip's name and motion: which data made a checkpoint.
   std::string Hash() const;
 

@@ -4,12 +4,15 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string_view>
 
 #include "model/core/error.h"
 #include "model/draw/plot.h"
 
 namespace choreo {
 namespace {
+
+constexpr std::string_view kGradientSuffix = "_gradient";
 
 std::string Format(double value) {
   char text[32];
@@ -20,18 +23,15 @@ std::string Format(double value) {
 }  // namespace
 
 void Curves::Append(const LossRow& losses, double seconds, const std::vector<ValidationRow>& rows) {
-  std::string header =
-      "step,seconds,planner_loss,nll_nats_per_dim,key_pose_dm,contact_l1,"
-      "planner_gradient,nll_gradient,rollout_gradient";
-  std::string line = std::to_string(losses.step);
-  for (const double value :
-       {seconds, losses.planner, losses.likelihood, losses.key_pose, losses.contacts,
-        losses.planner_gradient, losses.likelihood_gradient, losses.rollout_gradient}) {
-    line += "," + Format(value);
+  std::string header = "step,seconds";
+  std::string line = std::to_string(losses.step) + "," + Format(seconds);
+  for (const auto& [name, figure] : losses.terms) {
+    header += "," + name + "," + name + std::string(kGradientSuffix);
+    line += "," + Format(figure.value) + "," + Format(figure.gradient);
   }
   for (const ValidationRow& row : rows) {
     const std::string n = std::to_string(row.frames);
-    header += ",planner_ratio_" + n + ",flow_ratio_" + n + ",val_nll_" + n + ",raw_key_m_" + n;
+    header += ",planner_ratio_" + n + ",flow_ratio_" + n + ",val_nll_" + n + ",mean_key_m_" + n;
     for (const double value : {row.planner_m / row.interpolation_m,
                                row.flow_m / row.interpolation_m, row.likelihood, row.key_error_m}) {
       line += "," + Format(value);
@@ -95,8 +95,14 @@ void Curves::Write(const std::filesystem::path& folder) const {
     }
     if (!figure.series.empty()) DrawPlot(figure, folder / file_name);
   };
-  plot("Training losses", "loss", {"planner_loss", "nll_nats_per_dim", "key_pose_dm", "contact_l1"},
-       "curves.png");
+  std::vector<std::string> values, gradients;
+  for (const std::string& name : names) {
+    if (!name.ends_with(kGradientSuffix)) continue;
+    gradients.push_back(name);
+    values.push_back(name.substr(0, name.size() - kGradientSuffix.size()));
+  }
+  plot("Training losses", "loss", values, "curves.png");
+  plot("Gradient of each weighted term", "norm", gradients, "gradients.png");
   plot("Validation, ratio to interpolation", "L2P ratio",
        {"planner_ratio_10", "planner_ratio_30", "planner_ratio_60", "planner_ratio_90",
         "flow_ratio_10", "flow_ratio_30", "flow_ratio_60", "flow_ratio_90"},

@@ -19,9 +19,9 @@ struct JoltLimits {
 /// A limb is what hangs at a joint of three or more children (pelvis, chest); the joints between
 /// those are the trunk. Speeds count relative to the root, so that a dancer who runs does not snap.
 
-/// Frames at which a motion should be cut: the whole body (the trunk, or two limbs at once) snaps on the
-/// way there from the frame before, or a limb does so near to an end, where nothing could bridge
-/// it. Ascending.
+/// Frames at which a motion should be cut: the whole body (the trunk, or two limbs at once) snaps
+/// on the way there from the frame before, or a limb does so near to an end, where nothing could
+/// bridge it. Ascending.
 std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion,
                             const JoltLimits& limits = {});
 

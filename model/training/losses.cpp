@@ -8,6 +8,10 @@ using torch::Tensor;
 
 namespace {
 
+constexpr const char *kPlannerPosition = "planner_position_m", *kPlannerSixD = "planner_six_d",
+                     *kPlannerStep = "planner_step_m", *kLikelihood = "nll_nats_per_dim",
+                     *kKeyPose = "key_pose_dm", *kContacts = "contact_l1";
+
 // Standard deviation of the dequantisation noise, in units of each feature's own spread.
 constexpr double kDequantisation = 0.05;
 constexpr double kDecimetresPerMetre = 10;
@@ -30,17 +34,23 @@ Tensor Dequantise(FlowModel& model, const Tensor& features) {
   return features + kDequantisation * spread * torch::randn_like(features);
 }
 
-Tensor LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
-                      const TransitionContext& context) {
-  Tensor features = model->RelativeFeatures(batch.features, batch.truth, context);
-  if (model->is_training()) features = Dequantise(model, features);
-  return -model->LogLikelihood(features, batch.audio, batch.has_audio, context).mean() /
-         model->feature_width();
+const std::vector<std::string>& LossTermNames() {
+  static const std::vector<std::string> names = {kPlannerPosition, kPlannerSixD, kPlannerStep,
+                                                 kLikelihood,      kKeyPose,     kContacts};
+  return names;
 }
 
-std::pair<Tensor, Tensor> RolloutLosses(FlowModel& model, const TorchKinematics& kinematics,
-                                        const MotionBatch& batch, const TransitionContext& context,
-                                        double temperature) {
+LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
+                         const TransitionContext& context) {
+  Tensor features = model->RelativeFeatures(batch.features, batch.truth, context);
+  if (model->is_training()) features = Dequantise(model, features);
+  return {{kLikelihood, 1.0,
+           -model->LogLikelihood(features, batch.audio, batch.has_audio, context).mean() /
+               model->feature_width()}};
+}
+
+LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
+                      const TransitionContext& context, double temperature) {
   const int64_t history = batch.transition.history_position.size(1);
   const int64_t frames = batch.transition.frames;
   const Tensor truth = model->RelativeFeatures(batch.features, batch.truth, context);
@@ -62,19 +72,20 @@ std::pair<Tensor, Tensor> RolloutLosses(FlowModel& model, const TorchKinematics&
       (sampled.narrow(2, contacts, 4) - truth.narrow(1, history, frames).narrow(2, contacts, 4))
           .abs()
           .mean();
-  return {key, feet};
+  return {{kKeyPose, 0.5, key}, {kContacts, 0.1, feet}};
 }
 
-Tensor PlannerLoss(const TorchKinematics& kinematics, const MotionBatch& batch,
-                   const TrajectoryTensors& plan) {
+LossTerms PlannerLoss(const TorchKinematics& kinematics, const MotionBatch& batch,
+                      const TrajectoryTensors& plan) {
   const Tensor planned = GlobalPositions(kinematics, plan);
   const Tensor truth = GlobalPositions(kinematics, batch.truth);
   const Tensor six_d = (SixDBatch(plan.rotation) - SixDBatch(batch.truth.rotation)).abs().mean();
   const auto steps = [](const Tensor& x) {
     return x.narrow(1, 1, x.size(1) - 1) - x.narrow(1, 0, x.size(1) - 1);
   };
-  return Length(planned - truth).mean() + 0.1 * six_d +
-         Length(steps(planned) - steps(truth)).mean();
+  return {{kPlannerPosition, 1.0, Length(planned - truth).mean()},
+          {kPlannerSixD, 0.1, six_d},
+          {kPlannerStep, 1.0, Length(steps(planned) - steps(truth)).mean()}};
 }
 
 Tensor JointDistance(const TorchKinematics& kinematics, const TrajectoryTensors& a,

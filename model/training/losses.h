@@ -2,6 +2,9 @@
 
 #include <torch/types.h>
 
+#include <string>
+#include <vector>
+
 #include "model/flow/flow_model.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/training/clip_store.h"
@@ -10,37 +13,35 @@
 /// would vanish.
 namespace choreo {
 
-/// Weights of Eq. 8, for the terms as defined below.
-struct FlowLossWeights {
-  double likelihood = 1.0, key_pose = 0.5, contacts = 0.1;
+/// One term of a loss.
+struct LossTerm {
+  const char* name;     ///< with its unit, as in curves.csv
+  double weight;        ///< in the sum (Eq. 8)
+  torch::Tensor value;  ///< scalar, unweighted
 };
+using LossTerms = std::vector<LossTerm>;
 
-struct FlowLosses {
-  torch::Tensor likelihood;  ///< -log p(x), nats a dimension, mean over frames
-  torch::Tensor
-      key_pose;  ///< |FK(x'_N) - FK(key)| of a sampled roll-out, mean over joints, decimetres
-  torch::Tensor contacts;  ///< |c' - c| of the roll-out, mean over feet and frames
-};
+/// Every term's name, in the order of a run's curves.
+const std::vector<std::string>& LossTermNames();
 
 /// Features plus noise of a twentieth of their spread, so that binary contacts, derived velocities
 /// and joints that never move can't make the density unbounded.
 torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features);
 
-/// L_flows of one batch (Eq. 6), of dequantised features while training.
-torch::Tensor LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
-                             const TransitionContext& context);
+/// L_flows of one batch (Eq. 6), nats a dimension, mean over frames; of dequantised features while
+/// training.
+LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
+                         const TransitionContext& context);
 
-/// L_key pose and L_feet of one sampled roll-out (Section 3.2.3) at `temperature`.
-std::pair<torch::Tensor, torch::Tensor> RolloutLosses(FlowModel& model,
-                                                      const TorchKinematics& kinematics,
-                                                      const MotionBatch& batch,
-                                                      const TransitionContext& context,
-                                                      double temperature);
+/// L_key pose and L_feet of one sampled roll-out (Section 3.2.3) at `temperature`:
+/// |FK(x'_N) - FK(key)|, mean over joints, decimetres; |c' - c|, mean over feet and frames.
+LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
+                      const TransitionContext& context, double temperature);
 
-/// The planner's: mean joint distance (m) + 0.1 x mean |6D difference| + mean joint distance of the
+/// The planner's: mean joint distance (m), mean |6D difference|, mean joint distance of the
 /// frame-to-frame steps (m).
-torch::Tensor PlannerLoss(const TorchKinematics& kinematics, const MotionBatch& batch,
-                          const TrajectoryTensors& plan);
+LossTerms PlannerLoss(const TorchKinematics& kinematics, const MotionBatch& batch,
+                      const TrajectoryTensors& plan);
 
 /// L2P of paper F's Table 2: distance of global joint positions, mean over joints and frames,
 /// metres. [batch]

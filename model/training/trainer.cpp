@@ -5,9 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "model/core/error.h"
 #include "model/core/progress.h"
@@ -15,6 +13,8 @@
 #include "model/training/adam.h"
 #include "model/training/curves.h"
 #include "model/training/losses.h"
+#include "model/training/model_card.h"
+#include "model/training/normalise.h"
 #include "model/training/validation.h"
 
 namespace choreo {
@@ -26,14 +26,6 @@ constexpr double kMaxGradientNorm = 1.0;
 constexpr int kNormalisationBatches = 24;
 constexpr int kValidationWindows = 64;
 constexpr int kTypicalFrames = 60;  // a batch of windows this long has `batch` of them
-
-// Standardised features keep at least these spreads, so that constant joints can't make the density
-// unbounded: metres, radians, m/s and rad/s, contacts.
-constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
-                 kContactFloor = 0.1;
-
-// Root position (m) and 6D rotations of real poses, for the planner's tokens.
-constexpr double kPoseFloor = 0.03;
 
 double StageRate(double peak, int64_t step, int64_t steps) {
   const double warm = std::min(1.0, static_cast<double>(step + 1) / kWarmUpSteps);
@@ -51,23 +43,6 @@ FlowConfig ConfigOf(const TrainOptions& options) {
   return config;
 }
 
-// What a stranger types to train the same.
-std::string CommandOf(const TrainOptions& options) {
-  std::ostringstream command;
-  command << "choreo-lab train --preset " << options.preset;
-  for (const auto& folder : options.data) command << " --data " << folder.filename().string();
-  command << " --splits " << options.splits.filename().string() << " --planner-steps "
-          << options.planner_steps << " --flow-steps " << options.flow_steps << " --batch "
-          << options.batch << " --planner-rate " << options.planner_rate << " --flow-rate "
-          << options.flow_rate << " --shortest " << options.shortest << " --longest "
-          << options.longest << " --rollout-frames " << options.rollout_frames << " --seed "
-          << options.seed << (options.no_keys ? " --no-keys" : "")
-          << (options.no_key_loss ? " --no-key-loss" : "")
-          << (options.no_time_embedding ? " --no-time-embedding" : "")
-          << (options.forward_embedding ? " --forward-embedding" : "");
-  return command.str();
-}
-
 // One run in progress. Each step draws from a generator of its own, so a resumed run goes on
 // exactly as an undisturbed one.
 class Run {
@@ -81,14 +56,21 @@ class Run {
     torch::manual_seed(options.seed);
     model_ = FlowModel(ConfigOf(options), train_.skeleton());
     planner_steps_ = model_->has_planner() ? options.planner_steps : 0;
-    SetAudioNormalisation();
-    if (model_->has_planner()) SetPoseNormalisation();
+    NormaliseAudio(train_, &model_);
+    if (model_->has_planner()) NormalisePoses(PoseBatches(), &model_);
     model_->to(device_);
     planner_adam_ = std::make_unique<Adam>(*model_, "planner.");
     flow_adam_ = std::make_unique<Adam>(*model_, "flow.");
     encoder_adam_ = std::make_unique<Adam>(*model_, "encode");
+    for (const std::string& name : LossTermNames()) losses_.terms[name];
     std::filesystem::create_directories(options.run);
-    if (options.resume && std::filesystem::exists(StatePath())) Load();
+    if (!std::filesystem::exists(StatePath())) return;
+    if (!options.resume) {
+      throw Error(
+          ErrorCode::kFailedPrecondition, "--run",
+          options.run.string() + " holds a run already: --resume it or name another folder");
+    }
+    Load();
   }
 
   void Go() {
@@ -102,8 +84,13 @@ class Run {
       seconds_ = seconds_before +
                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       progress.Advance();
-      if ((step_ + 1) % options_.report_every == 0 || step_ + 1 == total) Report();
-      if (step_ + 1 == options_.stop_after) return;
+      const bool stop = step_ + 1 == options_.stop_after;
+      if ((step_ + 1) % options_.report_every == 0 || step_ + 1 == total) {
+        Report();
+      } else if (stop) {
+        Save();
+      }
+      if (stop) return;
     }
     Finish();
   }
@@ -137,140 +124,100 @@ class Run {
         options_.shortest + static_cast<int>(place * (options_.longest - options_.shortest + 1));
     const MotionBatch batch = Draw(&random, frames);
     losses_.step = step_ + 1;
-    if (!flow_stage()) {
-      planner_adam_->ZeroGrad();
-      const torch::Tensor loss =
-          PlannerLoss(kinematics_, batch, model_->planner()->forward(batch.transition).trajectory);
-      loss.backward();
-      const double rate = StageRate(options_.planner_rate, step_, planner_steps_);
-      losses_.planner_gradient = planner_adam_->Step(rate, kMaxGradientNorm);
-      losses_.planner = Smooth(losses_.planner, loss.item<double>());
+    if (flow_stage()) {
+      FlowStep(batch, &random);
       return;
     }
-    FlowStep(batch, &random);
+    planner_adam_->ZeroGrad();
+    Descend(
+        PlannerLoss(kinematics_, batch, model_->planner()->forward(batch.transition).trajectory));
+    planner_adam_->Step(StageRate(options_.planner_rate, step_, planner_steps_), kMaxGradientNorm);
   }
 
+  // The planner is frozen here: its trajectory and hidden state are inputs, not something to be
+  // moved by the flow.
   void FlowStep(const MotionBatch& batch, Random* random) {
-    const FlowLossWeights weights;
-    const auto zero = [&] {
-      flow_adam_->ZeroGrad();
-      encoder_adam_->ZeroGrad();
-    };
-    // The planner is frozen here: its trajectory and hidden state are inputs, not something to be
-    // moved by the flow.
-    const auto begin = [&](const MotionBatch& of) {
-      TransitionContext context = model_->Begin(of.transition);
-      if (context.reference.position.defined()) {
-        context.reference.position = context.reference.position.detach();
-        context.reference.rotation = context.reference.rotation.detach();
-      }
-      return context;
-    };
     for (auto& parameter : FrozenParameters()) parameter.set_requires_grad(false);
-    const TransitionContext context = begin(batch);
-    zero();
-    const torch::Tensor likelihood = LikelihoodLoss(model_, batch, context);
-    (weights.likelihood * likelihood).backward();
-    losses_.likelihood = Smooth(losses_.likelihood, likelihood.item<double>());
-    losses_.likelihood_gradient = FlowGradient();
-
+    flow_adam_->ZeroGrad();
+    encoder_adam_->ZeroGrad();
+    Descend(LikelihoodLoss(model_, batch, model_->Begin(batch.transition)));
     if (model_->config().key_loss) {
-      const int windows = std::max(4, options_.batch / 4);
+      // Longer than gamma too: a flow that was only ever unrolled over 30 frames may drift off
+      // beyond them.
+      const int frames = static_cast<int>(
+          random->Integer(std::max(2, options_.rollout_frames / 2),
+                          std::max(options_.rollout_frames,
+                                   std::min(3 * options_.rollout_frames, options_.longest)) +
+                              1));
+      const int windows = std::max(4, options_.batch / 4 * options_.rollout_frames / frames);
       const ClipStore::Variation variation{.mirror = true, .drop_audio = 0.15};
-      const MotionBatch sampled = train_
-                                      .Draw(windows, model_->config().history_frames,
-                                            options_.rollout_frames, variation, random)
-                                      .To(device_);
-      const auto [key, contacts] =
-          RolloutLosses(model_, kinematics_, sampled, begin(sampled), model_->config().temperature);
-      const double before = losses_.likelihood_gradient;
-      (weights.key_pose * key + weights.contacts * contacts).backward();
-      losses_.key_pose = Smooth(losses_.key_pose, key.item<double>());
-      losses_.contacts = Smooth(losses_.contacts, contacts.item<double>());
-      // Of the sum less the first term's share: an upper bound is enough to see a term vanish or
-      // take over.
-      losses_.rollout_gradient = std::abs(FlowGradient() - before);
+      const MotionBatch sampled =
+          train_.Draw(windows, model_->config().history_frames, frames, variation, random)
+              .To(device_);
+      Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),
+                          model_->config().temperature));
     }
     const double rate = StageRate(options_.flow_rate, step_ - planner_steps_, options_.flow_steps);
     flow_adam_->Step(rate, kMaxGradientNorm);
     encoder_adam_->Step(rate, kMaxGradientNorm);
   }
 
+  // Adds the gradient of the weighted sum; before a report, also each term's own, so that one that
+  // vanishes or takes over is seen.
+  void Descend(const LossTerms& terms) {
+    const bool report = (step_ + 1) % options_.report_every == 0;
+    torch::Tensor sum = torch::zeros({}, device_);
+    for (const LossTerm& term : terms) {
+      LossFigure& figure = losses_.terms[term.name];
+      const double value = term.value.item<double>();
+      figure.value = figure.value == 0 ? value : 0.98 * figure.value + 0.02 * value;
+      if (report) figure.gradient = GradientNorm(term.weight * term.value);
+      sum = sum + term.weight * term.value;
+    }
+    sum.backward();
+  }
+
   std::vector<torch::Tensor> FrozenParameters() const {
     return model_->has_planner() ? model_->planner()->parameters() : std::vector<torch::Tensor>{};
   }
-  double FlowGradient() const {
-    return std::hypot(GradientNorm(*model_, "flow."), GradientNorm(*model_, "encode"));
-  }
-  static double Smooth(double old, double value) {
-    return old == 0 ? value : 0.98 * old + 0.02 * value;
+  double GradientNorm(const torch::Tensor& loss) const {
+    std::vector<torch::Tensor> parameters;
+    for (const auto& parameter : model_->parameters()) {
+      if (parameter.requires_grad()) parameters.push_back(parameter);
+    }
+    double square = 0;
+    for (const auto& gradient :
+         torch::autograd::grad({loss}, parameters, /*grad_outputs=*/{}, /*retain_graph=*/true,
+                               /*create_graph=*/false, /*allow_unused=*/true)) {
+      if (gradient.defined()) square += gradient.square().sum().item<double>();
+    }
+    return std::sqrt(square);
   }
 
-  void SetAudioNormalisation() {
-    const int width = model_->config().audio_features;
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(width), square = sum;
-    double count = 0;
-    for (const auto& clip : train_.clips()) {
-      sum += clip.audio.cast<double>().rowwise().sum();
-      square += clip.audio.cast<double>().array().square().matrix().rowwise().sum();
-      count += static_cast<double>(clip.audio.cols());
-    }
-    normalisation_ = {torch::zeros({model_->feature_width()}),
-                      torch::ones({model_->feature_width()}), torch::zeros({width}),
-                      torch::ones({width})};
-    for (int i = 0; i < width && count > 0; ++i) {
-      const double mean = sum[i] / count;
-      normalisation_.audio_mean[i] = mean;
-      normalisation_.audio_std[i] = std::sqrt(std::max(1e-4, square[i] / count - mean * mean));
-    }
-    model_->SetNormalisation(normalisation_);
-  }
-
-  void SetPoseNormalisation() {
-    std::vector<torch::Tensor> seen;
-    for (int i = 0; i < kNormalisationBatches; ++i) {
-      Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
-      const MotionBatch batch = train_.Draw(options_.batch, model_->config().history_frames,
-                                            options_.rollout_frames, {.mirror = true}, &random);
-      seen.push_back(
-          torch::cat({batch.truth.position, SixDBatch(batch.truth.rotation).flatten(2)}, -1)
-              .flatten(0, 1));
-    }
-    const torch::Tensor all = torch::cat(seen);
-    model_->planner()->SetPoseNormalisation(all.mean(0), all.std(0).clamp_min(kPoseFloor));
-  }
-
-  // Statistics of the features that the flow will see, which with a planner are what the finished
-  // planner leaves over.
+  // The flow's features are standardised on what the finished planner leaves over.
   void StartFlowStage() {
     torch::NoGradGuard no_grad;
     model_->eval();
-    std::vector<torch::Tensor> seen;
-    MotionBatch last;
+    std::vector<MotionBatch> batches;
     for (int i = 0; i < kNormalisationBatches; ++i) {
       Random random(options_.seed + 7, static_cast<uint32_t>(i + 1));
-      last = Draw(&random, options_.rollout_frames + (i % 3) * 20);
-      const TransitionContext context = model_->Begin(last.transition);
-      const torch::Tensor features = model_->RelativeFeatures(last.features, last.truth, context);
-      seen.push_back(features.narrow(1, model_->config().history_frames, last.transition.frames)
-                         .flatten(0, 1));
+      batches.push_back(Draw(&random, options_.rollout_frames + (i % 3) * 20));
     }
-    const torch::Tensor all = torch::cat(seen).to(torch::kCPU);
-    const int64_t joints = train_.skeleton().joints(), width = model_->feature_width();
-    torch::Tensor floor = torch::full({width}, kRotationFloor);
-    floor.narrow(0, 0, 3).fill_(kPositionFloor);
-    floor.narrow(0, 3 + 3 * joints, 3).fill_(kVelocityFloor);
-    floor.narrow(0, width - 4, 4).fill_(kContactFloor);
-    normalisation_.feature_mean = all.mean(0);
-    normalisation_.feature_std = torch::maximum(all.std(0), floor);
-    if (model_->has_planner()) {
-      // A plan is unbiased, and history features are exactly zero: keep zero where it is.
-      normalisation_.feature_mean.narrow(0, 0, 3 + 3 * joints).zero_();
-    }
-    model_->SetNormalisation(normalisation_);
+    NormaliseFeatures(batches, &model_);
+    const MotionBatch& last = batches.back();
     const TransitionContext context = model_->Begin(last.transition);
     const torch::Tensor features = model_->RelativeFeatures(last.features, last.truth, context);
     model_->InitialiseActNorm(Dequantise(model_, features), last.audio, last.has_audio, context);
+  }
+
+  std::vector<MotionBatch> PoseBatches() const {
+    std::vector<MotionBatch> batches;
+    for (int i = 0; i < kNormalisationBatches; ++i) {
+      Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
+      batches.push_back(train_.Draw(options_.batch, model_->config().history_frames,
+                                    options_.rollout_frames, {.mirror = true}, &random));
+    }
+    return batches;
   }
 
   void Report() {
@@ -293,7 +240,11 @@ class Run {
     state.metadata["step"] = std::to_string(step_ + 1);
     state.metadata["seconds"] = std::to_string(seconds_);
     state.metadata["data"] = train_.Hash();
+    state.metadata["options"] = options_.Fixed();
     state.metadata["curves"] = curves_.Serialise();
+    nlohmann::json losses;
+    for (const auto& [name, figure] : losses_.terms) losses[name] = {figure.value, figure.gradient};
+    state.metadata["losses"] = losses.dump();
     WriteSafetensors(StatePath(), state);
   }
 
@@ -303,6 +254,11 @@ class Run {
       throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
                   "the run was started on other data (hash " + state.metadata.at("data") + ")");
     }
+    if (state.metadata.at("options") != options_.Fixed()) {
+      throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
+                  "the run was started as\n  " + state.metadata.at("options") + "\nnot as\n  " +
+                      options_.Fixed());
+    }
     ImportTensors(state, "model.", model_.get());
     flow_adam_->Import(state);
     encoder_adam_->Import(state);
@@ -311,46 +267,17 @@ class Run {
     step_ = std::stoll(state.metadata.at("step"));
     seconds_ = std::stod(state.metadata.at("seconds"));
     curves_.Restore(state.metadata.at("curves"));
+    const auto losses = nlohmann::json::parse(state.metadata.at("losses"));
+    for (const auto& [name, figure] : losses.items()) {
+      losses_.terms[name] = {figure.at(0), figure.at(1)};
+    }
   }
 
   void Finish() {
     const std::vector<ValidationRow> rows =
         Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
-    nlohmann::json figures = nlohmann::json::array();
-    for (const ValidationRow& row : rows) {
-      figures.push_back({{"frames", row.frames},
-                         {"interpolation_m", row.interpolation_m},
-                         {"planner_m", row.planner_m},
-                         {"flow_m", row.flow_m},
-                         {"ratio_to_interpolation", row.flow_m / row.interpolation_m},
-                         {"nll_nats_per_dimension", row.likelihood},
-                         {"raw_key_error_m", row.key_error_m}});
-    }
-    nlohmann::json sources = nlohmann::json::object(), terms = nlohmann::json::object();
-    for (const auto& clip : train_.clips()) {
-      sources[clip.source] = sources.value(clip.source, 0) + 1;
-      const auto stated = clip.notes.find("terms");
-      const std::string of = stated == clip.notes.end() ? "not stated" : stated->second;
-      terms[of] = terms.value(of, 0) + 1;
-    }
-    const nlohmann::json card = {
-        {"preset", options_.preset},
-        {"data",
-         {{"clips_by_layout", sources},
-          {"clips_by_terms", terms},
-          {"frames", train_.frames()},
-          {"hash", train_.Hash()}}},
-        {"licence", "the terms of the data that it was trained on: model/checkpoints/LICENSE"},
-        {"command", CommandOf(options_)},
-        {"steps", {{"planner", planner_steps_}, {"flow", options_.flow_steps}}},
-        {"seconds", std::round(seconds_)},
-        {"validation", figures},
-        {"limits",
-         "Trained on transitions of " + std::to_string(options_.shortest) + " to " +
-             std::to_string(options_.longest) +
-             " frames at 30 fps. The plan does not hear the music, the flow around it does; steps "
-             "are not aligned to beats. Without keys it drifts towards calm poses. Feet may slide. "
-             "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
+    const nlohmann::json card =
+        ModelCard(options_, planner_steps_, train_.clips(), train_.Hash(), rows);
     const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
     std::printf("%s\n", card.dump(2).c_str());
     std::printf("checkpoint %s, content hash %s\n",
@@ -363,7 +290,6 @@ class Run {
   torch::Device device_;
   FlowModel model_{nullptr};
   std::unique_ptr<Adam> planner_adam_, flow_adam_, encoder_adam_;
-  Normalisation normalisation_;
   int64_t planner_steps_ = 0;
   int64_t step_ = 0;
   double seconds_ = 0;
@@ -372,22 +298,6 @@ class Run {
 };
 
 }  // namespace
-
-void TrainOptions::Validate() const {
-  const auto require = [](bool good, const char* name, const std::string& value,
-                          const char* limit) {
-    if (!good) throw InvalidArgument(name, value + ", but it must be " + limit);
-  };
-  require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
-  require(planner_steps >= 1, "--planner-steps", std::to_string(planner_steps), "at least 1");
-  require(flow_steps >= 1, "--flow-steps", std::to_string(flow_steps), "at least 1");
-  require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");
-  require(shortest >= 2 && shortest <= longest && longest <= 600, "--longest",
-          std::to_string(longest), "from --shortest (at least 2) to 600");
-  require(rollout_frames >= 2 && rollout_frames <= 300, "--rollout-frames",
-          std::to_string(rollout_frames), "2 to 300");
-  require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
-}
 
 void Train(const TrainOptions& options) {
   options.Validate();

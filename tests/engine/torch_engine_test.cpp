@@ -47,13 +47,10 @@ FlowModel RandomModel(Shape shape) {
     // Also what starts as zero, and would hide everything before it.
     item.value().add_(0.05 * torch::randn_like(item.value()));
   }
-  Normalisation normalisation{
-      .feature_mean = 0.05 * torch::randn({model->feature_width()}),
-      .feature_std = 0.02 + 0.1 * torch::rand({model->feature_width()}),
-      .audio_mean = torch::randn({config.audio_features}),
-      .audio_std = 1 + torch::rand({config.audio_features}),
-  };
-  model->SetNormalisation(normalisation);
+  model->SetFeatureNormalisation(0.05 * torch::randn({model->feature_width()}),
+                                 0.02 + 0.1 * torch::rand({model->feature_width()}));
+  model->SetAudioNormalisation(torch::randn({config.audio_features}),
+                               1 + torch::rand({config.audio_features}));
   model->eval();
   return model;
 }

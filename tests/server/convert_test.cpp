@@ -1,4 +1,6 @@
-#include "server/convert.h"
+#include "server/read_pose.h"
+#include "server/read_request.h"
+#include "server/write_response.h"
 
 #include <gtest/gtest.h>
 

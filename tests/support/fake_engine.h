@@ -40,20 +40,7 @@ class FakeEngine : public StepEngine {
   }
 
   int Admit(const TransitionSpec& spec) override {
-    if (spec.frames < 1 || spec.frames > model_.max_transition_frames) {
-      throw InvalidArgument("frames", std::to_string(spec.frames) + " is not in [1, " +
-                                          std::to_string(model_.max_transition_frames) + "]");
-    }
-    if (static_cast<int>(spec.history.size()) != model_.history_frames) {
-      throw InvalidArgument("history", std::to_string(spec.history.size()) + " poses, not " +
-                                           std::to_string(model_.history_frames));
-    }
-    for (const Pose& pose : spec.history) CheckJoints(pose);
-    if (spec.target) CheckJoints(spec.target->pose);
-    if (spec.has_audio && (spec.audio_history.rows() != model_.audio_features ||
-                           spec.audio_history.cols() != model_.history_frames)) {
-      throw InvalidArgument("audio_history", "is not [audio_features, history_frames]");
-    }
+    ValidateSpec(spec, model_);
     const auto free = std::find_if(slots_.begin(), slots_.end(),
                                    [](const Slot& slot) { return !slot.spec.has_value(); });
     if (free == slots_.end()) throw Error(ErrorCode::kResourceExhausted, "", "no free slot");
@@ -82,13 +69,6 @@ class FakeEngine : public StepEngine {
   };
 
   int Width() const { return 3 + 3 * model_.skeleton.joints(); }
-
-  void CheckJoints(const Pose& pose) const {
-    if (pose.rotations.cols() != model_.skeleton.joints()) {
-      throw InvalidArgument("rotations", std::to_string(pose.rotations.cols()) + " joints, not " +
-                                             std::to_string(model_.skeleton.joints()));
-    }
-  }
 
   Eigen::VectorXd Flat(const Pose& pose) const {
     Eigen::VectorXd flat(Width());

@@ -1,73 +1,28 @@
-#include "server/convert.h"
+#include "server/read_request.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
+#include <utility>
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
-#include "model/motion/rotation.h"
+#include "server/read_pose.h"
 
 namespace choreo {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
 
-constexpr double kUnitTolerance = 1e-3;
 constexpr int kMaxAfterPoses = 60;
-
-std::string At(const std::string& field, int64_t index) {
-  return field + '[' + std::to_string(index) + ']';
-}
-
-int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field) {
-  switch (encoding) {
-    case v1::ROTATION_ENCODING_UNSPECIFIED:
-    case v1::ROTATION_ENCODING_AXIS_ANGLE:
-      return 3;
-    case v1::ROTATION_ENCODING_QUATERNION:
-      return 4;
-    case v1::ROTATION_ENCODING_MATRIX:
-      return 9;
-    default:
-      throw InvalidArgument(field, std::to_string(encoding) + " is no RotationEncoding");
-  }
-}
 
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
   if (value >= least && value <= most) return value;
   throw InvalidArgument(field, std::to_string(value) + " is not in [" + std::to_string(least) +
                                    ", " + std::to_string(most) + "]");
 }
-
-Eigen::Vector3d FromQuaternionNumbers(const float* v, const std::string& field) {
-  const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
-  if (!(std::abs(q.norm() - 1) <= kUnitTolerance)) {
-    throw InvalidArgument(field, "norm " + Show(q.norm()) + " of the quaternion is further than " +
-                                     Show(kUnitTolerance) + " from 1");
-  }
-  return ExpFromQuaternion(q.normalized());
-}
-
-Eigen::Vector3d FromMatrixNumbers(const float* v, const std::string& field) {
-  Eigen::Matrix3d r;
-  for (int i = 0; i < 9; ++i) r(i / 3, i % 3) = v[i];
-  const double error = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error <= kUnitTolerance) || !(r.determinant() > 0)) {
-    throw InvalidArgument(field, "not a rotation matrix: R^T R is " + Show(error) +
-                                     " from the identity (limit " + Show(kUnitTolerance) +
-                                     "), its determinant is " + Show(r.determinant()));
-  }
-  return LogMap(MatrixFromSixD(
-      (Eigen::Matrix<double, 6, 1>() << r.col(0), r.col(1)).finished()));  // orthonormal again
-}
-
-Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
   const std::string field = "config.history.poses";
@@ -179,74 +134,7 @@ void CheckMusic(const v1::AudioFormat& format) {
   }
 }
 
-void FillErrors(const ArrivalResult& arrival, v1::KeyframeErrors* out) {
-  out->set_raw_error_m(arrival.raw_error_m);
-  out->set_final_error_m(arrival.final_error_m);
-  out->set_final_error_deg(arrival.final_error_deg);
-  out->set_correction_m(arrival.correction_m);
-}
-
 }  // namespace
-
-Eigen::Matrix3Xd ToRotations(const v1::Pose& pose, const Skeleton& skeleton,
-                             const std::string& field) {
-  const int width = NumbersPerJoint(pose.encoding(), field + ".encoding");
-  const std::string path = field + ".rotations";
-  if (pose.rotations_size() != width * skeleton.joints()) {
-    const bool whole = pose.rotations_size() % width == 0;
-    throw InvalidArgument(path,
-                          std::to_string(pose.rotations_size()) + " numbers are " +
-                              (whole ? std::to_string(pose.rotations_size() / width) + " joints"
-                                     : "no multiple of " + std::to_string(width)) +
-                              "; the model has " + std::to_string(skeleton.joints()) + " joints, " +
-                              std::to_string(width * skeleton.joints()) + " numbers");
-  }
-  Eigen::Matrix3Xd rotations(3, skeleton.joints());
-  for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    const float* numbers = pose.rotations().data() + static_cast<std::ptrdiff_t>(joint) * width;
-    for (int i = 0; i < width; ++i) {
-      if (!std::isfinite(numbers[i])) {
-        throw InvalidArgument(At(path, joint), Show(numbers[i]) + " is not finite");
-      }
-    }
-    rotations.col(joint) = width == 3   ? Eigen::Vector3d(numbers[0], numbers[1], numbers[2])
-                           : width == 4 ? FromQuaternionNumbers(numbers, At(path, joint))
-                                        : FromMatrixNumbers(numbers, At(path, joint));
-  }
-  return rotations;
-}
-
-Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field) {
-  if (!pose.has_root_position()) throw InvalidArgument(field + ".root_position", "missing");
-  return {.root_position = ToVector(pose.root_position()),
-          .rotations = ToRotations(pose, skeleton, field)};
-}
-
-WorldTarget ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
-                     const std::string& pose_field, const std::string& mask_field) {
-  WorldTarget target;
-  target.pose.rotations = ToRotations(pose, skeleton, pose_field);
-  target.mask.root_position = pose.has_root_position();
-  if (pose.has_root_position()) target.pose.root_position = ToVector(pose.root_position());
-  if (mask != nullptr) {
-    target.mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
-    int previous = -1;
-    for (int i = 0; i < mask->joints_size(); ++i) {
-      const int joint = mask->joints(i);
-      if (joint <= previous || joint >= skeleton.joints()) {
-        throw InvalidArgument(At(mask_field + ".joints", i),
-                              std::to_string(joint) + " is not in [" +
-                                  std::to_string(previous + 1) + ", " +
-                                  std::to_string(skeleton.joints() - 1) + "]");
-      }
-      target.mask.joints[static_cast<size_t>(joint)] = true;
-      previous = joint;
-    }
-  }
-  ValidatePose(skeleton, target.pose, pose_field);
-  ValidateMask(skeleton, target.mask, mask_field);
-  return target;
-}
 
 KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& field) {
   switch (keyframe.when_case()) {
@@ -390,123 +278,6 @@ void CheckControls(const v1::Controls& controls, const ModelInfo& model, const s
   if (controls.has_velocity_factors()) {
     throw Error(ErrorCode::kUnimplemented, field + ".velocity_factors", message);
   }
-}
-
-void FromSkeleton(const Skeleton& skeleton, v1::Skeleton* out) {
-  out->set_name(skeleton.name);
-  for (const auto& name : skeleton.joint_names) out->add_joint_names(name);
-  for (const int parent : skeleton.parents) out->add_parents(parent);
-  for (const double value : skeleton.offsets.reshaped()) {
-    out->add_offsets(static_cast<float>(value));
-  }
-  out->set_pelvis_height(skeleton.pelvis_height);
-  for (const int joint : skeleton.feet) out->add_feet(joint);
-}
-
-void FromFrames(int64_t first_frame, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>> contacts, v1::RotationEncoding encoding,
-                v1::Frames* out) {
-  out->set_first_frame(first_frame);
-  out->set_count(static_cast<int32_t>(poses.size()));
-  auto add = [out](double value) { out->add_rotations(static_cast<float>(value)); };
-  for (const Pose& pose : poses) {
-    for (const double value : pose.root_position) {
-      out->add_root_positions(static_cast<float>(value));
-    }
-    for (Eigen::Index joint = 0; joint < pose.rotations.cols(); ++joint) {
-      const Eigen::Vector3d w = pose.rotations.col(joint);
-      if (encoding == v1::ROTATION_ENCODING_QUATERNION) {
-        for (const double value : QuaternionFromExp(w).coeffs()) add(value);
-      } else if (encoding == v1::ROTATION_ENCODING_MATRIX) {
-        const Eigen::Matrix3d r = ExpMap(w);
-        for (int i = 0; i < 9; ++i) add(r(i / 3, i % 3));
-      } else {
-        for (const double value : w) add(value);
-      }
-    }
-  }
-  for (const auto& frame : contacts) {
-    for (const float value : frame) out->add_contacts(value);
-  }
-}
-
-void FromContinuation(const Continuation& continuation, const ModelInfo& model, uint64_t seed,
-                      const v1::AudioFormat* audio_format, v1::Continuation* out) {
-  out->set_frame(continuation.frame);
-  if (audio_format != nullptr && audio_format->encoding() != v1::AUDIO_ENCODING_FILE) {
-    out->set_audio_from_sample(
-        LatestFirstSample(continuation.frame, audio_format->sample_rate(), model));
-  }
-  out->set_fingerprint(continuation.fingerprint);
-  out->set_seed(seed);
-  for (const Pose& pose : continuation.poses) {
-    for (const double value : pose.root_position) {
-      out->add_root_positions(static_cast<float>(value));
-    }
-    for (const double value : pose.rotations.reshaped()) {
-      out->add_rotations(static_cast<float>(value));
-    }
-  }
-  out->set_skeleton(model.skeleton.name);
-}
-
-void FromReport(const QualityReport& report, v1::QualityReport* out) {
-  out->set_first_frame(report.first_frame);
-  out->set_frames(report.frames);
-  for (const KeyReport& key : report.keys) {
-    auto* entry = out->add_keyframes();
-    entry->set_id(key.id);
-    entry->set_frame(key.frame);
-    FillErrors(key.arrival, entry->mutable_errors());
-    entry->set_max_acceleration(key.max_acceleration);
-  }
-  out->set_log_likelihood(report.mean_log_likelihood);
-  out->set_skate_ratio(report.skate_ratio);
-  if (report.beat_hit_rate) out->set_beat_hit_rate(*report.beat_hit_rate);
-  if (report.beat_coverage) out->set_beat_coverage(*report.beat_coverage);
-  out->set_max_key_acceleration(report.max_key_acceleration);
-  out->set_p95_acceleration(report.p95_acceleration);
-}
-
-void FromEvent(const DanceEvent& event, double fps, v1::Event* out) {
-  if (const auto* reached = std::get_if<KeyReached>(&event)) {
-    out->set_frame(reached->frame);
-    out->mutable_keyframe_reached()->set_id(reached->id);
-    FillErrors(reached->arrival, out->mutable_keyframe_reached()->mutable_errors());
-  } else if (const auto* rejection = std::get_if<KeyRejection>(&event)) {
-    out->set_frame(rejection->frame);
-    auto* rejected = out->mutable_keyframe_rejected();
-    rejected->set_id(rejection->id);
-    rejected->set_earliest_frame(rejection->earliest_frame);
-    rejected->set_reason(rejection->reason);
-  } else if (const auto* warning = std::get_if<DanceWarning>(&event)) {
-    out->set_frame(warning->frame);
-    out->mutable_warning()->set_code(warning->kind == DanceWarning::Kind::kIntervalTooShort
-                                         ? v1::WARNING_CODE_INTERVAL_TOO_SHORT
-                                         : v1::WARNING_CODE_INEXACT_RESUME);
-    out->mutable_warning()->set_message(warning->message);
-  }
-  out->set_time(static_cast<double>(out->frame()) / fps);
-}
-
-void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
-  out->set_name(model.name);
-  out->set_fingerprint(model.fingerprint);
-  out->set_licence(model.licence);
-  out->set_card(model.card);
-  FromSkeleton(model.skeleton, out->mutable_skeleton());
-  out->set_model_frame_rate(model.fps);
-  out->set_history_frames(model.history_frames);
-  out->set_default_temperature(model.default_temperature);
-  // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
-  constexpr int64_t kSomeFrame = 3'000;
-  out->set_audio_lead_s(static_cast<double>(kSomeFrame) / model.fps -
-                        static_cast<double>(LatestFirstSample(kSomeFrame, kMinSampleRate, model)) /
-                            kMinSampleRate);
-  DanceConfig config;
-  config.output_fps = model.fps;
-  config.audio = DanceConfig::Audio{kMinSampleRate, 1, 0};
-  out->set_latency_frames(DanceStream::LatencyFrames(config, model));
 }
 
 }  // namespace choreo

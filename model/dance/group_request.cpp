@@ -1,0 +1,63 @@
+#include "model/dance/group_request.h"
+
+#include <algorithm>
+
+#include "model/audio/format.h"
+#include "model/core/error.h"
+#include "model/dance/audio_feed.h"
+#include "model/dance/timeline.h"
+#include "model/dance/validation.h"
+
+namespace choreo {
+
+void GroupRequest::Validate(const ModelInfo& model) const {
+  if (candidates < 1 || candidates > kMaxCandidates) {
+    throw InvalidArgument("candidates", std::to_string(candidates) + " is not in [1, " +
+                                            std::to_string(kMaxCandidates) + "]");
+  }
+  if (temperature) ValidateTemperature(*temperature, "temperature");
+  ValidateOutputFps(output_fps, "output_fps");
+  const int longest = std::min(kMaxTransitionFrames, model.max_transition_frames);
+  if (frames < 1 || frames > longest) {
+    throw InvalidArgument(
+        "frames", std::to_string(frames) + " is not in [1, " + std::to_string(longest) + "]");
+  }
+  if (history.size() > static_cast<size_t>(model.history_frames)) {
+    throw InvalidArgument("history", std::to_string(history.size()) + " poses, the limit is " +
+                                         std::to_string(model.history_frames));
+  }
+  ValidateHistory(model.skeleton, history, "history");
+  if (continuation) {
+    if (!history.empty()) {
+      throw InvalidArgument("history", "and a continuation exclude each other");
+    }
+    ValidateContinuation(model, *continuation, allow_inexact_resume, "continuation");
+  }
+  const int64_t first = FirstFrame();
+  if (first < 0 || first > kMaxDanceFrames) {
+    throw InvalidArgument("first_frame", std::to_string(first) + " is not in [0, " +
+                                             std::to_string(kMaxDanceFrames) + "]");
+  }
+  if (target) {
+    ValidatePose(model.skeleton, target->pose, "target");
+    ValidateMask(model.skeleton, target->mask, "target.mask");
+  }
+  if (after) {
+    if (!target) throw InvalidArgument("after", "needs a target");
+    ValidatePose(model.skeleton, *after, "after");
+  }
+  if (!has_audio()) {
+    if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
+    return;
+  }
+  ValidateAudioStart(model, sample_rate, channels, first_sample, first, "audio");
+  if (samples.empty()) throw InvalidArgument("audio", "has no samples");
+  if (samples.size() % static_cast<size_t>(channels) != 0) {
+    throw InvalidArgument("audio.data", std::to_string(samples.size()) +
+                                            " values are no multiple of the " +
+                                            std::to_string(channels) + " channels");
+  }
+  CheckFinite(samples, channels, first_sample);
+}
+
+}  // namespace choreo

@@ -1,0 +1,47 @@
+#include "model/engine/step_engine.h"
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+void CheckJoints(const Pose& pose, const ModelInfo& model, const std::string& field) {
+  if (pose.rotations.cols() != model.skeleton.joints()) {
+    throw InvalidArgument(field, std::to_string(pose.rotations.cols()) + " joints, must be " +
+                                     std::to_string(model.skeleton.joints()));
+  }
+}
+
+}  // namespace
+
+void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
+  if (spec.frames < 1 || spec.frames > model.max_transition_frames) {
+    throw InvalidArgument("frames", std::to_string(spec.frames) + " is not in [1, " +
+                                        std::to_string(model.max_transition_frames) + "]");
+  }
+  const int history = model.history_frames;
+  if (static_cast<int>(spec.history.size()) != history) {
+    throw InvalidArgument("history", std::to_string(spec.history.size()) + " poses, must be " +
+                                         std::to_string(history));
+  }
+  for (size_t i = 0; i < spec.history.size(); ++i) {
+    CheckJoints(spec.history[i], model, "history[" + std::to_string(i) + "]");
+  }
+  if (spec.target) {
+    CheckJoints(spec.target->pose, model, "target");
+    const size_t masked = spec.target->mask.joints.size();
+    if (masked != 0 && static_cast<int>(masked) != model.skeleton.joints()) {
+      throw InvalidArgument("target.mask", std::to_string(masked) + " joints, must be 0 or " +
+                                               std::to_string(model.skeleton.joints()));
+    }
+  }
+  if (spec.has_audio &&
+      (spec.audio_history.rows() != model.audio_features || spec.audio_history.cols() != history)) {
+    throw InvalidArgument("audio_history", std::to_string(spec.audio_history.rows()) + " x " +
+                                               std::to_string(spec.audio_history.cols()) +
+                                               ", must be " + std::to_string(model.audio_features) +
+                                               " x " + std::to_string(history));
+  }
+}
+
+}  // namespace choreo

@@ -1,0 +1,108 @@
+#include "model/engine/transition_window.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/core/random.h"
+
+namespace choreo {
+
+TransitionWindow::TransitionWindow(const ModelInfo& model)
+    : skeleton_(model.skeleton),
+      fps_(model.fps),
+      tau_(model.history_frames),
+      audio_features_(model.audio_features),
+      codec_(model.skeleton),
+      past_(static_cast<size_t>(tau_ * codec_.width())),
+      audio_(static_cast<size_t>((tau_ + 1) * audio_features_)),
+      contacts_(model.skeleton) {}
+
+void TransitionWindow::Begin(const TransitionSpec& spec, std::vector<Pose> plan) {
+  frames_ = spec.frames;
+  frame_ = 0;
+  seed_ = spec.seed;
+  candidate_ = spec.candidate;
+  first_frame_ = spec.first_frame;
+  temperature_ = spec.temperature;
+  has_audio_ = spec.has_audio;
+  plan_ = std::move(plan);
+
+  std::vector<JointPlacement> placements;
+  for (const Pose& pose : spec.history) placements.push_back(ForwardKinematics(skeleton_, pose));
+  contacts_.Reset();
+  for (int t = 0; t < tau_; ++t) {
+    // The first frame takes its speed from the step that follows it.
+    const auto before = static_cast<size_t>(std::max(0, t - 1));
+    const auto now = static_cast<size_t>(t == 0 ? std::min(1, tau_ - 1) : t);
+    contacts_.Next(placements[before].positions, placements[now].positions, fps_);
+    // With a plan, history stands on itself, as in training.
+    const Pose& pose = spec.history[static_cast<size_t>(t)];
+    codec_.Encode(pose, spec.history[before], plan_.empty() ? nullptr : &pose, contacts_.contacts(),
+                  fps_, PastRow(t));
+  }
+  if (tau_ > 1) {
+    PastRow(0).segment<3>(codec_.velocity_at()) = PastRow(1).segment<3>(codec_.velocity_at());
+  }
+  last_placement_ = std::move(placements.back());
+  last_ = spec.history.back();
+
+  std::ranges::fill(audio_, 0.0F);
+  if (has_audio_) {
+    Eigen::Map<Eigen::MatrixXf>(audio_.data(), audio_features_, tau_) = spec.audio_history;
+  }
+}
+
+void TransitionWindow::Check(const StepInput& input) const {
+  if (frame_ >= frames_) {
+    throw InvalidArgument("slot", std::to_string(input.slot) + " has made its " +
+                                      std::to_string(frames_) + " frames already");
+  }
+  if ((frame_ > 0) != (input.previous != nullptr)) {
+    throw InvalidArgument("previous", frame_ > 0 ? "is missing after the first frame"
+                                                 : "is given before the first frame");
+  }
+  if (input.previous != nullptr && input.previous->rotations.cols() != skeleton_.joints()) {
+    throw InvalidArgument("previous", std::to_string(input.previous->rotations.cols()) +
+                                          " joints, must be " + std::to_string(skeleton_.joints()));
+  }
+  if (has_audio_ && static_cast<int>(input.audio_row.size()) != audio_features_) {
+    throw InvalidArgument("audio_row", std::to_string(input.audio_row.size()) +
+                                           " values, must be " + std::to_string(audio_features_));
+  }
+}
+
+void TransitionWindow::Advance(const StepInput& input) {
+  if (input.previous != nullptr) {
+    std::copy(past_.begin() + codec_.width(), past_.end(), past_.begin());
+    ForwardKinematics(skeleton_, *input.previous, placement_);
+    contacts_.Next(last_placement_.positions, placement_.positions, fps_);
+    codec_.Encode(*input.previous, last_, Reference(frame_ - 1), contacts_.contacts(), fps_,
+                  PastRow(tau_ - 1));
+    last_ = *input.previous;
+    std::swap(last_placement_, placement_);
+  }
+  if (has_audio_) {
+    // Begin left the last row free for frame 0's.
+    if (frame_ > 0) std::copy(audio_.begin() + audio_features_, audio_.end(), audio_.begin());
+    std::ranges::copy(input.audio_row, audio_.end() - audio_features_);
+  }
+}
+
+void TransitionWindow::FillNoise(std::span<float> noise) const {
+  FillNormal(seed_, candidate_, first_frame_ + frame_, noise);
+  for (float& value : noise) value *= temperature_;
+}
+
+void TransitionWindow::Finish(std::span<const float> features, StepOutput* output) {
+  codec_.Decode(Eigen::Map<const Eigen::VectorXf>(features.data(),
+                                                  static_cast<Eigen::Index>(features.size())),
+                Reference(frame_), decoded_);
+  output->pose = decoded_.pose;
+  for (size_t foot = 0; foot < output->contacts.size(); ++foot) {
+    output->contacts[foot] = std::clamp(decoded_.contacts[foot], 0.0F, 1.0F);
+  }
+  ++frame_;
+}
+
+}  // namespace choreo

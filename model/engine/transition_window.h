@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "model/engine/step_engine.h"
+#include "model/motion/contacts.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/pose_codec.h"
+
+namespace choreo {
+
+/// What an engine keeps of one transition in progress, whatever computes its network: the plan, the
+/// features of the last tau emitted frames, the last tau + 1 music rows, and where it stands.
+///
+/// What a frame's history holds is what was emitted: its features are encoded anew from the poses
+/// that StepInput::previous hands back (velocities between them, contacts as motion/contacts.h
+/// detects them), so a transition is a function of poses alone.
+///
+/// Per frame: Check, Advance, read the inputs, Finish. Nothing allocates there. Not thread-safe.
+class TransitionWindow {
+ public:
+  explicit TransitionWindow(const ModelInfo& model);
+
+  /// Starts a transition. `plan`: [frames] reference poses, or empty where features are absolute.
+  /// The spec is valid (ValidateSpec).
+  void Begin(const TransitionSpec& spec, std::vector<Pose> plan);
+
+  /// Throws Error(kInvalidArgument) unless `input` is what the next frame needs.
+  void Check(const StepInput& input) const;
+  /// Moves the windows on by what was emitted and what is heard.
+  void Advance(const StepInput& input);
+
+  /// Inputs of the frame to be stepped.
+  int frame() const { return frame_; }
+  bool has_audio() const { return has_audio_; }
+  std::span<const float> past() const { return past_; }    ///< [tau, width], oldest first
+  std::span<const float> audio() const { return audio_; }  ///< [tau + 1, audio_features]
+  /// The frame's noise times the temperature, [width].
+  void FillNoise(std::span<float> noise) const;
+
+  /// Decodes the model's features [width] of the frame, which is then done.
+  void Finish(std::span<const float> features, StepOutput* output);
+
+ private:
+  const Pose* Reference(int frame) const {
+    return plan_.empty() ? nullptr : &plan_[static_cast<size_t>(frame)];
+  }
+  Eigen::Map<Eigen::VectorXf> PastRow(int row) {
+    return {past_.data() + static_cast<std::ptrdiff_t>(row) * codec_.width(), codec_.width()};
+  }
+
+  Skeleton skeleton_;
+  double fps_;
+  int tau_, audio_features_;
+  PoseCodec codec_;
+  std::vector<float> past_, audio_;
+
+  int frames_ = 0;  // N
+  int frame_ = 0;   // next to be stepped
+  uint64_t seed_ = 0;
+  uint32_t candidate_ = 0;
+  int64_t first_frame_ = 0;
+  float temperature_ = 0;
+  bool has_audio_ = false;
+  std::vector<Pose> plan_;
+  Pose last_;  // emitted before `frame_`
+  JointPlacement last_placement_;
+  ContactDetector contacts_;
+
+  // Kept for their memory.
+  JointPlacement placement_;
+  PoseCodec::Decoded decoded_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,56 @@
+#include "model/training/model_card.h"
+
+#include <nlohmann/json.hpp>
+
+namespace choreo {
+
+nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps,
+                         const std::vector<PreparedClip>& clips, const std::string& hash,
+                         const std::vector<ValidationRow>& rows) {
+  nlohmann::json figures = nlohmann::json::array();
+  for (const ValidationRow& row : rows) {
+    figures.push_back({{"frames", row.frames},
+                       {"interpolation_m", row.interpolation_m},
+                       {"planner_m", row.planner_m},
+                       {"flow_m", row.flow_m},
+                       {"ratio_to_interpolation", row.flow_m / row.interpolation_m},
+                       {"nll_nats_per_dimension", row.likelihood},
+                       {"mean_joint_key_error_m", row.key_error_m}});
+  }
+  nlohmann::json sources = nlohmann::json::object(), terms = nlohmann::json::object();
+  int64_t frames = 0;
+  for (const auto& clip : clips) {
+    frames += static_cast<int64_t>(clip.motion.frames.size());
+    sources[clip.source] = sources.value(clip.source, 0) + 1;
+    const auto stated = clip.notes.find("terms");
+    const std::string of = stated == clip.notes.end() ? "not stated" : stated->second;
+    terms[of] = terms.value(of, 0) + 1;
+  }
+  std::string licence = "as the recordings that it was trained on allow:";
+  for (const auto& [of, count] : terms.items()) {
+    licence += " [" + std::to_string(count.get<int>()) + " clips] " + of + ";";
+  }
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto& folder : options.data) names.push_back(folder.filename().string());
+  licence.back() = '.';
+  return {
+      {"preset", options.preset},
+      {"data",
+       {{"names", names},
+        {"clips_by_layout", sources},
+        {"clips_by_terms", terms},
+        {"frames", frames},
+        {"hash", hash}}},
+      {"licence", licence},
+      {"command", options.Command()},
+      {"steps", {{"planner", planner_steps}, {"flow", options.flow_steps}}},
+      {"validation", figures},
+      {"limits",
+       "Trained on transitions of " + std::to_string(options.shortest) + " to " +
+           std::to_string(options.longest) +
+           " frames at 30 fps. The plan does not hear the music, the flow around it does; steps "
+           "are not aligned to beats. Without keys it drifts towards calm poses. Feet may slide. "
+           "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
+}
+
+}  // namespace choreo

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace choreo {
+
+/// One term of a training loss: its running mean and its last gradient's norm, weighted as it is
+/// trained with; 0 where it was not computed yet.
+struct LossFigure {
+  double value = 0, gradient = 0;
+};
+
+/// Where a run stands: its terms by name (losses.h).
+struct LossRow {
+  int64_t step = 0;
+  std::map<std::string, LossFigure> terms;
+};
+
+/// What a run reports of itself on validation windows: fixed windows, no arrival, one roll-out at
+/// the served temperature.
+struct ValidationRow {
+  int frames = 0;              ///< N
+  double interpolation_m = 0;  ///< L2P of interpolation
+  double planner_m = 0;        ///< L2P of the plan (0 without a planner)
+  double flow_m = 0;           ///< L2P of a sampled roll-out (0 before the flow's stage)
+  double likelihood = 0;       ///< -log p, nats a dimension
+  double key_error_m = 0;      ///< mean joint distance at the key frame of the roll-out
+};
+
+}  // namespace choreo

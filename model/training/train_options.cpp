@@ -1,0 +1,45 @@
+#include "model/training/train_options.h"
+
+#include <sstream>
+
+#include "model/core/error.h"
+
+namespace choreo {
+
+std::string TrainOptions::Command() const {
+  std::ostringstream command;
+  command << "choreo-lab train";
+  for (const auto& folder : data) command << " --data " << folder.filename().string();
+  command << " --splits " << splits.filename().string() << ' ' << Fixed();
+  return command.str();
+}
+
+std::string TrainOptions::Fixed() const {
+  std::ostringstream text;
+  text << "--preset " << preset << " --planner-steps " << planner_steps << " --flow-steps "
+       << flow_steps << " --batch " << batch << " --planner-rate " << planner_rate
+       << " --flow-rate " << flow_rate << " --shortest " << shortest << " --longest " << longest
+       << " --rollout-frames " << rollout_frames << " --seed " << seed
+       << (no_keys ? " --no-keys" : "") << (no_key_loss ? " --no-key-loss" : "")
+       << (no_time_embedding ? " --no-time-embedding" : "")
+       << (forward_embedding ? " --forward-embedding" : "");
+  return text.str();
+}
+
+void TrainOptions::Validate() const {
+  const auto require = [](bool good, const char* name, const std::string& value,
+                          const char* limit) {
+    if (!good) throw InvalidArgument(name, value + ", but it must be " + limit);
+  };
+  require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
+  require(planner_steps >= 1, "--planner-steps", std::to_string(planner_steps), "at least 1");
+  require(flow_steps >= 1, "--flow-steps", std::to_string(flow_steps), "at least 1");
+  require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");
+  require(shortest >= 2 && shortest <= longest && longest <= 600, "--longest",
+          std::to_string(longest), "from --shortest (at least 2) to 600");
+  require(rollout_frames >= 2 && rollout_frames <= 300, "--rollout-frames",
+          std::to_string(rollout_frames), "2 to 300");
+  require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
+}
+
+}  // namespace choreo

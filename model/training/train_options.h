@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace choreo {
+
+/// One training run. Everything that makes it is here or in the data: the same options give the
+/// same checkpoint on one machine.
+struct TrainOptions {
+  std::string preset = "default";
+  std::vector<std::filesystem::path> data;  ///< folders of prepared clips
+  std::filesystem::path splits;             ///< JSON, see ClipStore
+  std::filesystem::path run;     ///< folder for state, curves and the finished checkpoint
+  std::string device = "cpu";    ///< "cpu" or "cuda:N"
+  bool resume = false;           ///< go on from the run's state if there is one
+  int64_t planner_steps = 6000;  ///< first stage (presets with a planner)
+  int64_t flow_steps = 4000;     ///< second stage: the flow, the planner frozen
+  int batch = 64;                ///< windows a step; longer windows get fewer, at equal frames
+  double planner_rate = 1e-3;    ///< peak learning rates; warm-up, then cosine to a twentieth
+  double flow_rate = 5e-4;
+  int shortest = 5, longest = 100;  ///< N of the training windows, frames
+  int rollout_frames = 30;          ///< gamma of paper F
+  int64_t report_every = 250;       ///< steps between validation, curves and saved state
+  int64_t stop_after = 0;  ///< leave after this many steps of the run, resumable; 0: to the end
+  uint64_t seed = 1;
+  /// Ablations (paper F, Table 1).
+  bool no_keys = false, no_key_loss = false, no_time_embedding = false, forward_embedding = false;
+
+  /// What a stranger types to train the same: folders by their names alone.
+  std::string Command() const;
+  /// What must not change when a run is resumed: all of Command() but where things lie.
+  std::string Fixed() const;
+  /// Throws Error(kInvalidArgument) naming the option.
+  void Validate() const;
+};
+
+}  // namespace choreo

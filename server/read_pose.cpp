@@ -1,0 +1,120 @@
+#include "server/read_pose.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstddef>
+
+#include "model/core/error.h"
+#include "model/dance/validation.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kUnitTolerance = 1e-3;
+
+Eigen::Vector3d FromQuaternionNumbers(const float* v, const std::string& field) {
+  const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
+  if (!(std::abs(q.norm() - 1) <= kUnitTolerance)) {
+    throw InvalidArgument(field, "norm " + Show(q.norm()) + " of the quaternion is further than " +
+                                     Show(kUnitTolerance) + " from 1");
+  }
+  return ExpFromQuaternion(q.normalized());
+}
+
+Eigen::Vector3d FromMatrixNumbers(const float* v, const std::string& field) {
+  Eigen::Matrix3d r;
+  for (int i = 0; i < 9; ++i) r(i / 3, i % 3) = v[i];
+  const double error = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error <= kUnitTolerance) || !(r.determinant() > 0)) {
+    throw InvalidArgument(field, "not a rotation matrix: R^T R is " + Show(error) +
+                                     " from the identity (limit " + Show(kUnitTolerance) +
+                                     "), its determinant is " + Show(r.determinant()));
+  }
+  return LogMap(MatrixFromSixD(
+      (Eigen::Matrix<double, 6, 1>() << r.col(0), r.col(1)).finished()));  // orthonormal again
+}
+
+Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+std::string At(const std::string& field, int64_t index) {
+  return field + '[' + std::to_string(index) + ']';
+}
+
+int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field) {
+  switch (encoding) {
+    case v1::ROTATION_ENCODING_UNSPECIFIED:
+    case v1::ROTATION_ENCODING_AXIS_ANGLE:
+      return 3;
+    case v1::ROTATION_ENCODING_QUATERNION:
+      return 4;
+    case v1::ROTATION_ENCODING_MATRIX:
+      return 9;
+    default:
+      throw InvalidArgument(field, std::to_string(encoding) + " is no RotationEncoding");
+  }
+}
+
+Eigen::Matrix3Xd ToRotations(const v1::Pose& pose, const Skeleton& skeleton,
+                             const std::string& field) {
+  const int width = NumbersPerJoint(pose.encoding(), field + ".encoding");
+  const std::string path = field + ".rotations";
+  if (pose.rotations_size() != width * skeleton.joints()) {
+    const bool whole = pose.rotations_size() % width == 0;
+    throw InvalidArgument(path,
+                          std::to_string(pose.rotations_size()) + " numbers are " +
+                              (whole ? std::to_string(pose.rotations_size() / width) + " joints"
+                                     : "no multiple of " + std::to_string(width)) +
+                              "; the model has " + std::to_string(skeleton.joints()) + " joints, " +
+                              std::to_string(width * skeleton.joints()) + " numbers");
+  }
+  Eigen::Matrix3Xd rotations(3, skeleton.joints());
+  for (int joint = 0; joint < skeleton.joints(); ++joint) {
+    const float* numbers = pose.rotations().data() + static_cast<std::ptrdiff_t>(joint) * width;
+    for (int i = 0; i < width; ++i) {
+      if (!std::isfinite(numbers[i])) {
+        throw InvalidArgument(At(path, joint), Show(numbers[i]) + " is not finite");
+      }
+    }
+    rotations.col(joint) = width == 3   ? Eigen::Vector3d(numbers[0], numbers[1], numbers[2])
+                           : width == 4 ? FromQuaternionNumbers(numbers, At(path, joint))
+                                        : FromMatrixNumbers(numbers, At(path, joint));
+  }
+  return rotations;
+}
+
+Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field) {
+  if (!pose.has_root_position()) throw InvalidArgument(field + ".root_position", "missing");
+  return {.root_position = ToVector(pose.root_position()),
+          .rotations = ToRotations(pose, skeleton, field)};
+}
+
+WorldTarget ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
+                     const std::string& pose_field, const std::string& mask_field) {
+  WorldTarget target;
+  target.pose.rotations = ToRotations(pose, skeleton, pose_field);
+  target.mask.root_position = pose.has_root_position();
+  if (pose.has_root_position()) target.pose.root_position = ToVector(pose.root_position());
+  if (mask != nullptr) {
+    target.mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
+    int previous = -1;
+    for (int i = 0; i < mask->joints_size(); ++i) {
+      const int joint = mask->joints(i);
+      if (joint <= previous || joint >= skeleton.joints()) {
+        throw InvalidArgument(At(mask_field + ".joints", i),
+                              std::to_string(joint) + " is not in [" +
+                                  std::to_string(previous + 1) + ", " +
+                                  std::to_string(skeleton.joints() - 1) + "]");
+      }
+      target.mask.joints[static_cast<size_t>(joint)] = true;
+      previous = joint;
+    }
+  }
+  ValidatePose(skeleton, target.pose, pose_field);
+  ValidateMask(skeleton, target.mask, mask_field);
+  return target;
+}
+
+}  // namespace choreo

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include "choreo/v1/choreography.pb.h"
+#include "choreo/v1/motion.pb.h"
+#include "model/dance/transition.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// Poses of the API -> ours. Failures are Error(kInvalidArgument) with the path of the field,
+/// beginning with `field`. Pure functions, thread-safe.
+namespace choreo {
+
+/// Path of an element, as in "keyframes[3]".
+std::string At(const std::string& field, int64_t index);
+
+/// Numbers a joint of an encoding: 3, 4 or 9.
+int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field);
+
+/// Joint rotations in any encoding -> axis-angle, [3, joints].
+Eigen::Matrix3Xd ToRotations(const v1::Pose& pose, const Skeleton& skeleton,
+                             const std::string& field);
+
+/// A pose whose root position is required.
+Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field);
+
+/// A key pose and what it asks for. `mask` null: all joints.
+WorldTarget ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
+                     const std::string& pose_field, const std::string& mask_field);
+
+}  // namespace choreo

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "choreo/v1/choreography.pb.h"
+#include "model/dance/dance_stream.h"
+#include "model/dance/transition_group.h"
+#include "model/engine/step_engine.h"
+
+/// Requests of the API -> the dance's own types. Everything is checked that the message alone can
+/// tell; failures are Error with the path of the field, beginning with `field` where there is one.
+/// Pure functions, thread-safe.
+namespace choreo {
+
+inline constexpr int64_t kMaxMessageBytes = 16 << 20;
+inline constexpr int64_t kMaxAudioFileBytes = 128 << 20;
+/// Music of a file is handed to a stream at the features' own rate: its format is not known before
+/// the file has come.
+inline constexpr double kFileAudioRate = 22'050;
+
+KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& field);
+
+/// For StreamDance. `fresh_seed` is used where the message has none.
+DanceConfig ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
+                          uint64_t fresh_seed);
+
+/// For GenerateTransition, but for the samples of encoded files (see EncodedAudio).
+GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
+                            uint64_t fresh_seed);
+
+/// PCM bytes -> samples, interleaved, full scale [-1, 1].
+std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,
+                             const std::string& field);
+
+/// Throws Error(kUnimplemented) naming the first control: no model has any yet.
+void CheckControls(const v1::Controls& controls, const ModelInfo& model, const std::string& field);
+
+}  // namespace choreo
