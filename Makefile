@@ -20,6 +20,7 @@ demo: build  ## Install, build, serve, and dance 24 s to a real song; results in
 	@scripts/demo.sh $(BUILD)/bin out/demo
 
 test: build  ## Install, build and run every test (a few minutes)
+	@scripts/install_packages.sh test
 	@scripts/run_tests.sh $(BUILD)
 
 build: packages  ## Install what is missing and compile everything (PRESET=release|debug|asan|tsan)
@@ -27,7 +28,7 @@ build: packages  ## Install what is missing and compile everything (PRESET=relea
 	@cmake --build $(BUILD) -j $(JOBS)
 
 packages:  ## Install the Debian packages that are missing
-	@scripts/install_packages.sh
+	@scripts/install_packages.sh build run demo
 
 bench: build  ## Run the benchmarks
 	@scripts/bench.sh $(BUILD)/bin

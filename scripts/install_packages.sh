@@ -22,8 +22,8 @@ run=(
 )
 # Free songs to dance to.
 demo=(fretsonfire-songs-sectoid)
-# An independent reader of the files that we write.
-test=(python3-numpy)
+# An independent reader of the files that we write; what the examples of other languages need (they are tests, too).
+test=(python3-numpy python3-grpcio nodejs npm)
 lint=(clang-format clang-tidy)
 
 groups=("$@")
@@ -46,10 +46,12 @@ if ! command -v dpkg-query >/dev/null; then
   exit 1
 fi
 
+# What is installed, and what that provides: a Node.js from elsewhere brings its own npm, for one.
+installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}, ${Provides}\n' |
+  sed -n 's/^installed //p' | tr ',' '\n' | sed 's/(.*//; s/ //g')
 missing=()
 for package in "${wanted[@]}"; do
-  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | head -c 9 || true)
-  [[ $status == installed ]] || missing+=("$package")
+  grep -qxF -- "$package" <<<"$installed" || missing+=("$package")
 done
 [[ ${#missing[@]} -gt 0 ]] || exit 0
 

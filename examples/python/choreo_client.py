@@ -1,0 +1,75 @@
+"""What a web app's back end needs to talk to a choreod: stubs made from proto/, errors that name the field, a body at rest."""
+
+import importlib
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import google
+import grpc
+
+PROTO = pathlib.Path(__file__).resolve().parents[2] / "proto"
+
+
+def _make_stubs():
+    """Compiles proto/ with Debian's protoc and imports the result. With pip, `python -m grpc_tools.protoc` makes the same files; a program
+    of yours would keep them."""
+    with tempfile.TemporaryDirectory() as folder:
+        files = sorted(str(file.relative_to(PROTO)) for file in PROTO.rglob("*.proto"))
+        plugin = "--plugin=protoc-gen-grpc_python=" + (shutil.which("grpc_python_plugin") or "grpc_python_plugin")
+        subprocess.run(
+            ["protoc", f"--proto_path={PROTO}", f"--python_out={folder}", f"--grpc_python_out={folder}", plugin, *files],
+            check=True,
+        )
+        sys.path.insert(0, folder)
+        google.__path__.append(folder + "/google")  # google.rpc lies beside google.protobuf
+        names = ["choreo.v1.choreography_pb2", "choreo.v1.motion_pb2", "choreo.v1.choreography_pb2_grpc"]
+        names += ["google.rpc.status_pb2", "google.rpc.error_details_pb2"]
+        modules = [importlib.import_module(name) for name in names]
+        sys.path.remove(folder)
+        return modules
+
+
+choreography, motion, services, status, error_details = _make_stubs()
+
+
+def connect(address):
+    """The stub: StreamDance, GenerateTransition, GetServerInfo. A call can be cancelled: call.cancel()."""
+    return services.ChoreographyStub(grpc.insecure_channel(address))
+
+
+def field_violations(error):
+    """The fields that the server names in a grpc.RpcError: [(field, description)]."""
+    found = []
+    for key, value in error.trailing_metadata() or ():
+        if key != "grpc-status-details-bin":
+            continue
+        for detail in status.Status.FromString(value).details:
+            bad_request = error_details.BadRequest()
+            if detail.Unpack(bad_request):
+                found += [(violation.field, violation.description) for violation in bad_request.field_violations]
+    return found
+
+
+def pose(skeleton, rotations=None, x=0.0, z=0.0):
+    """The body of `skeleton` at rest, but for `rotations`: {joint name: [x, y, z] in radians}."""
+    rotations = rotations or {}
+    return motion.Pose(
+        root_position=motion.Vector3(x=x, y=skeleton.pelvis_height, z=z),
+        rotations=[number for joint in skeleton.joint_names for number in rotations.get(joint, [0, 0, 0])],
+    )
+
+
+def run(main):
+    """Runs a program: Ctrl-C cancels, errors are shown with the fields that they name."""
+    try:
+        main()
+    except grpc.RpcError as error:
+        print(f"{error.code().name}: {error.details()}", file=sys.stderr)
+        for field, _ in field_violations(error):
+            print(f"  field: {field}", file=sys.stderr)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        sys.exit("CANCELLED")

@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""Dances through two key poses to music that is still being played, or to a song."""
+
+import argparse
+import json
+import os
+import sys
+
+from choreo_client import choreography, connect, pose, run
+from music import PCM, clicks, file, live
+
+
+def requests(options, model):
+    audio_format = choreography.AudioFormat(encoding=choreography.AUDIO_ENCODING_FILE) if options.song else PCM
+    frames = round(options.seconds * model.model_frame_rate)
+    yield {"config": choreography.DanceConfig(seed=options.seed, frames=frames, audio_format=audio_format)}
+    arms_up = pose(model.skeleton, {"left_shoulder": [0, 0, 1], "right_shoulder": [0, 0, -1]}, z=0.3)
+    yield {"keyframe": choreography.Keyframe(id="arms up", time=options.seconds * 0.4, pose=arms_up)}
+    yield {"keyframe": choreography.Keyframe(id="rest", time=options.seconds * 0.8, pose=pose(model.skeleton))}
+    yield {"keyframes_complete": choreography.KeyframesComplete()}
+    for piece in file(options.song) if options.song else live(clicks(options.seconds), options.speed):
+        yield {"audio": piece}
+    yield {"end_of_audio": choreography.EndOfAudio()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--server", default=os.environ.get("CHOREO_SERVER", "127.0.0.1:50051"), help="HOST:PORT")
+    parser.add_argument("--song", help="file to dance to; default: clicks, played meanwhile")
+    parser.add_argument("--seconds", type=float, default=6)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--speed", type=float, default=1, help="of the clicks; 2 plays them twice as fast")
+    parser.add_argument("--out", help="JSON file for the dance")
+    options = parser.parse_args()
+
+    server = connect(options.server)
+    model = server.GetServerInfo(choreography.GetServerInfoRequest()).models[0]
+    call = server.StreamDance(choreography.StreamDanceRequest(**request) for request in requests(options, model))
+    dance = {"root_positions": [], "rotations": []}
+    frames = 0
+    try:
+        for answer in call:
+            if answer.HasField("header"):
+                dance["frame_rate"] = answer.header.frame_rate
+                print(f"{answer.header.model} dances with seed {answer.header.seed}")
+            elif answer.HasField("frames"):  # a back end would send these on to the browser
+                frames += answer.frames.count
+                dance["root_positions"] += answer.frames.root_positions
+                dance["rotations"] += answer.frames.rotations
+                print(f"\r{frames / dance['frame_rate']:.1f} s of {options.seconds} s", end="", file=sys.stderr)
+            elif answer.HasField("event") and answer.event.HasField("keyframe_reached"):
+                reached = answer.event.keyframe_reached
+                print(f"\n{reached.id}: reached to {1e3 * reached.errors.final_error_m:.3f} mm")
+            elif answer.HasField("summary"):
+                print(f"\n{frames} frames, {answer.summary.timing.real_time_factor:.1f} times as fast as danced")
+    finally:
+        call.cancel()  # whoever stops reading ends the dance; a finished call does not mind
+    if options.out:
+        with open(options.out, "w", encoding="utf-8") as out:
+            json.dump(dance, out)
+
+
+run(main)

@@ -1,0 +1,50 @@
+#!/usr/bin/python3
+"""Makes several ways from rest to a pose, best first."""
+
+import argparse
+import collections
+import os
+import sys
+
+from choreo_client import choreography, connect, pose, run
+from music import PCM, clicks
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--server", default=os.environ.get("CHOREO_SERVER", "127.0.0.1:50051"), help="HOST:PORT")
+    parser.add_argument("--frames", type=int, default=45)
+    parser.add_argument("--candidates", type=int, default=3)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+
+    server = connect(options.server)
+    model = server.GetServerInfo(choreography.GetServerInfoRequest()).models[0]
+    request = choreography.GenerateTransitionRequest(
+        config=choreography.DanceConfig(seed=options.seed, audio_format=PCM),
+        frames=options.frames,
+        candidates=options.candidates,
+        target=pose(model.skeleton, {"left_shoulder": [0, 0, 1], "right_shoulder": [0, 0, -1]}),
+        audio=choreography.Audio(data=clicks(options.frames / model.model_frame_rate)),
+    )
+    frames = collections.Counter()  # of each candidate, as they come
+    call = server.GenerateTransition(request)
+    try:
+        for answer in call:
+            if answer.HasField("frames"):
+                frames[answer.frames.candidate] += answer.frames.count
+                print("\r" + " + ".join(map(str, frames.values())) + " frames", end="", file=sys.stderr)
+            elif answer.HasField("summary"):
+                print()
+                for ranked in answer.summary.candidates:
+                    key = ranked.report.keyframes[0].errors
+                    print(
+                        f"candidate {ranked.candidate}: {frames[ranked.candidate]} frames, "
+                        f"the model's own miss {100 * key.raw_error_m:.1f} cm, left of it {1000 * key.final_error_m:.3f} mm, "
+                        f"skating {100 * ranked.report.skate_ratio:.0f} %"
+                    )
+    finally:
+        call.cancel()
+
+
+run(main)

@@ -1,0 +1,198 @@
+// examples/node against a real choreod, which $CHOREO_SERVER names.
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { fileURLToPath } from 'node:url';
+import { ChoreoClient, ChoreoError, pose } from '../../examples/node/choreo.js';
+import { clicks, live, pcm } from '../../examples/node/music.js';
+
+const address = process.env.CHOREO_SERVER;
+const folder = fileURLToPath(new URL('../../examples/node/', import.meta.url));
+
+/** What a program of the examples says, and how it ends. */
+function program(name, ...flags) {
+  return new Promise((resolve) => {
+    execFile(process.execPath, [join(folder, name), '--server', address, ...flags], (failure, out, err) =>
+      resolve({ code: failure?.code ?? 0, out, err }),
+    );
+  });
+}
+
+async function withClient(use) {
+  const client = new ChoreoClient(address);
+  try {
+    await use(client, (await client.info()).models[0]);
+  } finally {
+    client.close();
+  }
+}
+
+async function collect(answers) {
+  const all = [];
+  for await (const answer of answers) all.push(answer);
+  return all;
+}
+
+/** A dance to silence that goes on until somebody ends it. */
+async function* endless() {
+  yield { config: { audio_format: pcm } };
+  yield { keyframes_complete: {} };
+  for (let first_sample = 0; ; first_sample += 735) {
+    await sleep(5);
+    yield { audio: { data: Buffer.alloc(2 * 735), first_sample } };
+  }
+}
+
+const framesOf = (answers) => answers.filter((answer) => answer.frames).map((answer) => answer.frames);
+
+test('live music is danced to while it plays, through the keys', async () => {
+  await withClient(async (client, { skeleton, model_frame_rate }) => {
+    let musicIsOver = false;
+    let cameBefore = 0;
+    async function* requests() {
+      yield { config: { seed: '7', audio_format: pcm, frames: 3 * model_frame_rate } };
+      yield { keyframe: { id: 'a', frame: 40, pose: pose(skeleton, { head: [0, 0.5, 0] }, { z: 0.2 }) } };
+      yield { keyframes_complete: {} };
+      for await (const piece of live(clicks(3), 100)) {
+        // The last piece waits for the first frames.
+        if (piece.audio.first_sample > 2 * 22050) while (cameBefore === 0) await sleep(5);
+        yield piece;
+      }
+      musicIsOver = true;
+      yield { end_of_audio: {} };
+    }
+    const answers = [];
+    for await (const answer of client.streamDance(requests())) {
+      answers.push(answer);
+      if (answer.frames && !musicIsOver) cameBefore += answer.frames.count;
+    }
+    assert.ok(cameBefore > 0);
+    assert.equal(answers[0].response, 'header');
+    assert.equal(answers[0].header.seed, '7');
+    let frame = 0;
+    for (const { first_frame, count, rotations } of framesOf(answers)) {
+      assert.equal(Number(first_frame), frame);
+      assert.equal(rotations.length, count * 3 * skeleton.joint_names.length);
+      frame += count;
+    }
+    assert.equal(frame, 90);
+    const reached = answers.find((answer) => answer.event?.keyframe_reached);
+    assert.equal(reached.event.frame, '40');
+    assert.ok(reached.event.keyframe_reached.errors.final_error_m <= 1e-3);
+    assert.equal(answers.at(-1).response, 'summary');
+  });
+});
+
+test('a dance goes on from its continuation, bit for bit, whatever its seed', async () => {
+  await withClient(async (client, { skeleton }) => {
+    const keys = [20, 40].map((frame) => ({ keyframe: { id: `at ${frame}`, frame, pose: pose(skeleton, { head: [0, frame / 100, 0] }) } }));
+    const whole = await collect(client.streamDance([{ config: { seed: '18446744073709551615' } }, ...keys]));
+    const { continuation } = whole.find((answer) => answer.continuation);
+    const rest = await collect(client.streamDance([{ config: { continuation } }, ...keys]));
+    assert.ok(rest.some((answer) => answer.event?.keyframe_rejected?.id === 'at 20'));
+    const numbers = (answers) => framesOf(answers).flatMap(({ rotations }) => rotations);
+    const end = numbers(rest);
+    assert.ok(end.length > 0);
+    assert.deepEqual(end, numbers(whole).slice(-end.length));
+  });
+});
+
+test('errors name code, field and value', async () => {
+  await withClient(async (client, { skeleton }) => {
+    const bad = pose(skeleton);
+    bad.rotations[0] = 1000;
+    const dance = collect(client.streamDance([{ config: {} }, { keyframe: { id: 'a', frame: 9, pose: bad } }]));
+    await assert.rejects(dance, (error) => {
+      assert.ok(error instanceof ChoreoError);
+      assert.equal(error.code, 'INVALID_ARGUMENT');
+      assert.equal(error.violations[0].field, 'keyframes[0].rotations[0]');
+      assert.match(error.violations[0].description, /1000/);
+      return true;
+    });
+    const unknown = collect(client.generateTransition({ config: { model: 'nobody' }, frames: 9 }));
+    await assert.rejects(unknown, { code: 'NOT_FOUND', message: /nobody/ });
+  });
+});
+
+test('a mistake in the requests ends the call with that mistake', async () => {
+  await withClient(async (client) => {
+    async function* requests() {
+      yield { config: { audio_format: pcm } };
+      throw new Error('the microphone is gone');
+    }
+    await assert.rejects(collect(client.streamDance(requests())), /the microphone is gone/);
+  });
+});
+
+test('an aborted call ends here and on the server', async () => {
+  await withClient(async (client) => {
+    const stop = new AbortController();
+    const read = async () => {
+      for await (const answer of client.streamDance(endless(), { signal: stop.signal })) if (answer.frames) stop.abort();
+    };
+    await assert.rejects(read(), { code: 'CANCELLED' });
+    // So does one that is no longer read.
+    for await (const answer of client.streamDance(endless())) if (answer.frames) break;
+    while ((await client.info()).active_streams > 0) await sleep(5);
+  });
+});
+
+test('a deadline ends a call', async () => {
+  await withClient(async (client) => {
+    const dance = collect(client.streamDance(endless(), { deadline: new Date(Date.now() + 100) }));
+    await assert.rejects(dance, { code: 'DEADLINE_EXCEEDED' });
+  });
+});
+
+test('stream_dance.js dances live and to a song', async () => {
+  const scratch = await mkdtemp(join(tmpdir(), 'choreo-'));
+  try {
+    const out = join(scratch, 'dance.json');
+    const live = await program('stream_dance.js', '--seconds', '3', '--speed', '50', '--out', out);
+    assert.equal(live.code, 0, live.err);
+    assert.match(live.out, /arms up: reached to 0\.\d+ mm/);
+    assert.match(live.out, /90 frames/);
+    assert.match(live.err, /3\.0 s of 3 s/);
+    const dance = JSON.parse(await readFile(out));
+    assert.equal(dance.root_positions.length, 3 * 90);
+
+    const song = join(scratch, 'song.wav');
+    await writeFile(song, wav(clicks(2)));
+    const recorded = await program('stream_dance.js', '--seconds', '2', '--song', song);
+    assert.equal(recorded.code, 0, recorded.err);
+    assert.match(recorded.out, /60 frames/);
+  } finally {
+    await rm(scratch, { recursive: true });
+  }
+});
+
+test('transition.js ranks candidates, and shows the field of an error', async () => {
+  const good = await program('transition.js', '--frames', '20', '--candidates', '4');
+  assert.equal(good.code, 0, good.err);
+  assert.equal(good.out.match(/candidate \d: 20 frames/g).length, 4);
+  const bad = await program('transition.js', '--frames', '5000');
+  assert.equal(bad.code, 1);
+  assert.match(bad.err, /INVALID_ARGUMENT: frames: 5000/);
+  assert.match(bad.err, /field: frames/);
+});
+
+function wav(samples) {
+  const head = Buffer.alloc(44);
+  head.write('RIFF', 0);
+  head.writeUInt32LE(36 + samples.length, 4);
+  head.write('WAVEfmt ', 8);
+  head.writeUInt32LE(16, 16);
+  head.writeUInt16LE(1, 20); // PCM
+  head.writeUInt16LE(1, 22); // channels
+  head.writeUInt32LE(22050, 24);
+  head.writeUInt32LE(2 * 22050, 28);
+  head.writeUInt16LE(2, 32);
+  head.writeUInt16LE(16, 34);
+  head.write('data', 36);
+  head.writeUInt32LE(samples.length, 40);
+  return Buffer.concat([head, samples]);
+}

@@ -1,0 +1,108 @@
+#!/usr/bin/python3
+"""examples/python against a real choreod, which $CHOREO_SERVER names."""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import wave
+
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / "examples" / "python"
+SERVER = os.environ["CHOREO_SERVER"]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(FOLDER))
+
+try:
+    import grpc
+except ImportError:
+    print("skipped: there is no grpcio here (scripts/install_packages.sh test)")
+    sys.exit(77)
+
+from choreo_client import choreography, connect, field_violations, pose
+from music import PCM, RATE, clicks
+
+
+def program(name, *flags):
+    command = [sys.executable, "-B", str(FOLDER / name), "--server", SERVER, *map(str, flags)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def silence():
+    """A dance to silence that goes on until somebody ends it."""
+    yield choreography.StreamDanceRequest(config=choreography.DanceConfig(audio_format=PCM))
+    yield choreography.StreamDanceRequest(keyframes_complete=choreography.KeyframesComplete())
+    first_sample = 0
+    while True:
+        time.sleep(0.005)
+        yield choreography.StreamDanceRequest(audio=choreography.Audio(data=bytes(2 * 735), first_sample=first_sample))
+        first_sample += 735
+
+
+class PythonTest(unittest.TestCase):
+    def setUp(self):
+        self.server = connect(SERVER)
+
+    def info(self):
+        return self.server.GetServerInfo(choreography.GetServerInfoRequest())
+
+    def test_stream_dance_dances_live(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "dance.json")
+            done = program("stream_dance.py", "--seconds", 3, "--speed", 50, "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"arms up: reached to 0\.\d+ mm")
+            self.assertIn("90 frames", done.stdout)
+            self.assertIn("3.0 s of 3.0 s", done.stderr)
+            self.assertEqual(len(json.loads(out.read_text())["root_positions"]), 3 * 90)
+
+    def test_stream_dance_dances_to_a_song(self):
+        with tempfile.TemporaryDirectory() as folder:
+            song = str(pathlib.Path(folder, "song.wav"))
+            with wave.open(song, "wb") as file:
+                file.setnchannels(1)
+                file.setsampwidth(2)
+                file.setframerate(RATE)
+                file.writeframes(clicks(2))
+            done = program("stream_dance.py", "--seconds", 2, "--song", song)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("60 frames", done.stdout)
+
+    def test_transition_ranks_candidates_and_shows_the_field_of_an_error(self):
+        good = program("transition.py", "--frames", 20, "--candidates", 4)
+        self.assertEqual(good.returncode, 0, good.stderr)
+        self.assertEqual(len(re.findall(r"candidate \d: 20 frames", good.stdout)), 4)
+        bad = program("transition.py", "--frames", 5000)
+        self.assertEqual(bad.returncode, 1)
+        self.assertIn("INVALID_ARGUMENT: frames: 5000", bad.stderr)
+        self.assertIn("field: frames", bad.stderr)
+
+    def test_errors_name_field_and_value(self):
+        bad = pose(self.info().models[0].skeleton, {"pelvis": [1000, 0, 0]})
+        requests = [
+            choreography.StreamDanceRequest(config=choreography.DanceConfig()),
+            choreography.StreamDanceRequest(keyframe=choreography.Keyframe(id="a", frame=9, pose=bad)),
+        ]
+        with self.assertRaises(grpc.RpcError) as raised:
+            list(self.server.StreamDance(iter(requests)))
+        self.assertEqual(raised.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
+        ((field, description),) = field_violations(raised.exception)
+        self.assertEqual(field, "keyframes[0].rotations[0]")
+        self.assertIn("1000", description)
+
+    def test_a_cancelled_call_ends_here_and_on_the_server(self):
+        call = self.server.StreamDance(silence())
+        with self.assertRaises(grpc.RpcError) as raised:
+            for answer in call:
+                if answer.HasField("frames"):
+                    call.cancel()
+        self.assertEqual(raised.exception.code(), grpc.StatusCode.CANCELLED)
+        while self.info().active_streams > 0:
+            time.sleep(0.005)
+
+
+unittest.main()

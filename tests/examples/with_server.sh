@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Runs a command with $CHOREO_SERVER naming a choreod of its own, which ends with it.
+#   with_server.sh CHOREOD COMMAND...
+set -euo pipefail
+exec 3< <(exec "$1")
+server=$!
+trap 'kill "$server"; wait "$server" || true' EXIT
+read -r line <&3 # "choreod listens on HOST:PORT"
+export CHOREO_SERVER=${line##* }
+"${@:2}"
