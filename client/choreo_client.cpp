@@ -19,7 +19,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
     grpc::ClientContext context;
     if (patience.deadline()) context.set_deadline(*patience.deadline());
     const Replicas::Server server = replicas->current();
-    const grpc::Status status = call(*server.stub, &context);
+    const grpc::Status status = call(server, &context);
     if (status.ok()) return;
     const auto wait = patience.Next(status, replicas->Leave(server));
     if (!wait) {
@@ -199,10 +199,18 @@ Client& Client::operator=(Client&&) noexcept = default;
 
 ServerDescription Client::GetServerInfo() const {
   v1::GetServerInfoResponse response;
-  CallWithRetries(impl_->replicas.get(), [&](auto& stub, grpc::ClientContext* context) {
-    return stub.GetServerInfo(context, {}, &response);
+  CallWithRetries(impl_->replicas.get(), [&](const auto& server, grpc::ClientContext* context) {
+    return server.stub->GetServerInfo(context, {}, &response);
   });
   return FromProto(response);
+}
+
+bool Client::IsServing() const {
+  grpc::health::v1::HealthCheckResponse response;
+  CallWithRetries(impl_->replicas.get(), [&](const auto& server, grpc::ClientContext* context) {
+    return server.health->Check(context, {}, &response);
+  });
+  return response.status() == grpc::health::v1::HealthCheckResponse::SERVING;
 }
 
 std::unique_ptr<RemoteDance> Client::StartDance(const DanceConfig& config) const {
@@ -233,9 +241,9 @@ TransitionResult Client::GenerateTransition(const TransitionRequest& request) co
   const v1::GenerateTransitionRequest message = MakeRequest(request);
   TransitionResult result;
   CallWithRetries(impl_->replicas.get(),
-                  [&](auto& stub, grpc::ClientContext* context) -> grpc::Status {
+                  [&](const auto& server, grpc::ClientContext* context) -> grpc::Status {
                     TransitionCollector collector;
-                    const auto reader = stub.GenerateTransition(context, message);
+                    const auto reader = server.stub->GenerateTransition(context, message);
                     v1::GenerateTransitionResponse response;
                     while (reader->Read(&response)) collector.Take(response);
                     grpc::Status status = reader->Finish();

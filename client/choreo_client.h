@@ -313,6 +313,8 @@ class Client {
   Client& operator=(Client&&) noexcept;
 
   ServerDescription GetServerInfo() const;
+  /// What the server says of its health: false while it drains.
+  bool IsServing() const;
 
   /// Begins a dance that is steered while it goes on.
   std::unique_ptr<RemoteDance> StartDance(const DanceConfig& config) const;

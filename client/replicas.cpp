@@ -52,8 +52,9 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
   for (const std::string& address : options_.addresses) {
     if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
-    servers_.push_back({address, v1::Choreography::NewStub(
-                                     grpc::CreateCustomChannel(address, credentials, arguments))});
+    const auto channel = grpc::CreateCustomChannel(address, credentials, arguments);
+    servers_.push_back(
+        {address, v1::Choreography::NewStub(channel), grpc::health::v1::Health::NewStub(channel)});
   }
 }
 

@@ -11,6 +11,7 @@
 #include "choreo/v1/choreography.grpc.pb.h"
 #include "client/choreo_client.h"
 #include "client/status.h"
+#include "grpc/health/v1/health.grpc.pb.h"
 
 namespace choreo::client {
 
@@ -20,6 +21,7 @@ class Replicas {
   struct Server {
     std::string address;
     std::shared_ptr<v1::Choreography::Stub> stub;
+    std::shared_ptr<grpc::health::v1::Health::Stub> health;
   };
 
   /// Throws Error(kInvalidArgument) for options that cannot be used.

@@ -1,9 +1,9 @@
 # What a stranger gets: the programs, the shipped model, and the client library as a CMake package (find_package(choreo), target
-# choreo::client). examples/client uses it; scripts/verify.sh tries it.
+# choreo::client). examples/client uses it; scripts/verify.sh tries it. The component `programs` is what a server needs (docker/).
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/choreo)
-install(TARGETS choreo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS choreo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 install(TARGETS choreo_client choreo_motion choreo_proto EXPORT choreoTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo)
@@ -11,7 +11,7 @@ install(FILES client/choreo_client.h client/edit.h DESTINATION ${CMAKE_INSTALL_I
 install(FILES model/core/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/core)
 install(DIRECTORY model/motion DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY proto/choreo DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo/proto FILES_MATCHING PATTERN "*.proto")
-install(DIRECTORY model/checkpoints DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo)
+install(DIRECTORY model/checkpoints DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo COMPONENT programs)
 install(EXPORT choreoTargets NAMESPACE choreo:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/choreoConfig.cmake.in ${CMAKE_BINARY_DIR}/choreoConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/choreoConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is too long for `make test`: a stranger's program that uses the installed client, and the tests under sanitizers.
+# What is too long for `make test`: a stranger's program that uses the installed client, the container, and the tests under sanitizers.
 #   scripts/verify.sh BUILD_DIRECTORY
 set -euo pipefail
 build=$1
@@ -18,6 +18,9 @@ if "$scratch/consumer/first_dance" 127.0.0.1:1 2>"$scratch/said"; then
   exit 1
 fi
 grep -q "127.0.0.1:1" "$scratch/said"
+
+echo "== The container builds and dances"
+"$root/scripts/verify_container.sh" "$build"
 
 for preset in asan tsan; do
   echo "== Tests under $preset"

@@ -11,6 +11,7 @@ void AddTransitionCommand(CLI::App& program);
 void AddEditCommand(CLI::App& program);
 void AddAnalyzeCommand(CLI::App& program);
 void AddInfoCommand(CLI::App& program);
+void AddHealthCommand(CLI::App& program);
 void AddConvertCommand(CLI::App& program);
 void AddRenderCommand(CLI::App& program);
 

@@ -18,17 +18,21 @@ void ServerOptions::AddTo(CLI::App& command) {
       ->capture_default_str();
 }
 
+client::Options ServerOptions::ForClient() const {
+  client::Options options;
+  if (!addresses.empty()) options.addresses = addresses;
+  options.tls = tls;
+  options.ca_certificate = ca_certificate;
+  options.deadline_s = deadline_s;
+  options.allow_inexact_resume = allow_inexact_resume;
+  return options;
+}
+
 Connection::Connection(const ServerOptions& options) {
-  client::Options client_options;
-  client_options.tls = options.tls;
-  client_options.ca_certificate = options.ca_certificate;
-  client_options.deadline_s = options.deadline_s;
-  client_options.allow_inexact_resume = options.allow_inexact_resume;
+  client::Options client_options = options.ForClient();
   if (options.addresses.empty()) {
     own_ = std::make_unique<LocalServer>();
     client_options.addresses = {own_->address()};
-  } else {
-    client_options.addresses = options.addresses;
   }
   client_ = std::make_unique<client::Client>(client_options);
   server_ = client_->GetServerInfo();

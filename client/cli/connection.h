@@ -19,6 +19,8 @@ struct ServerOptions {
   bool allow_inexact_resume = false;
 
   void AddTo(CLI::App& command);
+  /// Addresses that were not named are the client's own default.
+  client::Options ForClient() const;
 };
 
 /// The server that was named, or else one of our own for as long as this lives.

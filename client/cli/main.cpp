@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   choreo::cli::AddEditCommand(program);
   choreo::cli::AddAnalyzeCommand(program);
   choreo::cli::AddInfoCommand(program);
+  choreo::cli::AddHealthCommand(program);
   choreo::cli::AddConvertCommand(program);
   choreo::cli::AddRenderCommand(program);
   try {

@@ -158,7 +158,7 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("dance").code, 2);
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
   for (const char* command :
-       {"", "dance", "transition", "edit", "analyze", "info", "convert", "render"}) {
+       {"", "dance", "transition", "edit", "analyze", "info", "health", "convert", "render"}) {
     const Outcome outcome = Choreo(std::string(command) + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << command;

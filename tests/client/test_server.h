@@ -31,8 +31,9 @@ class TestServer {
   const std::string& address() const { return address_; }
   int calls() const { return server_->calls(); }
   int transitions() const { return server_->transitions(); }
+  void Drain(double seconds) { server_->Drain(seconds); }
   /// At once, with all its calls.
-  void Die() { server_->Drain(0); }
+  void Die() { Drain(0); }
 
  private:
   std::unique_ptr<Server> server_;

@@ -1,0 +1,34 @@
+#include <iostream>
+#include <memory>
+
+#include "client/cli/commands.h"
+#include "client/cli/connection.h"
+
+namespace choreo::cli {
+namespace {
+
+/// Fails unless the server serves: for those who start, watch and replace servers.
+void Run(const ServerOptions& server) {
+  client::Options options = server.ForClient();
+  options.max_retries = 0;
+  if (!client::Client(options).IsServing()) {
+    throw Error(ErrorCode::kUnavailable, options.addresses.front(), "does not serve, or no more");
+  }
+  std::cout << "serving" << std::endl;
+}
+
+}  // namespace
+
+void AddHealthCommand(CLI::App& program) {
+  auto options = std::make_shared<ServerOptions>();
+  options->deadline_s = 3;
+  CLI::App* command =
+      program.add_subcommand("health", "Ask a server once whether it serves; fail if it does not.");
+  options->AddTo(*command);
+  command->get_option("--server")
+      ->description("HOST:PORT of the choreod; default: " + client::Options().addresses.front() +
+                    ".");
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,35 @@
+#include <thread>
+
+#include "client/choreo_client.h"
+#include "tests/client/command_fixture.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+using HealthTest = CommandTest;
+
+TEST_F(HealthTest, ServesUntilItDrains) {
+  const client::Client client({.addresses = {server_.address()}, .max_retries = 0});
+  EXPECT_TRUE(client.IsServing());
+  const Outcome healthy = Choreo("health" + Server());
+  EXPECT_EQ(healthy.code, 0) << healthy.said;
+  EXPECT_EQ(healthy.said, "serving\n");
+
+  // A dance that waits for its keys keeps the server from leaving.
+  const auto dance = client.StartDance({.frames = 30});
+  ASSERT_TRUE(dance->Next());
+  std::thread drain([&] { server_.Drain(300); });
+  while (client.IsServing()) std::this_thread::yield();
+  const Outcome draining = Choreo("health" + Server());
+  EXPECT_EQ(draining.code, 1);
+  EXPECT_THAT(draining.said, testing::HasSubstr(server_.address() + ": does not serve"));
+  dance->Cancel();
+  drain.join();
+
+  ExpectError(ErrorCode::kUnavailable, server_.address(), [&] { client.IsServing(); });
+  EXPECT_EQ(Choreo("health" + Server()).code, 1);
+}
+
+}  // namespace
+}  // namespace choreo
