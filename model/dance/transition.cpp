@@ -99,11 +99,14 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.candidate = request.candidate;
   spec_.first_frame = request.first_frame;
   spec_.temperature = request.temperature;
-  if (!request.target) return;
-
-  spec_.target = Target{Near(ground_.ToLocal(request.target->pose), spec_.history.back()),
-                        request.target->mask};
-  if (request.arrival.frames <= 0) return;
+  if (request.target) {
+    spec_.target = Target{Near(ground_.ToLocal(request.target->pose), spec_.history.back()),
+                          request.target->mask};
+  }
+  if (request.foot_lock && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
+    foot_lock_.emplace(model.skeleton, model.fps, request.frames, spec_.history, spec_.target);
+  }
+  if (!request.target || request.arrival.frames <= 0) return;
   arrival_window_ = std::min(request.arrival.frames, request.frames);
   const size_t known = std::min<size_t>(2, spec_.history.size());
   std::optional<Pose> after;
@@ -135,6 +138,7 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
     correction_m_ = std::max(correction_m_,
                              ComparePoses(model_->skeleton, raw.pose, emitted_, mask).position_m);
   }
+  if (foot_lock_) emitted_ = foot_lock_->Apply(emitted_);
   world_ = RoundToFloat(Near(ground_.ToWorld(emitted_), world_));
   ++done_;
   if (done_ == spec_.frames && spec_.target) {
@@ -143,7 +147,7 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
         ArrivalResult{ComparePoses(model_->skeleton, raw.pose, spec_.target->pose, mask).position_m,
                       final.position_m, final.angle_deg, correction_m_};
   }
-  return {world_, raw.contacts, raw.log_likelihood};
+  return {world_, foot_lock_ ? foot_lock_->contacts() : raw.contacts, raw.log_likelihood};
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/dance/arrival.h"
+#include "model/dance/foot_lock.h"
 #include "model/engine/step_engine.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
@@ -35,14 +36,16 @@ struct TransitionRequest {
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute
   float temperature = 0.3F;
-  Arrival::Options arrival;  ///< frames = 0 measures the model alone
+  /// To measure the model alone: arrival.frames = 0, foot_lock = false.
+  Arrival::Options arrival;
+  bool foot_lock = true;
 };
 
 /// One finished frame.
 struct DanceFrame {
   Pose pose;  ///< world; every number is a float's, as it is sent, and the chain goes on from these
   std::array<float, 4> contacts =
-      {};  ///< as the model has them: left ankle, left toes, right ankle, right toes
+      {};  ///< left ankle, left toes, right ankle, right toes; the model's own without foot lock
   float log_likelihood = 0;  ///< nats
 };
 
@@ -109,6 +112,7 @@ class TransitionRun {
   std::optional<WorldTarget> world_target_;
   GroundFrame ground_;
   std::optional<Arrival> arrival_;
+  std::optional<FootLock> foot_lock_;
   int arrival_window_ = 0;
   std::optional<ArrivalResult> arrival_result_;
   double correction_m_ = 0;

@@ -75,6 +75,7 @@ TransitionRow EvaluateTransitions(StepEngine& engine, const std::vector<Prepared
       row.real_skate_ratio += theirs.skate_ratio;
       // Raw means raw: the same noise, nothing steering towards the key.
       request.arrival.frames = 0;
+      request.foot_lock = false;
       RunTransition(engine, request, rows, &arrival);
       raw.push_back(arrival->raw_error_m);
       if (raw.back() > row.raw_key_worst_m) {

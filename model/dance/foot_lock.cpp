@@ -1,0 +1,166 @@
+#include "model/dance/foot_lock.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kStepSeconds = 0.3;
+constexpr double kDrift = 0.12;           // metres the body may leave a planted foot behind
+constexpr double kLowToes = 0.04;         // metres above rest: on the floor
+constexpr double kLiftedToes = 0.07;      // the model has lifted the foot
+constexpr double kStillSpeed = 0.6;       // m/s: a foot that the model moves slower stands
+constexpr double kSameSpot = 0.03;        // metres that need no step of their own
+constexpr double kFarthestReach = 1.02;   // of the leg's length: a toe drawn two centimetres
+constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metres
+constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
+constexpr int kFewestStepFrames = 5;
+
+double SmoothStep(double u) { return u * u * (3 - 2 * u); }
+
+double Apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::hypot(a.x() - b.x(), a.z() - b.z());
+}
+
+// Whether the target says where the toes are.
+bool Fixes(const Target& target, const Leg& leg, const Skeleton& skeleton) {
+  if (!target.mask.root_position) return false;
+  if (target.mask.joints.empty()) return true;
+  for (int joint = leg.ankle; joint >= 0; joint = skeleton.parents[static_cast<size_t>(joint)]) {
+    if (!target.mask.joints[static_cast<size_t>(joint)]) return false;
+  }
+  return true;
+}
+
+int StepFrames(double fps, int transition_frames) {
+  return static_cast<int>(std::min(kStepSeconds * fps, (transition_frames - 2) / 2.0));
+}
+
+}  // namespace
+
+bool FootLock::Fits(const Skeleton& skeleton, double fps, int transition_frames) {
+  return Leg::In(skeleton) && StepFrames(fps, transition_frames) >= kFewestStepFrames;
+}
+
+FootLock::FootLock(const Skeleton& skeleton, double fps, int transition_frames,
+                   const std::vector<Pose>& history, const std::optional<Target>& target)
+    : skeleton_(skeleton),
+      frames_(transition_frames),
+      step_frames_(StepFrames(fps, transition_frames)),
+      still_(kStillSpeed / fps) {
+  const std::array<Leg, 2> legs = Leg::Of(skeleton);
+  for (size_t side = 0; side < 2; ++side) feet_[side].leg = legs[side];
+  const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
+  rest_height_ = std::min(rest(1, feet_[0].leg.toes), rest(1, feet_[1].leg.toes));
+  ankle_height_ = std::min(rest(1, feet_[0].leg.ankle), rest(1, feet_[1].leg.ankle));
+  const Eigen::Matrix3Xd now = JointPositions(skeleton, history.back());
+  const Eigen::Matrix3Xd before =
+      JointPositions(skeleton, history[history.size() - std::min<size_t>(2, history.size())]);
+  for (Foot& foot : feet_) {
+    foot.at = foot.from = foot.raw = now.col(foot.leg.toes);
+    foot.planted = foot.at.y() < rest_height_ + kLowToes &&
+                   Apart(now.col(foot.leg.toes), before.col(foot.leg.toes)) < still_;
+    foot.last_start = frames_;
+  }
+  if (target) PlanLastSteps(*target);
+}
+
+void FootLock::PlanLastSteps(const Target& target) {
+  ends_on_key_ = true;
+  std::array<double, 2> way = {0, 0};
+  const Eigen::Matrix3Xd key = JointPositions(skeleton_, target.pose);
+  for (size_t side = 0; side < 2; ++side) {
+    Foot& foot = feet_[side];
+    if (!Fixes(target, foot.leg, skeleton_)) continue;
+    const Eigen::Vector3d toes = key.col(foot.leg.toes);
+    if (toes.y() < rest_height_ + kLiftedToes) foot.landing = toes;
+    way[side] = Apart(toes, foot.at);
+  }
+  // The foot with the longer way steps last, so that the other one carries it.
+  const size_t last = way[0] > way[1] ? 0 : 1;
+  feet_[last].last_start = frames_ - 1 - step_frames_;
+  feet_[1 - last].last_start = frames_ - 1 - 2 * step_frames_;
+}
+
+void FootLock::Lift(Foot* foot, int duration) {
+  foot->planted = false;
+  foot->from = foot->at;
+  foot->start = next_;
+  foot->duration = duration;
+}
+
+bool FootLock::WantsToStep(const Foot& foot, const Eigen::Vector3d& raw, double reach) const {
+  if (reach > kFarthestReach || raw.y() > rest_height_ + kLiftedToes) return true;
+  const Foot& other = &foot == feet_.data() ? feet_[1] : feet_[0];
+  const bool in_time = next_ + step_frames_ < foot.last_start;
+  return other.planted && in_time && Apart(raw, foot.at) > kDrift;
+}
+
+// Where a foot in the air is: on its way from where it left to where the model has it, or to where
+// it lands; higher the farther it goes.
+Eigen::Vector3d FootLock::Move(Foot* foot, const Eigen::Vector3d& raw) {
+  const double u =
+      std::min(1.0, static_cast<double>(next_ - foot->start + 1) / std::max(1, foot->duration));
+  const Eigen::Vector3d goal = foot->last_step && foot->landing ? *foot->landing : raw;
+  Eigen::Vector3d at = foot->from + SmoothStep(u) * (goal - foot->from);
+  const double arc = std::min(kHighestArc, kArc + kArcPerMetre * Apart(goal, foot->from));
+  const double model_lift = std::max(0.0, raw.y() - rest_height_ - kLowToes);
+  if (foot->duration > 0) at.y() += std::max(0.0, arc - model_lift) * 4 * u * (1 - u);
+  if (!(foot->last_step && foot->landing)) at.y() = std::max(at.y(), rest_height_);
+  // A step comes down where the floor is; a foot that the model moves by itself stands once it is
+  // slow. A key that has the foot in the air, or leaves it open, takes it from the model's hand.
+  const bool low = goal.y() < rest_height_ + (foot->landing ? kLiftedToes : kLowToes);
+  const bool comes_down = foot->duration > 0 || Apart(raw, foot->raw) < still_;
+  foot->planted = u == 1 && low && comes_down && (!foot->last_step || foot->landing);
+  return at;
+}
+
+// A planted foot stays, settles onto the floor, and at the end shifts the little that the key asks.
+Eigen::Vector3d FootLock::Stand(const Foot& foot) const {
+  Eigen::Vector3d at = foot.at;
+  const int left = frames_ - next_;  // this frame included
+  if (foot.landing && left <= step_frames_) {
+    return at + (*foot.landing - at) / left;
+  }
+  at.y() = rest_height_ + kSettle * (at.y() - rest_height_);
+  return at;
+}
+
+Pose FootLock::Apply(const Pose& steered) {
+  ForwardKinematics(skeleton_, steered, placement_);
+  Pose emitted = steered;
+  for (size_t side = 0; side < 2; ++side) {
+    Foot& foot = feet_[side];
+    const Eigen::Vector3d raw = placement_.positions.col(foot.leg.toes);
+    if (next_ == foot.last_start) {
+      // A foot that is there already stays; any other takes its last step now.
+      const bool there = foot.planted && foot.landing && Apart(*foot.landing, foot.at) < kSameSpot;
+      if (!there) {
+        Lift(&foot, step_frames_);
+        foot.last_step = true;
+      }
+    } else if (foot.planted && next_ < foot.last_start &&
+               WantsToStep(foot, raw, Reach(foot.leg, placement_, foot.at))) {
+      Lift(&foot, step_frames_);
+    }
+    foot.at = foot.planted ? Stand(foot) : Move(&foot, raw);
+    foot.raw = raw;
+    // On the key itself the steered pose is the key: nothing may touch it.
+    if (ends_on_key_ && next_ == frames_ - 1) {
+      foot.at = raw;
+    } else if ((foot.at - raw).norm() > 0) {
+      PlaceToes(foot.leg, skeleton_, placement_, foot.at, &emitted);
+    }
+    // The foot keeps its turn, so its ankle moves with its toes.
+    const double ankle = placement_.positions(1, foot.leg.ankle) + foot.at.y() - raw.y();
+    contacts_[2 * side] = foot.planted && ankle < ankle_height_ + kLowToes ? 1.0F : 0.0F;
+    contacts_[2 * side + 1] = foot.planted ? 1.0F : 0.0F;
+  }
+  ++next_;
+  return emitted;
+}
+
+}  // namespace choreo

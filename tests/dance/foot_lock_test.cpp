@@ -1,0 +1,135 @@
+#include "model/dance/foot_lock.h"
+
+#include <gtest/gtest.h>
+
+#include "model/dance/quality_report.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/resample.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kFps = 30;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+// Standing with soft knees, `x` metres to the side.
+Pose At(double x) {
+  Pose pose = RestPose(Body());
+  for (const Leg& leg : Leg::Of(Body())) {
+    pose.rotations.col(leg.hip).x() = -0.25;
+    pose.rotations.col(leg.knee).x() = 0.5;
+    pose.rotations.col(leg.ankle).x() = -0.25;
+  }
+  pose.root_position += Eigen::Vector3d(x, -0.025, 0);
+  return pose;
+}
+
+std::vector<Pose> Standing() { return std::vector<Pose>(10, At(0)); }
+
+// A model that glides over the floor, both feet down, with `speed` m/s.
+Motion Dance(int frames, double speed, const std::optional<Target>& target) {
+  FootLock lock(Body(), kFps, frames, Standing(), target);
+  Motion motion{.fps = kFps, .frames = {At(0)}};
+  for (int t = 0; t < frames; ++t) {
+    motion.frames.push_back(lock.Apply(At(speed * (t + 1) / kFps)));
+  }
+  return motion;
+}
+
+TEST(FootLock, AGlidingBodySteps) {
+  const int frames = 90;
+  const double speed = 0.4;
+  const Target key{At(speed * frames / kFps), {}};
+  Motion glide{.fps = kFps, .frames = {At(0)}};
+  for (int t = 1; t <= frames; ++t) glide.frames.push_back(At(speed * t / kFps));
+  EXPECT_GT(MeasureMotion(Body(), glide).skate_ratio, 0.9);
+
+  const Motion dance = Dance(frames, speed, key);
+  const QualityReport report = MeasureMotion(Body(), dance);
+  EXPECT_LT(report.skate_ratio, 0.12);
+  EXPECT_LT(report.max_acceleration, 65);  // real dances' 95th percentile
+  // Everything but the legs is the model's.
+  for (size_t t = 0; t < dance.frames.size(); ++t) {
+    EXPECT_EQ(dance.frames[t].root_position, glide.frames[t].root_position);
+    EXPECT_EQ(dance.frames[t].rotations.rightCols(12), glide.frames[t].rotations.rightCols(12));
+  }
+}
+
+TEST(FootLock, OneFootCarriesTheOther) {
+  const int frames = 90;
+  FootLock lock(Body(), kFps, frames, Standing(), std::nullopt);
+  int steps = 0;
+  bool was_up = false;
+  for (int t = 0; t < frames; ++t) {
+    lock.Apply(At(0.25 * (t + 1) / kFps));
+    const bool up = lock.contacts()[1] == 0 || lock.contacts()[3] == 0;
+    EXPECT_TRUE(lock.contacts()[1] == 1 || lock.contacts()[3] == 1) << "frame " << t;
+    steps += up && !was_up ? 1 : 0;
+    was_up = up;
+  }
+  EXPECT_GE(steps, 3);  // 75 cm
+}
+
+TEST(FootLock, TheKeyIsUntouchedAndItsFeetStandBeforeIt) {
+  for (const int frames : {14, 30, 60}) {
+    const Target key{At(0.3), {}};
+    const Motion dance = Dance(frames, 0.3 * kFps / frames, key);
+    EXPECT_EQ(dance.frames.back().rotations, key.pose.rotations);
+    const Eigen::Matrix3Xd end = JointPositions(Body(), dance.frames.back());
+    const Eigen::Matrix3Xd before = JointPositions(Body(), dance.frames[dance.frames.size() - 2]);
+    for (const Leg& leg : Leg::Of(Body())) {
+      EXPECT_LT((end.col(leg.toes) - before.col(leg.toes)).norm(), 0.01) << frames;
+    }
+  }
+}
+
+TEST(FootLock, WhoStandsIsNotTouched) {
+  const Target key{At(0), {}};
+  const Motion dance = Dance(40, 0, key);
+  for (const Pose& pose : dance.frames) {
+    EXPECT_LT(ComparePoses(Body(), pose, At(0)).position_m, 0.03);
+  }
+  EXPECT_EQ(MeasureMotion(Body(), dance).skate_ratio, 0);
+}
+
+TEST(FootLock, AFootThatTheModelLiftsIsTheModels) {
+  const int frames = 60;
+  Pose lifted = At(0);
+  const Leg left = Leg::Of(Body())[0];
+  lifted.rotations.col(left.hip).x() = -1.4;
+  lifted.rotations.col(left.knee).x() = 1.0;
+  FootLock lock(Body(), kFps, frames, Standing(), std::nullopt);
+  Pose emitted;
+  for (int t = 0; t < frames; ++t) {
+    emitted = lock.Apply(InterpolatePoses(At(0), lifted, std::min(1.0, t / 20.0)));
+  }
+  const Eigen::Matrix3Xd ours = JointPositions(Body(), emitted);
+  const Eigen::Matrix3Xd models = JointPositions(Body(), lifted);
+  EXPECT_LT((ours.col(left.toes) - models.col(left.toes)).norm(), 1e-6);
+  EXPECT_EQ(lock.contacts()[1], 0);
+  EXPECT_EQ(lock.contacts()[3], 1);
+}
+
+TEST(FootLock, ToesStayAboveTheFloor) {
+  FootLock lock(Body(), kFps, 60, Standing(), std::nullopt);
+  double lowest = 1;
+  for (int t = 0; t < 60; ++t) {
+    Pose sunk = At(0.01 * t);
+    sunk.root_position.y() -= 0.08;
+    const Eigen::Matrix3Xd now = JointPositions(Body(), lock.Apply(sunk));
+    for (const Leg& leg : Leg::Of(Body())) lowest = std::min(lowest, now(1, leg.toes));
+  }
+  EXPECT_GT(lowest, 0);
+}
+
+TEST(FootLock, NeedsLegsAndTimeToStep) {
+  EXPECT_TRUE(FootLock::Fits(Body(), kFps, 30));
+  EXPECT_FALSE(FootLock::Fits(Body(), kFps, 8));
+  Skeleton legless = Body();
+  legless.left_knee = -1;
+  EXPECT_FALSE(FootLock::Fits(legless, kFps, 30));
+}
+
+}  // namespace
+}  // namespace choreo
