@@ -7,6 +7,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+pkg_check_modules(tinygltf REQUIRED IMPORTED_TARGET tinygltf)
 find_package(Torch 1.13 REQUIRED)
 # Includes of others do not have to pass our warnings. choreo::torch is the one way to LibTorch: at most 15 translation units link it.
 add_library(choreo_torch INTERFACE)

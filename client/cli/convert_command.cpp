@@ -15,6 +15,7 @@ struct ConvertOptions {
 };
 
 void Run(const ConvertOptions& options) {
+  RequireMotionFile(options.out);
   const Skeleton& skeleton = Skeleton::Smpl24();
   Motion motion = ReadMotion(options.in, skeleton);
   if (options.fps > 0) motion = Resample(motion, options.fps);
@@ -28,10 +29,10 @@ void AddConvertCommand(CLI::App& program) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = program.add_subcommand(
       "convert",
-      "Read a motion and write it as another format: .bvh or .npz (SMPL, as AMASS).\n"
-      "A BVH of another skeleton is fitted to SMPL's.");
+      "Read a motion and write it in another format: .npz (SMPL, as AMASS), .bvh or .glb\n"
+      "(glTF, with a body to look at). A BVH or glTF of another skeleton is fitted to SMPL's.");
   command->add_option("in", options->in, "Motion to read.")->required()->check(CLI::ExistingFile);
-  command->add_option("out", options->out, "FILE.npz or FILE.bvh to write.")->required();
+  command->add_option("out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")->required();
   command->add_option("--fps", options->fps, "Resample to this rate; default: as it is.")
       ->check(CLI::PositiveNumber);
   command->callback([options] { Run(*options); });

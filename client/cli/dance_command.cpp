@@ -32,11 +32,8 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
   const std::filesystem::path path =
       options.out.empty() ? std::filesystem::path(options.song).replace_extension(".npz")
                           : std::filesystem::path(options.out);
-  const std::string extension = path.extension().string();
-  if (extension != ".npz" && extension != ".bvh") {
-    throw InvalidArgument("--out", path.string() + " ends neither in .npz nor in .bvh");
-  }
   // Better now than after the dance.
+  RequireMotionFile(path);
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder))
     throw Error(ErrorCode::kNotFound, "--out", "no folder " + folder.string());
@@ -169,7 +166,7 @@ void AddDanceCommand(CLI::App& program) {
   command->add_option("-m,--model", options->model,
                       "Model of the server to dance with; default: its first.");
   command->add_option("-o,--out", options->out,
-                      "FILE.npz or FILE.bvh to write; default: beside the song.");
+                      "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song.");
   command->add_option("--report", options->report, "JSON file to write the report to.");
   command->add_flag(
       "--allow-inexact-resume", options->server.allow_inexact_resume,

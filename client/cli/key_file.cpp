@@ -195,8 +195,7 @@ std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleto
     return ReadMotionKeys(source.substr(0, at), std::string_view(source).substr(at + 1), source,
                           skeleton);
   }
-  const std::string extension = std::filesystem::path(source).extension().string();
-  if (extension == ".bvh" || extension == ".npz") {
+  if (IsMotionFile(source)) {
     throw InvalidArgument(source,
                           "is a motion: say which poses of it, as in " + source + "@1.2,3.4");
   }

@@ -43,7 +43,7 @@ void Run(RenderOptions options) {
 void AddRenderCommand(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Draw a motion as a contact sheet.");
-  command->add_option("motion", options->motion, ".npz or .bvh file.")
+  command->add_option("motion", options->motion, ".npz, .bvh or .glb file.")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--out", options->out, "PNG file to write.")->required();

@@ -29,6 +29,7 @@ struct TransitionOptions {
 };
 
 void Run(const TransitionOptions& options) {
+  RequireMotionFile(options.out);
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
 
@@ -88,7 +89,8 @@ void AddTransitionCommand(CLI::App& program) {
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
-  command->add_option("-o,--out", options->out, "FILE.npz or FILE.bvh to write.")->required();
+  command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
+      ->required();
   command->add_option("--report", options->report, "JSON file to write the best one's report to.");
   options->server.AddTo(*command);
   command->callback([options] { Run(*options); });

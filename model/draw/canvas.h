@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "model/draw/colour.h"
+#include "model/body/colour.h"
 #include "model/draw/picture.h"
 
 /// What the pictures of this folder have in common: a cairo surface that frees itself, and text.

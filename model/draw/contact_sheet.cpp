@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <map>
 
+#include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/draw/canvas.h"
-#include "model/draw/figure.h"
 
 namespace choreo {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "model/body/doll.h"
 #include "model/core/error.h"
-#include "model/draw/figure.h"
 
 namespace choreo {
 namespace {
@@ -15,7 +15,6 @@ using Eigen::Vector3f;
 constexpr float kLampSpread = 0.10f;      // radians
 constexpr float kShadowCell = 0.025f;     // metres
 constexpr float kShadowBias = 0.012f;     // metres off the surface: parts overlap at the joints
-constexpr float kBlend = 0.012f;          // metres
 constexpr float kGridHalfWidth = 0.008f;  // metres
 
 Vector3f Linear(const Colour& colour) {
@@ -129,7 +128,8 @@ class Renderer {
  public:
   Renderer(const std::vector<BodyPart>& figure, const View& view, const FrameStyle& style,
            const Picture& picture)
-      : parts_(Bound(figure)),
+      : figure_(figure),
+        parts_(Bound(figure)),
         camera_(view, picture.width, picture.height),
         samples_(style.samples),
         columns_(picture.width * style.samples),
@@ -216,21 +216,9 @@ class Renderer {
     const Vector3f ray = Ray(column, row);
     if (part_[at] >= 0) {
       const Vector3f point = camera_.eye() + distance_[at] * ray;
-      return Body(part_[at], point, SkinNormal(part_[at], point, normal_[at]), ray);
+      return Body(part_[at], point, SkinNormal(figure_, part_[at], point, normal_[at]), ray);
     }
     return Floor(ray);
-  }
-
-  // Parts of one colour are one piece of skin: where they meet, their normals are blended.
-  Vector3f SkinNormal(int index, const Vector3f& point, const Vector3f& own) const {
-    Vector3f sum = own;
-    for (size_t i = 0; i < parts_.size(); ++i) {
-      if (static_cast<int>(i) == index || colours_[i] != colours_[index]) continue;
-      Vector3f normal;
-      const float distance = SurfaceDistance(parts_[i].shape, point, normal);
-      if (distance < 4 * kBlend) sum += std::exp(-std::max(0.0f, distance) / kBlend) * normal;
-    }
-    return sum.normalized();
   }
 
   Vector3f Body(int index, const Vector3f& point, const Vector3f& normal,
@@ -274,6 +262,7 @@ class Renderer {
     return (1 - fade) * shade * floor_ + fade * background_;
   }
 
+  const std::vector<BodyPart>& figure_;
   std::vector<Bounded> parts_;
   std::vector<Vector3f> colours_;
   Camera camera_;
@@ -299,7 +288,8 @@ void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
   if (!pose.root_position.allFinite() || !pose.rotations.allFinite()) {
     throw InvalidArgument("pose", "holds values that are not finite");
   }
-  Renderer(BuildFigure(skeleton, pose), view, style, picture).Render(picture);
+  const std::vector<BodyPart> figure = BuildFigure(skeleton, pose);
+  Renderer(figure, view, style, picture).Render(picture);
 }
 
 }  // namespace choreo

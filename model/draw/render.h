@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/draw/colour.h"
+#include "model/body/colour.h"
 #include "model/draw/picture.h"
 #include "model/draw/view.h"
 #include "model/motion/motion.h"

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "model/core/error.h"
+#include "model/motion/resample.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -104,14 +105,7 @@ std::vector<BvhJoint> MakeHierarchy(const Skeleton& skeleton, const std::vector<
 
 }  // namespace
 
-double BvhFile::fps() const {
-  const double rate = 1 / frame_time;
-  for (const double exact : {std::round(rate), std::round(rate * 1.001) / 1.001}) {
-    // "0.0333" is as short as frame times get.
-    if (exact > 0 && std::abs(rate / exact - 1) < 2e-4) return exact;
-  }
-  return rate;
-}
+double BvhFile::fps() const { return WholeRate(1 / frame_time); }
 
 std::vector<std::string> BvhFile::JointNames() const {
   std::vector<std::string> names;

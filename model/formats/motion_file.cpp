@@ -3,17 +3,13 @@
 #include "model/core/error.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
+#include "model/formats/gltf.h"
 #include "model/formats/npz.h"
 #include "model/motion/fit.h"
 #include "model/motion/fit_sources.h"
 
 namespace choreo {
 namespace {
-
-Error UnknownExtension(const std::filesystem::path& path) {
-  return InvalidArgument(
-      path.string(), "has the extension '" + path.extension().string() + "', must be .npz or .bvh");
-}
 
 Motion MotionFromBvh(const BvhFile& file, const Skeleton& skeleton) {
   if (IsBvhOf(file, skeleton)) return BvhToMotion(file, skeleton);
@@ -24,25 +20,38 @@ Motion MotionFromBvh(const BvhFile& file, const Skeleton& skeleton) {
 
 }  // namespace
 
+bool IsMotionFile(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".npz" || extension == ".bvh" || extension == ".glb";
+}
+
+void RequireMotionFile(const std::filesystem::path& path) {
+  if (!IsMotionFile(path)) {
+    throw InvalidArgument(path.string(), "has the extension '" + path.extension().string() +
+                                             "', must be .npz, .bvh or .glb");
+  }
+}
+
 Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton) {
+  RequireMotionFile(path);
   const std::string extension = path.extension().string();
   Motion motion;
-  if (extension == ".npz") {
+  if (extension == ".glb") {
+    motion = ReadGlb(path, skeleton);
+  } else if (extension == ".npz") {
     const NpzArchive npz = NpzArchive::Read(path);
     try {
       motion = ReadSmplMotion(npz);
     } catch (const Error& error) {
       throw Error(error.code(), path.string(), error.what());
     }
-  } else if (extension == ".bvh") {
+  } else {
     const BvhFile file = ReadBvh(path);
     try {
       if (file.frames() > 0) motion = MotionFromBvh(file, skeleton);
     } catch (const Error& error) {
       throw Error(error.code(), path.string(), error.what());
     }
-  } else {
-    throw UnknownExtension(path);
   }
   if (motion.frames.empty()) throw InvalidArgument(path.string(), "has no frames");
   if (motion.frames.front().rotations.cols() != skeleton.joints()) {
@@ -55,15 +64,16 @@ Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton) {
 
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts) {
+  RequireMotionFile(path);
   const std::string extension = path.extension().string();
-  if (extension == ".npz") {
+  if (extension == ".glb") {
+    WriteGlb(path, skeleton, motion);
+  } else if (extension == ".npz") {
     NpzArchive npz;
     AddSmplMotion(skeleton, motion, contacts, npz);
     npz.Write(path);
-  } else if (extension == ".bvh") {
-    WriteBvh(path, MotionToBvh(skeleton, motion));
   } else {
-    throw UnknownExtension(path);
+    WriteBvh(path, MotionToBvh(skeleton, motion));
   }
 }
 

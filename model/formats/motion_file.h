@@ -9,15 +9,23 @@
 
 namespace choreo {
 
-/// A motion of our skeleton from a file, by its extension: `.npz` (amass_npz.h) or `.bvh`. A BVH of
-/// another skeleton is fitted to ours (motion/fit.h): sized by its legs, turned into rotations, put
-/// on the floor. At the file's own rate. Throws Error(kInvalidArgument) whose field begins with the
+/// The formats of motion files, by their extension: `.npz` (amass_npz.h), `.bvh` (bvh.h) and `.glb`
+/// (gltf.h).
+bool IsMotionFile(const std::filesystem::path& path);
+
+/// Throws Error(kInvalidArgument) whose field is the path, naming the formats, unless IsMotionFile.
+void RequireMotionFile(const std::filesystem::path& path);
+
+/// A motion of our skeleton from a file. A BVH or glTF of another skeleton is fitted to ours
+/// (motion/fit.h): sized by its legs, turned into rotations, put on the floor. At the file's own
+/// rate. Throws Error(kInvalidArgument) whose field begins with the
 /// path for other extensions, files without frames and what the formats refuse; Error(kNotFound)
 /// where the file cannot be opened.
 Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton);
 
-/// Writes `.npz` or `.bvh`, by the extension. `contacts`, one a frame, go into an npz and are left
-/// out of a BVH. Errors as above, and Error(kInternal) where the file cannot be written.
+/// Writes a file, in the format of its extension. `contacts`, one a frame, go into an npz; the
+/// other formats have no place for them. Errors as above, and Error(kInternal) where the file
+/// cannot be written.
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts = nullptr);
 

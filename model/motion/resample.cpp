@@ -51,4 +51,12 @@ Motion Resample(const Motion& motion, double fps) {
   return result;
 }
 
+double WholeRate(double rate) {
+  for (const double exact : {std::round(rate), std::round(rate * 1.001) / 1.001}) {
+    // "0.0333" is as short as frame times get.
+    if (exact > 0 && std::abs(rate / exact - 1) < 2e-4) return exact;
+  }
+  return rate;
+}
+
 }  // namespace choreo

@@ -20,4 +20,8 @@ Pose PoseAt(const Motion& motion, double time);
 /// to whole turns. Throws Error(kInvalidArgument) for a rate outside the limits.
 Motion Resample(const Motion& motion, double fps);
 
+/// The whole number, or whole number x 1000/1001, that a rate read from a file is a rounding of (2
+/// in 10 000); the rate itself where it is none.
+double WholeRate(double rate);
+
 }  // namespace choreo

@@ -27,14 +27,15 @@ std::string RoomOf(const std::string& path) {
 const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
   static const std::vector<std::pair<std::string, std::set<std::string>>> rooms = [] {
     const std::string core = "model/core", audio = "model/audio", motion = "model/motion",
-                      formats = "model/formats", draw = "model/draw", flow = "model/flow",
-                      engine = "model/engine", dance = "model/dance";
+                      body = "model/body", formats = "model/formats", draw = "model/draw",
+                      flow = "model/flow", engine = "model/engine", dance = "model/dance";
     return std::vector<std::pair<std::string, std::set<std::string>>>{
         {core, {}},
         {audio, {core}},
         {motion, {core}},
-        {formats, {core, motion}},
-        {draw, {core, motion}},
+        {body, {core, motion}},
+        {formats, {core, motion, body}},
+        {draw, {core, motion, body}},
         {flow, {core, motion}},
         {engine, {core, motion, flow}},
         {dance, {core, audio, motion, engine}},

@@ -142,7 +142,7 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
                  "keyframes[0].rotations: is missing");
   expect_failure("dance " + At("song.wav") + Server() + "--model swan", "\"swan\", but fake");
   expect_failure("dance " + At("song.wav") + Server() + "--out x.mp4",
-                 "ends neither in .npz nor in .bvh");
+                 "must be .npz, .bvh or .glb");
   expect_failure("dance " + At("song.wav") + Server() + "--out /absent/x.npz", "no folder /absent");
   expect_failure("dance " + At("song.wav") + Server() + "--temperature 9", "temperature");
   expect_failure("dance " + At("noise.wav") + Server(), "noise.wav");

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "model/draw/figure.h"
+#include "model/body/doll.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"

@@ -17,10 +17,11 @@ namespace {
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
 
-TEST(MotionFile, BothFormatsGiveTheMotionBack) {
+TEST(MotionFile, EveryFormatGivesTheMotionBack) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 21, 30, 30);
-  for (const auto& [name, tolerance_deg] : {std::pair("a.npz", 1e-9), std::pair("a.bvh", 1e-5)}) {
+  for (const auto& [name, tolerance_deg] :
+       {std::pair("a.npz", 1e-9), std::pair("a.bvh", 1e-5), std::pair("a.glb", 1e-4)}) {
     SCOPED_TRACE(name);
     WriteMotion(folder / name, kSmpl, motion);
     const Motion back = ReadMotion(folder / name, kSmpl);
@@ -105,11 +106,12 @@ TEST(MotionFile, KeepsContactsInAnNpz) {
 TEST(MotionFile, RefusesWithThePathInFront) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 24, 2);
-  ExpectError(ErrorCode::kInvalidArgument, "a.fbx: has the extension '.fbx', must be .npz or .bvh",
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.fbx: has the extension '.fbx', must be .npz, .bvh or .glb",
               [&] { ReadMotion(folder / "a.fbx", kSmpl); });
-  ExpectError(ErrorCode::kInvalidArgument, "must be .npz or .bvh",
+  ExpectError(ErrorCode::kInvalidArgument, "must be .npz, .bvh or .glb",
               [&] { WriteMotion(folder / "a", kSmpl, motion); });
-  for (const char* name : {"a.npz", "a.bvh"}) {
+  for (const char* name : {"a.npz", "a.bvh", "a.glb"}) {
     ExpectError(ErrorCode::kNotFound, (folder / name).string(),
                 [&] { ReadMotion(folder / name, kSmpl); });
   }

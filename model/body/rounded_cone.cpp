@@ -1,4 +1,4 @@
-#include "model/draw/rounded_cone.h"
+#include "model/body/rounded_cone.h"
 
 #include <algorithm>
 #include <cmath>

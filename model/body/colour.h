@@ -9,6 +9,7 @@ struct Colour {
   static constexpr Colour Hex(unsigned rgb) {
     return {(rgb >> 16 & 0xff) / 255.0, (rgb >> 8 & 0xff) / 255.0, (rgb & 0xff) / 255.0};
   }
+  bool operator==(const Colour&) const = default;
 };
 
 /// a at t = 0, b at t = 1.

@@ -1,0 +1,147 @@
+#include "model/body/doll.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace choreo {
+namespace {
+
+constexpr Colour kTorso = Colour::Hex(0xe6ddd0);
+constexpr Colour kSkin = Colour::Hex(0xdfb08c);
+constexpr Colour kHair = Colour::Hex(0x4b382e);
+constexpr double kStickRadius = 0.035;
+constexpr float kBlend = 0.012f;  // metres
+
+// A DollBall by its joint's name.
+struct Ball {
+  const char* joint;
+  float x, y, z;
+  float radius;
+};
+
+struct NamedPart {
+  Ball a, b;
+  Colour colour;
+};
+
+// The left half; "left" and x are mirrored for the right one.
+const NamedPart kSide[] = {
+    // Leg: thigh, shin with calf, foot from ankle and heel to the toes.
+    {{"left_hip", 0.012f, -0.02f, 0, 0.088f}, {"left_knee", 0, 0, 0, 0.056f}, kLeftColour},
+    {{"left_knee", 0, 0, 0, 0.056f}, {"left_ankle", 0, 0, 0, 0.038f}, kLeftColour},
+    {{"left_knee", 0, -0.12f, -0.018f, 0.052f}, {"left_ankle", 0, 0.05f, 0, 0.036f}, kLeftColour},
+    {{"left_ankle", 0, -0.005f, 0, 0.040f}, {"left_foot", 0, 0.004f, 0.01f, 0.026f}, kLeftColour},
+    {{"left_ankle", 0, -0.044f, -0.045f, 0.034f}, {"left_foot", 0, 0, 0.02f, 0.026f}, kLeftColour},
+    {{"left_foot", 0, 0, 0, 0.026f}, {"left_foot", 0.006f, -0.002f, 0.065f, 0.018f}, kLeftColour},
+    // Arm: upper arm, forearm, hand, thumb.
+    {{"left_shoulder", 0, 0, 0, 0.056f}, {"left_elbow", 0, 0, 0, 0.040f}, kLeftColour},
+    {{"left_elbow", 0, 0, 0, 0.040f}, {"left_wrist", 0, 0, 0, 0.028f}, kLeftColour},
+    {{"left_wrist", 0.01f, 0, 0, 0.028f}, {"left_hand", 0, 0, 0, 0.031f}, kSkin},
+    {{"left_hand", 0, 0, 0, 0.030f}, {"left_hand", 0.085f, -0.006f, 0, 0.015f}, kSkin},
+    {{"left_wrist", 0.035f, 0, 0.02f, 0.016f},
+     {"left_hand", 0.005f, -0.006f, 0.05f, 0.012f},
+     kSkin},
+    // Half of the trunk: hip, flank, ribs, shoulder, and the slope from the neck.
+    {{"pelvis", 0, -0.03f, -0.012f, 0.105f}, {"pelvis", 0.058f, -0.045f, -0.012f, 0.105f}, kTorso},
+    {{"pelvis", 0.05f, -0.02f, -0.01f, 0.105f}, {"spine2", 0.042f, -0.02f, 0.01f, 0.092f}, kTorso},
+    {{"spine2", 0.042f, -0.02f, 0.01f, 0.092f}, {"spine3", 0.07f, 0.08f, -0.004f, 0.098f}, kTorso},
+    {{"spine3", 0.06f, 0.10f, -0.012f, 0.09f}, {"left_shoulder", -0.01f, 0, 0, 0.060f}, kTorso},
+    {{"neck", 0, -0.02f, 0, 0.060f}, {"left_shoulder", -0.02f, 0.01f, 0, 0.048f}, kTorso},
+};
+
+const NamedPart kMiddle[] = {
+    {{"pelvis", 0, 0, 0.005f, 0.108f}, {"spine2", 0, 0, 0.012f, 0.098f}, kTorso},
+    {{"spine2", 0, 0, 0.012f, 0.098f}, {"spine3", 0, 0.09f, 0.004f, 0.105f}, kTorso},
+    {{"neck", 0, -0.03f, 0, 0.058f}, {"head", 0, 0.01f, -0.012f, 0.052f}, kSkin},
+    {{"head", 0, 0.095f, 0.004f, 0.094f}, {"head", 0, 0.022f, 0.038f, 0.062f}, kSkin},
+    {{"head", 0, 0.045f, 0.106f, 0.015f}, {"head", 0, 0.078f, 0.092f, 0.011f}, kSkin},
+    {{"head", 0, 0.120f, -0.010f, 0.094f}, {"head", 0, 0.055f, -0.030f, 0.080f}, kHair},
+    {{"head", 0, 0.165f, -0.075f, 0.045f}, {"head", 0, 0.170f, -0.090f, 0.042f}, kHair},
+};
+
+Ball Mirrored(const Ball& ball) { return {ball.joint, -ball.x, ball.y, ball.z, ball.radius}; }
+
+std::string RightName(const std::string& name) {
+  return name.starts_with("left_") ? "right_" + name.substr(5) : name;
+}
+
+// False where the skeleton does not have a joint that the doll needs.
+bool AddParts(const Skeleton& skeleton, std::vector<DollPart>& doll) {
+  const auto ball = [&](const Ball& named, const std::string& joint) {
+    return DollBall{skeleton.Find(joint), {named.x, named.y, named.z}, named.radius};
+  };
+  const auto add = [&](const DollBall& a, const DollBall& b, const Colour& colour) {
+    if (a.joint < 0 || b.joint < 0) return false;
+    doll.push_back({a, b, colour});
+    return true;
+  };
+  for (const NamedPart& part : kMiddle) {
+    if (!add(ball(part.a, part.a.joint), ball(part.b, part.b.joint), part.colour)) return false;
+  }
+  for (const NamedPart& part : kSide) {
+    if (!add(ball(part.a, part.a.joint), ball(part.b, part.b.joint), part.colour)) return false;
+    const bool limb = part.colour.r == kLeftColour.r;
+    if (!add(ball(Mirrored(part.a), RightName(part.a.joint)),
+             ball(Mirrored(part.b), RightName(part.b.joint)), limb ? kRightColour : part.colour)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<DollPart> Sticks(const Skeleton& skeleton) {
+  std::vector<DollPart> doll;
+  for (int joint = 1; joint < skeleton.joints(); ++joint) {
+    const std::string& name = skeleton.joint_names[joint];
+    const bool left = name.find("left") != std::string::npos;
+    const bool right = name.find("right") != std::string::npos;
+    doll.push_back({{skeleton.parents[joint], Eigen::Vector3d::Zero(), kStickRadius},
+                    {joint, Eigen::Vector3d::Zero(), kStickRadius},
+                    left    ? kLeftColour
+                    : right ? kRightColour
+                            : kTorso});
+  }
+  return doll;
+}
+
+}  // namespace
+
+std::vector<DollPart> MakeDoll(const Skeleton& skeleton) {
+  std::vector<DollPart> doll;
+  return AddParts(skeleton, doll) ? doll : Sticks(skeleton);
+}
+
+std::vector<BodyPart> PlaceDoll(const std::vector<DollPart>& doll,
+                                const JointPlacement& placement) {
+  const auto place = [&](const DollBall& ball) -> Eigen::Vector3f {
+    return (placement.positions.col(ball.joint) + placement.rotations[ball.joint] * ball.offset)
+        .cast<float>();
+  };
+  std::vector<BodyPart> parts;
+  parts.reserve(doll.size());
+  for (const DollPart& part : doll) {
+    parts.push_back({{place(part.a), place(part.b), static_cast<float>(part.a.radius),
+                      static_cast<float>(part.b.radius)},
+                     part.colour});
+  }
+  return parts;
+}
+
+std::vector<BodyPart> BuildFigure(const Skeleton& skeleton, const Pose& pose) {
+  return PlaceDoll(MakeDoll(skeleton), ForwardKinematics(skeleton, pose));
+}
+
+Eigen::Vector3f SkinNormal(const std::vector<BodyPart>& parts, size_t index,
+                           const Eigen::Vector3f& point, const Eigen::Vector3f& own) {
+  Eigen::Vector3f sum = own;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (i == index || !(parts[i].colour == parts[index].colour)) continue;
+    Eigen::Vector3f normal;
+    const float distance = SurfaceDistance(parts[i].shape, point, normal);
+    if (distance < 4 * kBlend) sum += std::exp(-std::max(0.0f, distance) / kBlend) * normal;
+  }
+  return sum.normalized();
+}
+
+}  // namespace choreo

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/body/colour.h"
+#include "model/body/rounded_cone.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// The body that we show, in pictures and in glTF files: a jointed doll of rounded cones.
+namespace choreo {
+
+/// What tells the two sides of a body apart.
+inline constexpr Colour kLeftColour = Colour::Hex(0xe8663d);
+inline constexpr Colour kRightColour = Colour::Hex(0x2f7fa8);
+
+/// A ball that moves with a joint: `offset` in the joint's frame (at rest x to the left, y up, z
+/// forward) and radius, metres.
+struct DollBall {
+  int joint;
+  Eigen::Vector3d offset;
+  double radius;
+};
+
+/// The hull of two balls.
+struct DollPart {
+  DollBall a, b;
+  Colour colour;
+};
+
+/// A body for a skeleton: left limbs in kLeftColour, right limbs in kRightColour, and a head with a
+/// nose that shows where it looks. A skeleton that lacks joints of SMPL's gets a stick for every
+/// bone instead.
+std::vector<DollPart> MakeDoll(const Skeleton& skeleton);
+
+struct BodyPart {
+  RoundedCone shape;  ///< in the world
+  Colour colour;
+};
+
+/// Where the doll's parts are when its joints are there, in the doll's order.
+std::vector<BodyPart> PlaceDoll(const std::vector<DollPart>& doll, const JointPlacement& placement);
+
+/// The doll of a skeleton in a pose. Throws Error(kInvalidArgument) if the pose's joint count is
+/// not the skeleton's.
+std::vector<BodyPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
+
+/// Parts of one colour are one piece of skin: the normal of the part `index` at `point` on its
+/// surface, which alone would be `own`, blended with those of the parts that it meets there.
+Eigen::Vector3f SkinNormal(const std::vector<BodyPart>& parts, size_t index,
+                           const Eigen::Vector3f& point, const Eigen::Vector3f& own);
+
+}  // namespace choreo

@@ -1,0 +1,120 @@
+#include "model/body/skin.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace choreo {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr int kSegments = 24;      // around a capsule
+constexpr int kRings = 6;          // from each tangent circle to its pole
+constexpr double kOnJoint = 0.06;  // metres: an end nearer than this to its joint stands on it
+
+// The joint that a part's far end moves with.
+int Carrier(const Skeleton& skeleton, const DollPart& part) {
+  const DollBall& end = part.b;
+  return end.joint != part.a.joint && end.offset.norm() < kOnJoint ? skeleton.parents[end.joint]
+                                                                   : end.joint;
+}
+
+// Two unit vectors that make a right-handed frame with `axis`.
+std::pair<Vector3f, Vector3f> Across(const Vector3f& axis) {
+  const Vector3f helper = std::abs(axis.y()) < 0.9f ? Vector3f::UnitY() : Vector3f::UnitX();
+  const Vector3f u = helper.cross(axis).normalized();
+  return {u, axis.cross(u)};
+}
+
+void Emit(SkinPatch& patch, const Vector3f& position, const Vector3f& normal, int joint) {
+  patch.positions.push_back(position);
+  patch.normals.push_back(normal);
+  patch.joints.push_back(static_cast<uint16_t>(joint));
+}
+
+// One capsule: a pole, rings of latitude over both balls, a pole. On the tangent circles both balls
+// and the cone between them share their normal, so no edge shows.
+void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int joint_b) {
+  const Vector3f along = cone.b - cone.a;
+  const float length = along.norm();
+  const float slope = length > 0 ? (cone.radius_a - cone.radius_b) / length : 2;
+  const bool nested = std::abs(slope) >= 1;  // one ball holds the other
+  const Vector3f axis = nested ? Vector3f::UnitY() : (along / length).eval();
+  const auto [u, v] = Across(axis);
+  const auto first = static_cast<uint32_t>(patch.positions.size());
+
+  struct Ring {
+    double latitude;
+    bool at_b;
+  };
+  constexpr double kPole = M_PI / 2;
+  const double tangent = nested ? (slope > 0 ? kPole : -kPole) : std::asin(double{slope});
+  std::vector<Ring> rings;
+  const auto add_rings = [&](double from, double to, bool at_b) {
+    for (int i = 0; i <= kRings; ++i) {
+      const double latitude = from + (to - from) * i / kRings;
+      if (std::abs(latitude) < kPole - 1e-6) rings.push_back({latitude, at_b});
+    }
+  };
+  if (!nested || slope > 0) add_rings(-kPole, tangent, false);
+  if (!nested || slope < 0) add_rings(tangent, kPole, true);
+
+  const auto vertex = [&](const Vector3f& normal, bool at_b) {
+    const Vector3f& centre = at_b ? cone.b : cone.a;
+    Emit(patch, centre + (at_b ? cone.radius_b : cone.radius_a) * normal, normal,
+         at_b ? joint_b : joint_a);
+  };
+  vertex(-axis, rings.front().at_b);
+  for (const Ring& ring : rings) {
+    const auto across = static_cast<float>(std::cos(ring.latitude));
+    const auto up = static_cast<float>(std::sin(ring.latitude));
+    for (int i = 0; i < kSegments; ++i) {
+      const double angle = 2 * M_PI * i / kSegments;
+      const Vector3f radial =
+          static_cast<float>(std::cos(angle)) * u + static_cast<float>(std::sin(angle)) * v;
+      vertex((across * radial + up * axis).normalized(), ring.at_b);
+    }
+  }
+  vertex(axis, rings.back().at_b);
+
+  const auto at = [&](size_t ring, int i) {
+    return first + 1 + static_cast<uint32_t>(ring) * kSegments +
+           static_cast<uint32_t>(i % kSegments);
+  };
+  const auto last = static_cast<uint32_t>(patch.positions.size()) - 1;
+  for (int i = 0; i < kSegments; ++i) {
+    patch.triangles.push_back({first, at(0, i + 1), at(0, i)});
+    for (size_t ring = 0; ring + 1 < rings.size(); ++ring) {
+      patch.triangles.push_back({at(ring, i), at(ring, i + 1), at(ring + 1, i + 1)});
+      patch.triangles.push_back({at(ring, i), at(ring + 1, i + 1), at(ring + 1, i)});
+    }
+    patch.triangles.push_back({at(rings.size() - 1, i), at(rings.size() - 1, i + 1), last});
+  }
+}
+
+}  // namespace
+
+std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
+  const std::vector<DollPart> doll = MakeDoll(skeleton);
+  const std::vector<BodyPart> parts =
+      PlaceDoll(doll, ForwardKinematics(skeleton, RestPose(skeleton)));
+  std::vector<SkinPatch> patches;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    auto patch = std::find_if(patches.begin(), patches.end(),
+                              [&](const SkinPatch& one) { return one.colour == parts[i].colour; });
+    if (patch == patches.end()) {
+      patch = patches.insert(patches.end(), SkinPatch{});
+      patch->colour = parts[i].colour;
+    }
+    const size_t first = patch->positions.size();
+    AddCapsule(*patch, parts[i].shape, doll[i].a.joint, Carrier(skeleton, doll[i]));
+    for (size_t vertex = first; vertex < patch->positions.size(); ++vertex) {
+      patch->normals[vertex] =
+          SkinNormal(parts, i, patch->positions[vertex], patch->normals[vertex]);
+    }
+  }
+  return patches;
+}
+
+}  // namespace choreo

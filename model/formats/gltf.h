@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// glTF 2.0, binary (.glb): what Blender, three.js, Unity, Unreal and web pages open. Metres, Y up,
+/// facing +Z: as ours.
+namespace choreo {
+
+/// Writes a skeleton at rest on the floor, the doll of body/skin.h bound to it, and the motion as
+/// an animation: one rotation channel a joint and one translation channel for the root, linear.
+/// Numbers are floats. The animation's extras hold `fps`. The same input gives the same bytes.
+/// Throws Error(kInvalidArgument) for a motion without frames or of another joint count,
+/// Error(kInternal) where the file cannot be written.
+void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
+
+/// The first animation of a file. Nodes that have our joints' names, parents and rest offsets (2
+/// mm) are taken as they are, whatever frames their bones have at rest; other skeletons are fitted
+/// to ours by their joints' names (motion/fit_sources.h: Mixamo's and others). Meshes do not
+/// matter. At the rate of extras.fps, else of the channel with most keys; 30 where that is below
+/// 20, because few keys are poses to pass rather than frames.
+///
+/// Throws Error(kNotFound) where the file cannot be opened, Error(kInvalidArgument) whose field is
+/// the path and whose message names the part: no glTF, no animation, cubic splines, sparse
+/// accessors, data outside its buffer, files beside this one, more than a million frames.
+Motion ReadGlb(const std::filesystem::path& path, const Skeleton& skeleton);
+
+}  // namespace choreo

@@ -1,0 +1,66 @@
+#include "model/body/doll.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/motion/motion_fixtures.h"
+
+namespace choreo {
+namespace {
+
+const Skeleton& kSmpl = Skeleton::Smpl24();
+
+TEST(Doll, EveryLeftLimbHasARightOneOfItsSize) {
+  const Skeleton skeleton = fixtures::SymmetricSmpl();
+  const Eigen::Vector3f mirror(-1, 1, 1);
+  int left = 0, right = 0;
+  const std::vector<BodyPart> parts = BuildFigure(skeleton, RestPose(skeleton));
+  for (const BodyPart& part : parts) {
+    right += part.colour == kRightColour;
+    if (!(part.colour == kLeftColour)) continue;
+    ++left;
+    EXPECT_GT(part.shape.a.x(), 0);
+    EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const BodyPart& other) {
+      return other.colour == kRightColour && other.shape.radius_a == part.shape.radius_a &&
+             (other.shape.a.cwiseProduct(mirror) - part.shape.a).norm() < 1e-6 &&
+             (other.shape.b.cwiseProduct(mirror) - part.shape.b).norm() < 1e-6;
+    }));
+  }
+  EXPECT_GE(left, 8);
+  EXPECT_EQ(left, right);
+}
+
+TEST(Doll, StandsOnTheFloorAtRest) {
+  float lowest = 1, highest = 0;
+  for (const BodyPart& part : BuildFigure(kSmpl, RestPose(kSmpl))) {
+    lowest = std::min(
+        {lowest, part.shape.a.y() - part.shape.radius_a, part.shape.b.y() - part.shape.radius_b});
+    highest = std::max(
+        {highest, part.shape.a.y() + part.shape.radius_a, part.shape.b.y() + part.shape.radius_b});
+  }
+  EXPECT_NEAR(lowest, 0, 0.015);
+  EXPECT_NEAR(highest, 1.8, 0.05);  // with her bun
+}
+
+TEST(Doll, ABodyOfOtherJointsIsSticks) {
+  Skeleton chain = kSmpl;
+  chain.joint_names[10] = "left_paw";
+  EXPECT_EQ(MakeDoll(chain).size(), 23u);
+  EXPECT_GT(MakeDoll(kSmpl).size(), 30u);
+}
+
+TEST(Doll, MovesRigidlyWithItsJoints) {
+  std::mt19937 generator(4);
+  const Pose pose = fixtures::RandomPose(kSmpl, generator, 1.5);
+  const std::vector<DollPart> doll = MakeDoll(kSmpl);
+  const JointPlacement placement = ForwardKinematics(kSmpl, pose);
+  const std::vector<BodyPart> parts = PlaceDoll(doll, placement);
+  ASSERT_EQ(parts.size(), doll.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const DollBall& ball = doll[i].b;
+    EXPECT_NEAR((parts[i].shape.b.cast<double>() - placement.positions.col(ball.joint)).norm(),
+                ball.offset.norm(), 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace choreo
