@@ -8,7 +8,9 @@
 #include <set>
 #include <sstream>
 
+#include "model/formats/amass_npz.h"
 #include "model/formats/motion_file.h"
+#include "model/formats/npz.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
@@ -39,6 +41,17 @@ Eigen::Vector3d Vector(const json& value, const std::string& field) {
   return out;
 }
 
+void CheckAngles(const Eigen::Matrix3Xd& rotations, const std::string& field) {
+  for (Eigen::Index joint = 0; joint < rotations.cols(); ++joint) {
+    const double angle = rotations.col(joint).norm();
+    if (angle > 2 * M_PI) {
+      std::ostringstream message;
+      message << angle << " rad exceeds 2π; angles are in radians";
+      throw InvalidArgument(field + "[" + std::to_string(joint) + "]", message.str());
+    }
+  }
+}
+
 Eigen::Matrix3Xd Rotations(const json& value, const std::string& field, int joints) {
   if (!value.is_array() || static_cast<int>(value.size()) != joints) {
     const std::string has =
@@ -50,13 +63,8 @@ Eigen::Matrix3Xd Rotations(const json& value, const std::string& field, int join
   for (int joint = 0; joint < joints; ++joint) {
     const std::string path = field + "[" + std::to_string(joint) + "]";
     out.col(joint) = Vector(value[static_cast<size_t>(joint)], path);
-    const double angle = out.col(joint).norm();
-    if (angle > 2 * M_PI) {
-      std::ostringstream message;
-      message << angle << " rad exceeds 2π; angles are in radians";
-      throw InvalidArgument(path, message.str());
-    }
   }
+  CheckAngles(out, field);
   return out;
 }
 
@@ -73,19 +81,97 @@ std::vector<bool> Joints(const json& value, const std::string& field, const Skel
   return out;
 }
 
+// Numbers of one list, or of a list of lists.
+void Flatten(const json& value, const std::string& field, std::vector<double>& out) {
+  if (!value.is_array()) {
+    out.push_back(Number(value, field));
+    return;
+  }
+  for (size_t i = 0; i < value.size(); ++i)
+    Flatten(value[i], field + "[" + std::to_string(i) + "]", out);
+}
+
+// A pose under the names that SMPL motion files give it, as one frame of such a file.
+KeyPose ReadSmplKey(const json& value, const std::string& field, const std::string& poses,
+                    const std::string& trans, const Skeleton& skeleton) {
+  KeyPose key;
+  key.mask.root_position = value.contains(trans);
+  NpzArchive file;
+  const auto add = [&](const std::string& name) {
+    std::vector<double> numbers;
+    Flatten(value[name], field + "." + name, numbers);
+    const auto count = static_cast<int64_t>(numbers.size());
+    file.SetArray(name, {{1, count}, std::move(numbers)});
+  };
+  add(poses);
+  if (key.mask.root_position) {
+    add(trans);
+  } else {
+    file.SetArray(trans, {{1, 3}, std::vector<double>(3, 0.0)});
+  }
+  file.SetArray("mocap_framerate", {{}, std::vector<double>{1}});
+  try {
+    key.pose = ReadSmplMotion(file).frames[0];
+  } catch (const Error& error) {
+    throw InvalidArgument(field, error.what());
+  }
+  CheckAngles(key.pose.rotations, field + "." + poses);
+  if (key.pose.rotations.cols() != skeleton.joints()) {
+    throw InvalidArgument(field + "." + poses,
+                          "is a pose of SMPL, the skeleton is " + skeleton.name);
+  }
+  return key;
+}
+
+// The pose under one of its three names, and whether it says where the dancer is.
+KeyPose ParsePose(const json& value, const std::string& field, const Skeleton& skeleton) {
+  struct Names {
+    const char *rotations, *position;
+  };
+  static constexpr Names kNames[] = {
+      {"rotations", "root_position"}, {"smpl_poses", "smpl_trans"}, {"poses", "trans"}};
+  const Names* found = nullptr;
+  for (const Names& names : kNames) {
+    if (!value.contains(names.rotations)) {
+      if (value.contains(names.position)) {
+        throw InvalidArgument(field + "." + names.rotations,
+                              std::string("is missing beside ") + names.position);
+      }
+      continue;
+    }
+    if (found) {
+      throw InvalidArgument(
+          field + "." + names.rotations,
+          std::string("stands beside ") + found->rotations + "; only one may be there");
+    }
+    found = &names;
+  }
+  if (!found) throw InvalidArgument(field + ".rotations", "is missing");
+  if (found != kNames)
+    return ReadSmplKey(value, field, found->rotations, found->position, skeleton);
+  KeyPose key;
+  key.pose.rotations = Rotations(value["rotations"], field + ".rotations", skeleton.joints());
+  key.mask.root_position = value.contains("root_position");
+  if (key.mask.root_position)
+    key.pose.root_position = Vector(value["root_position"], field + ".root_position");
+  return key;
+}
+
 KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& skeleton,
                  size_t number) {
   if (!value.is_object()) throw InvalidArgument(field, Shown(value) + " is not an object");
-  static const std::set<std::string> kMembers = {"id",        "time",  "frame", "root_position",
-                                                 "rotations", "joints"};
+  static const std::set<std::string> kMembers = {
+      "id",     "time",       "frame",      "root_position", "rotations",
+      "joints", "smpl_poses", "smpl_trans", "poses",         "trans"};
   for (const auto& [member, ignored] : value.items()) {
     if (!kMembers.contains(member)) {
       throw InvalidArgument(
           field + "." + member,
-          "is not known; a key has id, time or frame, root_position, rotations, joints");
+          "is not known; a key has id, time or frame, root_position, rotations, joints; or "
+          "smpl_poses, smpl_trans; or poses, trans");
     }
   }
-  KeyPose key;
+  KeyPose key = ParsePose(value, field, skeleton);
   key.id = "key" + std::to_string(number);
   if (value.contains("id")) {
     if (!value["id"].is_string() || value["id"].get<std::string>().empty()) {
@@ -108,12 +194,6 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
                             Shown(value["frame"]) + " is not a whole number >= 0");
     }
     key.frame = value["frame"].get<int64_t>();
-  }
-  if (!value.contains("rotations")) throw InvalidArgument(field + ".rotations", "is missing");
-  key.pose.rotations = Rotations(value["rotations"], field + ".rotations", skeleton.joints());
-  key.mask.root_position = value.contains("root_position");
-  if (key.mask.root_position) {
-    key.pose.root_position = Vector(value["root_position"], field + ".root_position");
   }
   if (value.contains("joints"))
     key.mask.joints = Joints(value["joints"], field + ".joints", skeleton);

@@ -18,8 +18,11 @@ namespace choreo::cli {
 /// `rotations` holds one axis-angle vector for each joint, radians, local to the parent. `time` is
 /// in seconds; `frame` may stand in its place. `id` may be absent: "key1", "key2", ... are given.
 /// Without `root_position` the key asks nothing of where the dancer is; `joints`, a list of joint
-/// names, limits it to these. Other members of the file's outermost object are ignored, so that it
-/// may describe itself; within a key they are errors, so that a misspelt one is found.
+/// names, limits it to these. In place of `root_position` and `rotations` there may be
+/// `smpl_poses` and `smpl_trans` as EDGE gives them (72 numbers, Z up, the translation is the
+/// pelvis), or `poses` and `trans` as AMASS does (72, 156 or 165 numbers, Z up, the translation is
+/// SMPL's): formats/amass_npz.h. Other members of the file's outermost object are ignored, so that
+/// it may describe itself; within a key they are errors, so that a misspelt one is found.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:keyframes[i].MEMBER, naming value and limit.
 /// `name` is the file's.
@@ -28,9 +31,9 @@ std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::stri
 
 /// Key poses named on a command line:
 ///   keys.json              a key file
-///   walk.bvh@1.2,3.4       the poses of a motion file at these seconds, each at the same second of
-///   the dance walk.npz@1.2=4,3.4=8   the pose at 1.2 s at second 4 of the dance, that at 3.4 s at
-///   second 8
+///   walk.bvh@1.2,3.4       the poses of a motion file (formats/motion_file.h) at these seconds,
+///                          each at the same second of the dance
+///   walk.npz@1.2=4,3.4=8   the pose at 1.2 s at second 4 of the dance, that at 3.4 s at second 8
 /// Errors as above; Error(kNotFound) for a file that is not there.
 std::vector<client::KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton);
 
