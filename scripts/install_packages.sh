@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that this project needs. The one place that names them.
 #
-#   scripts/install_packages.sh [GROUP...]     groups: build run demo test lint verify; default: build run demo test
+#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test lint verify; default: build run demo video test
 #
 # Runs as root, or through sudo. Quick when everything is there already: it asks dpkg first and touches apt only for what is missing.
 set -euo pipefail
@@ -22,14 +22,16 @@ run=(
 )
 # Free songs to dance to.
 demo=(fretsonfire-songs-sectoid)
-# An independent reader of the files that we write; what the examples of other languages need (they are tests, too).
+# What `choreo render --video` runs.
+video=(ffmpeg)
+# An independent reader of the files that we write; what the examples of other languages and web pages need (they are tests, too).
 test=(python3-numpy python3-grpcio nodejs npm)
 lint=(clang-format clang-tidy)
 # To build the container without a container engine.
 verify=(buildah debootstrap)
 
 groups=("$@")
-[[ ${#groups[@]} -gt 0 ]] || groups=(build run demo test)
+[[ ${#groups[@]} -gt 0 ]] || groups=(build run demo video test)
 
 wanted=()
 for group in "${groups[@]}"; do
@@ -37,10 +39,11 @@ for group in "${groups[@]}"; do
     build) wanted+=("${build[@]}") ;;
     run) wanted+=("${run[@]}") ;;
     demo) wanted+=("${demo[@]}") ;;
+    video) wanted+=("${video[@]}") ;;
     test) wanted+=("${test[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     verify) wanted+=("${verify[@]}") ;;
-    *) echo "install_packages.sh: unknown group '$group' (build run demo test lint verify)" >&2; exit 2 ;;
+    *) echo "install_packages.sh: unknown group '$group' (build run demo video test lint verify)" >&2; exit 2 ;;
   esac
 done
 

@@ -216,7 +216,7 @@ void AddEditCommand(CLI::App& program) {
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
       "away. A key at the frame of another one replaces it.");
-  command->add_option("dance", options->dance, ".npz or .bvh file.")
+  command->add_option("dance", options->dance, ".npz, .bvh or .glb file.")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option(
@@ -244,7 +244,8 @@ void AddEditCommand(CLI::App& program) {
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
-  command->add_option("-o,--out", options->out, "FILE.npz or FILE.bvh to write.")->required();
+  command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
+      ->required();
   options->server.AddTo(*command);
   command->callback([options] { Run(*options); });
 }

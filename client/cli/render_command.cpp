@@ -1,11 +1,15 @@
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/cli/commands.h"
 #include "client/cli/report.h"
+#include "model/core/error.h"
+#include "model/core/progress.h"
 #include "model/draw/contact_sheet.h"
+#include "model/draw/video.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
@@ -16,37 +20,70 @@ struct RenderOptions {
   std::string out;
   std::string report;
   ContactSheetOptions sheet;
+  std::string video;
+  std::string size = "1280x720";
+  VideoOptions film;
 };
 
-/// The frames of the motion at which a dance's report has its keys.
-std::vector<int64_t> KeyFrames(const std::string& path, const Motion& motion) {
+/// Seconds at which a dance's report has its keys.
+std::vector<double> KeyTimes(const std::string& path) {
   const auto report = ReadReport(path);
-  std::vector<int64_t> frames;
-  for (const auto& key : report["keyframes"]) {
-    const double seconds = key.at("frame").get<double>() / report["fps"].get<double>();
-    const int64_t frame = std::llround(seconds * motion.fps);
-    if (frame < static_cast<int64_t>(motion.frames.size())) frames.push_back(frame);
-  }
-  return frames;
+  std::vector<double> times;
+  for (const auto& key : report["keyframes"])
+    times.push_back(key.at("frame").get<double>() / report["fps"].get<double>());
+  return times;
 }
 
-void Run(RenderOptions options) {
+void DrawSheet(const RenderOptions& options, const Motion& motion,
+               const std::vector<double>& keys) {
+  ContactSheetOptions sheet = options.sheet;
+  for (const double seconds : keys) {
+    const int64_t frame = std::llround(seconds * motion.fps);
+    if (frame < static_cast<int64_t>(motion.frames.size())) sheet.key_frames.push_back(frame);
+  }
+  if (sheet.title.empty()) sheet.title = std::filesystem::path(options.motion).filename().string();
+  DrawContactSheet(Skeleton::Smpl24(), motion, sheet, options.out);
+}
+
+void DrawFilm(const RenderOptions& options, const Motion& motion, std::vector<double> keys) {
+  VideoOptions film = options.film;
+  film.keys = std::move(keys);
+  char end = 0;
+  if (std::sscanf(options.size.c_str(), "%dx%d%c", &film.format.width, &film.format.height, &end) !=
+      2) {
+    throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in 1280x720");
+  }
+  std::unique_ptr<ProgressBar> bar;
+  film.on_frame = [&](int64_t frames) {
+    if (!bar) bar = std::make_unique<ProgressBar>("rendering", frames);
+    bar->Advance();
+  };
+  DrawVideo(Skeleton::Smpl24(), motion, film, options.video);
+  bar->Finish();
+}
+
+void Run(const RenderOptions& options) {
+  if (options.out.empty() && options.video.empty())
+    throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
+  if (options.video.empty() && !options.film.format.song.empty())
+    throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
   const Motion motion = ReadMotion(options.motion, Skeleton::Smpl24());
-  if (!options.report.empty()) options.sheet.key_frames = KeyFrames(options.report, motion);
-  if (options.sheet.title.empty())
-    options.sheet.title = std::filesystem::path(options.motion).filename().string();
-  DrawContactSheet(Skeleton::Smpl24(), motion, options.sheet, options.out);
+  std::vector<double> keys;
+  if (!options.report.empty()) keys = KeyTimes(options.report);
+  if (!options.out.empty()) DrawSheet(options, motion, keys);
+  if (!options.video.empty()) DrawFilm(options, motion, keys);
 }
 
 }  // namespace
 
 void AddRenderCommand(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = program.add_subcommand("render", "Draw a motion as a contact sheet.");
+  CLI::App* command = program.add_subcommand(
+      "render", "Draw a motion: as a contact sheet (--out), as a video with its song (--video).");
   command->add_option("motion", options->motion, ".npz, .bvh or .glb file.")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("-o,--out", options->out, "PNG file to write.")->required();
+  command->add_option("-o,--out", options->out, "Contact sheet to write, a PNG file.");
   command
       ->add_option("--report", options->report,
                    "Report of the dance: its key poses are highlighted.")
@@ -58,6 +95,15 @@ void AddRenderCommand(CLI::App& program) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command->add_option("--title", options->sheet.title, "Heading; default: the file's name.");
+  command->add_option("--video", options->video,
+                      "Video to write, an MP4 file; the program ffmpeg makes it.");
+  command
+      ->add_option("--song", options->film.format.song,
+                   "The video's music: begins with the first frame, ends with the last.")
+      ->check(CLI::ExistingFile);
+  command->add_option("--fps", options->film.format.fps, "Frames a second of the video, 1 to 120.")
+      ->capture_default_str();
+  command->add_option("--size", options->size, "Of the video, pixels.")->capture_default_str();
   command->callback([options] { Run(*options); });
 }
 

@@ -8,6 +8,7 @@
 #include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/draw/canvas.h"
+#include "model/draw/framing.h"
 
 namespace choreo {
 namespace {
@@ -110,27 +111,6 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
   canvas.Text(std::to_string(shown.frame), x + picture.width - 4, text_y, kFont - 2, Align::kRight);
 }
 
-// What a tile's height must show so that every frame fits in: bodies are measured around their
-// root's place on the floor.
-double Extent(const Skeleton& skeleton, const Motion& motion, const std::vector<SheetFrame>& shown,
-              double aspect) {
-  double top = 1.8, side = 0.5;
-  for (const SheetFrame& one : shown) {
-    const Pose& pose = motion.frames[one.frame];
-    for (const BodyPart& part : BuildFigure(skeleton, pose)) {
-      for (const auto& [ball, radius] : {std::pair(part.shape.a, part.shape.radius_a),
-                                         std::pair(part.shape.b, part.shape.radius_b)}) {
-        top = std::max(top, double{ball.y()} + radius);
-        side = std::max(
-            side, std::hypot(ball.x() - pose.root_position.x(), ball.z() - pose.root_position.z()) +
-                      radius);
-      }
-    }
-  }
-  constexpr double kAir = 1.08;
-  return std::clamp(kAir * std::max(top + 0.25, 2 * side / aspect), 2.0, 4.0);
-}
-
 }  // namespace
 
 std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptions& options) {
@@ -179,16 +159,17 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
 
   Picture picture{.width = options.tile_width, .height = options.tile_height, .rgb = {}};
   const double azimuth = ThreeQuarterAzimuth(motion.frames.front());
-  const double extent = Extent(skeleton, motion, shown,
-                               static_cast<double>(options.tile_width) / options.tile_height);
-  FrameStyle plain, highlighted;
-  highlighted.background = Colour::Hex(0xfff6dd);
-  highlighted.floor = Colour::Hex(0xf3e4b8);
+  std::vector<FramedPose> poses;
+  for (const SheetFrame& one : shown) {
+    const Pose& pose = motion.frames[one.frame];
+    poses.push_back({&pose, pose.root_position.x(), pose.root_position.z()});
+  }
+  const double extent =
+      FitExtent(skeleton, poses, static_cast<double>(options.tile_width) / options.tile_height);
   for (size_t i = 0; i < shown.size(); ++i) {
     const Pose& pose = motion.frames[shown[i].frame];
-    View view = FollowView(pose, azimuth, extent);
-    view.target.y() = extent / 2 - 0.22;  // the floor near the lower edge
-    DrawFrame(skeleton, pose, view, shown[i].key ? highlighted : plain, picture);
+    DrawFrame(skeleton, pose, StandingView(poses[i], azimuth, extent),
+              KeyStyle(shown[i].key ? 1 : 0), picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     DrawTile(canvas, picture, kMargin + column * (options.tile_width + kGap),
              kHeader + row * (options.tile_height + kLabel), shown[i], motion.fps);

@@ -13,8 +13,11 @@ struct FrameStyle {
   Colour background = Colour::Hex(0xfbf9f6);
   Colour floor = Colour::Hex(0xece6dc);
   double grid_m = 0.5;  ///< distance of the lines on the floor, fixed in the world; 0: no lines
-  int samples = 3;      ///< rays a pixel along each side, 1 to 8
+  int samples = 3;      ///< rays a pixel along each side of the body, 1 to 8
 };
+
+/// The plain style with the colours of a key pose mixed in: all of them at amount = 1.
+FrameStyle KeyStyle(double amount);
 
 /// Draws one pose, lit from the left above the camera, with its shadow on the floor y = 0, into a
 /// picture whose width and height are set (1 to 32767); `picture.rgb` is resized. The same input

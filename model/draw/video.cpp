@@ -1,0 +1,102 @@
+#include "model/draw/video.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <future>
+
+#include "model/core/error.h"
+#include "model/core/threads.h"
+#include "model/draw/framing.h"
+#include "model/draw/render.h"
+#include "model/motion/resample.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kCameraLag = 0.6;  // seconds: what the camera follows is blurred by so much
+constexpr double kKeyGlow = 0.15;   // seconds
+constexpr int kSamples = 2;         // what the encoder keeps of more does not show
+
+// Where the root is over the floor, low-passed by a Gaussian, which looks ahead as far as back.
+std::vector<Eigen::Vector2d> SmoothPath(const Motion& motion) {
+  const double sigma = kCameraLag * motion.fps;
+  const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
+  const auto frames = static_cast<int64_t>(motion.frames.size());
+  std::vector<double> weights;
+  for (int64_t i = 0; i <= reach; ++i) {
+    const double t = static_cast<double>(i) / sigma;
+    weights.push_back(std::exp(-0.5 * t * t));
+  }
+  std::vector<Eigen::Vector2d> path;
+  for (int64_t frame = 0; frame < frames; ++frame) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    double total = 0;
+    for (int64_t i = -reach; i <= reach; ++i) {
+      const double weight = weights[static_cast<size_t>(std::abs(i))];
+      const auto at = static_cast<size_t>(std::clamp<int64_t>(frame + i, 0, frames - 1));
+      const Eigen::Vector3d& root = motion.frames[at].root_position;
+      sum += weight * Eigen::Vector2d(root.x(), root.z());
+      total += weight;
+    }
+    path.push_back(sum / total);
+  }
+  return path;
+}
+
+double Glow(double seconds, const std::vector<double>& keys) {
+  double glow = 0;
+  for (const double key : keys) {
+    const double t = (seconds - key) / kKeyGlow;
+    glow = std::max(glow, std::exp(-t * t));
+  }
+  return glow;
+}
+
+}  // namespace
+
+std::vector<View> VideoViews(const Skeleton& skeleton, const Motion& motion, double aspect) {
+  const std::vector<Eigen::Vector2d> path = SmoothPath(motion);
+  std::vector<FramedPose> framed;
+  for (size_t frame = 0; frame < path.size(); ++frame)
+    framed.push_back({&motion.frames[frame], path[frame].x(), path[frame].y()});
+  const double azimuth = ThreeQuarterAzimuth(motion.frames.front());
+  const double extent = FitExtent(skeleton, framed, aspect);
+  std::vector<View> views;
+  for (const FramedPose& one : framed) views.push_back(StandingView(one, azimuth, extent));
+  return views;
+}
+
+void DrawVideo(const Skeleton& skeleton, const Motion& source, const VideoOptions& options,
+               const std::filesystem::path& mp4) {
+  if (source.frames.empty())
+    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
+  const VideoFormat& format = options.format;
+  const Motion motion = source.fps == format.fps ? source : Resample(source, format.fps);
+  const auto frames = static_cast<int64_t>(motion.frames.size());
+  VideoEncoder encoder(mp4, format, frames);
+  const std::vector<View> views =
+      VideoViews(skeleton, motion, static_cast<double>(format.width) / format.height);
+  const auto draw = [&](size_t frame) {
+    Picture picture{.width = format.width, .height = format.height, .rgb = {}};
+    const double seconds = static_cast<double>(frame) / format.fps;
+    FrameStyle style = KeyStyle(Glow(seconds, options.keys));
+    style.samples = kSamples;
+    DrawFrame(skeleton, motion.frames[frame], views[frame], style, picture);
+    return picture;
+  };
+  // A few frames are drawn ahead, and written in order.
+  std::deque<std::future<Picture>> ahead;
+  const auto width = static_cast<size_t>(UsableCores());
+  size_t next = 0;
+  for (int64_t written = 0; written < frames; ++written) {
+    while (next < motion.frames.size() && ahead.size() < width)
+      ahead.push_back(std::async(std::launch::async, draw, next++));
+    encoder.Write(ahead.front().get());
+    ahead.pop_front();
+    if (options.on_frame) options.on_frame(frames);
+  }
+  encoder.Finish();
+}
+
+}  // namespace choreo

@@ -1,0 +1,166 @@
+#include "model/draw/video_encoder.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+void CheckWithin(const char* field, double value, double low, double high) {
+  if (!(value >= low && value <= high)) {
+    char message[96];
+    std::snprintf(message, sizeof(message), "%g, must be %g to %g", value, low, high);
+    throw InvalidArgument(field, message);
+  }
+}
+
+void CheckFormat(const VideoFormat& format) {
+  for (const auto& [field, pixels] :
+       {std::pair("video.width", format.width), std::pair("video.height", format.height)}) {
+    CheckWithin(field, pixels, 16, 8192);
+    if (pixels % 2 != 0)
+      throw InvalidArgument(field, std::to_string(pixels) + ", must be an even number of pixels");
+  }
+  CheckWithin("video.fps", format.fps, 1, 120);
+}
+
+std::string Decimal(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6f", value);
+  return text;
+}
+
+// "file:" keeps ffmpeg from taking a name for a protocol or an option.
+std::string FileUrl(const std::filesystem::path& path) { return "file:" + path.string(); }
+
+std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
+                                   const std::filesystem::path& out) {
+  std::vector<std::string> arguments = {
+      "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
+      // One frame after the other, as they come out of DrawFrame.
+      "-f", "rawvideo", "-pixel_format", "rgb24", "-framerate", Decimal(format.fps), "-video_size",
+      std::to_string(format.width) + "x" + std::to_string(format.height), "-i", "pipe:0"};
+  const auto add = [&](std::initializer_list<std::string> more) {
+    arguments.insert(arguments.end(), more);
+  };
+  if (!format.song.empty()) {
+    // A song may hold its cover, which would be a second picture.
+    add({"-i", FileUrl(format.song), "-map", "0:v:0", "-map", "1:a:0", "-c:a", "aac", "-b:a",
+         "192k"});
+  }
+  add({"-c:v", "libx264", "-preset", "medium", "-crf", "18",
+       // Players take what is not marked for BT.709 and would shift our colours.
+       "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
+       "-color_primaries", "bt709", "-color_trc", "bt709", "-t",
+       Decimal(static_cast<double>(frames) / format.fps), "-fflags", "+bitexact", "-flags",
+       "+bitexact", "-movflags", "+faststart", "-f", "mp4", FileUrl(out)});
+  return arguments;
+}
+
+}  // namespace
+
+VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& format,
+                           int64_t frames)
+    : mp4_(mp4), part_(mp4.string() + ".part"), format_(format) {
+  CheckFormat(format);
+  Start(Arguments(format, frames, part_));
+}
+
+VideoEncoder::~VideoEncoder() {
+  if (process_ > 0) kill(process_, SIGKILL);
+  Wait();
+  if (said_ >= 0) close(said_);
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void VideoEncoder::Start(const std::vector<std::string>& arguments) {
+  // A socket instead of a pipe: writing to an ffmpeg that is gone is then an error, not a signal.
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw Error(ErrorCode::kInternal, "", std::string("socketpair: ") + std::strerror(errno));
+  input_ = ends[0];
+  // What it prints goes into memory, where it never waits for a reader.
+  said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, said_, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, said_, STDERR_FILENO);
+  std::vector<char*> pointers;
+  for (const std::string& argument : arguments)
+    pointers.push_back(const_cast<char*>(argument.c_str()));
+  pointers.push_back(nullptr);
+  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  if (failed != 0) {
+    process_ = -1;
+    close(std::exchange(input_, -1));
+    close(std::exchange(said_, -1));
+    if (failed == ENOENT) {
+      throw Error(ErrorCode::kNotFound, "ffmpeg",
+                  "is not installed, and videos need it: scripts/install_packages.sh video");
+    }
+    throw Error(ErrorCode::kInternal, "ffmpeg", std::strerror(failed));
+  }
+}
+
+void VideoEncoder::Write(const Picture& picture) {
+  if (picture.width != format_.width || picture.height != format_.height) {
+    throw InvalidArgument("picture", std::to_string(picture.width) + " x " +
+                                         std::to_string(picture.height) + " pixels, not " +
+                                         std::to_string(format_.width) + " x " +
+                                         std::to_string(format_.height));
+  }
+  const uint8_t* data = picture.rgb.data();
+  size_t left = picture.rgb.size();
+  while (left > 0) {
+    const ssize_t sent = send(input_, data, left, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) Fail();
+    data += sent;
+    left -= static_cast<size_t>(sent);
+  }
+}
+
+void VideoEncoder::Finish() {
+  if (!Wait()) Fail();
+  std::error_code error;
+  std::filesystem::rename(part_, mp4_, error);
+  if (error) throw Error(ErrorCode::kInternal, mp4_.string(), error.message());
+}
+
+bool VideoEncoder::Wait() {
+  if (input_ >= 0) close(std::exchange(input_, -1));
+  int status = 1;
+  while (process_ > 0 && waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+void VideoEncoder::Fail() {
+  Wait();
+  std::string said(4096, '\0');
+  const ssize_t count = pread(said_, said.data(), said.size(), 0);
+  said.resize(count > 0 ? static_cast<size_t>(count) : 0);
+  while (!said.empty() && said.back() == '\n') said.pop_back();
+  // Errors are lines of one; the first names the cause.
+  throw Error(ErrorCode::kInternal, mp4_.string(),
+              "ffmpeg: " + (said.empty() ? "ended early" : said.substr(0, said.find('\n'))));
+}
+
+}  // namespace choreo

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/draw/picture.h"
+
+namespace choreo {
+
+struct VideoFormat {
+  int width = 1280, height = 720;  ///< pixels, even, 16 to 8192
+  double fps = 30;                 ///< 1 to 120
+  /// A file with music, which begins with the first frame and ends with the last; none if empty.
+  std::filesystem::path song;
+};
+
+/// Writes an MP4 (H.264, AAC) by the program `ffmpeg`, which runs beside us and takes frames
+/// through its standard input. The file appears when it is complete, or not at all. Equal frames
+/// and songs give equal bytes for one version of ffmpeg. Not thread-safe.
+///
+/// Members throw Error(kNotFound) if there is no ffmpeg, Error(kInvalidArgument) for sizes and
+/// rates outside their limits, Error(kInternal) whose field is the file and whose message is
+/// ffmpeg's own where it fails.
+class VideoEncoder {
+ public:
+  /// `frames`: how many will be written; the music ends with them.
+  VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& format, int64_t frames);
+  /// Without Finish, what was written is thrown away.
+  ~VideoEncoder();
+  VideoEncoder(const VideoEncoder&) = delete;
+  VideoEncoder& operator=(const VideoEncoder&) = delete;
+
+  void Write(const Picture& picture);
+  void Finish();
+
+ private:
+  void Start(const std::vector<std::string>& arguments);
+  /// Lets ffmpeg see the end of its input and waits for it; whether it succeeded.
+  bool Wait();
+  [[noreturn]] void Fail();
+
+  std::filesystem::path mp4_, part_;
+  VideoFormat format_;
+  pid_t process_ = -1;
+  int input_ = -1;  // our end of its standard input
+  int said_ = -1;   // what it prints
+};
+
+}  // namespace choreo
