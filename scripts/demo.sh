@@ -10,8 +10,10 @@ mkdir -p "$out"
 # No server is named, so choreo starts the choreod beside it, and stops it afterwards. It fails if a key pose is missed by more than 1 mm.
 "$choreo" dance "$song" --seconds 24 --seed 1 --out "$out/dance.npz" --report "$out/report.json"
 "$choreo" convert "$out/dance.npz" "$out/dance.bvh"
+"$choreo" convert "$out/dance.npz" "$out/dance.glb"
 "$choreo" render "$out/dance.npz" --report "$out/report.json" --out "$out/sheet.png" \
   --title "24 s of \"Escape from chaosland\"; key poses are framed"
+"$choreo" render "$out/dance.npz" --report "$out/report.json" --video "$out/dance.mp4" --song "$song" --size 960x540
 
 keys=$(grep -c '"id"' "$out/report.json")
 if [[ $keys -lt 4 ]]; then
@@ -20,6 +22,6 @@ if [[ $keys -lt 4 ]]; then
 fi
 echo
 echo "A dance through $keys key poses:"
-for file in dance.npz dance.bvh sheet.png report.json; do
+for file in dance.mp4 dance.npz dance.glb dance.bvh sheet.png report.json; do
   printf '  %-11s %8d bytes  %s\n' "$file" "$(stat -c %s "$out/$file")" "$(realpath "$out/$file")"
 done

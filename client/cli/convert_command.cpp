@@ -34,7 +34,7 @@ void AddConvertCommand(CLI::App& program) {
   command->add_option("in", options->in, "Motion to read.")->required()->check(CLI::ExistingFile);
   command->add_option("out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")->required();
   command->add_option("--fps", options->fps, "Resample to this rate; default: as it is.")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1.0, 1000.0));
   command->callback([options] { Run(*options); });
 }
 

@@ -7,9 +7,6 @@
 namespace choreo {
 namespace {
 
-constexpr Colour kTorso = Colour::Hex(0xe6ddd0);
-constexpr Colour kSkin = Colour::Hex(0xdfb08c);
-constexpr Colour kHair = Colour::Hex(0x4b382e);
 constexpr double kStickRadius = 0.035;
 constexpr float kBlend = 0.012f;  // metres
 
@@ -37,27 +34,35 @@ const NamedPart kSide[] = {
     // Arm: upper arm, forearm, hand, thumb.
     {{"left_shoulder", 0, 0, 0, 0.056f}, {"left_elbow", 0, 0, 0, 0.040f}, kLeftColour},
     {{"left_elbow", 0, 0, 0, 0.040f}, {"left_wrist", 0, 0, 0, 0.028f}, kLeftColour},
-    {{"left_wrist", 0.01f, 0, 0, 0.028f}, {"left_hand", 0, 0, 0, 0.031f}, kSkin},
-    {{"left_hand", 0, 0, 0, 0.030f}, {"left_hand", 0.085f, -0.006f, 0, 0.015f}, kSkin},
+    {{"left_wrist", 0.01f, 0, 0, 0.028f}, {"left_hand", 0, 0, 0, 0.031f}, kSkinColour},
+    {{"left_hand", 0, 0, 0, 0.030f}, {"left_hand", 0.085f, -0.006f, 0, 0.015f}, kSkinColour},
     {{"left_wrist", 0.035f, 0, 0.02f, 0.016f},
      {"left_hand", 0.005f, -0.006f, 0.05f, 0.012f},
-     kSkin},
+     kSkinColour},
     // Half of the trunk: hip, flank, ribs, shoulder, and the slope from the neck.
-    {{"pelvis", 0, -0.03f, -0.012f, 0.105f}, {"pelvis", 0.058f, -0.045f, -0.012f, 0.105f}, kTorso},
-    {{"pelvis", 0.05f, -0.02f, -0.01f, 0.105f}, {"spine2", 0.042f, -0.02f, 0.01f, 0.092f}, kTorso},
-    {{"spine2", 0.042f, -0.02f, 0.01f, 0.092f}, {"spine3", 0.07f, 0.08f, -0.004f, 0.098f}, kTorso},
-    {{"spine3", 0.06f, 0.10f, -0.012f, 0.09f}, {"left_shoulder", -0.01f, 0, 0, 0.060f}, kTorso},
-    {{"neck", 0, -0.02f, 0, 0.060f}, {"left_shoulder", -0.02f, 0.01f, 0, 0.048f}, kTorso},
+    {{"pelvis", 0, -0.03f, -0.012f, 0.105f},
+     {"pelvis", 0.058f, -0.045f, -0.012f, 0.105f},
+     kTrunkColour},
+    {{"pelvis", 0.05f, -0.02f, -0.01f, 0.105f},
+     {"spine2", 0.042f, -0.02f, 0.01f, 0.092f},
+     kTrunkColour},
+    {{"spine2", 0.042f, -0.02f, 0.01f, 0.092f},
+     {"spine3", 0.07f, 0.08f, -0.004f, 0.098f},
+     kTrunkColour},
+    {{"spine3", 0.06f, 0.10f, -0.012f, 0.09f},
+     {"left_shoulder", -0.01f, 0, 0, 0.060f},
+     kTrunkColour},
+    {{"neck", 0, -0.02f, 0, 0.060f}, {"left_shoulder", -0.02f, 0.01f, 0, 0.048f}, kTrunkColour},
 };
 
 const NamedPart kMiddle[] = {
-    {{"pelvis", 0, 0, 0.005f, 0.108f}, {"spine2", 0, 0, 0.012f, 0.098f}, kTorso},
-    {{"spine2", 0, 0, 0.012f, 0.098f}, {"spine3", 0, 0.09f, 0.004f, 0.105f}, kTorso},
-    {{"neck", 0, -0.03f, 0, 0.058f}, {"head", 0, 0.01f, -0.012f, 0.052f}, kSkin},
-    {{"head", 0, 0.095f, 0.004f, 0.094f}, {"head", 0, 0.022f, 0.038f, 0.062f}, kSkin},
-    {{"head", 0, 0.045f, 0.106f, 0.015f}, {"head", 0, 0.078f, 0.092f, 0.011f}, kSkin},
-    {{"head", 0, 0.120f, -0.010f, 0.094f}, {"head", 0, 0.055f, -0.030f, 0.080f}, kHair},
-    {{"head", 0, 0.165f, -0.075f, 0.045f}, {"head", 0, 0.170f, -0.090f, 0.042f}, kHair},
+    {{"pelvis", 0, 0, 0.005f, 0.108f}, {"spine2", 0, 0, 0.012f, 0.098f}, kTrunkColour},
+    {{"spine2", 0, 0, 0.012f, 0.098f}, {"spine3", 0, 0.09f, 0.004f, 0.105f}, kTrunkColour},
+    {{"neck", 0, -0.03f, 0, 0.058f}, {"head", 0, 0.01f, -0.012f, 0.052f}, kSkinColour},
+    {{"head", 0, 0.095f, 0.004f, 0.094f}, {"head", 0, 0.022f, 0.038f, 0.062f}, kSkinColour},
+    {{"head", 0, 0.045f, 0.106f, 0.015f}, {"head", 0, 0.078f, 0.092f, 0.011f}, kSkinColour},
+    {{"head", 0, 0.120f, -0.010f, 0.094f}, {"head", 0, 0.055f, -0.030f, 0.080f}, kHairColour},
+    {{"head", 0, 0.165f, -0.075f, 0.045f}, {"head", 0, 0.170f, -0.090f, 0.042f}, kHairColour},
 };
 
 Ball Mirrored(const Ball& ball) { return {ball.joint, -ball.x, ball.y, ball.z, ball.radius}; }
@@ -100,7 +105,7 @@ std::vector<DollPart> Sticks(const Skeleton& skeleton) {
                     {joint, Eigen::Vector3d::Zero(), kStickRadius},
                     left    ? kLeftColour
                     : right ? kRightColour
-                            : kTorso});
+                            : kTrunkColour});
   }
   return doll;
 }

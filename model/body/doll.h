@@ -15,6 +15,9 @@ namespace choreo {
 /// What tells the two sides of a body apart.
 inline constexpr Colour kLeftColour = Colour::Hex(0xe8663d);
 inline constexpr Colour kRightColour = Colour::Hex(0x2f7fa8);
+inline constexpr Colour kTrunkColour = Colour::Hex(0xe6ddd0);
+inline constexpr Colour kSkinColour = Colour::Hex(0xdfb08c);
+inline constexpr Colour kHairColour = Colour::Hex(0x4b382e);
 
 /// A ball that moves with a joint: `offset` in the joint's frame (at rest x to the left, y up, z
 /// forward) and radius, metres.

@@ -21,6 +21,14 @@ double Linear(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
+const char* MaterialName(const Colour& colour) {
+  if (colour == kLeftColour) return "left";
+  if (colour == kRightColour) return "right";
+  if (colour == kSkinColour) return "skin";
+  if (colour == kHairColour) return "hair";
+  return "trunk";
+}
+
 class GlbBuilder {
  public:
   GlbBuilder(const Skeleton& skeleton, const Motion& motion)
@@ -92,9 +100,7 @@ class GlbBuilder {
 
   int AddMaterial(const Colour& colour) {
     tinygltf::Material& material = model_.materials.emplace_back();
-    material.name = colour == kLeftColour    ? "left"
-                    : colour == kRightColour ? "right"
-                                             : "body" + std::to_string(model_.materials.size());
+    material.name = MaterialName(colour);
     tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
     pbr.baseColorFactor = {Linear(colour.r), Linear(colour.g), Linear(colour.b), 1};
     pbr.metallicFactor = 0;

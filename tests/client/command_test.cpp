@@ -119,6 +119,59 @@ TEST_F(CommandTest, ConvertsAndDraws) {
   EXPECT_EQ(magic, "\x89PNG");
 }
 
+TEST_F(CommandTest, ConvertsBetweenAllFormats) {
+  Motion motion{.fps = 25, .frames = {}};
+  for (int frame = 0; frame < 20; ++frame) {
+    Pose& pose = motion.frames.emplace_back(cli::FindLibraryPose("kick").pose);
+    pose.root_position.x() += 0.02 * frame;
+    pose.rotations.col(16) *= 1 - 0.03 * frame;
+  }
+  for (const std::string from : {"npz", "bvh", "glb"}) {
+    WriteMotion(folder_ / ("a." + from), Body(), motion);
+    for (const std::string to : {"npz", "bvh", "glb"}) {
+      SCOPED_TRACE(from + " to " + to);
+      const Outcome outcome = Choreo("convert " + At("a." + from) + " " + At("b." + to));
+      ASSERT_EQ(outcome.code, 0) << outcome.said;
+      const Motion back = ReadMotion(folder_ / ("b." + to), Body());
+      EXPECT_EQ(back.fps, 25);
+      ASSERT_EQ(back.frames.size(), motion.frames.size());
+      for (size_t i = 0; i < motion.frames.size(); ++i) {
+        const PoseError error = ComparePoses(Body(), motion.frames[i], back.frames[i]);
+        EXPECT_LT(error.position_m, 1e-5);
+        EXPECT_LT(error.angle_deg, 1e-3);
+      }
+      // At another rate: the same moments.
+      ASSERT_EQ(Choreo("convert " + At("a." + from) + " " + At("c." + to) + " --fps 50").code, 0);
+      const Motion dense = ReadMotion(folder_ / ("c." + to), Body());
+      EXPECT_EQ(dense.fps, 50);
+      ASSERT_EQ(dense.frames.size(), 39U);
+      EXPECT_LT(ComparePoses(Body(), motion.frames[19], dense.frames[38]).position_m, 1e-5);
+    }
+  }
+}
+
+TEST_F(CommandTest, RendersAVideoWithItsSong) {
+  if (std::system("ffprobe -version >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
+  WriteClicks(folder_ / "song.wav", 4);
+  WriteMotion(folder_ / "a.npz", Body(),
+              {.fps = 60, .frames = std::vector<Pose>(61, cli::FindLibraryPose("groove").pose)});
+  const Outcome outcome = Choreo("render " + At("a.npz") + " --video " + At("a.mp4") + " --song " +
+                                 At("song.wav") + " --fps 15 --size 64x48");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("rendering 100 % 16/16"));
+  FILE* pipe = popen(("ffprobe -v error -count_frames -of csv -show_entries "
+                      "stream=codec_name,width,height,nb_read_frames " +
+                      At("a.mp4"))
+                         .c_str(),
+                     "r");
+  std::string said(400, '\0');
+  said.resize(fread(said.data(), 1, said.size(), pipe));
+  pclose(pipe);
+  EXPECT_THAT(said, HasSubstr("stream,h264,64,48,16"));
+  EXPECT_THAT(said, HasSubstr("stream,aac"));
+}
+
 TEST_F(CommandTest, TellsAboutTheServerAndItsPoses) {
   const nlohmann::json info = nlohmann::json::parse(Choreo("info --json" + Server()).said);
   EXPECT_EQ(info["models"][0]["name"], "fake");
@@ -148,7 +201,15 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
   expect_failure("dance " + At("noise.wav") + Server(), "noise.wav");
   expect_failure("transition --from swan --to kick --out " + At("t.npz") + Server(),
                  "swan: is no pose of the library");
-  expect_failure("convert " + At("song.wav") + " " + At("b.npz"), "song.wav");
+  expect_failure("convert " + At("song.wav") + " " + At("b.npz"),
+                 "song.wav: has the extension '.wav', must be .npz, .bvh or .glb");
+  WriteMotion(folder_ / "a.npz", Body(), {.fps = 30, .frames = {RestPose(Body())}});
+  expect_failure("convert " + At("a.npz") + " " + At("b.fbx"),
+                 "b.fbx: has the extension '.fbx', must be .npz, .bvh or .glb");
+  expect_failure("render " + At("a.npz"), "--out: is missing, and so is --video");
+  expect_failure("render " + At("a.npz") + " --out x.png --song " + At("song.wav"),
+                 "--song: pictures have no sound");
+  expect_failure("render " + At("a.npz") + " --video x.mp4 --size 12", "--size: 12, must be WIDTH");
   expect_failure("info --deadline 0.3 --server 127.0.0.1:1", "127.0.0.1:1");
 }
 
@@ -157,6 +218,9 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("swim").code, 2);
   EXPECT_EQ(Choreo("dance").code, 2);
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
+  const Outcome absurd = Choreo("convert /dev/null b.npz --fps 1e9");
+  EXPECT_EQ(absurd.code, 2);
+  EXPECT_THAT(absurd.said, HasSubstr("--fps: Value 1e9 not in range"));
   for (const char* command :
        {"", "dance", "transition", "edit", "analyze", "info", "health", "convert", "render"}) {
     const Outcome outcome = Choreo(std::string(command) + " --help");
