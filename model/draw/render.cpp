@@ -6,6 +6,7 @@
 
 #include "model/body/doll.h"
 #include "model/core/error.h"
+#include "model/draw/floor_light.h"
 
 namespace choreo {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kLampSpread = 0.10f;      // radians
-constexpr float kShadowCell = 0.025f;     // metres
 constexpr float kShadowBias = 0.012f;     // metres off the surface: parts overlap at the joints
 constexpr float kGridHalfWidth = 0.008f;  // metres
 
@@ -40,90 +40,6 @@ float SmoothStep(float from, float to, float value) {
   return t * t * (3 - 2 * t);
 }
 
-// A part with the ball around it, which settles most questions without looking at the part.
-struct Bounded {
-  RoundedCone shape;
-  Vector3f middle;
-  float radius;
-
-  explicit Bounded(const RoundedCone& cone)
-      : shape(cone),
-        middle(0.5f * (cone.a + cone.b)),
-        radius(0.5f * (cone.b - cone.a).norm() + std::max(cone.radius_a, cone.radius_b)) {}
-
-  bool MeetsRay(const Vector3f& origin, const Vector3f& direction) const {
-    const Vector3f to = middle - origin;
-    const float along = to.dot(direction);
-    return along > -radius && to.squaredNorm() - along * along < radius * radius;
-  }
-  // Farther away than this it hides less than a hundredth of the sky.
-  bool HidesSky(const Vector3f& point) const {
-    const float reach = radius + 9 * 0.5f * (shape.radius_a + shape.radius_b);
-    return (middle - point).squaredNorm() < reach * reach;
-  }
-};
-
-// Light that reaches the floor around a dancer, worked out on a grid as large as her shadow.
-class FloorLight {
- public:
-  FloorLight(const std::vector<Bounded>& parts, const Vector3f& lamp) {
-    constexpr float kSkyMargin = 0.4f;
-    Eigen::Vector2f low = Eigen::Vector2f::Constant(1e9f), high = -low;
-    for (const Bounded& part : parts) {
-      const Vector3f& middle = part.middle;
-      const Vector3f shadow = middle - std::max(0.0f, middle.y()) / lamp.y() * lamp;
-      const float margin =
-          part.radius * (1 + 1 / lamp.y()) + 2 * kLampSpread * std::max(0.0f, middle.y());
-      for (const auto& [point, around] :
-           {std::pair(shadow, margin), std::pair(middle, part.radius + kSkyMargin)}) {
-        const Eigen::Vector2f on_floor(point.x(), point.z());
-        low = low.cwiseMin(on_floor - Eigen::Vector2f::Constant(around));
-        high = high.cwiseMax(on_floor + Eigen::Vector2f::Constant(around));
-      }
-    }
-    low_ = low;
-    columns_ = 2 + CellsIn(high.x() - low.x());
-    rows_ = 2 + CellsIn(high.y() - low.y());
-    light_.resize(static_cast<size_t>(columns_) * rows_);
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        const Vector3f point(low_.x() + static_cast<float>(column) * kShadowCell, 0,
-                             low_.y() + static_cast<float>(row) * kShadowCell);
-        float hidden = 0, open = 1;
-        for (const Bounded& part : parts) {
-          hidden = std::max(hidden, ShadowOf(part.shape, point, lamp, kLampSpread));
-          if (part.HidesSky(point)) open *= 1 - OcclusionBy(part.shape, point, Vector3f::UnitY());
-        }
-        light_[static_cast<size_t>(row) * columns_ + column] = 0.45f * (1 - hidden) + 0.55f * open;
-      }
-    }
-  }
-
-  // Of the full light, 0 to 1.
-  float At(float x, float z) const {
-    const float u = (x - low_.x()) / kShadowCell, v = (z - low_.y()) / kShadowCell;
-    if (!(u >= 0 && v >= 0 && u < static_cast<float>(columns_ - 1) &&
-          v < static_cast<float>(rows_ - 1))) {
-      return 1;
-    }
-    const auto column = static_cast<int>(u), row = static_cast<int>(v);
-    const float s = u - static_cast<float>(column), t = v - static_cast<float>(row);
-    const float* at = &light_[static_cast<size_t>(row) * columns_ + column];
-    return (1 - t) * ((1 - s) * at[0] + s * at[1]) +
-           t * ((1 - s) * at[columns_] + s * at[columns_ + 1]);
-  }
-
- private:
-  static int CellsIn(float length) {
-    constexpr float kMost = 20;  // metres: nobody is larger, whatever the pose says
-    return static_cast<int>(std::ceil(std::min(length, kMost) / kShadowCell));
-  }
-
-  Eigen::Vector2f low_;
-  int columns_, rows_;
-  std::vector<float> light_;
-};
-
 class Renderer {
  public:
   Renderer(const std::vector<BodyPart>& figure, const View& view, const FrameStyle& style,
@@ -136,7 +52,7 @@ class Renderer {
         reach_(static_cast<float>(0.72 * view.extent *
                                   std::max(1.0, double{1} * picture.width / picture.height))),
         lamp_(LampDirection(view.azimuth)),
-        floor_light_(parts_, lamp_),
+        floor_light_(parts_, lamp_, kLampSpread),
         grid_(static_cast<float>(style.grid_m)),
         background_(Linear(style.background)),
         floor_(Linear(style.floor)) {
@@ -158,8 +74,8 @@ class Renderer {
   }
 
  private:
-  static std::vector<Bounded> Bound(const std::vector<BodyPart>& figure) {
-    std::vector<Bounded> parts;
+  static std::vector<BoundedCone> Bound(const std::vector<BodyPart>& figure) {
+    std::vector<BoundedCone> parts;
     for (const BodyPart& part : figure) parts.emplace_back(part.shape);
     return parts;
   }
@@ -187,7 +103,7 @@ class Renderer {
   // Makes room for the samples of the body.
   void Enclose(const Picture& picture) {
     box_ = {picture.width, picture.height, 0, 0};
-    for (const Bounded& part : parts_) {
+    for (const BoundedCone& part : parts_) {
       const PixelBox box = BoxOf(part.shape);
       box_ = {std::min(box_.left, box.left), std::min(box_.top, box.top),
               std::max(box_.right, box.right), std::max(box_.bottom, box.bottom)};
@@ -265,7 +181,7 @@ class Renderer {
                 const Vector3f& ray) const {
     const Vector3f start = point + kShadowBias * normal;
     float lit = 1, open = 1;
-    for (const Bounded& part : parts_) {
+    for (const BoundedCone& part : parts_) {
       if (&part == &parts_[index]) continue;
       if (lit > 0 && part.MeetsRay(start, lamp_) &&
           Intersect(part.shape, start, lamp_).distance > 0) {
@@ -318,7 +234,7 @@ class Renderer {
   }
 
   const std::vector<BodyPart>& figure_;
-  std::vector<Bounded> parts_;
+  std::vector<BoundedCone> parts_;
   std::vector<Vector3f> colours_;
   Camera camera_;
   int samples_;

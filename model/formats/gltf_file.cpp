@@ -1,0 +1,103 @@
+#include "model/formats/gltf_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace choreo {
+
+// In one expression GCC 12 sees an overlap in operator+ that is not there (-Wrestrict).
+std::string GltfItem(const char* list, size_t index) {
+  std::string item = list;
+  item.append("[").append(std::to_string(index)).append("]");
+  return item;
+}
+
+tinygltf::Model ParseGlb(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+  tinygltf::TinyGLTF gltf;
+  // A motion comes from one file: no others are opened, and pictures are not looked at.
+  gltf.SetFsCallbacks(
+      {[](const std::string&, void*) { return false; },
+       [](const std::string& name, void*) { return name; },
+       [](std::vector<unsigned char>*, std::string* error, const std::string& name, void*) {
+         if (error) *error += "the file beside it, " + name + ", is not read";
+         return false;
+       },
+       [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+         return false;
+       },
+       nullptr});
+  gltf.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
+                         const unsigned char*, int, void*) { return true; },
+                      nullptr);
+  tinygltf::Model model;
+  std::string error, warning;
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  if (bytes.size() > UINT32_MAX ||
+      !gltf.LoadBinaryFromMemory(&model, &error, &warning, data,
+                                 static_cast<unsigned>(bytes.size()))) {
+    error.erase(std::find(error.begin(), error.end(), '\n'), error.end());
+    throw InvalidArgument("", "is no binary glTF: " + (error.empty() ? "bad header" : error));
+  }
+  return model;
+}
+
+Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type) {
+  const tinygltf::Accessor& accessor = GltfAt(model.accessors, index, "accessors");
+  const std::string name = GltfItem("accessors", static_cast<size_t>(index));
+  if (accessor.sparse.isSparse) throw InvalidArgument(name, "is sparse, which is not read");
+  if (accessor.type != type) throw InvalidArgument(name, "has elements of another kind");
+  const tinygltf::BufferView& view =
+      GltfAt(model.bufferViews, accessor.bufferView, (name + ".bufferView").c_str());
+  const tinygltf::Buffer& buffer = GltfAt(model.buffers, view.buffer, "buffers");
+  const int rows = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type));
+  const int size = tinygltf::GetComponentSizeInBytes(accessor.componentType);
+  const int stride = accessor.ByteStride(view);
+  const bool integer = accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
+  if (size < 1 || stride < rows * size || (integer && (!accessor.normalized || size > 2))) {
+    throw InvalidArgument(name, "has components that are neither floats nor normalized");
+  }
+  const uint64_t available = buffer.data.size();
+  const uint64_t first = uint64_t{view.byteOffset} + accessor.byteOffset;
+  if (accessor.count < 1 || accessor.count > available || first > available ||
+      first + (accessor.count - 1) * static_cast<uint64_t>(stride) +
+              static_cast<uint64_t>(rows * size) >
+          available) {
+    throw InvalidArgument(name,
+                          "reaches beyond its buffer of " + std::to_string(available) + " bytes");
+  }
+  const auto component = [&](const unsigned char* at) -> double {
+    const auto as = [at]<typename T>(T value) {
+      std::memcpy(&value, at, sizeof(T));
+      return static_cast<double>(value);
+    };
+    switch (accessor.componentType) {
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return std::max(as(int8_t{}) / 127, -1.0);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return as(uint8_t{}) / 255;
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return std::max(as(int16_t{}) / 32767, -1.0);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return as(uint16_t{}) / 65535;
+      default:
+        return as(float{});
+    }
+  };
+  Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(accessor.count));
+  for (size_t i = 0; i < accessor.count; ++i) {
+    for (int row = 0; row < rows; ++row) {
+      const size_t offset = first + i * static_cast<size_t>(stride) +
+                            static_cast<size_t>(row) * static_cast<size_t>(size);
+      values(row, static_cast<Eigen::Index>(i)) = component(buffer.data.data() + offset);
+    }
+  }
+  if (!values.allFinite()) throw InvalidArgument(name, "holds values that are not finite");
+  return values;
+}
+
+}  // namespace choreo

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/core/error.h"
+
+/// What reading a .glb needs of tinygltf, with every index and range checked. Private to this
+/// folder.
+namespace choreo {
+
+/// "list[3]".
+std::string GltfItem(const char* list, size_t index);
+
+/// The element, or Error(kInvalidArgument) whose field is `name`.
+template <typename T>
+const T& GltfAt(const std::vector<T>& list, int index, const char* name) {
+  if (index < 0 || static_cast<size_t>(index) >= list.size()) {
+    throw InvalidArgument(name, "there is no number " + std::to_string(index) + " among " +
+                                    std::to_string(list.size()));
+  }
+  return list[static_cast<size_t>(index)];
+}
+
+/// Reads and parses a file. Opens no other file beside it and decodes no pictures. Throws
+/// Error(kNotFound) naming the path, and Error(kInvalidArgument) without it.
+tinygltf::Model ParseGlb(const std::filesystem::path& path);
+
+/// An accessor's elements, [components, count]; normalised integers become -1 to 1. `type` is a
+/// TINYGLTF_TYPE. Throws Error(kInvalidArgument) naming the accessor.
+Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type);
+
+}  // namespace choreo
