@@ -133,13 +133,13 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
     throw Error(ErrorCode::kInternal, "", "the transition is over");
   }
   const PoseMask mask = spec_.target ? spec_.target->mask : PoseMask{};
-  emitted_ = arrival_ ? arrival_->Apply(raw.pose) : raw.pose;
+  steered_ = arrival_ ? arrival_->Apply(raw.pose) : raw.pose;
   if (arrival_ && spec_.frames - done_ <= arrival_window_) {
     correction_m_ = std::max(correction_m_,
-                             ComparePoses(model_->skeleton, raw.pose, emitted_, mask).position_m);
+                             ComparePoses(model_->skeleton, raw.pose, steered_, mask).position_m);
   }
-  if (foot_lock_) emitted_ = foot_lock_->Apply(emitted_);
-  world_ = RoundToFloat(Near(ground_.ToWorld(emitted_), world_));
+  const Pose emitted = foot_lock_ ? foot_lock_->Apply(steered_) : steered_;
+  world_ = RoundToFloat(Near(ground_.ToWorld(emitted), world_));
   ++done_;
   if (done_ == spec_.frames && spec_.target) {
     const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);

@@ -91,9 +91,10 @@ class TransitionRun {
   int frames() const { return spec_.frames; }
   /// How many frames have been taken.
   int done() const { return done_; }
-  /// What was emitted last, in the canonical frame: StepInput::previous. Null before the first
-  /// frame.
-  const Pose* previous() const { return done_ == 0 ? nullptr : &emitted_; }
+  /// StepInput::previous: the last frame as arrival steered it, in the canonical frame, before the
+  /// foot lock. (A model that saw locked legs leave its plan would answer with the whole body.)
+  /// Null before the first frame.
+  const Pose* previous() const { return done_ == 0 ? nullptr : &steered_; }
 
   /// The model's next frame → the dance's. Throws Error(kInternal) if the model gave a value that
   /// is not finite.
@@ -116,7 +117,7 @@ class TransitionRun {
   int arrival_window_ = 0;
   std::optional<ArrivalResult> arrival_result_;
   double correction_m_ = 0;
-  Pose emitted_;  // canonical
+  Pose steered_;  // canonical
   Pose world_;    // last emitted, for continuous branches
   int done_ = 0;
 };

@@ -40,8 +40,8 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     config.planner = {.width = 160, .layers = 3, .heads = 5};
     config.max_transition_frames = 150;
     config.temperature = 0.05;
-    config.history_dropout = 0.2;
-    config.history_noise = 0.2;
+    config.history_dropout = 0.7;
+    config.history_noise = 0.3;
     return config;
   }
   if (name == "ablation") {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char *kPlannerPosition = "planner_position_m", *kPlannerSixD = "planner_six_d",
                      *kPlannerStep = "planner_step_m", *kLikelihood = "nll_nats_per_dim",
-                     *kKeyPose = "key_pose_dm", *kContacts = "contact_l1";
+                     *kKeyPose = "key_pose_dm", *kWay = "rollout_dm", *kContacts = "contact_l1";
 
 // Standard deviation of the dequantisation noise, in units of each feature's own spread.
 constexpr double kDequantisation = 0.05;
@@ -35,8 +35,8 @@ Tensor Dequantise(FlowModel& model, const Tensor& features) {
 }
 
 const std::vector<std::string>& LossTermNames() {
-  static const std::vector<std::string> names = {kPlannerPosition, kPlannerSixD, kPlannerStep,
-                                                 kLikelihood,      kKeyPose,     kContacts};
+  static const std::vector<std::string> names = {
+      kPlannerPosition, kPlannerSixD, kPlannerStep, kLikelihood, kKeyPose, kWay, kContacts};
   return names;
 }
 
@@ -72,7 +72,8 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
       (sampled.narrow(2, contacts, 4) - truth.narrow(1, history, frames).narrow(2, contacts, 4))
           .abs()
           .mean();
-  return {{kKeyPose, 0.5, key}, {kContacts, 0.1, feet}};
+  const Tensor way = kDecimetresPerMetre * JointDistance(kinematics, poses, batch.truth).mean();
+  return {{kKeyPose, 0.5, key}, {kWay, 0.5, way}, {kContacts, 0.1, feet}};
 }
 
 LossTerms PlannerLoss(const TorchKinematics& kinematics, const MotionBatch& batch,

@@ -34,7 +34,9 @@ LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
                          const TransitionContext& context);
 
 /// L_key pose and L_feet of one sampled roll-out (Section 3.2.3) at `temperature`:
-/// |FK(x'_N) - FK(key)|, mean over joints, decimetres; |c' - c|, mean over feet and frames.
+/// |FK(x'_N) - FK(key)|, mean over joints, decimetres; the same of all frames against the real ones
+/// (ours: without it roll-outs wander off between history and key); |c' - c|, mean over feet and
+/// frames.
 LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
                       const TransitionContext& context, double temperature);
 
