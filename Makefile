@@ -33,7 +33,7 @@ packages:  ## Install the Debian packages that are missing
 bench: build  ## Run the benchmarks
 	@scripts/bench.sh $(BUILD)/bin
 
-verify: build  ## Everything too long for `make test`: sanitizers, the installed package, the container (as root)
+verify: build  ## Everything too long for `make test`: sanitizers, no gRPC, the installed package, the container (as root)
 	@scripts/verify.sh $(BUILD)
 
 format:  ## Format all sources in place

@@ -33,8 +33,11 @@ struct Options {
   std::filesystem::path ca_certificate = {};
   double connect_timeout_s = 5;  ///< for one attempt at one address
   double deadline_s = 0;         ///< for a call, from its first attempt to its last frame; 0: none
-  int max_retries = 6;           ///< in a row without progress; 0: none, and no resume
-  double first_backoff_s = 0.1;  ///< doubled with each retry, up to 5 s
+  /// How long to try again and again, at one address or at all of them, since a call last made
+  /// progress, seconds. A time, not a count: it is what a server takes to come back that matters.
+  /// 0: not at all, so no resume either.
+  double retry_s = 10;
+  double first_backoff_s = 0.1;  ///< between tries; doubled with each, up to 2 s
   /// Go on when only a server of another fingerprint is left: smoothly, yet not as the dance would
   /// have gone. `Resumed` says so.
   bool allow_inexact_resume = false;
@@ -52,7 +55,8 @@ struct ModelDescription {
   double default_temperature = 0;
   std::vector<std::string> controls = {};  ///< "root_path", "velocity_factors"
   double audio_lead_s = 0;                 ///< music that a transition wants before its first frame
-  int latency_frames = 0;  ///< how far the music must be ahead of the frame that is made
+  int latency_frames = 0;         ///< how far the music must be ahead of the frame that is made
+  int max_transition_frames = 0;  ///< of one transition; the server's own limit is in it already
 };
 
 /// A server.
@@ -175,7 +179,7 @@ struct FrameBlock {
 struct KeyReached {
   std::string id = {};
   int64_t frame = 0;
-  double raw_error_m = 0;      ///< of the model's own frame
+  double raw_error_m = 0;      ///< of the model's own frame, made after frames steered to the key
   double final_error_m = 0;    ///< of the frame that was sent; at most 0.001
   double final_error_deg = 0;  ///< the same; at most 0.1
   double correction_m = 0;     ///< furthest that a joint was moved on the way to the key

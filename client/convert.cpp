@@ -223,6 +223,10 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
     }
     added.audio_lead_s = model.audio_lead_s();
     added.latency_frames = model.latency_frames();
+    // Servers before 0.2 do not tell their models' limits.
+    added.max_transition_frames = model.max_transition_frames() > 0
+                                      ? model.max_transition_frames()
+                                      : response.limits().max_transition_frames();
   }
   if (out.models.empty()) throw Broken("a server without models");
   out.devices.assign(response.devices().begin(), response.devices().end());

@@ -12,7 +12,7 @@
 namespace choreo::client {
 namespace {
 
-constexpr double kLongestBackoff = 5;  // seconds
+constexpr double kLongestBackoff = 2;  // seconds
 
 std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
   if (!options.tls) return grpc::InsecureChannelCredentials();
@@ -40,7 +40,7 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   CheckNotNegative("connect_timeout_s", options_.connect_timeout_s);
   CheckNotNegative("deadline_s", options_.deadline_s);
   CheckNotNegative("first_backoff_s", options_.first_backoff_s);
-  CheckNotNegative("max_retries", options_.max_retries);
+  CheckNotNegative("retry_s", options_.retry_s);
 
   const auto credentials = Credentials(options_);
   grpc::ChannelArguments arguments;
@@ -70,7 +70,7 @@ bool Replicas::Leave(const Server& failed) {
 }
 
 Patience::Patience(const Options& options)
-    : max_retries_(options.max_retries),
+    : retry_s_(options.retry_s),
       first_backoff_s_(options.first_backoff_s),
       jitter_(std::random_device{}()) {
   if (options.deadline_s > 0) {
@@ -82,7 +82,10 @@ Patience::Patience(const Options& options)
 std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& failed,
                                                             bool elsewhere) {
   const RetryAdvice advice = AdviceFor(failed);
-  if (!advice.retry || failures_ >= max_retries_) return std::nullopt;
+  const auto now = std::chrono::steady_clock::now();
+  if (failures_ == 0) failing_since_ = now;
+  const std::chrono::duration<double> spent = now - failing_since_;
+  if (!advice.retry || spent.count() >= retry_s_) return std::nullopt;
   const double doubled = std::min(kLongestBackoff, first_backoff_s_ * std::exp2(failures_));
   ++failures_;
   // Clients that lost the same server should not all come back at once.

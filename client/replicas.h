@@ -56,10 +56,11 @@ class Patience {
   void Reset() { failures_ = 0; }
 
  private:
-  int max_retries_;
+  double retry_s_;
   double first_backoff_s_;
   std::optional<Clock::time_point> deadline_;
-  int failures_ = 0;
+  int failures_ = 0;  // since the last progress
+  std::chrono::steady_clock::time_point failing_since_;
   std::minstd_rand jitter_;
 };
 

@@ -22,10 +22,18 @@ function(choreo_executable name)
   target_link_libraries(${name} PRIVATE choreo_options ${ARG_LINK})
 endfunction()
 
-# choreo_test(NAME SOURCES ... LINK ...): a GoogleTest program, its cases registered one by one with ctest.
+# LibTorch is not built for sanitizers, and full of false alarms: what runs it is not tested under them.
+set(CHOREO_SANITIZED OFF)
+if(CMAKE_CXX_FLAGS MATCHES "fsanitize")
+  set(CHOREO_SANITIZED ON)
+endif()
+
+# choreo_test(NAME SOURCES ... LINK ...): a GoogleTest program, its cases registered one by one with ctest. `choreo_tests` builds all.
+add_custom_target(choreo_tests)
 function(choreo_test name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE choreo_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  add_dependencies(choreo_tests ${name})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# What is too long for `make test`: a stranger's program that uses the installed client, the container, and the tests under sanitizers.
+# What is too long for `make test`: a stranger's program that uses the installed client, the container, a build without the service, and
+# the tests under sanitizers.
 #   scripts/verify.sh BUILD_DIRECTORY
 set -euo pipefail
-build=$1
+build=$(realpath "$1")
 root=$(cd "$(dirname "$0")/.." && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+cd "$root"
 
 echo "== The installed package serves a stranger"
 cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
@@ -22,13 +24,15 @@ grep -q "127.0.0.1:1" "$scratch/said"
 echo "== The container builds and dances"
 "$root/scripts/verify_container.sh" "$build"
 
+echo "== Without the service: the model, choreo-lab, and their tests"
+cmake --preset release -B build/model -DCHOREO_SERVICE=OFF >/dev/null
+cmake --build build/model -j "$(nproc)"
+scripts/run_tests.sh build/model
+
 for preset in asan tsan; do
   echo "== Tests under $preset"
   cmake --preset "$preset" >/dev/null
-  # Programs that run LibTorch are left out: it is not built for sanitizers, and full of false alarms.
-  targets=(core_test audio_test motion_test formats_test draw_test engine_test dance_test server_test client_test)
-  cmake --build "build/$preset" -j "$(nproc)" --target "${targets[@]}"
-  for target in "${targets[@]}"; do
-    "build/$preset/bin/$target" --gtest_brief=1
-  done
+  # Not the programs: they run LibTorch, which is not built for sanitizers and left out of these tests.
+  cmake --build "build/$preset" -j "$(nproc)" --target choreo_tests
+  scripts/run_tests.sh "build/$preset"
 done

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
+#include "server/music_file.h"
 
 namespace choreo {
 namespace {
@@ -13,11 +14,26 @@ namespace {
 constexpr std::array<std::string_view, 7> kLogLevels = {"trace", "debug",    "info", "warning",
                                                         "error", "critical", "off"};
 
+/// What the process exits with then.
+constexpr int kMisused = 2;
+
 void CheckRange(const std::string& name, double value, double least, double most) {
   if (value >= least && value <= most) return;
   throw InvalidArgument(name, CLI::detail::to_string(value) + " is not in [" +
                                   CLI::detail::to_string(least) + ", " +
                                   CLI::detail::to_string(most) + "]");
+}
+
+void CheckAddress(const std::string& listen) {
+  const size_t colon = listen.rfind(':');
+  const std::string port = colon == std::string::npos ? "" : listen.substr(colon + 1);
+  const bool digits = !port.empty() && std::all_of(port.begin(), port.end(),
+                                                   [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits) throw InvalidArgument("--listen", '"' + listen + "\" is not HOST:PORT");
+  // gRPC would listen on the port's last 16 bits.
+  if (port.size() > 5 || std::stoi(port) > 65535) {
+    throw InvalidArgument("--listen", "port " + port + " is not in [0, 65535]");
+  }
 }
 
 void CheckFile(const std::string& name, const std::filesystem::path& path) {
@@ -75,6 +91,12 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                  "Answers that may wait for a slow client before its dance pauses, KiB.")
       ->envname("CHOREO_OUTBOX_KIB")
       ->capture_default_str();
+  app.add_option(
+         "--max-file-music-mib", config.max_file_music_mib,
+         "Music files that are still coming, over all calls, MiB of memory. Calls that would "
+         "go beyond are refused (RESOURCE_EXHAUSTED).")
+      ->envname("CHOREO_MAX_FILE_MUSIC_MIB")
+      ->capture_default_str();
   app.add_option("--tls-cert", config.tls_certificate,
                  "PEM file with the certificate chain. Without it, connections are not encrypted.")
       ->envname("CHOREO_TLS_CERT");
@@ -85,17 +107,13 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_LOG_LEVEL")
       ->capture_default_str();
   app.set_config("--config", "", "Read settings from this TOML or INI file, as in: slots = 32");
+  app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
 }  // namespace
 
 void ServerConfig::Validate() const {
-  const size_t colon = listen.rfind(':');
-  if (colon == std::string::npos || colon + 1 == listen.size() ||
-      !std::all_of(listen.begin() + static_cast<std::ptrdiff_t>(colon) + 1, listen.end(),
-                   [](char c) { return c >= '0' && c <= '9'; })) {
-    throw InvalidArgument("--listen", '"' + listen + "\" is not HOST:PORT");
-  }
+  CheckAddress(listen);
   for (const auto& path : checkpoints) CheckFile("--checkpoint", path);
   CheckRange("--slots", slots, 1, 4096);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
@@ -105,6 +123,8 @@ void ServerConfig::Validate() const {
   CheckRange("--io-threads", io_threads, 1, 256);
   CheckRange("--drain-seconds", drain_seconds, 0, 3600);
   CheckRange("--outbox-kib", outbox_kib, 1, 65536);
+  // At least one file has room.
+  CheckRange("--max-file-music-mib", max_file_music_mib, kMaxAudioFileBytes >> 20, 1 << 20);
   if (tls_certificate.empty() != tls_key.empty()) {
     throw InvalidArgument(tls_key.empty() ? "--tls-key" : "--tls-cert",
                           "missing; a certificate and its key go together");
@@ -132,12 +152,17 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     config.Validate();
     return {.config = std::move(config), .exit_code = 0};
+  } catch (const CLI::ConfigError& error) {  // "INI was not able to parse KEY"
+    const std::string what = error.what();
+    std::cerr << "choreod: " << app.get_config_ptr()->as<std::string>()
+              << ": no setting is called \"" << what.substr(what.rfind(' ') + 1)
+              << "\"; choreod --help lists them\n";
   } catch (const CLI::ParseError& error) {
-    return {.config = std::nullopt, .exit_code = app.exit(error)};
+    if (app.exit(error) == 0) return {.config = std::nullopt, .exit_code = 0};
   } catch (const Error& error) {
     std::cerr << "choreod: " << error.what() << '\n';
-    return {.config = std::nullopt, .exit_code = 2};
   }
+  return {.config = std::nullopt, .exit_code = kMisused};
 }
 
 std::filesystem::path ShippedCheckpoint() {

@@ -24,6 +24,7 @@ struct ServerConfig {
   int io_threads = 2;           ///< that decode files and long pieces of music
   double drain_seconds = 20;    ///< that streams get to finish after SIGTERM
   int outbox_kib = 256;         ///< of answers that wait for a slow client before its dance pauses
+  int max_file_music_mib = 1024;  ///< of music files that have not come whole, over all calls
   std::filesystem::path tls_certificate;  ///< PEM chain; empty: no TLS
   std::filesystem::path tls_key;          ///< PEM; goes with tls_certificate
   std::string log_level = "info";         ///< trace, debug, info, warning, error, critical, off

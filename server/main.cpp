@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <string>
 
 #include "model/core/error.h"
 #include "model/core/threads.h"
@@ -54,7 +55,8 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
 void Run(const ServerConfig& config) {
   const sigset_t stop_signals = BlockStopSignals();
   const BlasInfo blas = DetectBlas();
-  RequireFastBlas(blas);
+  const std::string warning = RequireFastBlas(blas);
+  if (!warning.empty()) spdlog::warn("{}", warning);
   SetTorchThreads(config.threads);
   FlushDenormals();
   spdlog::info("BLAS {}", blas.name);

@@ -18,16 +18,22 @@ namespace choreo {
 ///
 /// The queue of answers is bounded by back-pressure: beyond `max_bytes` the dance is paused, below
 /// half of it set going again. (HTTP/2 lets some 4 MiB more run ahead of a client that stalls.)
-/// Frames that wait are joined into larger messages. Thread-safe.
+/// Frames that wait are joined into larger messages. What a client is answered without a dance,
+/// message by message, is bounded as well: beyond kMostWaiting times `max_bytes` no more of its
+/// messages are read until it has taken answers. Thread-safe.
 template <class Response>
 class Outbox {
  public:
+  /// Frames alone do not get there, so a client may send everything before it reads anything.
+  static constexpr size_t kMostWaiting = 4;
+
   /// What a reactor does for the outbox. Called with the lock held; neither may call back.
   class Wire {
    public:
     virtual ~Wire() = default;
     virtual void Write(const Response* message) = 0;  ///< ends in OnWriteDone
     virtual void Finish(const grpc::Status& status) = 0;
+    virtual void Read() {}  ///< the client's next message; only after RequestRead
   };
 
   enum class State {
@@ -96,6 +102,14 @@ class Outbox {
     Advance();
   }
 
+  /// The reactor is done with the client's last message: it may read the next one, as soon as there
+  /// is room for its answer, unless the call ends before.
+  void RequestRead() {
+    const std::lock_guard lock(mutex_);
+    read_wanted_ = true;
+    Advance();
+  }
+
   /// The reactor's OnWriteDone.
   void OnWriteDone(bool ok) {
     {
@@ -154,8 +168,12 @@ class Outbox {
     return true;
   }
 
-  // The next operation, if one is due. Under the lock.
+  // The next operations, if any are due. Under the lock.
   void Advance() {
+    if (read_wanted_ && state_ == State::kOpen && bytes_ <= kMostWaiting * max_bytes_) {
+      read_wanted_ = false;
+      wire_->Read();
+    }
     if (writing_ || state_ == State::kFinished) return;
     if (!queue_.empty()) {
       writing_ = true;
@@ -191,6 +209,7 @@ class Outbox {
   std::deque<Item> queue_;  // the front is being written while writing_
   size_t bytes_ = 0;        // of the queue
   bool writing_ = false;
+  bool read_wanted_ = false;
   int holds_ = 0;
   bool paused_ = false;
   bool updating_pressure_ = false;

@@ -217,11 +217,12 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   if (message.after_size() > 0 && !message.has_target()) {
     throw InvalidArgument("after", "there is no target");
   }
+  std::vector<Pose> after;
   for (int i = 0; i < message.after_size(); ++i) {
-    const Pose pose = ToPose(message.after(i), model.skeleton, At("after", i));
-    ValidateHistory(model.skeleton, {&pose, 1}, "after");
-    if (i == 0) request.after = pose;
+    after.push_back(ToPose(message.after(i), model.skeleton, At("after", i)));
   }
+  ValidateHistory(model.skeleton, after, "after");
+  if (!after.empty()) request.after = after.front();
   if (message.has_controls()) CheckControls(message.controls(), model, "controls");
 
   if (message.config().has_audio_format()) {

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "model/core/error.h"
 #include "server/read_request.h"
@@ -28,6 +29,11 @@ constexpr int kClientPingMs = 10'000;  // clients may ping this often
 /// What calls that were told to end get to do so.
 constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
+/// After the last call of a server that drains: how long those who come are still refused in words.
+/// A client may hold a connection and not look at it; once gRPC shuts down, its next call would end
+/// as CANCELLED, which tells nobody to go elsewhere. So the shutdown itself is short then.
+constexpr milliseconds kNotice{1'000};
+constexpr milliseconds kShutdownTimeAfterNotice{50};
 
 std::string ReadFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -65,7 +71,8 @@ std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engin
 struct Server::Impl {
   Impl(const ServerConfig& config, std::vector<Engines> models)
       : serving(MakeSchedulers(std::move(models), config.max_waiting), config.max_streams,
-                static_cast<size_t>(config.outbox_kib) << 10, config.io_threads),
+                static_cast<size_t>(config.outbox_kib) << 10,
+                int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving) {
     // Both plug into every server that is built from here on in this process.
     grpc::EnableDefaultHealthCheckService(true);
@@ -132,7 +139,10 @@ void Server::Drain(double seconds) {
                          "continuation"));
     calls.WaitUntilEmpty(kAbortTime);
   }
-  impl_->server->Shutdown(std::chrono::system_clock::now() + kShutdownTime);
+  const milliseconds notice = std::min(kNotice, milliseconds(static_cast<int64_t>(seconds * 1e3)));
+  std::this_thread::sleep_for(notice);
+  impl_->server->Shutdown(std::chrono::system_clock::now() +
+                          (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
   uint64_t frames = 0;
   uint64_t steps = 0;
   for (const auto& scheduler : impl_->serving.models) {

@@ -5,6 +5,7 @@
 #include "model/audio/format.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
+#include "server/music_file.h"
 #include "server/read_request.h"
 #include "server/stream_reactor.h"
 #include "server/transition_reactor.h"

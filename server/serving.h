@@ -8,6 +8,7 @@
 
 #include "model/engine/scheduler.h"
 #include "server/call_registry.h"
+#include "server/music_file.h"
 #include "server/task_pool.h"
 
 namespace choreo {
@@ -15,10 +16,11 @@ namespace choreo {
 /// What the calls of one server share. Thread-safe after construction; outlives every call.
 struct Serving {
   Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, int max_calls, size_t outbox_limit,
-          int io_threads)
+          int64_t file_music_bytes, int io_threads)
       : models(std::move(schedulers)),
         calls(max_calls),
         outbox_bytes(outbox_limit),
+        file_music(file_music_bytes),
         tasks(io_threads) {}
 
   /// The first model for an empty name. Throws Error(kNotFound) that lists the models.
@@ -30,6 +32,7 @@ struct Serving {
   const std::vector<std::unique_ptr<Scheduler>> models;  ///< one each; never empty
   CallRegistry calls;
   const size_t outbox_bytes;
+  MusicBudget file_music;
   TaskPool tasks;  // last: its threads use all of the above
 };
 

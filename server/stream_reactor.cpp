@@ -11,6 +11,7 @@
 #include "model/audio/decode.h"
 #include "model/dance/dance_stream.h"
 #include "server/call_session.h"
+#include "server/music_file.h"
 #include "server/read_pose.h"
 #include "server/read_request.h"
 #include "server/write_response.h"
@@ -30,7 +31,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
                            public std::enable_shared_from_this<DanceSession> {
  public:
   DanceSession(Serving& serving, Wire* wire, std::string peer)
-      : CallSession(serving, wire, "StreamDance", std::move(peer)) {}
+      : CallSession(serving, wire, "StreamDance", std::move(peer)), file_(serving.file_music) {}
 
   /// True for a message that takes long.
   bool IsLong(const Request& request) const {
@@ -152,22 +153,15 @@ class DanceSession final : public CallSession<Response, DanceStream>,
                   std::to_string(audio.first_sample()) + " is not the byte expected, " +
                       std::to_string(file_.size()));
     }
-    if (static_cast<int64_t>(file_.size() + audio.data().size()) > kMaxAudioFileBytes) {
-      throw InvalidArgument(
-          "audio.data", "the file is longer than " + std::to_string(kMaxAudioFileBytes) + " bytes");
-    }
-    file_ += audio.data();
+    file_.Append(audio.data(), "audio.data");
   }
 
   // Hands the music of a file that has come whole to the stream; nothing for PCM.
   void DecodeFile(DanceStream& stream) {
     if (!audio_ || audio_->encoding() != v1::AUDIO_ENCODING_FILE || file_decoded_) return;
     file_decoded_ = true;
-    std::vector<float> mono;
-    {
-      const std::string bytes = std::exchange(file_, {});
-      mono = ToModelRate(DecodeAudioMemory(std::as_bytes(std::span(bytes)), "audio"));
-    }
+    const std::vector<float> mono = DecodeMono(AudioReader::OpenMemory(file_.bytes(), "audio"));
+    file_.Clear();
     if (beats_.empty()) {
       beats_ = FindBeats(mono).Seconds();
       stream.SetMusicBeats(beats_);
@@ -209,7 +203,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
 
   // Of the messages.
   int keyframes_ = 0;
-  std::string file_;  // as much of it as has come
+  MusicFile file_;
   bool file_decoded_ = false;
 
   // Written before the stream has music, read by its sink afterwards.
@@ -225,7 +219,7 @@ class StreamReactor final : public grpc::ServerBidiReactor<Request, Response>,
     const Outbox<Response>::Hold hold(session_->outbox());
     try {
       serving.calls.Enter(session_);
-      StartRead(&request_);
+      session_->outbox().RequestRead();
     } catch (const Error& error) {
       session_->Fail(error);
     }
@@ -235,6 +229,7 @@ class StreamReactor final : public grpc::ServerBidiReactor<Request, Response>,
 
   void Write(const Response* message) override { StartWrite(message); }
   void Finish(const grpc::Status& status) override { ServerBidiReactor::Finish(status); }
+  void Read() override { StartRead(&request_); }
 
   // ---- gRPC's reactions
 
@@ -267,7 +262,7 @@ class StreamReactor final : public grpc::ServerBidiReactor<Request, Response>,
     if (!ok) return session_->HandleHalfClose();
     session_->Handle(request_);
     request_.Clear();
-    if (session_->outbox().open()) StartRead(&request_);
+    session_->outbox().RequestRead();
   }
 
   Serving& serving_;

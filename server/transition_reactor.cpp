@@ -96,14 +96,11 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   // The samples of a file, and the beats of the music if the client does not know them.
   static void AddMusic(const Request& message, GroupRequest* request) {
     if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) return;
-    const DecodedAudio audio =
-        DecodeAudioMemory(std::as_bytes(std::span(message.audio().data())), "audio");
-    request->sample_rate = audio.sample_rate;
-    request->channels = audio.channels;
-    request->samples = audio.interleaved;
-    if (request->music_beats.empty()) {
-      request->music_beats = FindBeats(ToModelRate(audio)).Seconds();
-    }
+    request->samples = DecodeMono(
+        AudioReader::OpenMemory(std::as_bytes(std::span(message.audio().data())), "audio"));
+    request->sample_rate = kModelSampleRate;
+    request->channels = 1;
+    if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
   }
 
   // Written before the group is there. Nothing of the message itself: it may go before the group.

@@ -1,6 +1,7 @@
 #include "server/write_response.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "model/audio/format.h"
 #include "model/dance/transition.h"
@@ -124,6 +125,7 @@ void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
   out->set_model_frame_rate(model.fps);
   out->set_history_frames(model.history_frames);
   out->set_default_temperature(model.default_temperature);
+  out->set_max_transition_frames(std::min(model.max_transition_frames, kMaxTransitionFrames));
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;
   out->set_audio_lead_s(static_cast<double>(kSomeFrame) / model.fps -

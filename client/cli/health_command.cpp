@@ -10,7 +10,7 @@ namespace {
 /// Fails unless the server serves: for those who start, watch and replace servers.
 void Run(const ServerOptions& server) {
   client::Options options = server.ForClient();
-  options.max_retries = 0;
+  options.retry_s = 0;
   if (!client::Client(options).IsServing()) {
     throw Error(ErrorCode::kUnavailable, options.addresses.front(), "does not serve, or no more");
   }

@@ -29,7 +29,8 @@ constexpr const char* kListens = "choreod listens on ";
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
   dup2(to, STDOUT_FILENO);
-  execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning", nullptr);
+  execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning",
+        "--drain-seconds", "0", nullptr);
   _exit(127);
 }
 

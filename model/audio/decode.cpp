@@ -17,6 +17,9 @@ namespace {
 
 constexpr const char* kFormats = "WAV, FLAC, Ogg or MP3";
 
+/// Of each channel, decoded at a time.
+constexpr size_t kPieceSamples = 65536;
+
 /// Where libsndfile is in a ByteSource.
 struct Cursor {
   ByteSource* source;
@@ -176,7 +179,7 @@ DecodedAudio ReadAll(AudioReader reader) {
   audio.sample_rate = reader.sample_rate();
   audio.channels = reader.channels();
   const size_t channels = static_cast<size_t>(audio.channels);
-  const size_t block = 65536 * channels;
+  const size_t block = kPieceSamples * channels;
   for (;;) {
     const size_t size = audio.interleaved.size();
     audio.interleaved.resize(size + block);
@@ -192,14 +195,24 @@ DecodedAudio DecodeAudioFile(const std::filesystem::path& path) {
   return ReadAll(AudioReader::OpenFile(path));
 }
 
-DecodedAudio DecodeAudioMemory(std::span<const std::byte> bytes, const std::string& name) {
-  return ReadAll(AudioReader::OpenMemory(bytes, name));
-}
-
 std::vector<float> ToModelRate(const DecodedAudio& audio) {
   Resampler resampler(audio.sample_rate, audio.channels);
   std::vector<float> mono;
   resampler.Push(audio.interleaved);
+  resampler.Finish();
+  resampler.Pull(mono);
+  return mono;
+}
+
+std::vector<float> DecodeMono(AudioReader reader) {
+  Resampler resampler(reader.sample_rate(), reader.channels());
+  const size_t channels = static_cast<size_t>(reader.channels());
+  std::vector<float> piece(kPieceSamples * channels);
+  std::vector<float> mono;
+  while (const int64_t got = reader.Read(piece)) {
+    resampler.Push(std::span(piece).first(static_cast<size_t>(got) * channels));
+    resampler.Pull(mono);
+  }
   resampler.Finish();
   resampler.Pull(mono);
   return mono;

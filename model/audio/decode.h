@@ -60,11 +60,14 @@ struct DecodedAudio {
   double seconds() const { return static_cast<double>(samples()) / sample_rate; }
 };
 
-/// All of a sound file at once. Errors as AudioReader.
+/// All of a sound file at once: ten minutes of it may be 3.7 GB. Errors as AudioReader.
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path);
-DecodedAudio DecodeAudioMemory(std::span<const std::byte> bytes, const std::string& name = "audio");
 
 /// As mono samples at 22 050 Hz, the whole: what Mfcc, OnsetStrength and FindBeats take.
 std::vector<float> ToModelRate(const DecodedAudio& audio);
+
+/// The same straight from the file, decoded in pieces, so that no more is held than the result (53
+/// MB at most). The same bits. Errors as AudioReader.
+std::vector<float> DecodeMono(AudioReader reader);
 
 }  // namespace choreo

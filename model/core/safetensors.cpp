@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
@@ -48,6 +50,7 @@ Safetensors ReadSafetensors(const std::filesystem::path& path) {
   const uint64_t data_bytes = file_bytes - 8 - header_bytes;
 
   Safetensors content;
+  std::map<uint64_t, uint64_t> extents;  // of the tensors so far, begin to end
   try {
     const nlohmann::json entries = nlohmann::json::parse(header);
     for (const auto& [name, entry] : entries.items()) {
@@ -67,6 +70,17 @@ Safetensors ReadSafetensors(const std::filesystem::path& path) {
                    std::to_string(end) + " of " + std::to_string(data_bytes) +
                    " does not fit its shape (truncated?)");
       }
+      // The next tensor by position must start at our end or later, the one before end at our
+      // start.
+      const auto after = extents.lower_bound(begin);
+      const bool overlaps =
+          end > begin && ((after != extents.end() && after->first < end) ||
+                          (after != extents.begin() && std::prev(after)->second > begin));
+      if (overlaps) {
+        throw fail("tensor " + name + " at bytes " + std::to_string(begin) + " to " +
+                   std::to_string(end) + " overlaps another one");
+      }
+      if (end > begin) extents.emplace(begin, end);
       tensor.data.resize(static_cast<size_t>(count));
       file.seekg(static_cast<std::streamoff>(8 + header_bytes + begin));
       file.read(reinterpret_cast<char*>(tensor.data.data()),

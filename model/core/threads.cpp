@@ -76,8 +76,18 @@ BlasInfo DetectBlas() {
   return info;
 }
 
-void RequireFastBlas(const BlasInfo& blas) {
-  if (blas.kind != BlasInfo::Kind::kReference) return;
+std::string RequireFastBlas(const BlasInfo& blas) {
+  switch (blas.kind) {
+    case BlasInfo::Kind::kFast:
+      return "";
+    case BlasInfo::Kind::kNone:
+      return "no BLAS library is loaded; LibTorch brings its own, or products are slow";
+    case BlasInfo::Kind::kUnknown:
+      return "nobody knows how fast the BLAS " + blas.name + " (" + blas.path +
+             ") is; OpenBLAS, MKL and BLIS are";
+    case BlasInfo::Kind::kReference:
+      break;
+  }
   throw Error(ErrorCode::kFailedPrecondition, "",
               "only the reference BLAS is installed (" + blas.path +
                   "), which is far too slow to dance in time; install a fast one: apt-get install "

@@ -22,7 +22,8 @@ struct BlasInfo {
 BlasInfo DetectBlas();
 
 /// Throws Error(kFailedPrecondition) that tells what to install, if `blas` is the reference BLAS.
-void RequireFastBlas(const BlasInfo& blas);
+/// Returns a warning where nobody knows whether it is fast; empty for a fast one.
+std::string RequireFastBlas(const BlasInfo& blas);
 
 /// Cores that this process may use: its CPU affinity and its cgroup's quota taken together; >= 1.
 int UsableCores();

@@ -52,8 +52,10 @@ struct DanceFrame {
 /// How a transition met its key. Distances over all joints (see ComparePoses), outside the mask
 /// nothing counts.
 struct ArrivalResult {
-  double raw_error_m = 0;    ///< the model's own frame at the key, before arrival
-  double final_error_m = 0;  ///< the emitted frame at the key
+  /// Of the model's own frame at the key. It was made after frames that arrival had already steered
+  /// towards the key, so an unsteered dance would miss the key by more.
+  double raw_error_m = 0;
+  double final_error_m = 0;  ///< of the emitted frame at the key
   double final_error_deg = 0;
   double correction_m = 0;  ///< furthest that arrival moved a joint away from the model's frame,
                             ///< over its whole window

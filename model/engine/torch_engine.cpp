@@ -12,6 +12,7 @@
 
 #include "model/core/error.h"
 #include "model/core/threads.h"
+#include "model/engine/build_identity.h"
 #include "model/engine/torch_step_engine.h"
 #include "model/engine/torch_tile.h"
 #include "model/flow/checkpoint.h"
@@ -44,8 +45,9 @@ std::string Fingerprint(const Checkpoint& checkpoint, const torch::Device& devic
     kernels += DetectBlas().name + ", " + CpuCapability() + ", " +
                std::to_string(at::get_num_threads()) + " threads";
   }
-  return checkpoint.model->config().preset + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION "/" +
-         kernels + ", tile " + std::to_string(tile_rows);
+  return checkpoint.model->config().preset + "/" + checkpoint.hash +
+         "/choreo " CHOREO_VERSION ", " + BuildIdentity() + "/" + kernels + ", tile " +
+         std::to_string(tile_rows);
 }
 
 std::string LicenceOf(const std::string& card) {

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <string>
 
 #include "model/core/threads.h"
 #include "model/evaluation/eval_command.h"
@@ -19,11 +20,12 @@ int main(int argc, char** argv) {
   choreo::AddTrainCommand(app);
   choreo::AddEvalCommand(app);
   try {
-    choreo::RequireFastBlas(choreo::DetectBlas());
+    const std::string warning = choreo::RequireFastBlas(choreo::DetectBlas());
+    if (!warning.empty()) std::fprintf(stderr, "choreo-lab: %s\n", warning.c_str());
     choreo::FlushDenormals();
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error);
+    return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "choreo-lab: %s\n", error.what());
     return 1;

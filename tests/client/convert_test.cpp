@@ -37,6 +37,27 @@ TEST(ClientConvertTest, PassesOverEventsOfTheFuture) {
   EXPECT_FALSE(FromProto(v1::Event()).has_value());
 }
 
+TEST(ClientConvertTest, ModelsOfOldServersHaveTheServersLimit) {
+  v1::GetServerInfoResponse response;
+  response.mutable_limits()->set_max_transition_frames(1800);
+  v1::ModelInfo* model = response.add_models();
+  model->set_max_transition_frames(150);
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  for (const std::string& name : skeleton.joint_names)
+    model->mutable_skeleton()->add_joint_names(name);
+  for (const int parent : skeleton.parents) model->mutable_skeleton()->add_parents(parent);
+  for (const double value : skeleton.offsets.reshaped()) {
+    model->mutable_skeleton()->add_offsets(static_cast<float>(value));
+  }
+  for (const int joint : skeleton.feet) model->mutable_skeleton()->add_feet(joint);
+  model->mutable_skeleton()->set_pelvis_height(skeleton.pelvis_height);
+  *response.add_models() = *model;
+  response.mutable_models(1)->clear_max_transition_frames();
+  const ServerDescription server = FromProto(response);
+  EXPECT_EQ(server.models[0].max_transition_frames, 150);
+  EXPECT_EQ(server.models[1].max_transition_frames, 1800);
+}
+
 TEST(ClientConvertTest, AKeyAsksForWhatItsMaskSays) {
   KeyPose key;
   key.id = "a";

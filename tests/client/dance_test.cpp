@@ -129,7 +129,7 @@ TEST(DanceTest, ErrorsAreTheServersOwn) {
 }
 
 TEST(DanceTest, NamesAServerThatIsNotThere) {
-  const Client client({.addresses = {"127.0.0.1:1"}, .max_retries = 1, .first_backoff_s = 0.01});
+  const Client client({.addresses = {"127.0.0.1:1"}, .retry_s = 0.05, .first_backoff_s = 0.01});
   ExpectError(ErrorCode::kUnavailable, "127.0.0.1:1", [&] { client.GetServerInfo(); });
   ExpectError(ErrorCode::kUnavailable, "127.0.0.1:1",
               [&] { client.Dance({.frames = 30}, {}, {}); });
@@ -263,7 +263,7 @@ TEST(ResumeTest, RefusesAnotherFingerprintUnlessAllowed) {
 TEST(ResumeTest, EndsWhenNoServerIsLeft) {
   TestServer dying;
   Options options = FastRetries({dying.address()});
-  options.max_retries = 2;
+  options.retry_s = 0.1;
   ExpectError(ErrorCode::kUnavailable, dying.address(),
               [&] { Steer(Client(options), 30, [&] { dying.Die(); }); });
 }

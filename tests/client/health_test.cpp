@@ -10,7 +10,7 @@ namespace {
 using HealthTest = CommandTest;
 
 TEST_F(HealthTest, ServesUntilItDrains) {
-  const client::Client client({.addresses = {server_.address()}, .max_retries = 0});
+  const client::Client client({.addresses = {server_.address()}, .retry_s = 0});
   EXPECT_TRUE(client.IsServing());
   const Outcome healthy = Choreo("health" + Server());
   EXPECT_EQ(healthy.code, 0) << healthy.said;

@@ -16,7 +16,7 @@ TEST(LocalServerTest, ServesAsLongAsItLives) {
     const client::Client client({.addresses = {address}});
     EXPECT_EQ(client.GetServerInfo().models.front().name, "fake");
   }
-  const client::Client client({.addresses = {address}, .max_retries = 0});
+  const client::Client client({.addresses = {address}, .retry_s = 0});
   ExpectError(ErrorCode::kUnavailable, address, [&] { client.GetServerInfo(); });
 }
 

@@ -24,10 +24,12 @@ TEST(ThreadsTest, RefusesTheReferenceBlasAndTellsWhatToInstall) {
   }
 }
 
-TEST(ThreadsTest, AcceptsEveryOtherBlas) {
-  for (const auto kind : {BlasInfo::Kind::kNone, BlasInfo::Kind::kFast, BlasInfo::Kind::kUnknown}) {
-    EXPECT_NO_THROW(RequireFastBlas({kind, "name", "path"}));
-  }
+TEST(ThreadsTest, WarnsOfABlasThatMayBeSlow) {
+  EXPECT_EQ(RequireFastBlas({BlasInfo::Kind::kFast, "OpenBLAS", "path"}), "");
+  const std::string unknown = RequireFastBlas({BlasInfo::Kind::kUnknown, "libodd.so", "/lib/odd"});
+  EXPECT_NE(unknown.find("libodd.so"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("/lib/odd"), std::string::npos) << unknown;
+  EXPECT_NE(RequireFastBlas({BlasInfo::Kind::kNone, "", ""}), "");
 }
 
 // This program links no BLAS; engine_torch_test looks at the one behind LibTorch.

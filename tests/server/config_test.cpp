@@ -39,6 +39,35 @@ TEST(ServerConfigTest, FlagsGoBeforeFileBeforeEnvironment) {
   EXPECT_EQ(line.config->io_threads, 5);
 }
 
+TEST(ServerConfigTest, AFileWithASettingThatIsNoneIsRefused) {
+  for (const std::string text : {"slots = 3\nslotz = 4\n", "[slotz]\nslots = 4\n"}) {
+    const std::string path = testing::TempDir() + "choreod_config_extra_test.toml";
+    std::ofstream(path) << text;
+    testing::internal::CaptureStderr();
+    const CommandLine line = Parse({"--config", path.c_str()});
+    const std::string message = testing::internal::GetCapturedStderr();
+    EXPECT_FALSE(line.config);
+    EXPECT_EQ(line.exit_code, 2);
+    EXPECT_NE(message.find(path), std::string::npos) << message;
+    EXPECT_NE(message.find("slotz"), std::string::npos) << message;
+  }
+}
+
+TEST(ServerConfigTest, AFileThatIsNotThereIsNamed) {
+  testing::internal::CaptureStderr();
+  const CommandLine line = Parse({"--config", "/nonexistent.toml"});
+  const std::string message = testing::internal::GetCapturedStderr();
+  EXPECT_FALSE(line.config);
+  EXPECT_EQ(line.exit_code, 2);
+  EXPECT_NE(message.find("/nonexistent.toml"), std::string::npos) << message;
+}
+
+TEST(ServerConfigTest, PortsEndAt65535) {
+  ServerConfig config;
+  config.listen = "127.0.0.1:65535";
+  config.Validate();
+}
+
 TEST(ServerConfigTest, HelpExplainsAndLeaves) {
   testing::internal::CaptureStdout();
   const CommandLine line = Parse({"--help"});
@@ -63,15 +92,18 @@ TEST_P(BadServerConfigTest, IsNamed) {
   const CommandLine line = Parse({GetParam().flag, GetParam().value});
   const std::string message = testing::internal::GetCapturedStderr();
   EXPECT_FALSE(line.config);
-  EXPECT_NE(line.exit_code, 0);
+  EXPECT_EQ(line.exit_code, 2);
   EXPECT_NE(message.find(GetParam().flag), std::string::npos) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadServerConfigTest,
     testing::Values(BadSetting{"--listen", "nowhere"}, BadSetting{"--listen", "host:"},
-                    BadSetting{"--slots", "0"}, BadSetting{"--slots", "many"},
-                    BadSetting{"--max-streams", "-1"}, BadSetting{"--log-level", "loud"},
+                    BadSetting{"--listen", "127.0.0.1:65536"},
+                    BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
+                    BadSetting{"--max-file-music-mib", "127"}, BadSetting{"--slots", "0"},
+                    BadSetting{"--slots", "many"}, BadSetting{"--max-streams", "-1"},
+                    BadSetting{"--log-level", "loud"},
                     BadSetting{"--checkpoint", "/nonexistent.safetensors"},
                     BadSetting{"--drain-seconds", "-3"}, BadSetting{"--frobnicate", "1"}));
 

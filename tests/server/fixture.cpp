@@ -169,7 +169,11 @@ void ServerTest::Start(int slots, std::function<void(ServerConfig&)> change,
   for (const std::string& name : names) {
     models.emplace_back().push_back(std::make_unique<ProbedEngine>(slots, name, probe));
   }
-  server = std::make_unique<Server>(config, std::move(models));
+  Connect(std::make_unique<Server>(config, std::move(models)));
+}
+
+void ServerTest::Connect(std::unique_ptr<Server> started) {
+  server = std::move(started);
   channel = grpc::CreateChannel("127.0.0.1:" + std::to_string(server->port()),
                                 grpc::InsecureChannelCredentials());
   stub_ = v1::Choreography::NewStub(channel);

@@ -84,13 +84,12 @@ class DanceClient {
   /// Reads until this many frames have come in all; false if the stream ended before.
   bool ReadFrames(int64_t count);
   bool ReadHeader();
+  bool ReadOne();
   /// Half-closes, unless that was done, and reads all that is left.
   const Answer& Finish();
   const Answer& answer() const { return answer_; }
 
  private:
-  bool ReadOne();
-
   std::unique_ptr<grpc::ClientReaderWriter<v1::StreamDanceRequest, v1::StreamDanceResponse>>
       stream_;
   Answer answer_;
@@ -107,6 +106,8 @@ class ServerTest : public ::testing::Test {
   /// Starts the server with models of these names, and connects to it.
   void Start(int slots = 16, std::function<void(ServerConfig&)> change = {},
              const std::vector<std::string>& names = {"fake"});
+  /// Takes over a server that a test has started itself.
+  void Connect(std::unique_ptr<Server> started);
   v1::Choreography::Stub& stub();
 
   static v1::DanceConfig Config(uint64_t seed = 7);

@@ -72,6 +72,33 @@ TEST_F(InfoTest, TellsModelLimitsAndDevices) {
   EXPECT_EQ(info.version(), "0.1.0");
 }
 
+class BriefEngine : public FakeEngine {
+ public:
+  explicit BriefEngine(int longest) { model_.max_transition_frames = longest; }
+};
+
+// The server's limit is one thing, what its model can do another.
+TEST_F(InfoTest, EachModelTellsItsLongestTransition) {
+  for (const auto& [of_model, told] : {std::pair{150, 150}, {5'000, 1'800}}) {
+    ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    std::vector<Server::Engines> models(1);
+    models[0].push_back(std::make_unique<BriefEngine>(of_model));
+    Connect(std::make_unique<Server>(config, std::move(models)));
+    grpc::ClientContext context;
+    v1::GetServerInfoResponse info;
+    ASSERT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
+    EXPECT_EQ(info.models(0).max_transition_frames(), told);
+    EXPECT_EQ(info.limits().max_transition_frames(), 1'800);
+    v1::GenerateTransitionRequest request;
+    *request.mutable_config() = Config();
+    request.set_frames(told);
+    EXPECT_TRUE(Generate(request).status.ok());
+    request.set_frames(told + 1);
+    EXPECT_EQ(Generate(request).status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  }
+}
+
 TEST_F(InfoTest, SeveralModels) {
   Start(1, {}, {"first", "second"});
   auto dancer = [this](const std::string& model) {

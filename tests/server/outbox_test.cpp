@@ -21,7 +21,12 @@ struct RecordingWire : Outbox<Response>::Wire {
     EXPECT_FALSE(status) << "finished twice";
     status = end;
   }
+  void Read() override {
+    EXPECT_FALSE(status) << "a read after the end";
+    ++reads;
+  }
   std::vector<Response> written;
+  int reads = 0;
   std::optional<grpc::Status> status;
 };
 
@@ -87,6 +92,34 @@ TEST_F(OutboxTest, ASlowClientPausesTheDance) {
   EXPECT_EQ(pauses, (std::vector<bool>{true}));
   while (pauses.size() < 2 && wire.written.size() < 100) outbox.OnWriteDone(true);
   EXPECT_EQ(pauses, (std::vector<bool>{true, false}));
+}
+
+// A client that asks and asks, each question answered by an event, and takes no answer.
+TEST_F(OutboxTest, WhoTakesNoAnswersIsNotRead) {
+  Response refusal;
+  refusal.mutable_event()->mutable_keyframe_rejected()->set_reason(std::string(100, 'x'));
+  outbox.RequestRead();
+  int asked = 0;
+  for (; wire.reads == asked + 1; outbox.RequestRead()) {
+    outbox.Send(refusal);
+    ASSERT_LT(++asked, 1000);
+  }
+  const size_t waiting = static_cast<size_t>(asked) * refusal.ByteSizeLong();
+  EXPECT_GT(waiting, outbox.kMostWaiting * kMaxBytes);
+  EXPECT_LE(waiting, outbox.kMostWaiting * kMaxBytes + refusal.ByteSizeLong());
+  outbox.OnWriteDone(true);  // room for one
+  EXPECT_EQ(wire.reads, asked + 1);
+  outbox.OnWriteDone(true);
+  EXPECT_EQ(wire.reads, asked + 1) << "read twice for one request";
+}
+
+TEST_F(OutboxTest, NothingIsReadAfterTheEnd) {
+  outbox.Send(Frames(0, 1));
+  outbox.Close(grpc::Status::OK);
+  outbox.RequestRead();
+  outbox.OnWriteDone(true);
+  EXPECT_TRUE(wire.status);
+  EXPECT_EQ(wire.reads, 0);
 }
 
 TEST_F(OutboxTest, AbortDropsWhatWaits) {

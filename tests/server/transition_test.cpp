@@ -169,6 +169,13 @@ INSTANTIATE_TEST_SUITE_P(
                          r.mutable_after(1)->mutable_rotations()->Truncate(69);
                        },
                        kInvalid, "after[1].rotations", "23 joints"},
+        BadRequestCase{"AfterFarAway",
+                       [](R& r) {
+                         *r.add_after() = r.target();
+                         *r.add_after() = r.target();
+                         r.mutable_after(1)->mutable_root_position()->set_x(2e4);
+                       },
+                       kInvalid, "after[1].root_position[0]", "10000"},
         BadRequestCase{"TooManyAfter",
                        [](R& r) {
                          for (int i = 0; i < 61; ++i) *r.add_after() = r.target();

@@ -1,0 +1,30 @@
+# Writes what a build is made from, as the C++ source OUTPUT; a fingerprint contains it. A script: it runs when a source changes.
+#   cmake -DROOT=... -DFOLDERS=a,b -DCOMPILER=... -DBUILD_TYPE=... -DFLAGS=... -DOUTPUT=... -P write_build_identity.cmake
+# Names are relative to ROOT, so the same sources have the same identity wherever they lie, with git and without.
+string(REPLACE "," ";" folders "${FOLDERS}")
+set(sources)
+foreach(folder ${folders})
+  file(GLOB found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/CMakeLists.txt)
+  list(APPEND sources ${found})
+endforeach()
+if(NOT sources)
+  message(FATAL_ERROR "no sources in ${FOLDERS} of ${ROOT}")
+endif()
+list(SORT sources)
+# These flags hold the path of the build and change no bit.
+string(REGEX REPLACE "-f[a-z]+-prefix-map=[^ ]*" "" flags "${FLAGS}")
+set(text "${flags}\n")
+foreach(source ${sources})
+  file(SHA256 ${ROOT}/${source} hash)
+  string(APPEND text "${source} ${hash}\n")
+endforeach()
+string(SHA256 hash "${text}")
+string(SUBSTRING ${hash} 0 16 hash)
+file(WRITE ${OUTPUT} "#include \"model/engine/build_identity.h\"
+
+namespace choreo {
+
+const char* BuildIdentity() { return \"${COMPILER} ${BUILD_TYPE} ${hash}\"; }
+
+}  // namespace choreo
+")

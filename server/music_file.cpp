@@ -1,0 +1,52 @@
+#include "server/music_file.h"
+
+#include <algorithm>
+
+#include "model/core/error.h"
+
+namespace choreo {
+
+void MusicBudget::Take(int64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (bytes > bytes_ - taken_) {
+    throw Error(ErrorCode::kResourceExhausted, "",
+                "the server is full: music files on their way hold " + std::to_string(taken_) +
+                    " bytes, this one needs " + std::to_string(bytes) + " more, at most " +
+                    std::to_string(bytes_) + " are there for all");
+  }
+  taken_ += bytes;
+}
+
+void MusicBudget::GiveBack(int64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  taken_ -= bytes;
+}
+
+int64_t MusicBudget::taken() const {
+  const std::lock_guard lock(mutex_);
+  return taken_;
+}
+
+void MusicFile::Append(std::string_view bytes, const std::string& field) {
+  const int64_t needed = size() + static_cast<int64_t>(bytes.size());
+  if (needed > kMaxAudioFileBytes) {
+    throw InvalidArgument(
+        field, "the file is longer than " + std::to_string(kMaxAudioFileBytes) + " bytes");
+  }
+  if (needed > reserved_) {
+    // Twice as much each time, so that a byte is copied twice at most on average.
+    const int64_t wanted = std::max(needed, std::min(2 * reserved_, kMaxAudioFileBytes));
+    budget_.Take(wanted - reserved_);
+    reserved_ = wanted;
+    bytes_.reserve(static_cast<size_t>(wanted));
+  }
+  bytes_ += bytes;
+}
+
+void MusicFile::Clear() {
+  bytes_ = {};
+  budget_.GiveBack(reserved_);
+  reserved_ = 0;
+}
+
+}  // namespace choreo
