@@ -35,7 +35,8 @@ if ! build images -q debian:bookworm-slim >/dev/null 2>&1; then
   build commit -q "$base" debian:bookworm-slim >/dev/null
   build rm "$base" >/dev/null
 fi
-build bud --layers --isolation chroot --network host --pull-never --build-arg "JOBS=${JOBS:-$(nproc)}" \
+# Health checks are part of the format of docker alone.
+build bud --layers --format docker --isolation chroot --network host --pull-never --build-arg "JOBS=${JOBS:-$(nproc)}" \
   -f "$root/docker/Dockerfile" -t choreo "$root"
 build images choreo
 container=$(build from choreo)
@@ -53,7 +54,7 @@ expect "all shared libraries are there" inside "$container" -- \
   sh -c '! ldd /usr/local/bin/choreod /usr/local/bin/choreo | grep "not found"'
 
 # As the image says: its user, its environment, its entry point; but on a port of ours.
-entry=$(build inspect --format '{{join .OCIv1.Config.Entrypoint " "}}' "$container")
+entry=$(build inspect --format '{{index .Docker.Config.Entrypoint 0}}' "$container")
 port=$((20000 + RANDOM % 20000))
 settings=(--env "CHOREO_LISTEN=127.0.0.1:$port")
 inside "${settings[@]}" "$container" -- sh -c "echo \$\$; exec $entry" >"$scratch/said" 2>"$scratch/log" &
