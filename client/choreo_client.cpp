@@ -220,6 +220,13 @@ std::unique_ptr<RemoteDance> Client::StartDance(const DanceConfig& config) const
 
 DanceResult Client::Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
                           const std::function<void(const Message&)>& observer) const {
+  DanceResult result;
+  Dance(std::move(config), keys, audio, observer, &result);
+  return result;
+}
+
+void Client::Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
+                   const std::function<void(const Message&)>& observer, DanceResult* result) const {
   config.audio = audio.format;
   const std::unique_ptr<RemoteDance> dance = StartDance(config);
   // Keys first: the first frames then need little of the music, and no key can come late.
@@ -229,12 +236,10 @@ DanceResult Client::Dance(DanceConfig config, const std::vector<KeyPose>& keys, 
   if (audio.format.kind == AudioKind::kFile) dance->SendBytes(audio.bytes);
   if (audio.format.kind != AudioKind::kNone) dance->EndAudio();
 
-  DanceResult result;
   while (std::optional<Message> message = dance->Next()) {
     if (observer) observer(*message);
-    std::visit(DanceCollector{&result}, *message);
+    std::visit(DanceCollector{result}, *message);
   }
-  return result;
 }
 
 TransitionResult Client::GenerateTransition(const TransitionRequest& request) const {

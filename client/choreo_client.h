@@ -211,11 +211,13 @@ struct Resumed {
   std::string reason = {};  ///< what had happened
 };
 
-/// The end of a dance, and what it is worth. After a resume, `frames`, `log_likelihood`,
-/// `beat_hit_rate` and `skate_ratio` speak of the part since then; `keys` is complete all the same.
+/// The end of a dance, and what it is worth. `frames` and `keys` are the whole dance's; the rest
+/// speaks of the frames from `measured_from` on, which a resume moves on to where the last server
+/// took over.
 struct Report {
   int64_t frames = 0;  ///< at the model's rate
   std::vector<KeyReached> keys = {};
+  int64_t measured_from = 0;  ///< at the model's rate
   double log_likelihood = 0;  ///< nats a frame
   std::optional<double> beat_hit_rate = {};
   double skate_ratio = 0;
@@ -327,6 +329,9 @@ class Client {
   /// `observer`, if any, sees each message as it comes.
   DanceResult Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
                     const std::function<void(const Message&)>& observer = {}) const;
+  /// The same into `result`, which holds what came if the dance fails on the way.
+  void Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
+             const std::function<void(const Message&)>& observer, DanceResult* result) const;
 
   TransitionResult GenerateTransition(const TransitionRequest& request) const;
 

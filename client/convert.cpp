@@ -190,6 +190,7 @@ Continuation FromProto(const v1::Continuation& continuation) {
 Report FromProto(const v1::QualityReport& report, const v1::Timing& timing) {
   Report out;
   out.frames = report.frames();
+  out.measured_from = report.first_frame();
   for (const v1::KeyframeReport& key : report.keyframes()) {
     out.keys.push_back(ToKeyReached(key.id(), key.frame(), key.errors()));
   }

@@ -39,6 +39,9 @@ class Edit {
     }
     const Motion& motion = dance.motion;
     poses_ = motion.fps == fps() ? motion.frames : Resample(motion, fps()).frames;
+    // A file's rotations may have gone round more than once; what is sent takes the shortest way.
+    const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, poses_.front().rotations.cols())};
+    for (Pose& pose : poses_) MakeContinuous(pose, unturned);
   }
 
   double fps() const { return options_.model.fps; }

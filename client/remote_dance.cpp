@@ -188,7 +188,8 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
 
 Message RemoteDance::Impl::HandleSummary(const v1::DanceSummary& summary) {
   Report report = FromProto(summary.report(), summary.timing());
-  // The server speaks of what it made itself; the keys before a resume are known here.
+  // The server speaks of what it made itself; what came before a resume is known here.
+  report.frames += report.measured_from - header_->first_frame;
   for (const KeyReached& key : keys_) {
     const auto same = [&](const KeyReached& other) {
       return other.id == key.id && other.frame == key.frame;

@@ -5,6 +5,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/music.h"
+#include "client/cli/output_file.h"
 #include "model/audio/mfcc.h"
 #include "model/core/npy.h"
 
@@ -18,6 +19,7 @@ struct AnalyzeOptions {
 };
 
 void Run(const AnalyzeOptions& options) {
+  if (!options.features.empty()) RequireWritable("--features", options.features);
   const Music music = ReadMusic(options.song);
   if (!options.features.empty()) {
     const FeatureMatrix rows = Mfcc(music.mono);

@@ -2,19 +2,21 @@
 
 #include <algorithm>
 
+#include "client/cli/options.h"
+
 namespace choreo::cli {
 
 void ServerOptions::AddTo(CLI::App& command) {
-  command
-      .add_option("--server", addresses,
-                  "HOST:PORT of a choreod; several are replicas that stand in for each other. "
-                  "Without it, one is started on this machine "
-                  "for as long as it is needed.")
+  AddRepeated(command, "--server", addresses,
+              "HOST:PORT of a choreod. May be given more than once: several are replicas that "
+              "stand in for each other. Without it, one is started on this machine for as long as "
+              "it is needed.")
       ->envname("CHOREO_SERVER");
   command.add_flag("--tls", tls, "Encrypt the connection.");
   command.add_option("--ca", ca_certificate,
                      "PEM file of the authority to trust, with --tls; default: the system's.");
   command.add_option("--deadline", deadline_s, "Give up after this many seconds; 0: never.")
+      ->check(AtLeastZero())
       ->capture_default_str();
 }
 

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "client/cli/commands.h"
+#include "client/cli/output_file.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/contacts.h"
 #include "model/motion/resample.h"
@@ -16,6 +17,7 @@ struct ConvertOptions {
 
 void Run(const ConvertOptions& options) {
   RequireMotionFile(options.out);
+  RequireWritable("out", options.out);
   const Skeleton& skeleton = Skeleton::Smpl24();
   Motion motion = ReadMotion(options.in, skeleton);
   if (options.fps > 0) motion = Resample(motion, options.fps);

@@ -1,13 +1,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
+#include <sstream>
 
 #include "client/cli/choreography.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
-#include "client/cli/key_file.h"
+#include "client/cli/dance_keys.h"
 #include "client/cli/music.h"
+#include "client/cli/options.h"
+#include "client/cli/output_file.h"
 #include "client/cli/report.h"
 #include "model/core/progress.h"
 #include "model/formats/motion_file.h"
@@ -26,6 +30,7 @@ struct DanceOptions {
   std::string model;
   std::string out;
   std::string report;
+  bool no_clobber = false;
 };
 
 std::filesystem::path OutputPath(const DanceOptions& options) {
@@ -34,42 +39,40 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
                           : std::filesystem::path(options.out);
   // Better now than after the dance.
   RequireMotionFile(path);
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder))
-    throw Error(ErrorCode::kNotFound, "--out", "no folder " + folder.string());
+  if (options.no_clobber && std::filesystem::exists(path))
+    throw InvalidArgument("--no-clobber", path.string() + " is there already");
+  RequireWritable("--out", path);
+  if (!options.report.empty()) RequireWritable("--report", options.report);
   return path;
 }
 
-std::vector<client::KeyPose> ChooseKeys(const DanceOptions& options, const Music& music,
-                                        double seconds, const Skeleton& skeleton) {
-  if (options.keys.empty()) {
-    return ComposeKeys({.seconds = seconds, .beats = music.beats, .seed = options.seed.value_or(0)},
-                       PoseLibrary());
-  }
-  std::vector<client::KeyPose> keys;
-  for (const std::string& source : options.keys) {
-    auto more = ReadKeys(source, skeleton);
-    std::move(more.begin(), more.end(), std::back_inserter(keys));
-  }
-  return keys;
+/// Beside what was to be written: dance.npz, dance.partial.npz.
+std::filesystem::path PartialPath(const std::filesystem::path& out) {
+  std::filesystem::path path = out;
+  return path.replace_filename(out.stem().string() + ".partial" + out.extension().string());
 }
 
-/// What is promised of a dance: every key is in it, hit to 1 mm.
-void CheckKeys(const std::vector<client::KeyPose>& keys, const client::Report& report) {
-  constexpr double kPromise = 0.001;  // metres
-  for (const client::KeyPose& key : keys) {
-    const auto reached =
-        std::find_if(report.keys.begin(), report.keys.end(),
-                     [&](const client::KeyReached& candidate) { return candidate.id == key.id; });
-    if (reached == report.keys.end()) {
-      throw Error(ErrorCode::kInternal, key.id, "the dance has no such key pose");
-    }
-    if (!(reached->final_error_m <= kPromise)) {
-      throw Error(
-          ErrorCode::kInternal, key.id,
-          "was missed by " + std::to_string(1000 * reached->final_error_m) + " mm, more than 1 mm");
-    }
+double ChooseSeconds(const DanceOptions& options, const Music& music) {
+  const double song = music.audio.seconds();
+  if (!options.seconds) return song;
+  if (*options.seconds > song) {
+    std::ostringstream message;
+    message << "warning: --seconds " << *options.seconds << " is beyond the song, which ends at "
+            << song << " s; the dance ends with it\n";
+    std::cerr << message.str();
   }
+  return std::min(*options.seconds, song);
+}
+
+DanceKeys ChooseKeys(const DanceOptions& options, const Music& music, double seconds,
+                     const DanceLength& length, const Skeleton& skeleton) {
+  if (!options.keys.empty()) return ReadDanceKeys(options.keys, length, skeleton);
+  DanceKeys keys;
+  keys.poses = ComposeKeys(
+      {.seconds = seconds, .beats = music.beats, .seed = options.seed.value_or(0)}, PoseLibrary());
+  for (size_t i = 0; i < keys.poses.size(); ++i)
+    keys.places.push_back("keyframes[" + std::to_string(i) + "]");
+  return keys;
 }
 
 /// Shows messages while they come.
@@ -104,40 +107,59 @@ class Display {
   std::unique_ptr<ProgressBar> bar_;
 };
 
+/// Dances. What came of a dance that was cut off is written, too.
+client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
+                          const DanceKeys& keys, const client::Audio& audio, double model_fps,
+                          const std::filesystem::path& out) {
+  client::DanceResult dance;
+  Display display(*config.frames, model_fps);
+  try {
+    client.Dance(
+        config, keys.poses, audio, [&](const client::Message& message) { display(message); },
+        &dance);
+  } catch (const Error& error) {
+    if (!dance.motion.frames.empty()) {
+      const std::filesystem::path partial = PartialPath(out);
+      WriteMotion(partial, dance.header.skeleton, dance.motion, &dance.contacts);
+      std::ostringstream message;
+      message << "the dance was cut off; its first " << dance.motion.frames.size() << " frames ("
+              << static_cast<double>(dance.motion.frames.size()) / dance.motion.fps << " s) are in "
+              << partial.string() << '\n';
+      std::cerr << message.str();
+    }
+    throw InTermsOf(keys, error);
+  }
+  return dance;
+}
+
 void Run(const DanceOptions& options) {
   const std::filesystem::path out = OutputPath(options);
-  const Music music = ReadMusic(options.song);
-  const double seconds =
-      std::min(options.seconds.value_or(music.audio.seconds()), music.audio.seconds());
+  const Music music =
+      ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()));
+  const double seconds = ChooseSeconds(options, music);
 
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
-  const auto frames = static_cast<int64_t>(std::llround(seconds * model.fps));
-  std::vector<client::KeyPose> keys = ChooseKeys(options, music, seconds, model.skeleton);
-  std::stable_sort(keys.begin(), keys.end(),
-                   [&](const client::KeyPose& a, const client::KeyPose& b) {
-                     const auto frame = [&](const client::KeyPose& key) {
-                       return key.frame.value_or(std::llround(key.time_s * model.fps));
-                     };
-                     return frame(a) < frame(b);
-                   });
+  const DanceLength length{std::llround(seconds * model.fps), model.fps};
+  const DanceKeys keys = ChooseKeys(options, music, seconds, length, model.skeleton);
 
   client::DanceConfig config;
   config.model = options.model;
   config.fps = options.fps;
   config.seed = options.seed.value_or(0);
   config.temperature = options.temperature;
-  config.frames = frames;
+  config.frames = length.frames;
   std::copy_if(music.beats.begin(), music.beats.end(), std::back_inserter(config.music_beats),
                [&](double beat) { return beat < seconds; });
-  Display display(frames, model.fps);
-  const client::DanceResult dance = connection.client().Dance(
-      config, keys, AudioFor(music, seconds), [&](const auto& message) { display(message); });
+  const client::DanceResult dance =
+      Dance(connection.client(), config, keys, AudioFor(music.audio, seconds), model.fps, out);
 
   WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
-  if (!options.report.empty()) WriteText(options.report, ReportJson(dance.header, dance.report));
-  std::cout << ReportText(dance.header, dance.report) << out.string() << std::endl;
-  CheckKeys(keys, dance.report);
+  WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
+  written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
+  if (!options.report.empty()) WriteText(options.report, ReportJson(written));
+  std::cout << ReportText(written) << out.string() << std::endl;
+  CheckKeys(written);
 }
 
 }  // namespace
@@ -152,13 +174,16 @@ void AddDanceCommand(CLI::App& program) {
   command->add_option("song", options->song, "WAV, FLAC, Ogg or MP3 file.")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("-k,--keyframes", options->keys,
-                      "Key poses: a JSON key file, or poses of a motion file, as in "
-                      "walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 "
-                      "(the pose at 1.2 s at second 4 of the dance). May be given more than once.");
-  command->add_option("-s,--seconds", options->seconds, "Length of the dance; default: the song's.")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--seed", options->seed, "Same seed, same dance. Default: 0.");
+  AddRepeated(*command, "-k,--keyframes", options->keys,
+              "Key poses: a JSON key file, or poses of a motion file, as in "
+              "walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 "
+              "(the pose at 1.2 s at second 4 of the dance). May be given more than once.");
+  command
+      ->add_option("-s,--seconds", options->seconds,
+                   "Length of the dance, which ends with the song at the latest; default: the "
+                   "song's.")
+      ->check(AboveZero());
+  AddSeed(*command, options->seed, "Same seed, same dance. Default: 0.");
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
   command->add_option("--fps", options->fps,
@@ -166,8 +191,10 @@ void AddDanceCommand(CLI::App& program) {
   command->add_option("-m,--model", options->model,
                       "Model of the server to dance with; default: its first.");
   command->add_option("-o,--out", options->out,
-                      "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song.");
+                      "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song. A file "
+                      "that is there is replaced.");
   command->add_option("--report", options->report, "JSON file to write the report to.");
+  command->add_flag("--no-clobber", options->no_clobber, "Replace no motion file that is there.");
   command->add_flag(
       "--allow-inexact-resume", options->server.allow_inexact_resume,
       "If the server is lost and only one of another model or build is left, go on with that.");

@@ -9,6 +9,8 @@
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/music.h"
+#include "client/cli/options.h"
+#include "client/cli/output_file.h"
 #include "client/cli/pose_source.h"
 #include "client/cli/report.h"
 #include "client/edit.h"
@@ -31,7 +33,7 @@ struct EditOptions {
   std::string song;
   std::string report;
   std::string new_report;
-  uint64_t seed = 0;
+  std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::string model;
   std::string out;
@@ -48,6 +50,9 @@ void CheckOptions(const EditOptions& options) {
                                       std::to_string(options.keys.size()) +
                                       " keys; each --key needs one");
   }
+  RequireMotionFile(options.out);
+  RequireWritable("--out", options.out);
+  if (!options.new_report.empty()) RequireWritable("--new-report", options.new_report);
   if (options.report.empty() && !options.new_report.empty()) {
     throw InvalidArgument("--new-report", "needs --report, which it is made of");
   }
@@ -56,7 +61,7 @@ void CheckOptions(const EditOptions& options) {
 client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton) {
   client::FinishedDance dance;
   dance.motion = ReadMotion(path, skeleton);
-  if (path.extension() != ".npz") return dance;
+  if (SmallExtension(path) != ".npz") return dance;
   const NpzArchive npz = NpzArchive::Read(path);
   if (!npz.Has("contacts")) return dance;
   const NpyArray array = npz.Array("contacts");
@@ -77,12 +82,12 @@ class Session {
   Session(const EditOptions& options, const Connection& connection)
       : options_(options), client_(connection.client()) {
     edit_.model = connection.model(options.model);
-    edit_.seed = options.seed;
+    edit_.seed = options.seed.value_or(0);
     edit_.temperature = options.temperature;
     longest_ = connection.server().limits.max_transition_frames - 1;
     dance_ = ReadDance(options.dance, edit_.model.skeleton);
     frames_ = CountModelFrames(dance_, edit_.model);
-    if (!options.song.empty()) edit_.audio = AudioFor(ReadMusic(options.song), Seconds(frames_));
+    if (!options.song.empty()) edit_.audio = ReadAudioFor(options.song, Seconds(frames_));
     if (!options.report.empty()) ReadKeys();
   }
 
@@ -219,12 +224,11 @@ void AddEditCommand(CLI::App& program) {
   command->add_option("dance", options->dance, ".npz, .bvh or .glb file.")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option(
-      "-k,--key", options->keys,
-      "A pose of the library (kick, ...), which is set where the dancer is; or a "
-      "key file, or MOTION@SECOND. May be given more than once, each with its --at.");
-  command->add_option("--at", options->at_s, "Second of the dance for the key.")
-      ->check(CLI::NonNegativeNumber);
+  AddRepeated(*command, "-k,--key", options->keys,
+              "A pose of the library (kick, ...), which is set where the dancer is; or a "
+              "key file, or MOTION@SECOND. May be given more than once, each with its --at.");
+  AddRepeated(*command, "--at", options->at_s, "Second of the dance for the key.")
+      ->check(AtLeastZero());
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files, too, where the dancer is and faces at that moment.");
   command->add_flag("--loop", options->loop,
@@ -233,14 +237,14 @@ void AddEditCommand(CLI::App& program) {
       ->add_option("--around", options->around_s,
                    "Seconds that may change before and behind a key, or before the end of a loop. "
                    "Default: up to the neighbouring keys of --report; 2 without it.")
-      ->check(CLI::PositiveNumber);
+      ->check(AboveZero());
   command->add_option("--song", options->song, "Music that the dance was made to.")
       ->check(CLI::ExistingFile);
   command->add_option("--report", options->report, "Report of the dance, which names its keys.")
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,
                       "JSON file to write the keys of the new dance to, for the next edit.");
-  command->add_option("--seed", options->seed, "Same seed, same edit.")->capture_default_str();
+  AddSeed(*command, options->seed, "Same seed, same edit. Default: 0.");
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");

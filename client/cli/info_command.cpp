@@ -1,7 +1,9 @@
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
@@ -33,6 +35,39 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   return json;
 }
 
+/// As people read it: texts bare, lists and objects as "name value, name value".
+std::string Plain(const nlohmann::ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) {
+    std::ostringstream number;
+    number << std::setprecision(4) << value.get<double>();
+    return number.str();
+  }
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [name, member] : value.items()) {
+    text += text.empty() ? "" : ", ";
+    text += (value.is_object() ? name + " " : "") + Plain(member);
+  }
+  return text;
+}
+
+/// A member of a model's card a line; of the validation, a line a length.
+void PrintCard(const std::string& card) {
+  const auto json = nlohmann::ordered_json::parse(card, nullptr, false);
+  if (!json.is_object()) return;
+  for (const auto& [name, value] : json.items()) {
+    if (name == "validation" && value.is_array()) {
+      for (const auto& row : value) std::printf("  validation: %s\n", Plain(row).c_str());
+    } else if (name == "data" && value.is_object()) {
+      for (const auto& [part, content] : value.items())
+        std::printf("  data, %s: %s\n", part.c_str(), Plain(content).c_str());
+    } else if (name != "licence") {  // said above
+      std::printf("  %s: %s\n", name.c_str(), Plain(value).c_str());
+    }
+  }
+}
+
 void PrintServer(const client::ServerDescription& server, bool as_json) {
   if (as_json) {
     nlohmann::ordered_json json;
@@ -62,6 +97,7 @@ void PrintServer(const client::ServerDescription& server, bool as_json) {
         model.name.c_str(), model.skeleton.name.c_str(), model.fps, model.history_frames,
         model.latency_frames, model.default_temperature, model.fingerprint.c_str(),
         model.licence.c_str());
+    PrintCard(model.card);
   }
 }
 

@@ -201,6 +201,9 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
 }
 
 std::string ReadText(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) {
+    throw InvalidArgument(path.string(), "is a folder, not a key file");
+  }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
   return {std::istreambuf_iterator<char>(file), {}};
@@ -233,6 +236,8 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
     KeyPose& key = keys.emplace_back();
     key.id = std::filesystem::path(path).stem().string() + "@" + std::string(item);
     key.pose = PoseAt(motion, at);
+    // A motion's branches go on from frame to frame, through any number of turns.
+    MakeContinuous(key.pose, {{}, Eigen::Matrix3Xd::Zero(3, key.pose.rotations.cols())});
     key.time_s =
         from.size() == item.size() ? at : ParseSeconds(item.substr(from.size() + 1), source);
     if (item.size() == times.size()) return keys;

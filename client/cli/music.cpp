@@ -6,10 +6,18 @@
 #include "model/audio/beats.h"
 
 namespace choreo::cli {
+namespace {
 
-Music ReadMusic(const std::filesystem::path& path) {
+/// The last frames hear a little beyond themselves.
+constexpr double kAfterglow = 0.5;
+/// Beats are counted at a tempo that is heard in windows of 8 s.
+constexpr double kTempoWindow = 8;
+
+}  // namespace
+
+Music ReadMusic(const std::filesystem::path& path, double seconds) {
   Music music;
-  music.audio = DecodeAudioFile(path);
+  music.audio = DecodeAudioFile(path, seconds + kTempoWindow);
   music.mono = ToModelRate(music.audio);
   const BeatTrack beats = FindBeats(music.mono);
   music.tempo_bpm = beats.tempo_bpm;
@@ -17,16 +25,22 @@ Music ReadMusic(const std::filesystem::path& path) {
   return music;
 }
 
-client::Audio AudioFor(const Music& music, double seconds) {
-  // The last frames hear a little beyond themselves.
-  constexpr double kAfterglow = 0.5;
-  const DecodedAudio& audio = music.audio;
-  const auto samples = static_cast<int64_t>(std::ceil((seconds + kAfterglow) * audio.sample_rate));
-  const int64_t values = std::min(audio.samples(), samples) * audio.channels;
+client::Audio AudioFor(const DecodedAudio& song, double seconds) {
+  const auto samples = static_cast<int64_t>(std::ceil((seconds + kAfterglow) * song.sample_rate));
+  const int64_t values = std::min(song.samples(), samples) * song.channels;
   client::Audio out;
-  out.format = {client::AudioKind::kPcmFloat, audio.sample_rate, audio.channels};
-  out.samples.assign(audio.interleaved.begin(), audio.interleaved.begin() + values);
+  out.format = {client::AudioKind::kPcmFloat, song.sample_rate, song.channels};
+  out.samples.assign(song.interleaved.begin(), song.interleaved.begin() + values);
   return out;
+}
+
+client::Audio ReadAudioFor(const std::filesystem::path& path, double seconds) {
+  return AudioFor(DecodeAudioFile(path, seconds + kAfterglow), seconds);
+}
+
+double Seconds(const client::Audio& audio) {
+  return static_cast<double>(audio.samples.size()) / audio.format.channels /
+         audio.format.sample_rate;
 }
 
 }  // namespace choreo::cli

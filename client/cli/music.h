@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "client/choreo_client.h"
@@ -16,10 +17,18 @@ struct Music {
   std::vector<double> beats;  ///< seconds
 };
 
-/// Decodes a song and finds its beats. Errors as DecodeAudioFile.
-Music ReadMusic(const std::filesystem::path& path);
+/// Decodes a song and finds its beats: all of it, or its first `seconds` and what comes after them
+/// as far as they depend on it. Errors as DecodeAudioFile.
+Music ReadMusic(const std::filesystem::path& path,
+                double seconds = std::numeric_limits<double>::infinity());
 
-/// What to send for a dance of `seconds`: its beginning, as samples.
-client::Audio AudioFor(const Music& music, double seconds);
+/// What to send for a dance of `seconds`: the song's beginning, as samples.
+client::Audio AudioFor(const DecodedAudio& song, double seconds);
+
+/// The same from a file, of which no more is decoded. Errors as DecodeAudioFile.
+client::Audio ReadAudioFor(const std::filesystem::path& path, double seconds);
+
+/// Of samples.
+double Seconds(const client::Audio& audio);
 
 }  // namespace choreo::cli

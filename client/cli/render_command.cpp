@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/commands.h"
+#include "client/cli/output_file.h"
 #include "client/cli/report.h"
 #include "model/core/error.h"
 #include "model/core/progress.h"
@@ -67,6 +68,14 @@ void Run(const RenderOptions& options) {
     throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
   if (options.video.empty() && !options.film.format.song.empty())
     throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
+  if (!options.out.empty()) {
+    RequireExtension("--out", options.out, ".png");
+    RequireWritable("--out", options.out);
+  }
+  if (!options.video.empty()) {
+    RequireExtension("--video", options.video, ".mp4");
+    RequireWritable("--video", options.video);
+  }
   const Motion motion = ReadMotion(options.motion, Skeleton::Smpl24());
   std::vector<double> keys;
   if (!options.report.empty()) keys = KeyTimes(options.report);

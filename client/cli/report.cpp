@@ -15,22 +15,82 @@ std::string Format(const char* format, Values... values) {
   return text;
 }
 
+/// What became of the keys: in the file, and, of those between its frames, in the dance.
+std::string KeysText(const WrittenDance& dance) {
+  struct Worst {
+    size_t keys = 0;
+    double distance_m = 0;
+    double angle_deg = 0;
+    void Add(double distance, double angle) {
+      ++keys;
+      distance_m = std::max(distance_m, distance);
+      angle_deg = std::max(angle_deg, angle);
+    }
+    std::string Text() const {
+      return Format("%.3f mm and %.3f degrees", 1000 * distance_m, angle_deg);
+    }
+  };
+  Worst in_file, near, between;
+  double raw = 0;
+  double correction = 0;
+  for (const WrittenKey& key : dance.keys) {
+    if (key.on_frame) {
+      in_file.Add(key.error.position_m, key.error.angle_deg);
+    } else {
+      near.Add(key.error.position_m, key.error.angle_deg);
+      between.Add(key.reached.final_error_m, key.reached.final_error_deg);
+    }
+    raw += key.reached.raw_error_m / static_cast<double>(dance.keys.size());
+    correction = std::max(correction, key.reached.correction_m);
+  }
+  std::string text = Format("%zu key poses", dance.keys.size());
+  if (in_file.keys > 0) {
+    text += between.keys > 0 ? Format(": %zu", in_file.keys) : std::string(", each");
+    text += " hit within " + in_file.Text() + ", measured in the file";
+  }
+  if (between.keys > 0) {
+    text += Format(
+        "%s %zu between the frames of a file at %g fps: hit within %s at the model's %g, the "
+        "file's nearest frames are up to %.1f mm off",
+        in_file.keys > 0 ? ";" : ":", between.keys, dance.fps, between.Text().c_str(),
+        dance.header.model_fps, 1000 * near.distance_m);
+  }
+  return text +
+         Format(
+             "\nthe model's own frames at the keys, led there by frames that were steered, were "
+             "%.1f cm off on average; steering moved joints by up to %.1f cm\n",
+             100 * raw, 100 * correction);
+}
+
 }  // namespace
 
-std::string ReportJson(const client::Header& header, const client::Report& report) {
+std::string ReportJson(const WrittenDance& dance) {
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  };
+  const client::Report& report = dance.report;
   nlohmann::ordered_json json;
   json["frames"] = report.frames;
-  json["fps"] = header.model_fps;
-  json["seed"] = header.seed;
-  json["fingerprint"] = header.fingerprint;
+  json["fps"] = dance.header.model_fps;
+  json["output_frames"] = dance.frames;
+  json["output_fps"] = dance.fps;
+  json["seed"] = dance.header.seed;
+  json["fingerprint"] = dance.header.fingerprint;
   json["keyframes"] = nlohmann::ordered_json::array();
-  for (const client::KeyReached& key : report.keys) {
-    json["keyframes"].push_back(KeyJson(key));
+  for (const WrittenKey& key : dance.keys) {
+    nlohmann::ordered_json& written = json["keyframes"].emplace_back(KeyJson(key.reached));
+    written["output_frame"] = key.frame;
+    written["on_output_frame"] = key.on_frame;
+    written["output_error_m"] = key.error.position_m;
+    written["output_error_deg"] = key.error.angle_deg;
   }
+  json["measured_from"] = report.measured_from;
   json["log_likelihood"] = report.log_likelihood;
-  json["beat_hit_rate"] = nullptr;
-  if (report.beat_hit_rate) json["beat_hit_rate"] = *report.beat_hit_rate;
+  json["beat_hit_rate"] = or_null(report.beat_hit_rate);
+  json["beat_hit_chance"] = or_null(dance.beat_hit_chance);
   json["skate_ratio"] = report.skate_ratio;
+  json["max_key_acceleration"] = report.max_key_acceleration;
+  json["p95_acceleration"] = report.p95_acceleration;
   json["first_frame_latency_s"] = report.first_frame_latency_s;
   json["real_time_factor"] = report.real_time_factor;
   return json.dump(2) + "\n";
@@ -40,6 +100,7 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key) {
   return {{"id", key.id},
           {"frame", key.frame},
           {"raw_error_m", key.raw_error_m},
+          {"correction_m", key.correction_m},
           {"final_error_m", key.final_error_m},
           {"final_error_deg", key.final_error_deg}};
 }
@@ -62,26 +123,22 @@ nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
   return report;
 }
 
-std::string ReportText(const client::Header& header, const client::Report& report) {
-  double raw = 0;
-  double final_m = 0;
-  double final_deg = 0;
-  for (const client::KeyReached& key : report.keys) {
-    raw += key.raw_error_m / static_cast<double>(report.keys.size());
-    final_m = std::max(final_m, key.final_error_m);
-    final_deg = std::max(final_deg, key.final_error_deg);
+std::string ReportText(const WrittenDance& dance) {
+  const client::Report& report = dance.report;
+  std::string text = Format(
+      "%lld frames (%.1f s) by model \"%s\", seed %llu\n", static_cast<long long>(report.frames),
+      static_cast<double>(report.frames) / dance.header.model_fps, dance.header.model.c_str(),
+      static_cast<unsigned long long>(dance.header.seed));
+  if (!dance.keys.empty()) text += KeysText(dance);
+  if (report.measured_from > dance.header.first_frame) {
+    text += Format("since frame %lld, where another server took over: ",
+                   static_cast<long long>(report.measured_from));
   }
-  std::string text = Format("%lld frames (%.1f s) by model \"%s\", seed %llu\n",
-                            static_cast<long long>(report.frames),
-                            static_cast<double>(report.frames) / header.model_fps,
-                            header.model.c_str(), static_cast<unsigned long long>(header.seed));
-  if (!report.keys.empty()) {
-    text += Format(
-        "%zu key poses, each hit within %.3f mm and %.3f degrees; the model alone came within %.1f "
-        "cm on average\n",
-        report.keys.size(), 1000 * final_m, final_deg, 100 * raw);
+  if (report.beat_hit_rate) {
+    text += Format("beat hit rate %.0f %%", 100 * *report.beat_hit_rate);
+    if (dance.beat_hit_chance) text += Format(" (chance: %.0f %%)", 100 * *dance.beat_hit_chance);
+    text += ", ";
   }
-  if (report.beat_hit_rate) text += Format("beat hit rate %.0f %%, ", 100 * *report.beat_hit_rate);
   text += Format("skating in %.1f %% of the steps\n", 100 * report.skate_ratio);
   text += Format("first frame after %.0f ms, %.1f times real time\n",
                  1000 * report.first_frame_latency_s, report.real_time_factor);

@@ -4,17 +4,29 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "client/choreo_client.h"
+#include "client/cli/written_dance.h"
 
 namespace choreo::cli {
 
-/// A dance's report as JSON: frames, fps, seed, fingerprint, keyframes (id, frame, raw_error_m,
-/// final_error_m, final_error_deg), log_likelihood (nats a frame), beat_hit_rate (null where there
-/// are no beats), skate_ratio, first_frame_latency_s, real_time_factor. Frames are counted at the
-/// model's rate, `fps`.
-std::string ReportJson(const client::Header& header, const client::Report& report);
+/// A dance's report as JSON:
+///   frames, fps                of the dance, at the model's rate; key frames count so
+///   output_frames, output_fps  of the file
+///   seed, fingerprint
+///   keyframes                  id, frame, raw_error_m (of the model's own frame), correction_m
+///   (how
+///                              far joints were moved on the way), final_error_m, final_error_deg;
+///                              output_frame (the file's nearest), on_output_frame (it stands at
+///                              the key's time), output_error_m, output_error_deg (measured there)
+///   measured_from              frame from which on the rest is measured: 0, or where the last
+///   server
+///                              took over
+///   log_likelihood             nats a frame
+///   beat_hit_rate, beat_hit_chance  null where there are no beats
+///   skate_ratio, max_key_acceleration, p95_acceleration (m/s^2)
+///   first_frame_latency_s, real_time_factor
+std::string ReportJson(const WrittenDance& dance);
 
-/// One key of such a report.
+/// One key of such a report, without what is measured in the file.
 nlohmann::ordered_json KeyJson(const client::KeyReached& key);
 
 /// A report that ReportJson wrote: its fps and keyframes are as they should be. Throws
@@ -22,7 +34,7 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key);
 nlohmann::ordered_json ReadReport(const std::filesystem::path& path);
 
 /// A few lines for people.
-std::string ReportText(const client::Header& header, const client::Report& report);
+std::string ReportText(const WrittenDance& dance);
 
 /// Throws Error(kInternal) where the file cannot be written.
 void WriteText(const std::filesystem::path& path, const std::string& text);

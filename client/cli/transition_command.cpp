@@ -2,10 +2,13 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/music.h"
+#include "client/cli/options.h"
+#include "client/cli/output_file.h"
 #include "client/cli/pose_source.h"
 #include "client/cli/report.h"
 #include "model/formats/motion_file.h"
@@ -30,6 +33,8 @@ struct TransitionOptions {
 
 void Run(const TransitionOptions& options) {
   RequireMotionFile(options.out);
+  RequireWritable("--out", options.out);
+  if (!options.report.empty()) RequireWritable("--report", options.report);
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
 
@@ -41,11 +46,18 @@ void Run(const TransitionOptions& options) {
   request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
   request.candidates = options.candidates;
-  const client::KeyPose target = ReadPose(options.to, model.skeleton).key;
+  client::KeyPose target = ReadPose(options.to, model.skeleton).key;
+  target.id = "target";  // as the report calls it
   request.target = target.pose;
   request.target_mask = target.mask;
   if (!options.song.empty()) {
-    request.audio = AudioFor(ReadMusic(options.song), options.at_s + options.frames / model.fps);
+    request.audio = ReadAudioFor(options.song, options.at_s + options.frames / model.fps);
+    if (options.at_s >= Seconds(request.audio)) {
+      std::ostringstream message;
+      message << options.at_s << " s lies behind the song's end at " << Seconds(request.audio)
+              << " s";
+      throw InvalidArgument("--at", message.str());
+    }
   }
   const client::TransitionResult result = connection.client().GenerateTransition(request);
   for (const client::Warning& warning : result.warnings)
@@ -59,10 +71,11 @@ void Run(const TransitionOptions& options) {
                             out.extension().string());
     const client::TransitionCandidate& candidate = result.candidates[rank];
     WriteMotion(path, result.header.skeleton, candidate.motion, &candidate.contacts);
-    std::cout << ReportText(result.header, candidate.report) << path.string() << std::endl;
-  }
-  if (!options.report.empty()) {
-    WriteText(options.report, ReportJson(result.header, result.candidates.front().report));
+    const WrittenDance written =
+        Examine(result.header, candidate.report, candidate.motion, {target});
+    std::cout << ReportText(written) << path.string() << std::endl;
+    if (rank == 0 && !options.report.empty()) WriteText(options.report, ReportJson(written));
+    CheckKeys(written);
   }
 }
 
@@ -79,13 +92,13 @@ void AddTransitionCommand(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--song", options->song, "Music to move to.")->check(CLI::ExistingFile);
   command->add_option("--at", options->at_s, "Second of the song at which it begins.")
-      ->check(CLI::NonNegativeNumber)
+      ->check(AtLeastZero())
       ->capture_default_str();
   command
       ->add_option("--candidates", options->candidates,
                    "Alternatives, 1 to 32; the best is FILE, the others FILE.2, ...")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Same seed, same motion. Default: 0.");
+  AddSeed(*command, options->seed, "Same seed, same motion. Default: 0.");
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");

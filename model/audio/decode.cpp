@@ -174,7 +174,7 @@ int64_t AudioReader::Read(std::span<float> interleaved) {
 
 namespace {
 
-DecodedAudio ReadAll(AudioReader reader) {
+DecodedAudio ReadAll(AudioReader reader, double seconds) {
   DecodedAudio audio;
   audio.sample_rate = reader.sample_rate();
   audio.channels = reader.channels();
@@ -185,14 +185,14 @@ DecodedAudio ReadAll(AudioReader reader) {
     audio.interleaved.resize(size + block);
     const int64_t got = reader.Read(std::span(audio.interleaved).subspan(size));
     audio.interleaved.resize(size + static_cast<size_t>(got) * channels);
-    if (got == 0) return audio;
+    if (got == 0 || audio.seconds() >= seconds) return audio;
   }
 }
 
 }  // namespace
 
-DecodedAudio DecodeAudioFile(const std::filesystem::path& path) {
-  return ReadAll(AudioReader::OpenFile(path));
+DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds) {
+  return ReadAll(AudioReader::OpenFile(path), seconds);
 }
 
 std::vector<float> ToModelRate(const DecodedAudio& audio) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,8 +61,10 @@ struct DecodedAudio {
   double seconds() const { return static_cast<double>(samples()) / sample_rate; }
 };
 
-/// All of a sound file at once: ten minutes of it may be 3.7 GB. Errors as AudioReader.
-DecodedAudio DecodeAudioFile(const std::filesystem::path& path);
+/// All of a sound file at once (ten minutes of it may be 3.7 GB), or its first `seconds`, rounded up
+/// to whole pieces: what lies behind them is not read. Errors as AudioReader.
+DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
+                             double seconds = std::numeric_limits<double>::infinity());
 
 /// As mono samples at 22 050 Hz, the whole: what Mfcc, OnsetStrength and FindBeats take.
 std::vector<float> ToModelRate(const DecodedAudio& audio);

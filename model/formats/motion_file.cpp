@@ -1,5 +1,8 @@
 #include "model/formats/motion_file.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include "model/core/error.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
@@ -20,8 +23,15 @@ Motion MotionFromBvh(const BvhFile& file, const Skeleton& skeleton) {
 
 }  // namespace
 
+std::string SmallExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+
 bool IsMotionFile(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
+  const std::string extension = SmallExtension(path);
   return extension == ".npz" || extension == ".bvh" || extension == ".glb";
 }
 
@@ -34,7 +44,7 @@ void RequireMotionFile(const std::filesystem::path& path) {
 
 Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton) {
   RequireMotionFile(path);
-  const std::string extension = path.extension().string();
+  const std::string extension = SmallExtension(path);
   Motion motion;
   if (extension == ".glb") {
     motion = ReadGlb(path, skeleton);
@@ -65,7 +75,7 @@ Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton) {
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts) {
   RequireMotionFile(path);
-  const std::string extension = path.extension().string();
+  const std::string extension = SmallExtension(path);
   if (extension == ".glb") {
     WriteGlb(path, skeleton, motion);
   } else if (extension == ".npz") {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "model/motion/contacts.h"
@@ -9,8 +10,11 @@
 
 namespace choreo {
 
-/// The formats of motion files, by their extension: `.npz` (amass_npz.h), `.bvh` (bvh.h) and `.glb`
-/// (gltf.h).
+/// A path's extension in small letters, as in ".npz" of "DANCE.NPZ".
+std::string SmallExtension(const std::filesystem::path& path);
+
+/// The formats of motion files, by their extension, whose case does not matter: `.npz`
+/// (amass_npz.h), `.bvh` (bvh.h) and `.glb` (gltf.h).
 bool IsMotionFile(const std::filesystem::path& path);
 
 /// Throws Error(kInvalidArgument) whose field is the path, naming the formats, unless IsMotionFile.

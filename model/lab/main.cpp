@@ -2,7 +2,10 @@
 #include <cstdio>
 #include <string>
 
+#include "model/core/error.h"
 #include "model/core/threads.h"
+#include "model/engine/devices.h"
+#include "model/engine/torch_engine.h"
 #include "model/evaluation/eval_command.h"
 
 #ifdef CHOREO_SERVICE
@@ -10,14 +13,30 @@
 #endif
 #include "model/training/train_command.h"
 
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kMisused = 2;
+
+/// The one device that a name stands for; a model is trained on one.
+std::string OneDevice(const std::string& name) {
+  const auto devices = choreo::ParseDevices(name, choreo::TorchDevices());
+  if (devices.size() > 1)
+    throw choreo::InvalidArgument("device", "'" + name + "' names several, training takes one");
+  return devices.front().name();
+}
+
+}  // namespace
+
 /// choreo-lab: prepares data, trains models and measures them. Serving is choreod's.
 int main(int argc, char** argv) {
-  CLI::App app("Prepare data, train models, measure them");
+  CLI::App app("Prepare data, train models, measure them", "choreo-lab");
+  app.set_version_flag("--version", CHOREO_VERSION);
   app.require_subcommand(1);
 #ifdef CHOREO_SERVICE  // preparation decodes music, which needs libsndfile
   choreo::AddPrepareCommand(app);
 #endif
-  choreo::AddTrainCommand(app);
+  choreo::AddTrainCommand(app, OneDevice);
   choreo::AddEvalCommand(app);
   try {
     const std::string warning = choreo::RequireFastBlas(choreo::DetectBlas());
@@ -25,10 +44,11 @@ int main(int argc, char** argv) {
     choreo::FlushDenormals();
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    // Help and version come this way too, with code 0.
+    return app.exit(error) == 0 ? 0 : kMisused;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "choreo-lab: %s\n", error.what());
-    return 1;
+    return kFailed;
   }
   return 0;
 }

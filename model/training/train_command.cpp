@@ -7,10 +7,11 @@
 
 namespace choreo {
 
-void AddTrainCommand(CLI::App& app) {
+void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
   command->add_option("--preset", options->preset, "default | paper | ablation")
+      ->check(CLI::IsMember({"default", "paper", "ablation"}))
       ->capture_default_str();
   command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
       ->required();
@@ -18,10 +19,16 @@ void AddTrainCommand(CLI::App& app) {
       ->required();
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
       ->required();
-  command->add_option("--device", options->device, "cpu | cuda:N")->capture_default_str();
+  command->add_option("--device", options->device, "auto | cpu | cuda:N")->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from the run's saved state");
-  command->add_option("--planner-steps", options->planner_steps)->capture_default_str();
-  command->add_option("--flow-steps", options->flow_steps)->capture_default_str();
+  command
+      ->add_option("--planner-steps", options->planner_steps,
+                   "Steps of the first stage, the planner; 0 where the preset has none")
+      ->capture_default_str();
+  command
+      ->add_option("--flow-steps", options->flow_steps,
+                   "Steps of the second stage, the flow around the frozen planner")
+      ->capture_default_str();
   command->add_option("--batch", options->batch, "Windows a step")->capture_default_str();
   command->add_option("--planner-rate", options->planner_rate, "Peak learning rate")
       ->capture_default_str();
@@ -39,14 +46,18 @@ void AddTrainCommand(CLI::App& app) {
       ->add_option("--stop-after", options->stop_after,
                    "Leave after this many steps of the run, to be resumed; 0: to the end")
       ->capture_default_str();
-  command->add_option("--seed", options->seed)->capture_default_str();
+  command->add_option("--seed", options->seed, "Same seed, data and machine: same checkpoint")
+      ->capture_default_str();
   command->add_flag("--no-keys", options->no_keys, "Ablation: music alone");
   command->add_flag("--no-key-loss", options->no_key_loss, "Ablation: no key pose loss");
   command->add_flag("--no-time-embedding", options->no_time_embedding,
                     "Ablation: no time embedding");
   command->add_flag("--forward-embedding", options->forward_embedding,
                     "Ablation: count frames from the start, not frames left");
-  command->callback([options] { Train(*options); });
+  command->callback([options, read_device] {
+    options->device = read_device(options->device);
+    Train(*options);
+  });
 }
 
 }  // namespace choreo

@@ -41,7 +41,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {dance, {core, audio, motion, engine}},
         {"model/training", {core, audio, motion, formats, draw, flow}},
         {"model/evaluation", {core, audio, motion, draw, engine, dance, "model/training"}},
-        {"model/lab", {core, "model/training", "model/evaluation"}},
+        {"model/lab", {core, engine, "model/training", "model/evaluation"}},
         {"server", {core, audio, motion, engine, dance, "choreo", "google"}},
         {"client", {core, audio, motion, formats, draw, "choreo", "google", "grpc"}},
         {"bench",

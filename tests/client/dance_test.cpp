@@ -268,6 +268,33 @@ TEST(ResumeTest, EndsWhenNoServerIsLeft) {
               [&] { Steer(Client(options), 30, [&] { dying.Die(); }); });
 }
 
+TEST(ResumeTest, ReportsTheWholeAndSaysWhatItMeasured) {
+  TestServer dying;
+  TestServer heir;
+  const SteeredDance dance =
+      Steer(Client(FastRetries({dying.address(), heir.address()})), 30, [&] { dying.Die(); });
+  EXPECT_EQ(dance.report.frames, 250);
+  EXPECT_EQ(dance.report.measured_from, *FourKeys()[1].frame + 1);
+  EXPECT_EQ(Steer(Client({.addresses = {heir.address()}}), 30, [] {}).report.measured_from, 0);
+}
+
+TEST(DanceTest, WhatCameIsThereWhenTheDanceIsCutOff) {
+  TestServer breaking(std::make_unique<BreakingEngine>(130));
+  TestServer sound;
+  DanceResult whole;
+  Client({.addresses = {sound.address()}})
+      .Dance({.seed = 4, .frames = 250}, FourKeys(), {}, {}, &whole);
+  DanceResult cut;
+  ExpectError(ErrorCode::kInternal, "the device is gone", [&] {
+    Client({.addresses = {breaking.address()}})
+        .Dance({.seed = 4, .frames = 250}, FourKeys(), {}, {}, &cut);
+  });
+  ASSERT_GE(cut.motion.frames.size(), 120U);
+  EXPECT_EQ(cut.contacts.size(), cut.motion.frames.size());
+  whole.motion.frames.resize(cut.motion.frames.size());
+  ExpectSameMotion(cut.motion, whole.motion);
+}
+
 TEST(TransitionTest, MakesCandidatesThatAllArrive) {
   TestServer server;
   const Client client({.addresses = {server.address()}});

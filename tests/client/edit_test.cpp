@@ -201,6 +201,19 @@ TEST_F(EditTest, TheFirstAndTheLastFrameCanBeKeys) {
   EXPECT_EQ(before.frames[239].rotations, after.frames[239].rotations);
 }
 
+TEST_F(EditTest, ADanceThatTurnedMoreThanOnceIsNoObstacle) {
+  Motion spin{.fps = 30, .frames = std::vector<Pose>(120, RestPose(Body()))};
+  for (size_t i = 0; i < spin.frames.size(); ++i)
+    spin.frames[i].rotations(1, 0) = 4 * M_PI * static_cast<double>(i) / 119;
+  WriteMotion(folder_ / "spin.bvh", Body(), spin);
+  const Outcome outcome = Choreo("edit " + At("spin.bvh") + Server() +
+                                 "--key kick --at 2 --around 1 -o " + At("e.bvh"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion edited = Read("e.bvh");
+  ASSERT_EQ(edited.frames.size(), spin.frames.size());
+  EXPECT_LT(ComparePoses(Body(), edited.frames[110], spin.frames[110]).position_m, 1e-4);
+}
+
 TEST_F(EditTest, SaysWhatCannotBe) {
   std::ofstream(folder_ / "other.json")
       << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 900}]})";

@@ -248,6 +248,19 @@ TEST_F(MotionKeysTest, TakesPosesOutOfAMotion) {
   EXPECT_LT(ComparePoses(Body(), keys[1].pose, motion_.frames[75]).position_m, 1e-5);
 }
 
+TEST_F(MotionKeysTest, TakesTheShortestWayAfterAnyNumberOfTurns) {
+  // One and a half turns about the axis of a pirouette: the file's branch ends at 3 pi.
+  for (size_t frame = 0; frame < motion_.frames.size(); ++frame)
+    motion_.frames[frame].rotations(1, 0) = 3 * M_PI * static_cast<double>(frame) / 90;
+  WriteMotion(path_, Body(), motion_);
+  ASSERT_GT(ReadMotion(path_, Body()).frames.back().rotations.col(0).norm(), 2.9 * M_PI);
+  for (const client::KeyPose& key : ReadKeys(path_ + "@0,1.9,2.5,3", Body())) {
+    EXPECT_LE(key.pose.rotations.colwise().norm().maxCoeff(), M_PI + 1e-9) << key.id;
+    const auto frame = static_cast<size_t>(std::lround(30 * key.time_s));
+    EXPECT_LT(ComparePoses(Body(), key.pose, motion_.frames[frame]).position_m, 1e-5) << key.id;
+  }
+}
+
 TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
   for (const char* times : {"", "x", "1,", "-1", "1.2x", "1=", "nan"}) {
     ExpectError(ErrorCode::kInvalidArgument, "is not a time in seconds",
@@ -257,6 +270,8 @@ TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
               [&] { ReadKeys(path_ + "@3.5", Body()); });
   ExpectError(ErrorCode::kInvalidArgument, "say which poses", [&] { ReadKeys(path_, Body()); });
   ExpectError(ErrorCode::kNotFound, "absent.json", [&] { ReadKeys("absent.json", Body()); });
+  ExpectError(ErrorCode::kInvalidArgument, "is a folder, not a key file",
+              [&] { ReadKeys(folder_.path().string(), Body()); });
 }
 
 TEST_F(MotionKeysTest, ReadsAKeyFileByItsPath) {

@@ -16,14 +16,29 @@ class NamedFakeEngine final : public FakeEngine {
   explicit NamedFakeEngine(std::string fingerprint) { model_.fingerprint = std::move(fingerprint); }
 };
 
+/// A FakeEngine that is lost after so many steps.
+class BreakingEngine final : public FakeEngine {
+ public:
+  explicit BreakingEngine(int steps) : left_(steps) {}
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    if (left_-- == 0) throw Error(ErrorCode::kInternal, "", "the device is gone");
+    FakeEngine::Step(in, out);
+  }
+
+ private:
+  int left_;
+};
+
 /// A real server in this process, on a free port.
 class TestServer {
  public:
-  explicit TestServer(const std::string& fingerprint = "fake-1") {
+  explicit TestServer(const std::string& fingerprint = "fake-1")
+      : TestServer(std::make_unique<NamedFakeEngine>(fingerprint)) {}
+  explicit TestServer(std::unique_ptr<StepEngine> engine) {
     ServerConfig config;
     config.listen = "127.0.0.1:0";
     std::vector<Server::Engines> models(1);
-    models[0].push_back(std::make_unique<NamedFakeEngine>(fingerprint));
+    models[0].push_back(std::move(engine));
     server_ = std::make_unique<Server>(config, std::move(models));
     address_ = "127.0.0.1:" + std::to_string(server_->port());
   }

@@ -58,6 +58,8 @@ TEST(Npz, EqualContentGivesEqualBytesAndReplacesTheFile) {
   Example().Write(folder / "b.npz");
   EXPECT_GT(Bytes(folder / "a.npz").size(), 1000u);
   EXPECT_EQ(Bytes(folder / "a.npz"), Bytes(folder / "b.npz"));
+  // Whatever the clock says: every member is of 1 January 1980, 0:00 (as DOS writes it).
+  EXPECT_EQ(Bytes(folder / "a.npz").substr(10, 4), std::string("\0\0\x21\0", 4));
 }
 
 TEST(Npz, ReadsWhatNumpyCompressed) {

@@ -1,0 +1,79 @@
+#include "client/cli/dance_keys.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <string_view>
+
+#include "client/cli/key_file.h"
+
+namespace choreo::cli {
+namespace {
+
+void CheckInside(const client::KeyPose& key, const std::string& place, const DanceLength& length) {
+  const int64_t frame = FrameOf(key, length.fps);
+  if (frame < length.frames) return;
+  std::ostringstream message;
+  message << "key \"" << key.id << "\" at " << static_cast<double>(frame) / length.fps
+          << " s lies behind the dance's end: it lasts "
+          << static_cast<double>(length.frames) / length.fps << " s, its last frame is at "
+          << static_cast<double>(length.frames - 1) / length.fps << " s";
+  throw InvalidArgument(place + (key.frame ? ".frame" : ".time"), message.str());
+}
+
+}  // namespace
+
+int64_t FrameOf(const client::KeyPose& key, double fps) {
+  return key.frame.value_or(std::llround(key.time_s * fps));
+}
+
+DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
+                        const Skeleton& skeleton) {
+  DanceKeys read;
+  std::map<std::string, std::string> place_of;  // by id
+  for (const std::string& source : sources) {
+    std::vector<client::KeyPose> keys = ReadKeys(source, skeleton);
+    for (size_t i = 0; i < keys.size(); ++i) {
+      const std::string place = source + ":keyframes[" + std::to_string(i) + "]";
+      const auto [same, is_new] = place_of.emplace(keys[i].id, place);
+      if (!is_new) {
+        throw InvalidArgument(place + ".id",
+                              "\"" + keys[i].id + "\" stands for " + same->second + " already");
+      }
+      CheckInside(keys[i], place, length);
+      read.poses.push_back(std::move(keys[i]));
+      read.places.push_back(place);
+    }
+  }
+  // A key that comes after a later one would come too late.
+  std::vector<size_t> order(read.poses.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return FrameOf(read.poses[a], length.fps) < FrameOf(read.poses[b], length.fps);
+  });
+  DanceKeys sorted;
+  for (const size_t i : order) {
+    sorted.poses.push_back(std::move(read.poses[i]));
+    sorted.places.push_back(std::move(read.places[i]));
+  }
+  return sorted;
+}
+
+Error InTermsOf(const DanceKeys& keys, const Error& error) {
+  constexpr std::string_view kPrefix = "keyframes[";
+  const std::string& field = error.field();
+  if (!field.starts_with(kPrefix)) return error;
+  size_t index = 0;
+  const char* end = field.data() + field.size();
+  const auto [close, code] = std::from_chars(field.data() + kPrefix.size(), end, index);
+  if (code != std::errc() || close == end || *close != ']' || index >= keys.poses.size())
+    return error;
+  const std::string message = std::string(error.what()).substr(field.size() + 2);
+  return {error.code(), keys.places[index] + std::string(close + 1, end),
+          "key \"" + keys.poses[index].id + "\": " + message};
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/choreo_client.h"
+
+namespace choreo::cli {
+
+/// The key poses of a dance in the order of their times, as they are sent.
+struct DanceKeys {
+  std::vector<client::KeyPose> poses;
+  std::vector<std::string> places;  ///< of each: where it was written, "keys.json:keyframes[1]"
+};
+
+/// How long a dance is.
+struct DanceLength {
+  int64_t frames = 0;
+  double fps = 30;  ///< the model's
+};
+
+/// The frame that a key asks for, at the model's rate.
+int64_t FrameOf(const client::KeyPose& key, double fps);
+
+/// Reads key poses from sources as ReadKeys (key_file.h) takes them. Throws what that does, and
+/// Error(kInvalidArgument), whose field begins with the key's place, for an id that an earlier key
+/// has and for a key behind the dance's end.
+DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
+                        const Skeleton& skeleton);
+
+/// An error about "keyframes[i]", numbered as the keys were sent, in terms of where the key was
+/// written; any other error as it is.
+Error InTermsOf(const DanceKeys& keys, const Error& error);
+
+}  // namespace choreo::cli

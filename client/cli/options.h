@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Options that several commands have, and checks whose words people understand.
+namespace choreo::cli {
+
+/// A number above 0.
+const CLI::Validator& AboveZero();
+/// A number of at least 0.
+const CLI::Validator& AtLeastZero();
+
+/// `--seed`: a whole number of 64 bits, never negative.
+void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);
+
+/// An option that may be given more than once. Each takes one value: what follows is another
+/// argument, such as a song.
+template <typename Value>
+CLI::Option* AddRepeated(CLI::App& command, const std::string& name, std::vector<Value>& values,
+                         const std::string& help) {
+  return command.add_option(name, values, help)->allow_extra_args(false);
+}
+
+}  // namespace choreo::cli
