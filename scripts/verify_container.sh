@@ -22,6 +22,8 @@ finish() {
   if [[ -n $server ]]; then kill "$server" 2>/dev/null || true; fi
   if [[ -n $container ]]; then build rm "$container" >/dev/null; fi
   rm -rf "$scratch"
+  # buildah leaves it mounted, and then `rm -r build` would fail.
+  umount "$storage/images/overlay" 2>/dev/null || true
 }
 trap finish EXIT
 
