@@ -20,13 +20,21 @@ constexpr double kRampFrames = 6;        // frames over which the residual grows
 constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's spread counts as one
 constexpr double kBasis = 10000;         // Eq. 9
 constexpr double kLeastAlong = 0.25, kAlongSoftness = 0.1;  // of BoundedSixD
+constexpr double kFreeTurn = 0.25, kRootTurn = 0.15;        // of BoundedSixD's root
 
-// `line` plus `turn`, both [..., 6]. A column that the turn nearly cancels would flip by half a
-// turn from one frame to the next, as plans of half turns (left or right?) did: so its share along
-// the line's own column stays positive, softly. Turns below 60 degrees stay as they are.
+// `line` plus `turn`, both [batch, N, joints, 6]. The mean of two ways round (left or right?)
+// nearly cancels a column of the line, and what is left flips by half a turn from one frame to the
+// next. So a column's share along the line's own stays positive, softly; and the root, with which
+// the whole body would flip, goes the line's way round: its turn is softly kept below 0.7, some 40
+// degrees.
 Tensor BoundedSixD(const Tensor& line, const Tensor& turn) {
-  const Tensor column = line.unflatten(-1, {2, 3});
-  const Tensor sum = column + turn.unflatten(-1, {2, 3});
+  const Tensor column = line.unflatten(-1, {2, 3}), wanted = turn.unflatten(-1, {2, 3});
+  const Tensor root = wanted.narrow(2, 0, 1);
+  const Tensor size = root.square().sum(-1, true).add(1e-12).sqrt();
+  const Tensor bounded = torch::where(
+      size < kFreeTurn, size, kFreeTurn + kRootTurn * ((size - kFreeTurn) / kRootTurn).tanh());
+  const Tensor sum =
+      column + torch::cat({root * (bounded / size), wanted.narrow(2, 1, wanted.size(2) - 1)}, 2);
   const Tensor along = (column * sum).sum(-1, true);
   const Tensor kept =
       kLeastAlong + kAlongSoftness * torch::softplus((along - kLeastAlong) / kAlongSoftness);
