@@ -163,7 +163,7 @@ void Measure(const client::Client& client, const client::Audio& song, const Opti
 }
 
 client::Audio Song(const Options& options) {
-  if (!options.song.empty()) return cli::AudioFor(cli::ReadMusic(options.song), options.seconds);
+  if (!options.song.empty()) return cli::ReadAudioFor(options.song, options.seconds);
   client::Audio song;
   song.format = {client::AudioKind::kPcmFloat, 44100, 2};
   for (int i = 0; i < static_cast<int>(options.seconds * 44100); ++i) {
