@@ -28,7 +28,7 @@ build: packages  ## Install what is missing and compile everything (PRESET=relea
 	@cmake --build $(BUILD) -j $(JOBS)
 
 packages:  ## Install the Debian packages that are missing
-	@scripts/install_packages.sh build run demo
+	@scripts/install_packages.sh build run demo video
 
 bench: build  ## Run the benchmarks
 	@scripts/bench.sh $(BUILD)/bin
