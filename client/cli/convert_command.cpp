@@ -5,6 +5,7 @@
 #include "model/formats/motion_file.h"
 #include "model/motion/contacts.h"
 #include "model/motion/resample.h"
+#include "model/motion/retarget.h"
 
 namespace choreo::cli {
 namespace {
@@ -13,13 +14,17 @@ struct ConvertOptions {
   std::string in;
   std::string out;
   double fps = 0;
+  bool smpl = false;
 };
 
 void Run(const ConvertOptions& options) {
   RequireMotionFile(options.out);
   RequireWritable("out", options.out);
-  const Skeleton& skeleton = Skeleton::Smpl24();
-  Motion motion = ReadMotion(options.in, skeleton);
+  auto [skeleton, motion] = ReadMotion(options.in);
+  if (options.smpl) {
+    motion = Retarget(skeleton, motion, Skeleton::Smpl24());
+    skeleton = Skeleton::Smpl24();
+  }
   if (options.fps > 0) motion = Resample(motion, options.fps);
   const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
   WriteMotion(options.out, skeleton, motion, &contacts);
@@ -32,11 +37,15 @@ void AddConvertCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "convert",
       "Read a motion and write it in another format: .npz (SMPL, as AMASS), .bvh or .glb\n"
-      "(glTF, with a body to look at). A BVH or glTF of another skeleton is fitted to SMPL's.");
+      "(glTF, with a body to look at). A BVH or glTF of another skeleton is fitted to SMPL's; a "
+      "dance\n"
+      "of a model with a skeleton of its own keeps that.");
   command->add_option("in", options->in, "Motion to read.")->required()->check(CLI::ExistingFile);
   command->add_option("out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")->required();
   command->add_option("--fps", options->fps, "Resample to this rate; default: as it is.")
       ->check(CLI::Range(1.0, 1000.0));
+  command->add_flag("--smpl", options->smpl,
+                    "Retarget what has a skeleton of its own to SMPL's 24 joints.");
   command->callback([options] { Run(*options); });
 }
 

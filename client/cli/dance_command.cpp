@@ -68,8 +68,9 @@ DanceKeys ChooseKeys(const DanceOptions& options, const Music& music, double sec
                      const DanceLength& length, const Skeleton& skeleton) {
   if (!options.keys.empty()) return ReadDanceKeys(options.keys, length, skeleton);
   DanceKeys keys;
-  keys.poses = ComposeKeys(
-      {.seconds = seconds, .beats = music.beats, .seed = options.seed.value_or(0)}, PoseLibrary());
+  keys.poses =
+      ComposeKeys({.seconds = seconds, .beats = music.beats, .seed = options.seed.value_or(0)},
+                  PoseLibrary(skeleton));
   for (size_t i = 0; i < keys.poses.size(); ++i)
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
   return keys;

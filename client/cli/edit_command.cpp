@@ -60,7 +60,8 @@ void CheckOptions(const EditOptions& options) {
 
 client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton) {
   client::FinishedDance dance;
-  dance.motion = ReadMotion(path, skeleton);
+  // A retargeted dance would not be the one that was to stay as it is.
+  dance.motion = ReadMotion(path, skeleton, OtherSkeleton::kRefuse);
   if (SmallExtension(path) != ".npz") return dance;
   const NpzArchive npz = NpzArchive::Read(path);
   if (!npz.Has("contacts")) return dance;
@@ -84,7 +85,7 @@ class Session {
     edit_.model = connection.model(options.model);
     edit_.seed = options.seed.value_or(0);
     edit_.temperature = options.temperature;
-    longest_ = connection.server().limits.max_transition_frames - 1;
+    longest_ = edit_.model.max_transition_frames - 1;
     dance_ = ReadDance(options.dance, edit_.model.skeleton);
     frames_ = CountModelFrames(dance_, edit_.model);
     if (!options.song.empty()) edit_.audio = ReadAudioFor(options.song, Seconds(frames_));

@@ -12,6 +12,7 @@
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
 #include "model/motion/resample.h"
+#include "model/motion/retarget.h"
 
 namespace choreo::cli {
 namespace {
@@ -116,9 +117,10 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
     throw InvalidArgument(field, error.what());
   }
   CheckAngles(key.pose.rotations, field + "." + poses);
-  if (key.pose.rotations.cols() != skeleton.joints()) {
-    throw InvalidArgument(field + "." + poses,
-                          "is a pose of SMPL, the skeleton is " + skeleton.name);
+  try {
+    key.pose = Retarget(Skeleton::Smpl24(), key.pose, skeleton);
+  } catch (const Error& error) {
+    throw InvalidArgument(field + "." + poses, std::string("is a pose of SMPL: ") + error.what());
   }
   return key;
 }

@@ -21,8 +21,9 @@ namespace choreo::cli {
 /// names, limits it to these. In place of `root_position` and `rotations` there may be
 /// `smpl_poses` and `smpl_trans` as EDGE gives them (72 numbers, Z up, the translation is the
 /// pelvis), or `poses` and `trans` as AMASS does (72, 156 or 165 numbers, Z up, the translation is
-/// SMPL's): formats/amass_npz.h. Other members of the file's outermost object are ignored, so that
-/// it may describe itself; within a key they are errors, so that a misspelt one is found.
+/// SMPL's): formats/amass_npz.h; a model of another skeleton takes them retargeted. Other members
+/// of the file's outermost object are ignored, so that it may describe itself; within a key they
+/// are errors, so that a misspelt one is found.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:keyframes[i].MEMBER, naming value and limit.
 /// `name` is the file's.

@@ -5,7 +5,8 @@
 
 #include "client/cli/key_file.h"
 #include "client/cli/pose_sources.h"
-#include "model/motion/skeleton.h"
+#include "model/core/error.h"
+#include "model/motion/retarget.h"
 
 namespace choreo::cli {
 namespace {
@@ -25,6 +26,19 @@ std::vector<LibraryPose> ParseLibrary() {
 const std::vector<LibraryPose>& PoseLibrary() {
   static const std::vector<LibraryPose> kPoses = ParseLibrary();
   return kPoses;
+}
+
+std::vector<LibraryPose> PoseLibrary(const Skeleton& skeleton) {
+  std::vector<LibraryPose> poses = PoseLibrary();
+  try {
+    for (LibraryPose& pose : poses) pose.pose = Retarget(Skeleton::Smpl24(), pose.pose, skeleton);
+  } catch (const Error& error) {
+    throw InvalidArgument("--keyframes",
+                          "key poses are needed: those that ship can't be turned "
+                          "into poses of the model (" +
+                              std::string(error.what()) + ")");
+  }
+  return poses;
 }
 
 const LibraryPose& FindLibraryPose(const std::string& id) {

@@ -2,6 +2,7 @@
 
 #include "client/cli/key_file.h"
 #include "client/cli/pose_library.h"
+#include "model/motion/retarget.h"
 
 namespace choreo::cli {
 
@@ -10,7 +11,7 @@ NamedPose ReadPose(const std::string& source, const Skeleton& skeleton) {
   if (is_file) return {ReadKeys(source, skeleton).front()};
   client::KeyPose key;
   key.id = source;
-  key.pose = FindLibraryPose(source).pose;
+  key.pose = Retarget(Skeleton::Smpl24(), FindLibraryPose(source).pose, skeleton);
   return {key, false};
 }
 

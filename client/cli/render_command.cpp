@@ -35,18 +35,19 @@ std::vector<double> KeyTimes(const std::string& path) {
   return times;
 }
 
-void DrawSheet(const RenderOptions& options, const Motion& motion,
+void DrawSheet(const RenderOptions& options, const SkeletonMotion& dance,
                const std::vector<double>& keys) {
+  const auto& [skeleton, motion] = dance;
   ContactSheetOptions sheet = options.sheet;
   for (const double seconds : keys) {
     const int64_t frame = std::llround(seconds * motion.fps);
     if (frame < static_cast<int64_t>(motion.frames.size())) sheet.key_frames.push_back(frame);
   }
   if (sheet.title.empty()) sheet.title = std::filesystem::path(options.motion).filename().string();
-  DrawContactSheet(Skeleton::Smpl24(), motion, sheet, options.out);
+  DrawContactSheet(skeleton, motion, sheet, options.out);
 }
 
-void DrawFilm(const RenderOptions& options, const Motion& motion, std::vector<double> keys) {
+void DrawFilm(const RenderOptions& options, const SkeletonMotion& dance, std::vector<double> keys) {
   VideoOptions film = options.film;
   film.keys = std::move(keys);
   char end = 0;
@@ -59,7 +60,7 @@ void DrawFilm(const RenderOptions& options, const Motion& motion, std::vector<do
     if (!bar) bar = std::make_unique<ProgressBar>("rendering", frames);
     bar->Advance();
   };
-  DrawVideo(Skeleton::Smpl24(), motion, film, options.video);
+  DrawVideo(dance.skeleton, dance.motion, film, options.video);
   bar->Finish();
 }
 
@@ -76,11 +77,11 @@ void Run(const RenderOptions& options) {
     RequireExtension("--video", options.video, ".mp4");
     RequireWritable("--video", options.video);
   }
-  const Motion motion = ReadMotion(options.motion, Skeleton::Smpl24());
+  const SkeletonMotion dance = ReadMotion(options.motion);
   std::vector<double> keys;
   if (!options.report.empty()) keys = KeyTimes(options.report);
-  if (!options.out.empty()) DrawSheet(options, motion, keys);
-  if (!options.video.empty()) DrawFilm(options, motion, keys);
+  if (!options.out.empty()) DrawSheet(options, dance, keys);
+  if (!options.video.empty()) DrawFilm(options, dance, keys);
 }
 
 }  // namespace

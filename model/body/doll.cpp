@@ -1,13 +1,16 @@
 #include "model/body/doll.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace choreo {
 namespace {
 
-constexpr double kStickRadius = 0.035;
+constexpr double kStickRadius = 0.035;  // of a bone that plays no part in a body we know
+constexpr double kTrunkRadius = 0.085;
 constexpr float kBlend = 0.012f;  // metres
 
 // A DollBall by its joint's name.
@@ -95,17 +98,59 @@ bool AddParts(const Skeleton& skeleton, std::vector<DollPart>& doll) {
   return true;
 }
 
-std::vector<DollPart> Sticks(const Skeleton& skeleton) {
+// How thick the bone from a joint's parent to it is, by the joints' roles, metres.
+std::vector<double> BoneRadii(const Skeleton& skeleton) {
+  std::vector<double> radii(skeleton.joints(), kStickRadius);
+  const auto set = [&](int joint, double radius) {
+    if (joint > 0) radii[joint] = radius;
+  };
+  for (const auto& [hip, knee, ankle, shoulder, elbow] :
+       {std::array{skeleton.left_hip, skeleton.left_knee, skeleton.feet[0], skeleton.left_shoulder,
+                   skeleton.left_elbow},
+        std::array{skeleton.right_hip, skeleton.right_knee, skeleton.feet[2],
+                   skeleton.right_shoulder, skeleton.right_elbow}}) {
+    set(knee, 0.062);
+    set(ankle, 0.044);
+    set(elbow, 0.044);
+    // What hips and shoulders hang from is trunk, up to the root.
+    for (const int limb : {hip, shoulder}) {
+      for (int joint = limb; joint > 0; joint = skeleton.parents[joint]) set(joint, kTrunkRadius);
+    }
+  }
+  return radii;
+}
+
+// A capsule for every bone, bars across hips and shoulders, and a head where there is a joint of
+// that name.
+std::vector<DollPart> Capsules(const Skeleton& skeleton) {
   std::vector<DollPart> doll;
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  const std::vector<double> radii = BoneRadii(skeleton);
   for (int joint = 1; joint < skeleton.joints(); ++joint) {
     const std::string& name = skeleton.joint_names[joint];
-    const bool left = name.find("left") != std::string::npos;
-    const bool right = name.find("right") != std::string::npos;
-    doll.push_back({{skeleton.parents[joint], Eigen::Vector3d::Zero(), kStickRadius},
-                    {joint, Eigen::Vector3d::Zero(), kStickRadius},
-                    left    ? kLeftColour
-                    : right ? kRightColour
-                            : kTrunkColour});
+    const bool trunk = radii[joint] == kTrunkRadius;
+    doll.push_back({{skeleton.parents[joint], zero, radii[joint]},
+                    {joint, zero, radii[joint]},
+                    trunk                        ? kTrunkColour
+                    : name.starts_with("left_")  ? kLeftColour
+                    : name.starts_with("right_") ? kRightColour
+                                                 : kTrunkColour});
+  }
+  const auto bar = [&](int left, int right, double radius) {
+    if (left < 1 || right < 1 || skeleton.parents[left] != skeleton.parents[right]) return;
+    const int parent = skeleton.parents[left];
+    doll.push_back({{parent, skeleton.offsets.col(left), radius},
+                    {parent, skeleton.offsets.col(right), radius},
+                    kTrunkColour});
+  };
+  bar(skeleton.left_hip, skeleton.right_hip, kTrunkRadius);
+  bar(skeleton.left_shoulder, skeleton.right_shoulder, 0.6 * kTrunkRadius);
+  const int head = skeleton.Find("head");
+  for (const NamedPart& part : kMiddle) {
+    if (head < 0 || std::string_view(part.a.joint) != "head") continue;
+    doll.push_back({{head, {part.a.x, part.a.y, part.a.z}, part.a.radius},
+                    {head, {part.b.x, part.b.y, part.b.z}, part.b.radius},
+                    part.colour});
   }
   return doll;
 }
@@ -114,7 +159,7 @@ std::vector<DollPart> Sticks(const Skeleton& skeleton) {
 
 std::vector<DollPart> MakeDoll(const Skeleton& skeleton) {
   std::vector<DollPart> doll;
-  return AddParts(skeleton, doll) ? doll : Sticks(skeleton);
+  return AddParts(skeleton, doll) ? doll : Capsules(skeleton);
 }
 
 std::vector<BodyPart> PlaceDoll(const std::vector<DollPart>& doll,

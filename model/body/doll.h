@@ -34,8 +34,8 @@ struct DollPart {
 };
 
 /// A body for a skeleton: left limbs in kLeftColour, right limbs in kRightColour, and a head with a
-/// nose that shows where it looks. A skeleton that lacks joints of SMPL's gets a stick for every
-/// bone instead.
+/// nose that shows where it looks. A skeleton that lacks joints of SMPL's gets a capsule for every
+/// bone instead, as thick as its joints' roles say.
 std::vector<DollPart> MakeDoll(const Skeleton& skeleton);
 
 struct BodyPart {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/core/error.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -18,7 +19,11 @@ constexpr int64_t kFramesAroundKey = 2;
 }  // namespace
 
 QualityMeter::QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame)
-    : skeleton_(skeleton), fps_(fps), first_frame_(first_frame) {}
+    : skeleton_(skeleton), fps_(fps), first_frame_(first_frame) {
+  if (skeleton.feet[1] < 0 || skeleton.feet[3] < 0) {
+    throw InvalidArgument("skeleton", skeleton.Describe() + ": it has no toes");
+  }
+}
 
 void QualityMeter::Add(const DanceFrame& frame) {
   log_likelihood_sum_ += frame.log_likelihood;

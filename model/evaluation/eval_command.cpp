@@ -106,6 +106,11 @@ void Evaluate(EvalOptions options) {
   if (options.temperature < 0)
     options.temperature = static_cast<float>(engine->model().default_temperature);
   const std::vector<PreparedClip> clips = LoadClips(options.data, options.splits, split);
+  const Skeleton& skeleton = engine->model().skeleton;
+  if (!(clips.front().skeleton == skeleton)) {
+    throw InvalidArgument("--data", "the clips' skeleton is " + clips.front().skeleton.Describe() +
+                                        ", the model's " + skeleton.Describe());
+  }
   std::map<std::string, std::vector<PreparedClip>> sets;
   for (const PreparedClip& clip : clips) sets[clip.source].push_back(clip);
   nlohmann::json report = {{"model", engine->model().name},

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "model/core/error.h"
@@ -22,18 +21,14 @@ double Percentile(std::vector<double>* values, double share) {
   return *place;
 }
 
-// How far each hinge is bent the anatomical way, radians: left and right knee (about +X), left and
-// right elbow (about -Y, +Y).
-std::array<double, 4> HingeBends(const Skeleton& skeleton, const Pose& pose) {
-  return {pose.rotations(0, skeleton.left_knee), pose.rotations(0, skeleton.right_knee),
-          -pose.rotations(1, skeleton.left_elbow), pose.rotations(1, skeleton.right_elbow)};
-}
-
 // Joint speeds and bends, gathered frame by frame.
 class Gatherer {
  public:
   Gatherer(const Skeleton& skeleton, double fps)
-      : skeleton_(skeleton), fps_(fps), speeds_(static_cast<size_t>(skeleton.joints())) {}
+      : skeleton_(skeleton),
+        joint_hinges_(Hinges(skeleton)),
+        fps_(fps),
+        speeds_(static_cast<size_t>(skeleton.joints())) {}
 
   void Add(const Pose& pose, bool first) {
     const Eigen::Matrix3Xd positions = JointPositions(skeleton_, pose);
@@ -44,9 +39,9 @@ class Gatherer {
       means_.push_back(speed.mean());
     }
     last_ = positions;
-    for (const double bend : HingeBends(skeleton_, pose)) {
+    for (const Hinge& hinge : joint_hinges_) {
       ++hinges_;
-      if (bend < -kBeyondStraight) ++backwards_;
+      if (hinge.axis.dot(pose.rotations.col(hinge.joint)) < -kBeyondStraight) ++backwards_;
     }
   }
 
@@ -58,6 +53,7 @@ class Gatherer {
 
  private:
   Skeleton skeleton_;
+  std::vector<Hinge> joint_hinges_;
   double fps_;
   std::vector<std::vector<double>> speeds_;
   std::vector<double> means_;
@@ -68,7 +64,7 @@ class Gatherer {
 }  // namespace
 
 SpeedRange MeasureRealSpeeds(const std::vector<PreparedClip>& clips) {
-  Gatherer gatherer(Skeleton::Smpl24(), clips.at(0).motion.fps);
+  Gatherer gatherer(clips.at(0).skeleton, clips.at(0).motion.fps);
   for (const PreparedClip& clip : clips) {
     bool first = true;
     for (const Pose& pose : clip.motion.frames) {

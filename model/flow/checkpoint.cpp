@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
+#include "model/motion/skeleton_json.h"
 
 namespace choreo {
 namespace {
@@ -14,50 +15,6 @@ constexpr const char* kFormat = "choreo-flow-1";
 constexpr const char* kHashKey = "hash";
 
 }  // namespace
-
-nlohmann::json SkeletonToJson(const Skeleton& skeleton) {
-  nlohmann::json offsets = nlohmann::json::array();
-  for (int j = 0; j < skeleton.joints(); ++j) {
-    offsets.push_back({skeleton.offsets(0, j), skeleton.offsets(1, j), skeleton.offsets(2, j)});
-  }
-  return {{"name", skeleton.name},
-          {"joint_names", skeleton.joint_names},
-          {"parents", skeleton.parents},
-          {"offsets_m", offsets},
-          {"pelvis_height_m", skeleton.pelvis_height},
-          {"hips", {skeleton.left_hip, skeleton.right_hip}},
-          {"knees", {skeleton.left_knee, skeleton.right_knee}},
-          {"shoulders", {skeleton.left_shoulder, skeleton.right_shoulder}},
-          {"elbows", {skeleton.left_elbow, skeleton.right_elbow}},
-          {"feet", skeleton.feet}};
-}
-
-Skeleton SkeletonFromJson(const nlohmann::json& json) {
-  Skeleton skeleton;
-  json.at("name").get_to(skeleton.name);
-  json.at("joint_names").get_to(skeleton.joint_names);
-  json.at("parents").get_to(skeleton.parents);
-  const auto& offsets = json.at("offsets_m");
-  skeleton.offsets.resize(3, static_cast<Eigen::Index>(offsets.size()));
-  for (size_t j = 0; j < offsets.size(); ++j) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      skeleton.offsets(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(j)) =
-          offsets[j].at(axis).get<double>();
-    }
-  }
-  json.at("pelvis_height_m").get_to(skeleton.pelvis_height);
-  const auto pair = [&](const char* key, int* left, int* right) {
-    *left = json.at(key).at(0).get<int>();
-    *right = json.at(key).at(1).get<int>();
-  };
-  pair("hips", &skeleton.left_hip, &skeleton.right_hip);
-  pair("knees", &skeleton.left_knee, &skeleton.right_knee);
-  pair("shoulders", &skeleton.left_shoulder, &skeleton.right_shoulder);
-  pair("elbows", &skeleton.left_elbow, &skeleton.right_elbow);
-  json.at("feet").get_to(skeleton.feet);
-  skeleton.Validate();
-  return skeleton;
-}
 
 void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
                    Safetensors* content) {
@@ -97,7 +54,7 @@ std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
   ExportTensors(*model, "", &content);
   content.metadata = {{"format", kFormat},
                       {"config", nlohmann::json(model->config()).dump()},
-                      {"skeleton", SkeletonToJson(model->skeleton()).dump()},
+                      {"skeleton", SkeletonToJson(model->skeleton())},
                       {"card", card.dump()}};
   const std::string hash = ContentHash(content, kHashKey);
   content.metadata[kHashKey] = hash;
@@ -128,8 +85,8 @@ Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
   }
   try {
     checkpoint.model = FlowModel(nlohmann::json::parse(meta("config")).get<FlowConfig>(),
-                                 SkeletonFromJson(nlohmann::json::parse(meta("skeleton"))));
-  } catch (const nlohmann::json::exception& error) {
+                                 SkeletonFromJson(meta("skeleton")));
+  } catch (const std::exception& error) {  // of the JSON or of the skeleton in it
     throw InvalidArgument(path.string(),
                           std::string("its configuration can't be read: ") + error.what());
   }

@@ -32,7 +32,4 @@ void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
 void ImportTensors(const Safetensors& content, const std::string& prefix,
                    torch::nn::Module* module);
 
-nlohmann::json SkeletonToJson(const Skeleton& skeleton);
-Skeleton SkeletonFromJson(const nlohmann::json& json);
-
 }  // namespace choreo

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "model/core/error.h"
+#include "model/formats/own_skeleton.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
 
@@ -169,6 +170,25 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion) {
     }
   }
   return file;
+}
+
+std::optional<Skeleton> BvhSkeleton(const BvhFile& file) {
+  std::vector<std::string> names;
+  std::vector<int> parents, index;  // index: of every joint of the file, -1 for an End Site
+  Eigen::Matrix3Xd places(3, std::ssize(file.joints));
+  for (const BvhJoint& joint : file.joints) {
+    index.push_back(joint.end_site ? -1 : static_cast<int>(names.size()));
+    if (joint.end_site) continue;
+    const int parent = joint.parent < 0 ? -1 : index[static_cast<size_t>(joint.parent)];
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    if (parent >= 0) place = places.col(parent) + joint.offset / kCentimetres;
+    places.col(std::ssize(names)) = place;
+    names.push_back(joint.name);
+    parents.push_back(parent);
+  }
+  auto skeleton = OwnSkeleton(names, parents, places.leftCols(std::ssize(names)));
+  // A joint above the root would move it.
+  return skeleton && skeleton->joint_names == names ? skeleton : std::nullopt;
 }
 
 bool IsBvhOf(const BvhFile& file, const Skeleton& skeleton) {

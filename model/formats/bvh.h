@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,6 +77,10 @@ PositionClip BvhToPositions(const BvhFile& file, double metres_per_unit);
 /// where they can be. Throws Error(kInvalidArgument) for a motion without frames or of another
 /// joint count.
 BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion);
+
+/// The file's own skeleton (own_skeleton.h), lengths taken for centimetres; none where a joint
+/// stands above its root.
+std::optional<Skeleton> BvhSkeleton(const BvhFile& file);
 
 /// Whether a file has exactly this skeleton: names, parents and rest offsets (1 mm, in
 /// centimetres).

@@ -3,6 +3,7 @@
 
 #include "model/formats/gltf.h"
 #include "model/formats/gltf_scene.h"
+#include "model/formats/own_skeleton.h"
 #include "model/motion/fit.h"
 #include "model/motion/fit_sources.h"
 #include "model/motion/rotation.h"
@@ -30,6 +31,17 @@ std::optional<std::vector<int>> FindOurs(const GltfScene& scene, const Skeleton&
     nodes.push_back(node);
   }
   return nodes;
+}
+
+std::optional<Skeleton> FindOwn(const GltfScene& scene) {
+  const std::vector<Eigen::Affine3d> rest = scene.Rest();
+  std::vector<int> parents;
+  Eigen::Matrix3Xd places(3, std::ssize(rest));
+  for (int node = 0; node < std::ssize(rest); ++node) {
+    parents.push_back(scene.parent(node));
+    places.col(node) = rest[static_cast<size_t>(node)].translation();
+  }
+  return OwnSkeleton(scene.names(), parents, places);
 }
 
 Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Skeleton& skeleton) {
@@ -72,11 +84,17 @@ Motion FitOthers(const GltfScene& scene, const Skeleton& skeleton) {
 
 }  // namespace
 
-Motion ReadGlb(const std::filesystem::path& path, const Skeleton& skeleton) {
+SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted) {
   try {
     const GltfScene scene(ParseGlb(path));
-    const auto ours = FindOurs(scene, skeleton);
-    return ours ? TakeOurs(scene, *ours, skeleton) : FitOthers(scene, skeleton);
+    const Skeleton& smpl = Skeleton::Smpl24();
+    const auto own = FindOwn(scene);
+    for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
+      if (known == nullptr) continue;
+      if (const auto nodes = FindOurs(scene, *known))
+        return {*known, TakeOurs(scene, *nodes, *known)};
+    }
+    return {smpl, FitOthers(scene, smpl)};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kNotFound) throw;
     throw Error(error.code(), path.string(), error.what());

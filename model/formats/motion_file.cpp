@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "model/core/error.h"
 #include "model/formats/amass_npz.h"
@@ -10,15 +11,51 @@
 #include "model/formats/npz.h"
 #include "model/motion/fit.h"
 #include "model/motion/fit_sources.h"
+#include "model/motion/retarget.h"
 
 namespace choreo {
 namespace {
 
-Motion MotionFromBvh(const BvhFile& file, const Skeleton& skeleton) {
-  if (IsBvhOf(file, skeleton)) return BvhToMotion(file, skeleton);
+SkeletonMotion FromNpz(const NpzArchive& npz) {
+  if (HasSkeletonMotion(npz)) return ReadSkeletonMotion(npz);
+  return {Skeleton::Smpl24(), ReadSmplMotion(npz)};
+}
+
+SkeletonMotion FromBvh(const BvhFile& file, const Skeleton* wanted) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  if (file.frames() == 0) return {smpl, {}};
+  for (const Skeleton* known : {wanted, &smpl}) {
+    if (known != nullptr && IsBvhOf(file, *known)) return {*known, BvhToMotion(file, *known)};
+  }
+  if (const auto own = BvhSkeleton(file)) return {*own, BvhToMotion(file, *own)};
   // The fit sizes the source by its legs: the file's unit does not matter.
   const PositionClip clip = BvhToPositions(file, 0.01);
-  return FitClip(clip, BvhSource(clip), skeleton).motion;
+  return {smpl, FitClip(clip, BvhSource(clip), smpl).motion};
+}
+
+// `wanted`: a skeleton to try first, or none.
+SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) {
+  RequireMotionFile(path);
+  const std::string extension = SmallExtension(path);
+  SkeletonMotion read;
+  const auto named = [&](const auto& parse) {
+    try {
+      read = parse();
+    } catch (const Error& error) {
+      throw Error(error.code(), path.string(), error.what());
+    }
+  };
+  if (extension == ".glb") {
+    read = ReadGlb(path, wanted);
+  } else if (extension == ".npz") {
+    const NpzArchive npz = NpzArchive::Read(path);
+    named([&] { return FromNpz(npz); });
+  } else {
+    const BvhFile file = ReadBvh(path);
+    named([&] { return FromBvh(file, wanted); });
+  }
+  if (read.motion.frames.empty()) throw InvalidArgument(path.string(), "has no frames");
+  return read;
 }
 
 }  // namespace
@@ -42,34 +79,21 @@ void RequireMotionFile(const std::filesystem::path& path) {
   }
 }
 
-Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton) {
-  RequireMotionFile(path);
-  const std::string extension = SmallExtension(path);
-  Motion motion;
-  if (extension == ".glb") {
-    motion = ReadGlb(path, skeleton);
-  } else if (extension == ".npz") {
-    const NpzArchive npz = NpzArchive::Read(path);
-    try {
-      motion = ReadSmplMotion(npz);
-    } catch (const Error& error) {
-      throw Error(error.code(), path.string(), error.what());
-    }
-  } else {
-    const BvhFile file = ReadBvh(path);
-    try {
-      if (file.frames() > 0) motion = MotionFromBvh(file, skeleton);
-    } catch (const Error& error) {
-      throw Error(error.code(), path.string(), error.what());
-    }
+SkeletonMotion ReadMotion(const std::filesystem::path& path) { return Read(path, nullptr); }
+
+Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
+                  OtherSkeleton other) {
+  SkeletonMotion read = Read(path, &skeleton);
+  if (SameBones(read.skeleton, skeleton)) return std::move(read.motion);
+  if (other == OtherSkeleton::kRefuse) {
+    throw InvalidArgument(path.string(), "its skeleton is " + read.skeleton.Describe() + ", not " +
+                                             skeleton.Describe());
   }
-  if (motion.frames.empty()) throw InvalidArgument(path.string(), "has no frames");
-  if (motion.frames.front().rotations.cols() != skeleton.joints()) {
-    throw InvalidArgument(path.string(),
-                          "has " + std::to_string(motion.frames.front().rotations.cols()) +
-                              " joints, the skeleton has " + std::to_string(skeleton.joints()));
+  try {
+    return Retarget(read.skeleton, read.motion, skeleton);
+  } catch (const Error& error) {
+    throw Error(error.code(), path.string(), error.what());
   }
-  return motion;
 }
 
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
@@ -80,7 +104,11 @@ void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, co
     WriteGlb(path, skeleton, motion);
   } else if (extension == ".npz") {
     NpzArchive npz;
-    AddSmplMotion(skeleton, motion, contacts, npz);
+    if (SameBones(skeleton, Skeleton::Smpl24())) {
+      AddSmplMotion(skeleton, motion, contacts, npz);
+    } else {
+      AddSkeletonMotion(skeleton, motion, contacts, npz);
+    }
     npz.Write(path);
   } else {
     WriteBvh(path, MotionToBvh(skeleton, motion));

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "model/formats/skeleton_npz.h"
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -20,14 +22,24 @@ bool IsMotionFile(const std::filesystem::path& path);
 /// Throws Error(kInvalidArgument) whose field is the path, naming the formats, unless IsMotionFile.
 void RequireMotionFile(const std::filesystem::path& path);
 
-/// A motion of our skeleton from a file. A BVH or glTF of another skeleton is fitted to ours
-/// (motion/fit.h): sized by its legs, turned into rotations, put on the floor. At the file's own
-/// rate. Throws Error(kInvalidArgument) whose field begins with the
-/// path for other extensions, files without frames and what the formats refuse; Error(kNotFound)
-/// where the file cannot be opened.
-Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton);
+/// A motion from a file, and the skeleton that it is of: SMPL's, or the one that an npz holds
+/// (skeleton_npz.h) or that a BVH or glTF has (own_skeleton.h); any other BVH or glTF is fitted to
+/// SMPL's (motion/fit.h): sized by its legs, turned into rotations, put on the floor. At the file's
+/// own rate. Throws Error(kInvalidArgument) whose field begins with the path for other extensions,
+/// files without frames and what the formats refuse; Error(kNotFound) where the file cannot be
+/// opened.
+SkeletonMotion ReadMotion(const std::filesystem::path& path);
 
-/// Writes a file, in the format of its extension. `contacts`, one a frame, go into an npz; the
+/// What becomes of a motion of other bones: it is retargeted (motion/retarget.h), or refused with
+/// Error(kInvalidArgument) naming both skeletons.
+enum class OtherSkeleton : uint8_t { kRetarget, kRefuse };
+
+/// The same on this skeleton.
+Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
+                  OtherSkeleton other = OtherSkeleton::kRetarget);
+
+/// Writes a file, in the format of its extension; an npz is SMPL's or holds its skeleton, as above.
+/// `contacts`, one a frame, go into an npz; the
 /// other formats have no place for them. Errors as above, and Error(kInternal) where the file
 /// cannot be written.
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,

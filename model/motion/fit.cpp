@@ -50,18 +50,9 @@ std::vector<double> SlowQuantile(const std::vector<double>& values, double q,
 
 // Brings the body down to the floor, and returns the mean of what was added.
 double Ground(const Skeleton& skeleton, Motion& motion) {
-  Eigen::RowVectorXd clearance = Eigen::RowVectorXd::Constant(skeleton.joints(), kBodyClearance);
-  const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
-  for (const int foot : skeleton.feet) {
-    if (foot >= 0) clearance[foot] = rest(1, foot);
-  }
   std::vector<double> lowest;
   lowest.reserve(motion.frames.size());
-  JointPlacement placement;
-  for (const Pose& pose : motion.frames) {
-    ForwardKinematics(skeleton, pose, placement);
-    lowest.push_back((placement.positions.row(1) - clearance).minCoeff());
-  }
+  for (const Pose& pose : motion.frames) lowest.push_back(HeightAboveFloor(skeleton, pose));
   const std::vector<double> floor = SlowQuantile(lowest, 0.1, kGroundWindow * motion.fps);
   for (size_t frame = 0; frame < floor.size(); ++frame) {
     motion.frames[frame].root_position.y() -= floor[frame];
@@ -70,6 +61,16 @@ double Ground(const Skeleton& skeleton, Motion& motion) {
 }
 
 }  // namespace
+
+double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose) {
+  const Eigen::RowVectorXd rest = JointPositions(skeleton, RestPose(skeleton)).row(1);
+  // Some skeletons have more of the foot than its role names, such as heels.
+  Eigen::RowVectorXd clearance = rest.cwiseMin(kBodyClearance);
+  for (const int foot : skeleton.feet) {
+    if (foot >= 0) clearance[foot] = rest[foot];
+  }
+  return (JointPositions(skeleton, pose).row(1) - clearance).minCoeff();
+}
 
 class PositionFitter::Solver {
  public:

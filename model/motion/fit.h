@@ -116,10 +116,13 @@ struct FitResult {
   FitReport report;
 };
 
+/// How far the lowest point of the body is above the floor, metres: below a foot joint lies as much
+/// body as at rest, below any other at most 5 cm of it.
+double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose);
+
 /// A whole clip: measure, normalise, fit forwards, refine once with both neighbours known (zero
-/// phase), and ground: the lowest point of the body, each foot joint taken at its rest height and
-/// any other joint at 5 cm, comes down to the floor at least every few seconds. What is taken off
-/// changes slowly, so that jumps stay. About 0.5 ms a frame.
+/// phase), and ground: the body comes down to the floor at least every few seconds. What is taken
+/// off changes slowly, so that jumps stay. About 0.5 ms a frame.
 FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
                   const FitOptions& options = {});
 

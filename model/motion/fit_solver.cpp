@@ -68,11 +68,7 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
     priors_[joint].information = information * Eigen::Matrix3d::Identity();
     priors_[joint].hinge_axis.setZero();
   }
-  const Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
-  SetHinge(skeleton_.left_knee, skeleton_.left_hip, -forward);
-  SetHinge(skeleton_.right_knee, skeleton_.right_hip, -forward);
-  SetHinge(skeleton_.left_elbow, skeleton_.left_shoulder, forward);
-  SetHinge(skeleton_.right_elbow, skeleton_.right_shoulder, forward);
+  for (const Hinge& hinge : Hinges(skeleton_)) SetHinge(hinge);
   for (const int ankle : {skeleton_.feet[0], skeleton_.feet[2]}) {
     if (ankle <= 0) continue;
     priors_[ankle].information =
@@ -89,21 +85,16 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
   cholesky_ = Eigen::LLT<Eigen::MatrixXd>(unknowns);
 }
 
-void FitProblem::SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towards) {
-  if (hinge < 0) return;
-  // The bone above the hinge, at rest; bending takes the bone below towards `bend_towards`.
-  const Eigen::Vector3d bone = skeleton_.offsets.col(hinge);
-  const Eigen::Vector3d axis = bone.cross(bend_towards);
-  if (!(axis.norm() > 1e-6)) return;
-  JointPrior& prior = priors_[hinge];
-  prior.hinge_axis = axis.normalized();
-  prior.information = AxisInformation(axis, options_.rest_rad, options_.hinge_side_rad);
-  if (upper < 0) return;
-  const int upper_mark = marks_.AtJoint(upper);
-  const int hinge_mark = marks_.AtJoint(hinge);
+void FitProblem::SetHinge(const Hinge& hinge) {
+  JointPrior& prior = priors_[hinge.joint];
+  prior.hinge_axis = hinge.axis;
+  prior.information = AxisInformation(hinge.axis, options_.rest_rad, options_.hinge_side_rad);
+  if (hinge.upper < 0) return;
+  const int upper_mark = marks_.AtJoint(hinge.upper);
+  const int hinge_mark = marks_.AtJoint(hinge.joint);
   for (int end = 0; end < marks_.size() && upper_mark >= 0 && hinge_mark >= 0; ++end) {
     if (marks_[end].parent != hinge_mark) continue;
-    hinges_.push_back({.upper_joint = upper,
+    hinges_.push_back({.upper_joint = hinge.upper,
                        .upper_mark = upper_mark,
                        .hinge_mark = hinge_mark,
                        .end_mark = end,
@@ -112,11 +103,12 @@ void FitProblem::SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towa
                        .weight = 0});
     break;
   }
-  priors_[upper].information = AxisInformation(bone, options_.twist_rad, options_.rest_rad);
+  priors_[hinge.upper].information =
+      AxisInformation(skeleton_.offsets.col(hinge.joint), options_.twist_rad, options_.rest_rad);
 }
 
 void FitProblem::AimHinges(const Eigen::Matrix3Xd& targets) {
-  for (Hinge& hinge : hinges_) {
+  for (HingePlane& hinge : hinges_) {
     const Eigen::Vector3d upper = targets.col(hinge.hinge_mark) - targets.col(hinge.upper_mark);
     const Eigen::Vector3d lower = targets.col(hinge.end_mark) - targets.col(hinge.hinge_mark);
     const Eigen::Vector3d normal = upper.cross(lower);
@@ -139,7 +131,7 @@ double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const Neighbours& neigh
     cost += Square(marks_[i].weight) * position_information *
             (positions_.col(i) - targets.col(i)).squaredNorm();
   }
-  for (const Hinge& hinge : hinges_) {
+  for (const HingePlane& hinge : hinges_) {
     const Eigen::Vector3d axis = placement_.rotations[hinge.upper_joint] * hinge.axis;
     cost += Square(hinge.weight) * (axis - hinge.normal).squaredNorm();
   }
@@ -188,7 +180,7 @@ void FitProblem::AddPositionRows(const Eigen::Matrix3Xd& targets) {
 
 void FitProblem::AddHingeRows() {
   for (size_t i = 0; i < hinges_.size(); ++i) {
-    const Hinge& hinge = hinges_[i];
+    const HingePlane& hinge = hinges_[i];
     const auto row = static_cast<Eigen::Index>(3 * (marks_.size() + i));
     const Eigen::Vector3d axis = placement_.rotations[hinge.upper_joint] * hinge.axis;
     residual_.segment<3>(row) = hinge.weight * (axis - hinge.normal);

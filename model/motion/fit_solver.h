@@ -48,7 +48,7 @@ class FitProblem {
 
   /// A bent limb's plane tells where its hinge axis points, which fixes the twist of the bone
   /// above.
-  struct Hinge {
+  struct HingePlane {
     int upper_joint;
     int upper_mark, hinge_mark, end_mark;
     Eigen::Vector3d axis;    ///< in the upper joint's frame
@@ -61,7 +61,7 @@ class FitProblem {
   void Linearise(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours, const Pose& pose);
   void AddPositionRows(const Eigen::Matrix3Xd& targets);
   void AddHingeRows();
-  void SetHinge(int hinge, int upper, const Eigen::Vector3d& bend_towards);
+  void SetHinge(const Hinge& hinge);
   bool IsBelow(int joint, int ancestor) const;
 
   const Skeleton skeleton_;
@@ -70,7 +70,7 @@ class FitProblem {
   double accuracy_m_;
   double change_information_;
   std::vector<JointPrior> priors_;
-  std::vector<Hinge> hinges_;
+  std::vector<HingePlane> hinges_;
   Eigen::Matrix3Xd rest_joints_, rest_marks_;
 
   JointPlacement placement_;

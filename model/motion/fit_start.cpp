@@ -62,7 +62,7 @@ void FitProblem::Initialise(const Eigen::Matrix3Xd& targets, Pose& pose) const {
       correlation += marks_[i].weight * (targets.col(i) - pivot_target) *
                      (rest_marks_.col(i) - pivot_rest).transpose();
     }
-    for (const Hinge& hinge : hinges_) {
+    for (const HingePlane& hinge : hinges_) {
       if (hinge.upper_joint != joint) continue;
       const Eigen::Vector3d upper = (targets.col(hinge.hinge_mark) - pivot_target).normalized();
       const Eigen::Vector3d lower =

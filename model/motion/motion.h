@@ -7,7 +7,8 @@ namespace choreo {
 
 /// One frame of a skeleton, in a world frame: right-handed, Y up, floor y = 0.
 struct Pose {
-  Eigen::Vector3d root_position = Eigen::Vector3d::Zero();  ///< of the pelvis (joint 0), metres
+  Eigen::Vector3d root_position =
+      Eigen::Vector3d::Zero();  ///< of joint 0 (SMPL: the pelvis), metres
   Eigen::Matrix3Xd
       rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
 };

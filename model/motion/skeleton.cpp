@@ -1,16 +1,17 @@
 #include "model/motion/skeleton.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "model/core/error.h"
 
 namespace choreo {
 namespace {
-
-constexpr double kSmplToeHeight = 0.02;
 
 struct RestJoint {
   const char* name;
@@ -56,7 +57,7 @@ Skeleton MakeSmpl24() {
     skeleton.parents.push_back(joint.parent);
   }
   skeleton.AssignRoles();
-  skeleton.StandOnFloor(kSmplToeHeight);
+  skeleton.StandOnFloor();
   skeleton.Validate();
   return skeleton;
 }
@@ -73,6 +74,21 @@ int FindAny(const Skeleton& skeleton, std::initializer_list<const char*> names) 
     if (const int joint = skeleton.Find(name); joint >= 0) return joint;
   }
   return -1;
+}
+
+std::array<std::pair<std::string_view, int>, 12> Roles(const Skeleton& s) {
+  return {{{"left_hip", s.left_hip},
+           {"right_hip", s.right_hip},
+           {"left_knee", s.left_knee},
+           {"right_knee", s.right_knee},
+           {"left_shoulder", s.left_shoulder},
+           {"right_shoulder", s.right_shoulder},
+           {"left_elbow", s.left_elbow},
+           {"right_elbow", s.right_elbow},
+           {"left_ankle", s.feet[0]},
+           {"left_toes", s.feet[1]},
+           {"right_ankle", s.feet[2]},
+           {"right_toes", s.feet[3]}}};
 }
 
 }  // namespace
@@ -93,6 +109,10 @@ void Skeleton::AssignRoles() {
   right_elbow = Find("right_elbow");
   feet = {Find("left_ankle"), FindAny(*this, {"left_foot", "left_toes", "left_toe"}),
           Find("right_ankle"), FindAny(*this, {"right_foot", "right_toes", "right_toe"})};
+}
+
+std::string Skeleton::Describe() const {
+  return "'" + name + "' of " + std::to_string(joints()) + " joints";
 }
 
 void Skeleton::StandOnFloor(double clearance) {
@@ -139,15 +159,46 @@ void Skeleton::Validate() const {
     throw InvalidArgument("skeleton.pelvis_height",
                           std::to_string(pelvis_height) + " m, must be finite and at least 0");
   }
-  const int roles[] = {left_hip,      right_hip,      left_knee,  right_knee,
-                       left_shoulder, right_shoulder, left_elbow, right_elbow,
-                       feet[0],       feet[1],        feet[2],    feet[3]};
-  for (const int role : roles) {
-    if (role < -1 || role >= joints()) {
-      throw InvalidArgument("skeleton", "a role names joint " + std::to_string(role) +
-                                            ", must be -1 or below " + std::to_string(joints()));
+  std::set<int> playing;
+  for (const auto& [role, joint] : Roles(*this)) {
+    if (joint < -1 || joint >= joints()) {
+      throw InvalidArgument("skeleton." + std::string(role),
+                            std::to_string(joint) + ", must be -1 or the index of one of " +
+                                std::to_string(joints()) + " joints");
+    }
+    if (joint >= 0 && !playing.insert(joint).second) {
+      throw InvalidArgument("skeleton." + std::string(role),
+                            "'" + joint_names[joint] + "' plays another role already");
     }
   }
+}
+
+void Skeleton::RequireRoles() const {
+  for (const auto& [role, joint] : Roles(*this)) {
+    if (joint < 0) {
+      throw InvalidArgument("skeleton", Describe() + ": none of them is the " + std::string(role));
+    }
+  }
+}
+
+bool SameBones(const Skeleton& a, const Skeleton& b) {
+  return a.joint_names == b.joint_names && a.parents == b.parents &&
+         (a.offsets - b.offsets).colwise().norm().maxCoeff() < 0.001;
+}
+
+std::vector<Hinge> Hinges(const Skeleton& skeleton) {
+  const Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
+  std::vector<Hinge> hinges;
+  const auto add = [&](int joint, int upper, const Eigen::Vector3d& bend_towards) {
+    if (joint < 0) return;
+    const Eigen::Vector3d axis = skeleton.offsets.col(joint).cross(bend_towards);
+    if (axis.norm() > 1e-6) hinges.push_back({joint, upper, axis.normalized()});
+  };
+  add(skeleton.left_knee, skeleton.left_hip, -forward);
+  add(skeleton.right_knee, skeleton.right_hip, -forward);
+  add(skeleton.left_elbow, skeleton.left_shoulder, forward);
+  add(skeleton.right_elbow, skeleton.right_shoulder, forward);
+  return hinges;
 }
 
 const Skeleton& Skeleton::Smpl24() {

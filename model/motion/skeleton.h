@@ -24,6 +24,9 @@ struct Skeleton {
   std::array<int, 4> feet = {-1, -1, -1, -1};
 
   int joints() const { return static_cast<int>(parents.size()); }
+  bool operator==(const Skeleton&) const = default;
+  /// "'smpl24' of 24 joints": how error messages name a skeleton.
+  std::string Describe() const;
 
   /// Index of a joint by name, or -1.
   int Find(const std::string& joint_name) const;
@@ -32,16 +35,35 @@ struct Skeleton {
   /// and for the toes left_foot, left_toes or left_toe. A role that no joint plays stays -1.
   void AssignRoles();
 
-  /// Sets pelvis_height so that at rest the lowest joint stands `clearance` metres above the floor.
-  void StandOnFloor(double clearance);
+  /// Sets pelvis_height so that at rest the lowest joint stands `clearance` metres above the floor;
+  /// by default half a toe's thickness.
+  void StandOnFloor(double clearance = 0.02);
 
-  /// Throws Error(kInvalidArgument) naming the first joint that breaks an invariant above.
+  /// Throws Error(kInvalidArgument) naming the first joint that breaks an invariant above, or plays
+  /// two roles.
   void Validate() const;
+  /// Throws Error(kInvalidArgument) naming the first role that no joint plays. Dancing needs the
+  /// feet alone; fitting, retargeting and judging limbs need all.
+  void RequireRoles() const;
 
   /// SMPL's 24 joints (neutral body). The only place that knows them. At rest the lower toe joint
-  /// stands 2 cm above the floor (half a toe's thickness), which puts the ankles about 8 cm above
-  /// it.
+  /// stands 2 cm above the floor, which puts the ankles about 8 cm above it.
   static const Skeleton& Smpl24();
 };
+
+/// Whether poses of one are poses of the other: the same joints and tree, bones that differ by less
+/// than a millimetre (files and messages round them).
+bool SameBones(const Skeleton& a, const Skeleton& b);
+
+/// A knee or elbow, which bends about one axis. `axis` is in the frame of the bone above at rest;
+/// a positive turn about it bends the limb as a body does (shin backwards, forearm forwards).
+struct Hinge {
+  int joint = -1;
+  int upper = -1;                                  ///< the hip or shoulder above
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length
+};
+
+/// Left knee, right knee, left elbow, right elbow: those that the skeleton has.
+std::vector<Hinge> Hinges(const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "model/core/error.h"
 
@@ -44,9 +45,17 @@ std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& fo
   const json splits = json::parse(file, nullptr, false);
   if (!splits.is_object()) throw InvalidArgument(splits_file.string(), "not a JSON object");
   std::vector<PreparedClip> clips;
+  std::optional<std::pair<std::filesystem::path, Skeleton>> first;
   for (const auto& folder : folders) {
     for (const auto& path : ListPreparedClips(folder)) {
       PreparedClip clip = ReadPreparedClip(path);
+      if (!first) first.emplace(path, clip.skeleton);
+      if (!(clip.skeleton == first->second)) {
+        throw InvalidArgument(path.string(),
+                              "its skeleton is " + clip.skeleton.Describe() + ", that of " +
+                                  first->first.string() + " " + first->second.Describe() +
+                                  "; a model has one skeleton, bone lengths included");
+      }
       if (Belongs(NamedSplit(splits, clip.name), split)) clips.push_back(std::move(clip));
     }
   }

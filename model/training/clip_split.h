@@ -12,7 +12,8 @@ namespace choreo {
 enum class Split { kTrain, kValidation, kTest };
 
 /// Reads every clip of `folders` that belongs to `split`, sorted by folder and name. Throws Error
-/// where the file is missing or nothing is left.
+/// where the file is missing, nothing is left, or
+/// two clips of `folders` have different skeletons.
 std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
                                     const std::filesystem::path& splits_file, Split split);
 

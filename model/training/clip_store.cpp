@@ -15,7 +15,7 @@
 namespace choreo {
 ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
                      const std::filesystem::path& splits_file, Split split)
-    : clips_(LoadClips(folders, splits_file, split)), skeleton_(Skeleton::Smpl24()) {}
+    : clips_(LoadClips(folders, splits_file, split)), skeleton_(clips_.front().skeleton) {}
 
 std::string ClipStore::Hash() const {
   XXH64_hash_t hash = 0;

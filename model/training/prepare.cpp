@@ -108,10 +108,11 @@ struct Prepared {
 };
 
 Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
-  const Skeleton& skeleton = Skeleton::Smpl24();
+  const Skeleton& skeleton = recording.skeleton;
   Prepared result;
   json& report = result.report;
   report["name"] = recording.name;
+  report["skeleton"] = skeleton.name;
   report["warnings"] = json::array();
   json& warnings = report["warnings"];
   double skipped_s = 0;
@@ -170,6 +171,7 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   PreparedClip& clip = result.clip;
   clip.name = recording.name;
   clip.source = options.layout;
+  clip.skeleton = skeleton;
   const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
   clip.contacts.resize(4, static_cast<Eigen::Index>(contacts.size()));
   for (size_t f = 0; f < contacts.size(); ++f) {

@@ -10,11 +10,12 @@
 #include "model/motion/fit_sources.h"
 #include "model/motion/motion.h"
 #include "model/motion/position_clip.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 
 /// Raw recordings → prepared clips (prepared_clip.h): the corrections that each layout needs, 30
-/// fps, rotations fitted to SMPL's skeleton, contacts, and the rows of the music.
+/// fps, rotations fitted to SMPL's skeleton or the data's own, contacts, and the rows of the music.
 struct PrepareOptions {
   std::string layout;            ///< "tang2018" | "bvh" | "amass"
   std::filesystem::path input;   ///< folder
@@ -25,6 +26,9 @@ struct PrepareOptions {
   /// Time of clips whose name starts with .first is stretched by .second; tang2018 has its own
   /// (1.0125 for waltz and rumba).
   std::vector<std::pair<std::string, double>> time_scales;
+  /// tang2018 alone: rotations are fitted to a skeleton made from the recordings themselves
+  /// (motion/tang2018_skeleton.h) instead of SMPL's.
+  bool native_skeleton = false;
   std::string terms = "not stated";  ///< kept with every clip
   int jobs = 2;
 };
@@ -36,8 +40,9 @@ struct Recording {
   PositionClip positions;
   std::optional<Motion> motion;
   SourceMapping mapping;
-  bool tilted_floor = false;  ///< fit and level a floor plane, take out height drift
-  double cutoff_hz = 0;       ///< low-pass before resampling; 0: none
+  Skeleton skeleton = Skeleton::Smpl24();  ///< that rotations are fitted to, or are of
+  bool tilted_floor = false;               ///< fit and level a floor plane, take out height drift
+  double cutoff_hz = 0;                    ///< low-pass before resampling; 0: none
   double time_scale = 1;
   std::filesystem::path music;  ///< empty: none
   double music_start_s = 0;     ///< of the motion's first frame within the music
@@ -52,7 +57,8 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options);
 
 /// Prepares every clip, showing progress; prints one line a clip and the means, writes
 /// OUT/report.json. A clip that can't be read is named with its reason and skipped. Returns the
-/// number of prepared clips.
+/// number of prepared clips. Throws Error where the input has nothing of the layout, or a native
+/// skeleton is asked of a layout that has none.
 int Prepare(const PrepareOptions& options);
 
 }  // namespace choreo

@@ -21,6 +21,8 @@ void AddPrepareCommand(CLI::App& app) {
       "PREFIX FPS: the true rate of clips whose header is wrong (cmu_dance: salsa 60)");
   command->add_option("--time-scale", options->time_scales,
                       "PREFIX FACTOR: stretch these clips in time");
+  command->add_flag("--native-skeleton", options->native_skeleton,
+                    "tang2018: fit a skeleton of the data's own 23 joints instead of SMPL's 24");
   command->add_option("--terms", options->terms, "Terms of use, kept with every clip")
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Clips at once")

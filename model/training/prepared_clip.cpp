@@ -5,7 +5,7 @@
 
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
-#include "model/motion/skeleton.h"
+#include "model/motion/skeleton_json.h"
 
 namespace choreo {
 
@@ -30,6 +30,14 @@ PreparedClip ReadPreparedClip(const std::filesystem::path& path) {
   PreparedClip clip;
   clip.name = content.metadata["name"];
   clip.source = content.metadata["source"];
+  // The name alone stands for the skeleton that every reader knows.
+  const std::string& skeleton = content.metadata["skeleton"];
+  clip.skeleton =
+      skeleton == Skeleton::Smpl24().name ? Skeleton::Smpl24() : SkeletonFromJson(skeleton);
+  if (clip.skeleton.joints() != joints) {
+    throw InvalidArgument(path.string(), std::to_string(joints) + " joints, but its skeleton is " +
+                                             clip.skeleton.Describe());
+  }
   clip.motion.fps = std::atof(content.metadata["fps"].c_str());
   if (!(clip.motion.fps > 0))
     throw InvalidArgument(path.string(), "fps '" + content.metadata["fps"] + "' is not above 0");
@@ -56,9 +64,14 @@ PreparedClip ReadPreparedClip(const std::filesystem::path& path) {
 
 void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& clip) {
   const auto frames = static_cast<int64_t>(clip.motion.frames.size());
-  const int64_t joints = frames > 0 ? clip.motion.frames[0].rotations.cols() : 0;
+  const int64_t joints = clip.skeleton.joints();
   NamedTensor roots{{frames, 3}, {}}, rotations{{frames, joints, 3}, {}};
   for (const Pose& pose : clip.motion.frames) {
+    if (pose.rotations.cols() != joints) {
+      throw InvalidArgument(clip.name, std::to_string(pose.rotations.cols()) +
+                                           " joints, but its skeleton is " +
+                                           clip.skeleton.Describe());
+    }
     const Eigen::Vector3f root = pose.root_position.cast<float>();
     const Eigen::Matrix3Xf turned = pose.rotations.cast<float>();
     roots.data.insert(roots.data.end(), root.data(), root.data() + 3);
@@ -77,7 +90,8 @@ void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& 
   content.metadata["name"] = clip.name;
   content.metadata["source"] = clip.source;
   content.metadata["fps"] = std::to_string(clip.motion.fps);
-  content.metadata["skeleton"] = Skeleton::Smpl24().name;
+  content.metadata["skeleton"] =
+      clip.skeleton == Skeleton::Smpl24() ? clip.skeleton.name : SkeletonToJson(clip.skeleton);
   WriteSafetensors(folder / (clip.name + ".clip"), content);
 }
 

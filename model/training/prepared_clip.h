@@ -8,6 +8,7 @@
 
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 
@@ -15,19 +16,21 @@ namespace choreo {
 ///   root_positions [frames, 3] metres, Y up, floor y = 0; rotations [frames, joints, 3]
 ///   axis-angle, local, radians; contacts [frames, 4]; audio [frames, 40] MFCC rows
 ///   (FeatureStream's), absent for a dance without music;
-/// and in the metadata: name, source, fps, skeleton, terms, and what preparation did
-/// ("corrections", "fit_error_m", ...).
+/// and in the metadata: name, source, fps, skeleton (motion/skeleton_json.h), terms, and what
+/// preparation did ("corrections", "fit_error_m", ...).
 struct PreparedClip {
   std::string name;
-  std::string source;        ///< "tang2018", "bvh", ... : the layout that it came from
-  Motion motion;             ///< on SMPL's skeleton
-  Eigen::MatrixXf contacts;  ///< [4, frames]
-  Eigen::MatrixXf audio;     ///< [40, frames], or no columns
+  std::string source;  ///< "tang2018", "bvh", ... : the layout that it came from
+  Skeleton skeleton;
+  Motion motion;                             ///< on that skeleton
+  Eigen::MatrixXf contacts;                  ///< [4, frames]
+  Eigen::MatrixXf audio;                     ///< [40, frames], or no columns
   std::map<std::string, std::string> notes;  ///< the rest of the metadata
 };
 
 /// Throws Error(kNotFound) or Error(kInvalidArgument) naming the file.
 PreparedClip ReadPreparedClip(const std::filesystem::path& path);
+/// Throws Error(kInvalidArgument) for poses of another joint count than the skeleton's.
 void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& clip);
 /// Every .clip of a folder, sorted by name. Throws Error(kNotFound) where there is none.
 std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path& folder);

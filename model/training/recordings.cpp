@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
@@ -7,6 +8,7 @@
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
 #include "model/motion/fit.h"
+#include "model/motion/tang2018_skeleton.h"
 #include "model/training/prepare.h"
 
 /// The layouts that `choreo-lab prepare` knows, each turned into Recordings.
@@ -36,7 +38,9 @@ fs::path FirstExisting(const std::vector<fs::path>& candidates) {
   return {};
 }
 
-// [frames][24] rows: the world centre, then 23 joints relative to it.
+// One row for the world's centre, then one for each joint relative to it.
+int TangRows() { return 1 + static_cast<int>(Tang2018JointNames().size()); }
+
 PositionClip TangPositions(int64_t frames,
                            const std::function<Eigen::Vector3d(int64_t, int)>& row) {
   PositionClip clip;
@@ -62,16 +66,18 @@ Recording Tang(const std::string& name, const PrepareOptions& options) {
   return recording;
 }
 
-// NAME.npy [frames, 24, 3] beside NAME.ogg (.wav, .mp3), which begins with the motion.
+// NAME.npy [frames, rows, 3] beside NAME.ogg (.wav, .mp3), which begins with the motion.
 Recording ReadTangNpy(const fs::path& path, const PrepareOptions& options) {
   Recording recording = Tang(path.stem().string(), options);
   const NpyArray array = ReadNpy(path);
-  if (array.shape.size() != 3 || array.shape[1] != 24 || array.shape[2] != 3) {
-    throw InvalidArgument(path.string(), "its shape is not [frames, 24, 3]");
+  const int rows = TangRows();
+  if (array.shape.size() != 3 || array.shape[1] != rows || array.shape[2] != 3) {
+    throw InvalidArgument(path.string(),
+                          "its shape is not [frames, " + std::to_string(rows) + ", 3]");
   }
   const std::vector<double> values = array.As<double>();
   recording.positions = TangPositions(array.shape[0], [&](int64_t f, int r) {
-    return Eigen::Vector3d(values.data() + (f * 24 + r) * 3);
+    return Eigen::Vector3d(values.data() + (f * rows + r) * 3);
   });
   recording.music = FirstExisting({fs::path(path).replace_extension(".ogg"),
                                    fs::path(path).replace_extension(".wav"),
@@ -116,7 +122,7 @@ Recording ReadBvhRecording(const fs::path& path, const std::string& name,
   recording.positions.fps = Override(options.frame_rates, name, bvh.fps());
   recording.mapping = BvhSource(recording.positions);
   // Units are not stated anywhere in a BVH: the dancer's legs tell centimetres from inches.
-  const BoneNormaliser normaliser(Skeleton::Smpl24(), recording.mapping,
+  const BoneNormaliser normaliser(recording.skeleton, recording.mapping,
                                   recording.positions.joint_names);
   const double scale = normaliser.Measure(recording.positions).scale;
   for (auto& frame : recording.positions.frames) frame *= scale;
@@ -131,9 +137,38 @@ Recording ReadAmassRecording(const fs::path& path, const std::string& name) {
   return recording;
 }
 
+// Sources that are fitted to the skeleton of them all. Recordings that can't be read are left out
+// here, and named when it is their turn.
+std::vector<RecordingSource> OnNativeSkeleton(const std::vector<RecordingSource>& sources) {
+  std::vector<PositionClip> clips;
+  for (const RecordingSource& source : sources) {
+    try {
+      PositionClip clip = source.read().positions;
+      ValidateClip(clip);
+      clips.push_back(std::move(clip));
+    } catch (const std::exception&) {
+    }
+  }
+  const auto native = std::make_shared<const NativeTang2018>(MeasureTang2018(clips));
+  std::vector<RecordingSource> fitted;
+  for (const RecordingSource& source : sources) {
+    fitted.push_back({source.name, [source, native] {
+                        Recording recording = source.read();
+                        recording.mapping = native->mapping;
+                        recording.skeleton = native->skeleton;
+                        return recording;
+                      }});
+  }
+  return fitted;
+}
+
 }  // namespace
 
 std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
+  if (options.native_skeleton && options.layout != "tang2018") {
+    throw InvalidArgument("--native-skeleton",
+                          "is for tang2018, '" + options.layout + "' is fitted to SMPL's skeleton");
+  }
   if (!fs::is_directory(options.input)) {
     throw Error(ErrorCode::kNotFound, options.input.string(), "no such folder");
   }
@@ -174,7 +209,7 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
     throw InvalidArgument(options.input.string(),
                           "two recordings would both become '" + twice->name + ".clip'");
   }
-  return sources;
+  return options.native_skeleton ? OnNativeSkeleton(sources) : sources;
 }
 
 }  // namespace choreo

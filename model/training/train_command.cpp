@@ -47,6 +47,7 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
                    "Leave after this many steps of the run, to be resumed; 0: to the end")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Same seed, data and machine: same checkpoint")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_flag("--no-keys", options->no_keys, "Ablation: music alone");
   command->add_flag("--no-key-loss", options->no_key_loss, "Ablation: no key pose loss");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/motion/motion_fixtures.h"
+#include "tests/support/native_tang2018.h"
 
 namespace choreo {
 namespace {
@@ -41,10 +42,27 @@ TEST(Doll, StandsOnTheFloorAtRest) {
   EXPECT_NEAR(highest, 1.8, 0.05);  // with her bun
 }
 
-TEST(Doll, ABodyOfOtherJointsIsSticks) {
+TEST(Doll, ABodyThatIsNotSmplsHasATrunkAndAHead) {
+  const Skeleton& native = testing_support::Native().skeleton;
+  const std::vector<BodyPart> parts = BuildFigure(native, RestPose(native));
+  // A capsule a bone, one across the hips, one across the shoulders, and the head.
+  EXPECT_GT(std::ssize(parts), native.joints() - 1 + 2);
+  double top = 0, thickest = 0, thinnest = 1;
+  for (const BodyPart& part : parts) {
+    top = std::max<double>(top, part.shape.b.y() + part.shape.radius_b);
+    thickest = std::max<double>(thickest, part.shape.radius_a);
+    thinnest = std::min<double>(thinnest, part.shape.radius_a);
+  }
+  const Eigen::Matrix3Xd joints = JointPositions(native, RestPose(native));
+  EXPECT_GT(top, joints(1, native.Find("head")) + 0.15);
+  EXPECT_GT(thickest, 2 * thinnest);
+}
+
+TEST(Doll, ABodyOfOtherJointsIsCapsules) {
   Skeleton chain = kSmpl;
   chain.joint_names[10] = "left_paw";
-  EXPECT_EQ(MakeDoll(chain).size(), 23u);
+  // One for each bone, one across the hips, four of the head.
+  EXPECT_EQ(MakeDoll(chain).size(), 28u);
   EXPECT_GT(MakeDoll(kSmpl).size(), 30u);
 }
 

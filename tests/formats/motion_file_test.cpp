@@ -10,6 +10,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/native_tang2018.h"
 #include "tests/support/temporary_folder.h"
 
 namespace choreo {
@@ -92,6 +93,73 @@ TEST(MotionFile, FitsAForeignHierarchy) {
   }
   EXPECT_LT(sum / static_cast<double>(motion.frames.size()), 0.03);
   EXPECT_LT(travel, 0.05);
+}
+
+// A dance on a skeleton of its own, 23 joints.
+TEST(MotionFile, AnotherSkeletonGoesThereAndBackInEveryFormat) {
+  const TemporaryFolder folder;
+  const Skeleton& native = testing_support::Native().skeleton;
+  const Motion motion = fixtures::SmoothMotion(native, 21, 30, 30);
+  for (const auto& [name, tolerance_deg] :
+       {std::pair("a.npz", 1e-9), std::pair("a.bvh", 1e-5), std::pair("a.glb", 1e-3)}) {
+    SCOPED_TRACE(name);
+    WriteMotion(folder / name, native, motion);
+    const auto [skeleton, own] = ReadMotion(folder / name);
+    EXPECT_EQ(skeleton.joints(), 23);
+    EXPECT_EQ(skeleton.parents.size(), own.frames.front().rotations.cols());
+    const Motion back = ReadMotion(folder / name, native);
+    ASSERT_EQ(back.frames.size(), motion.frames.size());
+    for (size_t i = 0; i < motion.frames.size(); ++i) {
+      const PoseError error = ComparePoses(native, motion.frames[i], back.frames[i]);
+      EXPECT_LT(error.position_m, 1e-5);
+      EXPECT_LT(error.angle_deg, tolerance_deg);
+      // On the file's own word: joints by name, whatever their order.
+      const Eigen::Matrix3Xd there = JointPositions(native, motion.frames[i]);
+      const Eigen::Matrix3Xd here = JointPositions(skeleton, own.frames[i]);
+      for (int joint = 0; joint < 23; ++joint) {
+        const int found = skeleton.Find(native.joint_names[static_cast<size_t>(joint)]);
+        ASSERT_GE(found, 0);
+        EXPECT_LT((there.col(joint) - here.col(found)).norm(), 1e-5);
+      }
+    }
+  }
+}
+
+TEST(MotionFile, AMotionOfSmplIsRetargetedToAnotherSkeletonAndBack) {
+  const TemporaryFolder folder;
+  const Skeleton& native = testing_support::Native().skeleton;
+  Motion motion{.fps = 30, .frames = std::vector<Pose>(3, RestPose(kSmpl))};
+  for (Pose& pose : motion.frames) pose.rotations(2, kSmpl.left_shoulder) = 1.0;
+  for (const char* name : {"a.npz", "a.bvh", "a.glb"}) {
+    WriteMotion(folder / name, kSmpl, motion);
+    const Motion there = ReadMotion(folder / name, native);
+    ASSERT_EQ(there.frames.size(), 3U);
+    EXPECT_NEAR(there.frames[0].rotations(2, native.left_shoulder), 1.0, 0.15);
+    WriteMotion(folder / name, native, there);
+    EXPECT_NEAR(ReadMotion(folder / name, kSmpl).frames[0].rotations(2, kSmpl.left_shoulder), 1.0,
+                0.15);
+  }
+}
+
+TEST(MotionFile, AMotionOfOtherBonesIsRefusedWhereItMustStayAsItIs) {
+  const TemporaryFolder folder;
+  const Skeleton& native = testing_support::Native().skeleton;
+  WriteMotion(folder / "a.npz", native, fixtures::SmoothMotion(native, 2, 4));
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.npz: its skeleton is 'tang2018' of 23 joints, not 'smpl24' of 24 joints",
+              [&] { ReadMotion(folder / "a.npz", kSmpl, OtherSkeleton::kRefuse); });
+}
+
+TEST(MotionFile, ATornNpzOfAnotherSkeletonIsRefusedByName) {
+  const TemporaryFolder folder;
+  const Skeleton& native = testing_support::Native().skeleton;
+  WriteMotion(folder / "a.npz", native, fixtures::SmoothMotion(native, 2, 4));
+  NpzArchive npz = NpzArchive::Read(folder / "a.npz");
+  npz.SetArray("rotations", {{4, 24, 3}, std::vector<double>(4 * 24 * 3)});
+  npz.Write(folder / "a.npz");
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.npz: rotations: has the shape [4, 24, 3], expected [4, 23, 3]",
+              [&] { ReadMotion(folder / "a.npz"); });
 }
 
 TEST(MotionFile, KeepsContactsInAnNpz) {

@@ -14,10 +14,11 @@ namespace choreo::testing_support {
 
 /// A clip of our own making: a dancer who walks a circle and swings her limbs, each joint at a rate
 /// of its own.
-inline PreparedClip SyntheticClip(const std::string& name, int frames, double phase, bool music) {
-  const Skeleton& skeleton = Skeleton::Smpl24();
+inline PreparedClip SyntheticClip(const std::string& name, int frames, double phase, bool music,
+                                  const Skeleton& skeleton = Skeleton::Smpl24()) {
   PreparedClip clip;
   clip.name = name;
+  clip.skeleton = skeleton;
   clip.source = "synthetic";
   clip.motion.fps = 30;
   for (int f = 0; f < frames; ++f) {
@@ -50,12 +51,15 @@ inline PreparedClip SyntheticClip(const std::string& name, int frames, double ph
 
 /// Five training clips, two of them with music, one for validation and one for testing, and their
 /// splits.json.
-inline void WriteSyntheticData(const std::filesystem::path& folder) {
-  for (int i = 0; i < 5; ++i) {
-    WritePreparedClip(folder, SyntheticClip("train_" + std::to_string(i), 120, i, i < 2));
-  }
-  WritePreparedClip(folder, SyntheticClip("held_out", 120, 0.5, true));
-  WritePreparedClip(folder, SyntheticClip("last", 120, 0.7, false));
+inline void WriteSyntheticData(const std::filesystem::path& folder,
+                               const Skeleton& skeleton = Skeleton::Smpl24()) {
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const std::string& name, double phase, bool music) {
+    WritePreparedClip(folder, SyntheticClip(name, 120, phase, music, skeleton));
+  };
+  for (int i = 0; i < 5; ++i) write("train_" + std::to_string(i), i, i < 2);
+  write("held_out", 0.5, true);
+  write("last", 0.7, false);
   std::ofstream(folder / "splits.json")
       << R"({"synthetic": {"train": ["train_0", "train_1"], "validation": ["held_out"], "test": ["last"]}})";
 }

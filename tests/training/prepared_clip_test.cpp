@@ -5,6 +5,8 @@
 
 #include "model/core/error.h"
 #include "model/training/clip_split.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/native_tang2018.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
@@ -12,6 +14,7 @@ namespace choreo {
 namespace {
 
 using testing::ElementsAre;
+using testing_support::Native;
 using testing_support::SyntheticClip;
 using testing_support::WriteSyntheticData;
 
@@ -40,6 +43,28 @@ TEST(PreparedClip, ComesBackAsFloatsOfWhatWasWritten) {
   }
   EXPECT_EQ(back.contacts, clip.contacts);
   EXPECT_EQ(back.audio, clip.audio);
+}
+
+TEST(PreparedClip, ItsSkeletonIsInsideUnlessEveryoneKnowsIt) {
+  const TemporaryFolder folder;
+  for (const Skeleton* skeleton : {&Skeleton::Smpl24(), &Native().skeleton}) {
+    WritePreparedClip(folder.path(), SyntheticClip("one", 5, 0.3, false, *skeleton));
+    EXPECT_EQ(ReadPreparedClip(folder.path() / "one.clip").skeleton, *skeleton);
+  }
+  PreparedClip torn = SyntheticClip("torn", 5, 0.3, false, Native().skeleton);
+  torn.skeleton = Skeleton::Smpl24();
+  ExpectError(ErrorCode::kInvalidArgument,
+              "torn: 23 joints, but its skeleton is 'smpl24' of 24 joints",
+              [&] { WritePreparedClip(folder.path(), torn); });
+}
+
+TEST(LoadClips, RefusesClipsOfTwoSkeletonsNamingBoth) {
+  const TemporaryFolder folder;
+  WriteSyntheticData(folder / "smpl");
+  WriteSyntheticData(folder / "native", Native().skeleton);
+  ExpectError(ErrorCode::kInvalidArgument, "its skeleton is 'tang2018' of 23 joints, that of", [&] {
+    LoadClips({folder / "smpl", folder / "native"}, folder / "smpl" / "splits.json", Split::kTrain);
+  });
 }
 
 TEST(PreparedClip, AForeignFileIsNamed) {

@@ -7,12 +7,13 @@
 
 #include "model/audio/feature_stream.h"
 #include "model/core/error.h"
-#include "model/core/npy.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/prepare.h"
 #include "model/training/prepared_clip.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/synthetic_clips.h"
+#include "tests/support/tang2018_files.h"
 #include "tests/support/tang2018_markers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -38,20 +39,6 @@ PositionClip Record(double slope, int frames = 121) {
     frame *= 100;
   }
   return clip;
-}
-
-// Row 0 is the world centre, the others stand relative to it.
-void WriteNpyLayout(const std::filesystem::path& path, const PositionClip& clip) {
-  NpyArray array{{static_cast<int64_t>(clip.frames.size()), 24, 3}, std::vector<float>()};
-  auto& values = std::get<std::vector<float>>(array.values);
-  for (const Eigen::Matrix3Xd& frame : clip.frames) {
-    const Eigen::Vector3d centre = frame.rowwise().mean();
-    for (int row = 0; row < 24; ++row) {
-      const Eigen::Vector3d point = row == 0 ? centre : frame.col(row - 1) - centre;
-      for (const double value : point) values.push_back(static_cast<float>(value));
-    }
-  }
-  WriteNpy(path, array);
 }
 
 void WritePublicLayout(const std::filesystem::path& folder, const PositionClip& clip, int start) {
@@ -103,8 +90,9 @@ void WriteWav(const std::filesystem::path& path, const std::vector<float>& sampl
 class Tang2018Test : public testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_ / "in"); }
-  int Run() {
+  int Run(bool native_skeleton = false) {
     PrepareOptions options;
+    options.native_skeleton = native_skeleton;
     options.layout = "tang2018";
     options.input = folder_ / "in";
     options.output = folder_ / "out";
@@ -141,7 +129,7 @@ class Tang2018Test : public testing::Test {
 TEST_F(Tang2018Test, BothLayoutsGiveTheSameDanceEachWithItsMusic) {
   const PositionClip clip = Record(0);
   const std::vector<float> music = Music(8);
-  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", clip);
+  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", clip);
   WriteWav(folder_ / "in" / "DANCE_C_1.wav", music);
   WritePublicLayout(folder_ / "in" / "DANCE_C_2", clip, 50);
   WriteWav(folder_ / "in" / "DANCE_C_2" / "audio.wav", music);
@@ -160,7 +148,7 @@ TEST_F(Tang2018Test, BothLayoutsGiveTheSameDanceEachWithItsMusic) {
 }
 
 TEST_F(Tang2018Test, WaltzIsStretchedToItsMusic) {
-  WriteNpyLayout(folder_ / "in" / "DANCE_W_1.npy", Record(0));
+  WriteTang2018Npy(folder_ / "in" / "DANCE_W_1.npy", Record(0));
   ASSERT_EQ(Run(), 1);
   // 4 s x 1.0125 at 30 fps.
   EXPECT_EQ(Clip("DANCE_W_1").motion.frames.size(), 122U);
@@ -169,7 +157,7 @@ TEST_F(Tang2018Test, WaltzIsStretchedToItsMusic) {
 }
 
 TEST_F(Tang2018Test, MusicThatEndsEarlyIsReported) {
-  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", Record(0));
+  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0));
   WriteWav(folder_ / "in" / "DANCE_C_1.wav", Music(2));
   ASSERT_EQ(Run(), 1);
   EXPECT_THAT(Report("DANCE_C_1").at("warnings").get<std::vector<std::string>>(),
@@ -177,8 +165,8 @@ TEST_F(Tang2018Test, MusicThatEndsEarlyIsReported) {
 }
 
 TEST_F(Tang2018Test, ATiltedFloorIsLevelled) {
-  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", Record(0.06, 361));
-  WriteNpyLayout(folder_ / "in" / "DANCE_C_2.npy", Record(0, 361));
+  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0.06, 361));
+  WriteTang2018Npy(folder_ / "in" / "DANCE_C_2.npy", Record(0, 361));
   ASSERT_EQ(Run(), 2);
   EXPECT_NEAR(Report("DANCE_C_1").at("floor_slope").get<double>(), 0.06, 0.025);
   EXPECT_LT(Report("DANCE_C_2").at("floor_slope").get<double>(), 0.03);
@@ -191,8 +179,39 @@ TEST_F(Tang2018Test, ATiltedFloorIsLevelled) {
   }
 }
 
+TEST_F(Tang2018Test, ANativeSkeletonOf23JointsIsMeasuredOnAllRecordingsAndKeptInsideEachClip) {
+  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0));
+  PositionClip taller = Record(0);
+  for (Eigen::Matrix3Xd& frame : taller.frames) frame *= 1.1;
+  WriteTang2018Npy(folder_ / "in" / "DANCE_C_2.npy", taller);
+  std::ofstream(folder_ / "in" / "DANCE_C_3.npy") << "broken";
+  ASSERT_EQ(Run(true), 2);
+  const PreparedClip one = Clip("DANCE_C_1"), two = Clip("DANCE_C_2");
+  EXPECT_EQ(one.skeleton, two.skeleton);
+  EXPECT_EQ(one.skeleton.name, "tang2018");
+  ASSERT_EQ(one.skeleton.joints(), 23);
+  for (const Pose& pose : one.motion.frames) ASSERT_EQ(pose.rotations.cols(), 23);
+  // A twentieth longer than the smaller dancer.
+  const Skeleton& smpl = Smpl();
+  const double thigh =
+      0.5 * (smpl.offsets.col(smpl.left_knee).norm() + smpl.offsets.col(smpl.right_knee).norm());
+  EXPECT_NEAR(one.skeleton.offsets.col(one.skeleton.left_knee).norm(), 1.05 * thigh, 1e-5);
+  EXPECT_LT(Report("DANCE_C_1").at("fit_error_m").get<double>(), 0.03);
+  EXPECT_EQ(Report("DANCE_C_1").at("skeleton"), "tang2018");
+  EXPECT_TRUE(Report("DANCE_C_3").contains("skipped"));
+}
+
+TEST_F(Tang2018Test, OtherLayoutsHaveNoNativeSkeleton) {
+  PrepareOptions options;
+  options.layout = "bvh";
+  options.input = folder_ / "in";
+  options.native_skeleton = true;
+  ExpectError(ErrorCode::kInvalidArgument, "--native-skeleton: is for tang2018, 'bvh'",
+              [&] { Prepare(options); });
+}
+
 TEST_F(Tang2018Test, TwoRecordingsOfOneNameAreRefused) {
-  WriteNpyLayout(folder_ / "in" / "DANCE_C_1.npy", Record(0));
+  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0));
   WritePublicLayout(folder_ / "in" / "DANCE_C_1", Record(0), 0);
   try {
     Run();
