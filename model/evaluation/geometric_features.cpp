@@ -1,0 +1,168 @@
+#include "model/evaluation/geometric_features.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+using Eigen::Vector3d;
+
+// The joints that the statements name.
+struct Body {
+  int root = 0, chest, neck, belly;
+  int left_shoulder, right_shoulder, left_elbow, right_elbow, left_wrist, right_wrist;
+  int left_hip, right_hip, left_knee, right_knee, left_ankle, right_ankle, left_toes, right_toes;
+  double upper_arm, shoulders, hips;  // metres at rest
+
+  explicit Body(const Skeleton& skeleton) {
+    const auto find = [&](const char* name) {
+      const int joint = skeleton.Find(name);
+      if (joint < 0) throw InvalidArgument("skeleton", std::string("lacks ") + name);
+      return joint;
+    };
+    chest = find("spine3"), neck = find("neck"), belly = find("spine1");
+    left_shoulder = skeleton.left_shoulder, right_shoulder = skeleton.right_shoulder;
+    left_elbow = skeleton.left_elbow, right_elbow = skeleton.right_elbow;
+    left_wrist = find("left_wrist"), right_wrist = find("right_wrist");
+    left_hip = skeleton.left_hip, right_hip = skeleton.right_hip;
+    left_knee = skeleton.left_knee, right_knee = skeleton.right_knee;
+    left_ankle = skeleton.feet[0], right_ankle = skeleton.feet[2];
+    left_toes = skeleton.feet[1], right_toes = skeleton.feet[3];
+    if (std::min({left_shoulder, right_shoulder, left_elbow, right_elbow, left_hip, right_hip,
+                  left_knee, right_knee, left_ankle, right_ankle, left_toes, right_toes}) < 0) {
+      throw InvalidArgument("skeleton", "lacks a shoulder, elbow, hip, knee, ankle or toe");
+    }
+    const auto rest = [&](int joint) {
+      Vector3d at = Vector3d::Zero();
+      for (; joint >= 0; joint = skeleton.parents[static_cast<size_t>(joint)])
+        at += skeleton.offsets.col(joint);
+      return at;
+    };
+    upper_arm = (rest(left_shoulder) - rest(left_elbow)).norm();
+    shoulders = (rest(left_shoulder) - rest(right_shoulder)).norm();
+    hips = (rest(left_hip) - rest(right_hip)).norm();
+  }
+};
+
+// Two frames and what can be said of them.
+class Statements {
+ public:
+  Statements(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now, double fps)
+      : now_(now), velocity_((now - before) * fps) {}
+
+  Vector3d At(int joint) const { return now_.col(joint); }
+  double lowest() const { return now_.row(1).minCoeff(); }
+
+  // `joint` is further than `limit` in front of the plane through three joints.
+  bool BeyondPlane(int a, int b, int c, int joint, double limit) const {
+    return Unit((At(b) - At(a)).cross(At(c) - At(a))).dot(At(joint) - At(a)) > limit;
+  }
+  // The same of the plane through `point` with a normal from `a` to `b`.
+  static bool Beyond(const Vector3d& a, const Vector3d& b, const Vector3d& point,
+                     const Vector3d& joint, double limit) {
+    return Unit(b - a).dot(joint - point) > limit;
+  }
+  bool Beyond(int a, int b, int point, int joint, double limit) const {
+    return Beyond(At(a), At(b), At(point), At(joint), limit);
+  }
+  // `joint` moves faster than `limit`, relative to joint `from`, in the direction from a to b.
+  bool Moves(int a, int b, int from, int joint, double limit) const {
+    return Unit(At(b) - At(a)).dot(Relative(joint, from)) > limit;
+  }
+  // The same in the direction of the normal of the plane through three joints.
+  bool MovesFromPlane(int a, int b, int c, int joint, double limit) const {
+    return Unit((At(b) - At(a)).cross(At(c) - At(a))).dot(Relative(joint, a)) > limit;
+  }
+  bool Fast(int joint, double limit) const { return velocity_.col(joint).norm() > limit; }
+  // The angle between two directions lies between the limits, degrees.
+  static bool Angle(const Vector3d& a, const Vector3d& b, double low, double high) {
+    const double degrees = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI;
+    return degrees > low && degrees < high;
+  }
+  bool Bent(int upper, int hinge, int lower, double high) const {
+    return Angle(At(upper) - At(hinge), At(lower) - At(hinge), 0, high);
+  }
+  // Between the way from a to b and the way from c to d.
+  bool Angle(int a, int b, int c, int d, double low, double high) const {
+    return Angle(At(b) - At(a), At(d) - At(c), low, high);
+  }
+
+ private:
+  static Vector3d Unit(const Vector3d& v) {
+    const double length = v.norm();
+    return length > 1e-9 ? Vector3d(v / length) : Vector3d::Zero();
+  }
+  Vector3d Relative(int joint, int from) const {
+    return velocity_.col(joint) - velocity_.col(from);
+  }
+
+  const Eigen::Matrix3Xd& now_;
+  Eigen::Matrix3Xd velocity_;
+};
+
+std::array<bool, kGeometricFeatures> Judge(const Body& b, const Statements& s) {
+  const double arm = b.upper_arm;
+  const Vector3d zero = Vector3d::Zero(), up = Vector3d::UnitY();
+  const Vector3d floor(0, s.lowest(), 0);
+  return {
+      // Hands: to the front, above the neck, upwards; elbows bent; hands apart, together, to the
+      // root; fast.
+      s.MovesFromPlane(b.neck, b.right_hip, b.left_hip, b.right_wrist, 1.8 * arm),
+      s.MovesFromPlane(b.neck, b.left_hip, b.right_hip, b.left_wrist, 1.8 * arm),
+      s.Beyond(b.chest, b.neck, b.neck, b.right_wrist, 0.2 * arm),
+      s.Beyond(b.chest, b.neck, b.neck, b.left_wrist, 0.2 * arm),
+      s.Moves(b.belly, b.chest, b.chest, b.right_wrist, 1.8 * arm),
+      s.Moves(b.belly, b.chest, b.chest, b.left_wrist, 1.8 * arm),
+      s.Bent(b.right_shoulder, b.right_elbow, b.right_wrist, 110),
+      s.Bent(b.left_shoulder, b.left_elbow, b.left_wrist, 110),
+      s.Beyond(b.left_shoulder, b.right_shoulder, b.left_wrist, b.right_wrist, 2.5 * b.shoulders),
+      s.Moves(b.left_wrist, b.right_wrist, b.left_wrist, b.right_wrist, 1.4 * arm),
+      s.Moves(b.right_wrist, b.root, b.root, b.right_wrist, 1.4 * arm),
+      s.Moves(b.left_wrist, b.root, b.root, b.left_wrist, 1.4 * arm),
+      s.Fast(b.right_wrist, 2.5 * arm),
+      s.Fast(b.left_wrist, 2.5 * arm),
+      // Feet: in front of the other leg, raised, apart; knees bent; fast.
+      s.BeyondPlane(b.root, b.left_hip, b.left_toes, b.right_ankle, 0.38 * arm),
+      s.BeyondPlane(b.root, b.right_hip, b.right_toes, b.left_ankle, 0.38 * arm),
+      Statements::Beyond(zero, up, floor, s.At(b.right_ankle), 1.2 * arm),
+      Statements::Beyond(zero, up, floor, s.At(b.left_ankle), 1.2 * arm),
+      s.Beyond(b.left_hip, b.right_hip, b.left_ankle, b.right_ankle, 2.1 * b.hips),
+      s.Bent(b.right_hip, b.right_knee, b.right_ankle, 110),
+      s.Bent(b.left_hip, b.left_knee, b.left_ankle, 110),
+      s.Fast(b.right_ankle, 2.5 * arm),
+      s.Fast(b.left_ankle, 2.5 * arm),
+      // Arms and thighs away from the trunk; legs crossed; trunk level; hands near the floor; the
+      // whole body fast.
+      s.Angle(b.neck, b.root, b.right_shoulder, b.right_elbow, 25, 180),
+      s.Angle(b.neck, b.root, b.left_shoulder, b.left_elbow, 25, 180),
+      s.Angle(b.neck, b.root, b.right_hip, b.right_knee, 50, 180),
+      s.Angle(b.neck, b.root, b.left_hip, b.left_knee, 50, 180),
+      s.BeyondPlane(b.right_ankle, b.neck, b.left_ankle, b.root, 0.5 * arm),
+      Statements::Angle(s.At(b.root) - s.At(b.neck), up, 70, 110),
+      Statements::Beyond(zero, -up, floor, s.At(b.right_wrist), -1.2 * arm),
+      Statements::Beyond(zero, -up, floor, s.At(b.left_wrist), -1.2 * arm),
+      s.Fast(b.root, 2.3 * arm),
+  };
+}
+
+}  // namespace
+
+Eigen::VectorXd GeometricFeatures(const Skeleton& skeleton, const JointTrack& track, double fps) {
+  if (track.size() < 2)
+    throw InvalidArgument("track", std::to_string(track.size()) + " frames, 2 are needed");
+  const Body body(skeleton);
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(kGeometricFeatures);
+  for (size_t t = 1; t < track.size(); ++t) {
+    const auto judged = Judge(body, Statements(track[t - 1], track[t], fps));
+    for (int i = 0; i < kGeometricFeatures; ++i) shares[i] += judged[static_cast<size_t>(i)];
+  }
+  return shares / static_cast<double>(track.size() - 1);
+}
+
+}  // namespace choreo

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "model/evaluation/joint_track.h"
+
+namespace choreo {
+
+/// How fast and how jerky a dance is, over all its joints and frames.
+struct Pace {
+  std::vector<float> speeds;  ///< m/s, of each joint and step
+  std::vector<float> jerks;   ///< m/s^3, third difference of each joint and four frames
+
+  void Add(const JointTrack& track, double fps);
+  void Add(const Pace& other);
+  double median_speed() const;
+  double median_jerk() const;
+};
+
+/// The value below which `share` (0 to 1) of the values lie: the one of rank
+/// ceil(share * count), counted from 1. 0 for none.
+double Percentile(std::vector<float> values, double share);
+
+}  // namespace choreo

@@ -1,0 +1,65 @@
+#include "model/evaluation/pose_distance.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "model/core/error.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+void RequireSameLength(Eigen::Index danced, Eigen::Index real) {
+  if (danced != real || real == 0) {
+    throw InvalidArgument("danced", std::to_string(danced) + " frames against " +
+                                        std::to_string(real) + " real ones");
+  }
+}
+
+}  // namespace
+
+double L2P(const JointTrack& danced, const JointTrack& real) {
+  RequireSameLength(static_cast<Eigen::Index>(danced.size()),
+                    static_cast<Eigen::Index>(real.size()));
+  double sum = 0;
+  for (size_t t = 0; t < real.size(); ++t) sum += (danced[t] - real[t]).colwise().norm().mean();
+  return sum / static_cast<double>(real.size());
+}
+
+double KeyPoseDistance(const Eigen::Matrix3Xd& danced, const Eigen::Matrix3Xd& real) {
+  return (danced - real).colwise().squaredNorm().mean();
+}
+
+Eigen::MatrixXd GlobalQuaternions(const Skeleton& skeleton, std::span<const Pose> poses) {
+  Eigen::MatrixXd all(4 * skeleton.joints(), static_cast<Eigen::Index>(poses.size()));
+  for (size_t t = 0; t < poses.size(); ++t) {
+    const auto column = static_cast<Eigen::Index>(t);
+    const JointPlacement placement = ForwardKinematics(skeleton, poses[t]);
+    for (int joint = 0; joint < skeleton.joints(); ++joint) {
+      const Eigen::Quaterniond q(placement.rotations[static_cast<size_t>(joint)]);
+      Eigen::Vector4d value(q.w(), q.x(), q.y(), q.z());
+      const bool flip =
+          t == 0 ? value[0] < 0 : value.dot(all.block<4, 1>(4 * joint, column - 1)) < 0;
+      all.block<4, 1>(4 * joint, column) = flip ? Eigen::Vector4d(-value) : value;
+    }
+  }
+  return all;
+}
+
+double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
+  RequireSameLength(danced.cols(), real.cols());
+  double sum = 0;
+  for (Eigen::Index t = 0; t < real.cols(); ++t) {
+    double squares = 0;
+    for (Eigen::Index row = 0; row < real.rows(); row += 4) {
+      const Eigen::Vector4d a = danced.block<4, 1>(row, t), b = real.block<4, 1>(row, t);
+      squares += std::min((a - b).squaredNorm(), (a + b).squaredNorm());
+    }
+    sum += std::sqrt(squares);
+  }
+  return sum / static_cast<double>(real.cols());
+}
+
+}  // namespace choreo

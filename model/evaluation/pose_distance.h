@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "model/evaluation/joint_track.h"
+
+/// How far a dance is from the one that was really danced, frame by frame. Both have the same
+/// frames; throw Error(kInvalidArgument) where they do not.
+namespace choreo {
+
+/// L2P: distance of global joint positions, mean over joints and frames, metres. Paper F, Eq. 10
+/// (after Harvey et al. 2020) takes the norm over all joints at once; the mean per joint has a unit
+/// that one can picture, and ratios to a baseline are alike.
+double L2P(const JointTrack& danced, const JointTrack& real);
+
+/// Key pose distance, paper F, 4.5.3: the mean *squared* distance of joint positions, m^2, of two
+/// poses [3, joints].
+double KeyPoseDistance(const Eigen::Matrix3Xd& danced, const Eigen::Matrix3Xd& real);
+
+/// Global joint rotations as unit quaternions, [4 * joints, frames]. Signs go on from frame to
+/// frame, and the first frame's scalar parts are not negative.
+Eigen::MatrixXd GlobalQuaternions(const Skeleton& skeleton, std::span<const Pose> poses);
+
+/// L2Q, Harvey et al. 2020, Section 5: the norm of the difference of all global joint quaternions,
+/// mean over frames; no unit. A quaternion and its negative are one rotation: the nearer counts.
+double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real);
+
+}  // namespace choreo

@@ -1,0 +1,42 @@
+#include "model/evaluation/bootstrap.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+TEST(Bootstrap, EqualClipsLeaveNoDoubt) {
+  const std::vector<double> above = {1, 2, 3}, below = {2, 4, 6};
+  const auto interval = BootstrapRatio(above, below);
+  ASSERT_TRUE(interval);
+  EXPECT_DOUBLE_EQ(interval->low, 0.5);
+  EXPECT_DOUBLE_EQ(interval->high, 0.5);
+}
+
+TEST(Bootstrap, TheIntervalOfAMeanIsNearTheNormalOne) {
+  // 0 and 1, fifty each: the mean's standard error is 0.05.
+  std::vector<double> values(100), counts(100, 1.0);
+  for (size_t i = 0; i < 50; ++i) values[i] = 1;
+  const auto interval = BootstrapRatio(values, counts);
+  ASSERT_TRUE(interval);
+  EXPECT_NEAR(interval->low, 0.5 - 1.96 * 0.05, 0.015);
+  EXPECT_NEAR(interval->high, 0.5 + 1.96 * 0.05, 0.015);
+  const auto again = BootstrapRatio(values, counts);
+  EXPECT_EQ(interval->low, again->low);
+  EXPECT_EQ(interval->high, again->high);
+}
+
+TEST(Bootstrap, OneClipHasNoInterval) {
+  const std::vector<double> one = {1};
+  EXPECT_FALSE(BootstrapRatio(one, one));
+  ExpectError(ErrorCode::kInvalidArgument, "denominators: 0 for 1 numerators",
+              [&] { BootstrapRatio(one, {}); });
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,121 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/evaluation/foot_contact_score.h"
+#include "model/evaluation/npss.h"
+#include "model/evaluation/pace.h"
+#include "model/evaluation/pose_distance.h"
+#include "model/motion/kinematics.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+std::vector<Pose> Standing(int frames) {
+  return std::vector<Pose>(static_cast<size_t>(frames), RestPose(Body()));
+}
+
+TEST(PoseDistance, L2PIsTheMeanWayOfAJoint) {
+  const std::vector<Pose> real = Standing(4);
+  std::vector<Pose> moved = real;
+  for (Pose& pose : moved) pose.root_position += Eigen::Vector3d(0.3, 0, 0.4);
+  EXPECT_NEAR(L2P(TrackJoints(Body(), moved), TrackJoints(Body(), real)), 0.5, 1e-12);
+  moved[0] = moved[1] = real[0];
+  EXPECT_NEAR(L2P(TrackJoints(Body(), moved), TrackJoints(Body(), real)), 0.25, 1e-12);
+  ExpectError(ErrorCode::kInvalidArgument, "danced: 4 frames against 3 real ones",
+              [&] { L2P(TrackJoints(Body(), moved), TrackJoints(Body(), Standing(3))); });
+}
+
+TEST(PoseDistance, KeyPoseDistanceIsSquared) {
+  const Eigen::Matrix3Xd real = JointPositions(Body(), RestPose(Body()));
+  const Eigen::Matrix3Xd moved = real.colwise() + Eigen::Vector3d(0.3, 0, 0.4);
+  EXPECT_NEAR(KeyPoseDistance(moved, real), 0.25, 1e-12);
+}
+
+TEST(PoseDistance, L2QOfATurnAndOfWholeTurns) {
+  const std::vector<Pose> real = Standing(3);
+  std::vector<Pose> turned = real;
+  // A turn of the root turns all joints: |q - 1| = 2 sin(angle / 4) each.
+  for (Pose& pose : turned) pose.rotations.col(0) = Eigen::Vector3d(0, 1, 0);
+  const double expected = 2 * std::sin(0.25) * std::sqrt(Body().joints());
+  const Eigen::MatrixXd a = GlobalQuaternions(Body(), turned), b = GlobalQuaternions(Body(), real);
+  EXPECT_NEAR(L2Q(a, b), expected, 1e-9);
+  for (Pose& pose : turned) pose.rotations.col(0) = Eigen::Vector3d(0, 1 + 2 * M_PI, 0);
+  EXPECT_NEAR(L2Q(GlobalQuaternions(Body(), turned), b), expected, 1e-9);
+  EXPECT_NEAR(L2Q(-a, b), expected, 1e-9);
+}
+
+Eigen::MatrixXd Wave(int cycles, int frames, double height) {
+  Eigen::MatrixXd wave(1, frames);
+  for (int t = 0; t < frames; ++t) wave(0, t) = height * std::cos(2 * M_PI * cycles * t / frames);
+  return wave;
+}
+
+TEST(Npss, IsTheWayThatPowerHasToMove) {
+  constexpr int kFrames = 40;
+  NpssMeter same;
+  same.Add(Wave(3, kFrames, 0.1), Wave(3, kFrames, 2));  // height does not matter
+  EXPECT_NEAR(same.value(), 0, 1e-9);
+  // Half the power sits at each of k and frames - k: from 3 to 5 both halves move by 2 bins.
+  NpssMeter other;
+  other.Add(Wave(5, kFrames, 1), Wave(3, kFrames, 1));
+  EXPECT_NEAR(other.value(), 2, 1e-9);
+  // Weighted by the real power: 4 to 1.
+  Eigen::MatrixXd danced(2, kFrames), real(2, kFrames);
+  danced << Wave(5, kFrames, 1), Wave(3, kFrames, 1);
+  real << Wave(3, kFrames, 2), Wave(3, kFrames, 1);
+  NpssMeter weighed;
+  weighed.Add(danced, real);
+  EXPECT_NEAR(weighed.value(), 0.8 * 2, 1e-9);
+  NpssMeter still;
+  still.Add(Eigen::MatrixXd::Zero(1, 8), Eigen::MatrixXd::Zero(1, 8));
+  EXPECT_EQ(still.value(), 0);
+}
+
+// The root hops by `up` metres at frame 2; the feet slide by `slide` metres a frame.
+JointTrack Hop(double up, double left_slide, double right_slide) {
+  JointTrack track;
+  for (int t = 0; t < 5; ++t) {
+    Eigen::Matrix3Xd joints = JointPositions(Body(), RestPose(Body()));
+    if (t == 2) joints(1, 0) += up;
+    for (int foot : {0, 1}) joints(0, Body().feet[foot]) += left_slide * t;
+    for (int foot : {2, 3}) joints(2, Body().feet[foot]) += right_slide * t;
+    track.push_back(joints);
+  }
+  return track;
+}
+
+TEST(PhysicalFootContact, NeedsBothFeetToSlideWhileTheBodyAccelerates) {
+  // Accelerations of +up, -2 up (its downward part does not count), +up over three frames.
+  EXPECT_NEAR(PhysicalFootContact(Body(), Hop(0.1, 0.02, 0.03)), 1e4 * 2 * 0.0006 / 3, 1e-9);
+  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, 0, 0.03)), 0);
+  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0, 0.02, 0.03)), 0);
+}
+
+TEST(Pace, MedianSpeedAndJerkOfACubicPath) {
+  JointTrack track;
+  for (int t = 0; t < 6; ++t) {
+    Eigen::Matrix3Xd joints = Eigen::Matrix3Xd::Zero(3, 1);
+    joints(0, 0) = std::pow(t / 30.0, 3);  // third derivative 6
+    track.push_back(joints);
+  }
+  Pace pace;
+  pace.Add(track, 30);
+  EXPECT_EQ(pace.jerks.size(), 3U);
+  EXPECT_NEAR(pace.median_jerk(), 6, 1e-4);
+  EXPECT_NEAR(pace.median_speed(), 30 * (27 - 8) / 27000.0, 1e-6);  // the third of five steps
+}
+
+TEST(Pace, PercentilesAreRanks) {
+  EXPECT_EQ(Percentile({}, 0.5), 0);
+  EXPECT_EQ(Percentile({3, 1, 2}, 0.5), 2);
+  EXPECT_EQ(Percentile({4, 3, 1, 2}, 0.95), 4);
+  EXPECT_EQ(Percentile({4, 3, 1, 2}, 0), 1);
+}
+
+}  // namespace
+}  // namespace choreo
