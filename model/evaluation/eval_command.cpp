@@ -1,6 +1,7 @@
 #include "model/evaluation/eval_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -8,156 +9,212 @@
 
 #include "model/core/error.h"
 #include "model/engine/torch_engine.h"
-#include "model/evaluation/evaluation.h"
+#include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/long_dance.h"
+#include "model/evaluation/transition_tables.h"
 #include "model/training/clip_split.h"
 
 namespace choreo {
 namespace {
 
-struct EvalOptions {
+constexpr int kSlots = 16;  // a tile of the torch engine: a fuller batch is hardly dearer
+
+struct Arguments {
   std::filesystem::path model;
   std::vector<std::filesystem::path> data;
   std::filesystem::path splits;
   std::string split = "validation";
-  std::filesystem::path json;
-  std::vector<int> lengths = {10, 30, 60, 90};
-  int windows_per_clip = 4;
-  int long_frames = 600;
-  int long_dances = 5;
+  std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
+  std::vector<std::string> others;
+  std::filesystem::path json, markdown;
+  EvalOptions options;
   float temperature = -1;
 };
 
-nlohmann::json EvaluateTable(StepEngine& engine, const std::vector<PreparedClip>& clips,
-                             const EvalOptions& options) {
-  nlohmann::json table = nlohmann::json::array();
-  std::printf("%6s %7s %10s %8s %6s | %-28s | %9s %9s | %-24s | %-13s\n", "frames", "windows",
-              "interp. cm", "model cm", "ratio", "raw key cm: mean median worst", "final mm",
-              "final deg", "m/s^2: p95 (real) max (real)", "skate (real)");
-  for (const int frames : options.lengths) {
-    const TransitionRow row =
-        EvaluateTransitions(engine, clips, frames, options.windows_per_clip, options.temperature);
-    std::printf(
-        "%6d %7d %10.2f %8.2f %6.3f | %12.2f %6.2f %7.2f   | %9.4f %9.5f | %7.1f (%5.1f) %5.0f "
-        "(%4.0f) | %4.2f (%4.2f)\n",
-        row.frames, row.windows, 100 * row.interpolation_m, 100 * row.model_m, row.ratio(),
-        100 * row.raw_key_m, 100 * row.raw_key_median_m, 100 * row.raw_key_worst_m,
-        1000 * row.final_key_m, row.final_key_deg, row.p95_acceleration, row.real_p95_acceleration,
-        row.max_acceleration, row.real_max_acceleration, row.skate_ratio, row.real_skate_ratio);
-    table.push_back({{"frames", row.frames},
-                     {"windows", row.windows},
-                     {"interpolation_m", row.interpolation_m},
-                     {"model_m", row.model_m},
-                     {"ratio", row.ratio()},
-                     {"raw_key_m", row.raw_key_m},
-                     {"raw_key_median_m", row.raw_key_median_m},
-                     {"raw_key_worst_m", row.raw_key_worst_m},
-                     {"worst_window", row.worst_window},
-                     {"final_key_m", row.final_key_m},
-                     {"final_key_deg", row.final_key_deg},
-                     {"p95_acceleration", row.p95_acceleration},
-                     {"real_p95_acceleration", row.real_p95_acceleration},
-                     {"max_acceleration", row.max_acceleration},
-                     {"real_max_acceleration", row.real_max_acceleration},
-                     {"skate_ratio", row.skate_ratio},
-                     {"real_skate_ratio", row.real_skate_ratio},
-                     {"log_likelihood", row.mean_log_likelihood}});
+// The engines of one evaluation, and the methods that use them.
+struct Contest {
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  std::vector<Method> methods;
+
+  StepEngine* Add(std::unique_ptr<StepEngine> engine) {
+    engines.push_back(std::move(engine));
+    return engines.back().get();
+  }
+};
+
+Contest MakeContest(const Arguments& arguments) {
+  using Kind = Method::Kind;
+  Contest contest;
+  StepEngine* model = contest.Add(MakeTorchEngine(arguments.model, Device{}, kSlots));
+  const auto wants = [&](const char* name) {
+    return std::ranges::find(arguments.baselines, name) != arguments.baselines.end();
+  };
+  if (wants("real")) contest.methods.push_back({"real", Kind::kReal});
+  if (wants("interpolation")) {
+    contest.methods.push_back({"interpolation", Kind::kInterpolation});
+    contest.methods.push_back({"interpolation, foot lock", Kind::kEngine,
+                               contest.Add(std::make_unique<InterpolationEngine>(model->model()))});
+  }
+  if (wants("music_only"))
+    contest.methods.push_back({"model without keys", Kind::kEngine, model, false});
+  for (const std::string& other : arguments.others) {
+    const size_t equals = other.find('=');
+    if (equals == std::string::npos || equals == 0 || other.substr(0, equals) == kServed)
+      throw InvalidArgument("--other", "'" + other + "' is not NAME=CHECKPOINT");
+    StepEngine* engine = contest.Add(MakeTorchEngine(other.substr(equals + 1), Device{}, kSlots));
+    if (!(engine->model().skeleton == model->model().skeleton))
+      throw InvalidArgument("--other", other + " dances on another skeleton than the model");
+    contest.methods.push_back({other.substr(0, equals), Kind::kEngine, engine});
+  }
+  contest.methods.push_back({kServed, Kind::kEngine, model});
+  return contest;
+}
+
+std::vector<ClipSet> LoadSets(const Arguments& arguments, const Skeleton& skeleton) {
+  const Split split = arguments.split == "test" ? Split::kTest : Split::kValidation;
+  std::vector<ClipSet> sets;
+  for (std::filesystem::path folder : arguments.data) {
+    if (!folder.has_filename()) folder = folder.parent_path();
+    sets.push_back({folder.filename().string(), LoadClips({folder}, arguments.splits, split)});
+    const Skeleton& theirs = sets.back().clips.front().skeleton;
+    if (!(theirs == skeleton)) {
+      throw InvalidArgument("--data", folder.string() + ": the clips' skeleton is " +
+                                          theirs.Describe() + ", the model's " +
+                                          skeleton.Describe());
+    }
+  }
+  return sets;
+}
+
+void Write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file) throw Error(ErrorCode::kInternal, path.string(), "can't be written");
+}
+
+// OUT.json, OUT_TABLE.png beside it, and the Markdown that shows both.
+void WriteResults(const Arguments& arguments, const ModelInfo& model,
+                  const std::vector<Table>& tables, const std::string& summary) {
+  nlohmann::json report = {
+      {"model", model.name},      {"fingerprint", model.fingerprint},
+      {"split", arguments.split}, {"temperature", arguments.options.temperature},
+      {"summary", summary},       {"tables", nlohmann::json::array()}};
+  std::string markdown = summary + "\n";
+  for (const Table& table : tables) {
+    report["tables"].push_back(ToJson(table));
+    markdown += "\n" + ToMarkdown(table);
+    if (!table.plot || arguments.json.empty()) continue;
+    std::filesystem::path png = arguments.json;
+    png.replace_filename(arguments.json.stem().string() + "_" + table.name + ".png");
+    DrawPlot(*table.plot, png);
+    markdown += "\n![" + table.plot->title + "](" + png.filename().string() + ")\n";
+  }
+  if (!arguments.json.empty()) Write(arguments.json, report.dump(1) + "\n");
+  if (!arguments.markdown.empty()) Write(arguments.markdown, markdown);
+}
+
+Table LongTable(StepEngine& engine, const ClipSet& set, const EvalOptions& options) {
+  const SpeedRange real = MeasureRealSpeeds(set.clips);
+  Table table;
+  table.name = "long_" + set.name;
+  table.title = "Long dances without music, " + set.name;
+  table.note = "Poses of the clip itself as keys, each 2 s, or none.";
+  table.label_headings = {"history of", "keys"};
+  table.columns = {{"median speed m/s", 2},        {"last fifth m/s", 2}, {"reach m", 1},
+                   {"lowest root m", 2},           {"highest root m", 2}, {"hinges backwards %", 3},
+                   {"joints at real speeds %", 0}, {"worst key mm", 4}};
+  table.rows.push_back({{"real motion", "–"},
+                        {Cell{real.median, {}}, Cell{}, Cell{}, Cell{}, Cell{},
+                         Cell{100 * real.bent_backwards, {}}, Cell{}, Cell{}}});
+  const size_t count = std::min<size_t>(set.clips.size(), 5);
+  for (size_t i = 0; i < count && options.long_seeds > 0; ++i) {
+    const PreparedClip& clip = set.clips[i * set.clips.size() / count];
+    for (const int interval : {60, 0}) {
+      const LongDanceRow row = EvaluateLongDance(engine, clip, options.long_frames, interval,
+                                                 options.temperature, i, real);
+      table.rows.push_back(
+          {{clip.name, interval > 0 ? "2 s" : "none"},
+           {Cell{row.median_speed, {}}, Cell{row.late_speed, {}}, Cell{row.root_reach_m, {}},
+            Cell{row.lowest_m, {}}, Cell{row.highest_m, {}}, Cell{100 * row.bent_backwards, {}},
+            Cell{100 * row.joints_in_real_speed, {}}, Cell{1000 * row.worst_key_m, {}}}});
+    }
   }
   return table;
 }
 
-nlohmann::json EvaluateLong(StepEngine& engine, const std::vector<PreparedClip>& clips,
-                            const EvalOptions& options) {
-  const SpeedRange real = MeasureRealSpeeds(clips);
-  std::printf("\nreal motion: median speed %.2f m/s, hinges bent backwards %.3f %%\n", real.median,
-              100 * real.bent_backwards);
-  std::printf("%-20s %5s %7s %7s %7s %8s %13s %10s %9s %8s\n", "long dance from", "keys", "finite",
-              "median", "late", "reach m", "root height", "backwards", "in range", "key mm");
-  nlohmann::json rows = nlohmann::json::array();
-  const size_t stride =
-      std::max<size_t>(1, clips.size() / static_cast<size_t>(options.long_dances));
-  for (size_t i = 0; i < clips.size() && rows.size() < 2 * static_cast<size_t>(options.long_dances);
-       i += stride) {
-    for (const int interval : {60, 0}) {
-      const LongDanceRow row = EvaluateLongDance(engine, clips[i], options.long_frames, interval,
-                                                 options.temperature, i, real);
-      std::printf("%-20s %5s %7s %7.2f %7.2f %8.1f %6.2f-%6.2f %8.3f %% %7.0f %% %8.4f\n",
-                  clips[i].name.c_str(), interval > 0 ? "2 s" : "none", row.finite ? "yes" : "NO",
-                  row.median_speed, row.late_speed, row.root_reach_m, row.lowest_m, row.highest_m,
-                  100 * row.bent_backwards, 100 * row.joints_in_real_speed, 1000 * row.worst_key_m);
-      rows.push_back({{"clip", clips[i].name},
-                      {"key_interval", interval},
-                      {"finite", row.finite},
-                      {"median_speed", row.median_speed},
-                      {"late_speed", row.late_speed},
-                      {"root_reach_m", row.root_reach_m},
-                      {"bent_backwards", row.bent_backwards},
-                      {"joints_in_real_speed", row.joints_in_real_speed},
-                      {"worst_key_m", row.worst_key_m}});
-    }
+void Evaluate(Arguments arguments) {
+  const Contest contest = MakeContest(arguments);
+  StepEngine& engine = *contest.engines.front();
+  EvalOptions& options = arguments.options;
+  options.temperature = arguments.temperature >= 0
+                            ? arguments.temperature
+                            : static_cast<float>(engine.model().default_temperature);
+  const std::vector<ClipSet> sets = LoadSets(arguments, engine.model().skeleton);
+  int64_t frames = 0;
+  for (const ClipSet& set : sets) frames += CountTransitionFrames(set, contest.methods, options);
+  std::vector<Table> tables;
+  ProgressBar progress("evaluating", frames);
+  for (const ClipSet& set : sets) {
+    for (Table& table : EvaluateTransitions(set, contest.methods, options, &progress))
+      tables.push_back(std::move(table));
+    tables.push_back(LongTable(engine, set, options));
   }
-  return {{"real_median_speed", real.median},
-          {"real_bent_backwards", real.bent_backwards},
-          {"dances", rows}};
-}
-
-void Evaluate(EvalOptions options) {
-  const Split split = options.split == "test" ? Split::kTest : Split::kValidation;
-  const auto engine = MakeTorchEngine(options.model, Device{}, 1);
-  if (options.temperature < 0)
-    options.temperature = static_cast<float>(engine->model().default_temperature);
-  const std::vector<PreparedClip> clips = LoadClips(options.data, options.splits, split);
-  const Skeleton& skeleton = engine->model().skeleton;
-  if (!(clips.front().skeleton == skeleton)) {
-    throw InvalidArgument("--data", "the clips' skeleton is " + clips.front().skeleton.Describe() +
-                                        ", the model's " + skeleton.Describe());
-  }
-  std::map<std::string, std::vector<PreparedClip>> sets;
-  for (const PreparedClip& clip : clips) sets[clip.source].push_back(clip);
-  nlohmann::json report = {{"model", engine->model().name},
-                           {"fingerprint", engine->model().fingerprint},
-                           {"split", options.split},
-                           {"temperature", options.temperature}};
-  for (const auto& [source, members] : sets) {
-    std::printf("%s, %s clips (%zu), temperature %.2f\n", source.c_str(), options.split.c_str(),
-                members.size(), options.temperature);
-    report["sets"][source]["transitions"] = EvaluateTable(*engine, members, options);
-    report["sets"][source]["long"] = EvaluateLong(*engine, members, options);
-    std::printf("\n");
-  }
-  if (!options.json.empty()) {
-    std::ofstream file(options.json);
-    file << report.dump(1) << "\n";
-    if (!file) throw Error(ErrorCode::kInternal, options.json.string(), "can't be written");
-  }
+  progress.Finish();
+  char summary[256];
+  std::snprintf(summary, sizeof(summary),
+                "Model %s (%s), %s clips, temperature %.2f unless a row says otherwise.",
+                engine.model().name.c_str(), engine.model().fingerprint.c_str(),
+                arguments.split.c_str(), options.temperature);
+  std::printf("%s\n", summary);
+  for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());
+  WriteResults(arguments, engine.model(), tables, summary);
 }
 
 }  // namespace
 
 void AddEvalCommand(CLI::App& app) {
-  auto options = std::make_shared<EvalOptions>();
+  auto arguments = std::make_shared<Arguments>();
+  EvalOptions& options = arguments->options;
   CLI::App* command =
       app.add_subcommand("eval", "Measure a model on held-out clips, as it is served");
-  command->add_option("--model", options->model, "Checkpoint")->required();
-  command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
+  command->add_option("--model", arguments->model, "Checkpoint")->required();
+  command
+      ->add_option("--data", arguments->data,
+                   "Folders written by `choreo-lab prepare`: each is a set with tables of its own")
       ->required();
-  command->add_option("--splits", options->splits, "Which clip trains, validates, tests (JSON)")
+  command->add_option("--splits", arguments->splits, "Which clip trains, validates, tests (JSON)")
       ->required();
-  command->add_option("--split", options->split, "validation | test")
+  command->add_option("--split", arguments->split, "validation | test")
       ->capture_default_str()
       ->check(CLI::IsMember({"validation", "test"}));
-  command->add_option("--json", options->json, "Also write the figures here");
-  command->add_option("--lengths", options->lengths, "Frames of the transitions")
-      ->capture_default_str();
-  command->add_option("--windows", options->windows_per_clip, "Transitions a clip and length")
-      ->capture_default_str();
-  command->add_option("--long-frames", options->long_frames, "Frames of a long dance")
-      ->capture_default_str();
   command
-      ->add_option("--long-dances", options->long_dances,
-                   "Long dances a set, with and without keys")
-      ->capture_default_str();
-  command->add_option("--temperature", options->temperature, "Instead of the model's own");
-  command->callback([options] { Evaluate(*options); });
+      ->add_option("--baseline", arguments->baselines, "Further rows of the tables of transitions")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
+  command->add_option("--other", arguments->others,
+                      "NAME=CHECKPOINT: a row for another model, danced just as the first");
+  command->add_option("--json", arguments->json,
+                      "Also write the figures here, and plots beside it");
+  command->add_option("--markdown", arguments->markdown, "Also write the tables here");
+  command->add_option("--lengths", options.lengths, "Frames of the transitions")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1800));
+  command->add_option("--windows", options.windows_per_clip, "Transitions a clip and length")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--best-of", options.best_of, "Samples a transition at temperature 1; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  command->add_option("--long-dances", options.long_seeds, "Long dances of each kind; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100000));
+  command->add_option("--long-frames", options.long_frames, "Frames of a long dance")
+      ->capture_default_str()
+      ->check(CLI::Range(60, 100000));
+  command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
+      ->check(CLI::Range(0.0, 2.0));
+  command->callback([arguments] { Evaluate(*arguments); });
 }
 
 }  // namespace choreo

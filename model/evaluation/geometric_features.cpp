@@ -153,6 +153,15 @@ std::array<bool, kGeometricFeatures> Judge(const Body& b, const Statements& s) {
 
 }  // namespace
 
+bool HasGeometricFeatures(const Skeleton& skeleton) {
+  try {
+    Body body(skeleton);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 Eigen::VectorXd GeometricFeatures(const Skeleton& skeleton, const JointTrack& track, double fps) {
   if (track.size() < 2)
     throw InvalidArgument("track", std::to_string(track.size()) + " frames, 2 are needed");

@@ -17,4 +17,7 @@ Eigen::VectorXd GeometricFeatures(const Skeleton& skeleton, const JointTrack& tr
 
 inline constexpr int kGeometricFeatures = 32;
 
+/// Whether the skeleton has the joints that the statements name.
+bool HasGeometricFeatures(const Skeleton& skeleton);
+
 }  // namespace choreo

@@ -3,7 +3,7 @@
 
 #include "model/core/error.h"
 #include "model/dance/transition.h"
-#include "model/evaluation/evaluation.h"
+#include "model/evaluation/long_dance.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 

@@ -1,7 +1,16 @@
-#include "model/evaluation/evaluation.h"
-
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "model/evaluation/batch.h"
+#include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/long_dance.h"
+#include "model/evaluation/transition_tables.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/resample.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/fake_engine.h"
 #include "tests/support/synthetic_clips.h"
 
@@ -10,26 +19,170 @@ namespace {
 
 using testing_support::SyntheticClip;
 
-TEST(EvaluateTransitions, MeasuresAgainstInterpolationAndHitsTheKeys) {
-  FakeEngine engine(1);
-  const std::vector<PreparedClip> clips = {SyntheticClip("a", 150, 0.1, true),
-                                           SyntheticClip("b", 150, 0.9, false)};
-  const TransitionRow row = EvaluateTransitions(engine, clips, 30, 3, 0.3F);
-  EXPECT_EQ(row.windows, 6);
-  EXPECT_GT(row.interpolation_m, 0.001);
-  EXPECT_GT(row.model_m, 0.001);
-  EXPECT_GT(row.raw_key_m, 1e-4);  // the fake model misses by a little
-  EXPECT_LE(row.final_key_m, 1e-3);
-  EXPECT_LE(row.final_key_deg, 0.1);
-  // A clip that is too short offers nothing.
-  EXPECT_EQ(EvaluateTransitions(engine, clips, 145, 3, 0.3F).windows, 0);
+ClipSet TwoClips() {
+  return {"set",
+          {SyntheticClip("walk_a", 150, 0.1, true), SyntheticClip("turn_b", 150, 0.9, false)}};
 }
 
-TEST(EvaluateTransitions, AStillDancerLeavesNothingToInterpolate) {
-  FakeEngine engine(1);
-  PreparedClip still = SyntheticClip("still", 100, 0.1, false);
-  for (Pose& pose : still.motion.frames) pose = still.motion.frames[0];
-  EXPECT_LT(EvaluateTransitions(engine, {still}, 20, 2, 0.0F).interpolation_m, 1e-9);
+TEST(DanceTransitions, GivesTheBitsOfOneAfterTheOther) {
+  const ClipSet set = TwoClips();
+  FakeEngine engine(3);  // fewer slots than jobs
+  std::vector<TransitionJob> jobs;
+  for (const int frames : {30, 12}) {
+    for (const EvalWindow& window : ChooseWindows(set, 10, frames, 3))
+      jobs.push_back(JobOf(engine.model(), set, window, frames, 0.5F, jobs.size()));
+  }
+  int64_t counted = 0;
+  const auto results = DanceTransitions(engine, jobs, [&](int frames) { counted += frames; });
+  ASSERT_EQ(results.size(), jobs.size());
+  EXPECT_EQ(engine.free_slots(), 3);
+  EXPECT_EQ(counted, 6 * 30 + 6 * 12);
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    std::optional<ArrivalResult> arrival;
+    const auto alone = RunTransition(engine, jobs[i].request, jobs[i].audio_rows, &arrival);
+    ASSERT_EQ(results[i].frames.size(), alone.size());
+    EXPECT_EQ(results[i].arrival->raw_error_m, arrival->raw_error_m);
+    for (size_t t = 0; t < alone.size(); ++t)
+      ASSERT_EQ(results[i].frames[t].pose.rotations, alone[t].pose.rotations);
+  }
+}
+
+TEST(DanceTransitions, FreesItsSlotsWhenAJobIsWrong) {
+  const ClipSet set = TwoClips();
+  FakeEngine engine(4);
+  std::vector<TransitionJob> jobs;
+  for (const EvalWindow& window : ChooseWindows(set, 10, 20, 2))
+    jobs.push_back(JobOf(engine.model(), set, window, 20, 0.5F, 0));
+  jobs[1].audio_rows.conservativeResize(Eigen::NoChange, 5);
+  ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { DanceTransitions(engine, jobs); });
+  EXPECT_EQ(engine.free_slots(), 4);
+}
+
+TEST(InterpolationEngine, WalksTheLineOntoTheKey) {
+  const ClipSet set = TwoClips();
+  InterpolationEngine engine(FakeEngine(1).model(), 2);
+  TransitionJob job = JobOf(engine.model(), set, {0, 40}, 20, 0.5F, 0);
+  job.request.arrival.frames = 0;
+  job.request.foot_lock = false;
+  const auto result = DanceTransitions(engine, {&job, 1}).front();
+  const Pose half = InterpolatePoses(job.request.history.back(), job.request.target->pose, 0.5);
+  EXPECT_LT(ComparePoses(engine.model().skeleton, result.frames[9].pose, half).position_m, 1e-5);
+  EXPECT_LT(result.arrival->raw_error_m, 1e-5);
+}
+
+TEST(ChooseWindows, StandEvenlyAndLeaveRoomForTheHistory) {
+  const ClipSet set = TwoClips();
+  const auto windows = ChooseWindows(set, 10, 30, 3);
+  ASSERT_EQ(windows.size(), 6U);
+  EXPECT_EQ(windows[0].start, 10);
+  EXPECT_EQ(windows[1].start, 65);
+  EXPECT_EQ(windows[2].start, 120);
+  EXPECT_EQ(windows[3].clip, 1U);
+  EXPECT_TRUE(ChooseWindows(set, 10, 145, 3).empty());
+  EXPECT_EQ(ChooseWindows(set, 10, 60, 9).size(), 4U);  // two fit side by side
+}
+
+TEST(GenreOf, IsANoteOrTheNamesFirstPart) {
+  PreparedClip clip;
+  clip.name = "DANCE_W_25";
+  EXPECT_EQ(GenreOf(clip), "DANCE_W");
+  clip.notes["genre"] = "waltz";
+  EXPECT_EQ(GenreOf(clip), "waltz");
+}
+
+class Tables : public testing::Test {
+ protected:
+  const Table& Find(const std::string& name) const {
+    return *std::ranges::find(tables_, name, &Table::name);
+  }
+  // The cells of the row with these labels.
+  const std::vector<Cell>& Row(const std::string& table,
+                               const std::vector<std::string>& labels) const {
+    return std::ranges::find(Find(table).rows, labels, &TableRow::labels)->cells;
+  }
+
+  ClipSet set_ = TwoClips();
+  FakeEngine engine_{8};
+  std::vector<Method> methods_ = {{"real", Method::Kind::kReal},
+                                  {"interpolation", Method::Kind::kInterpolation},
+                                  {"music", Method::Kind::kEngine, &engine_, false},
+                                  {kServed, Method::Kind::kEngine, &engine_}};
+  EvalOptions options_{.lengths = {12, 30},
+                       .windows_per_clip = 3,
+                       .best_of = 3,
+                       .temperature = 0.3F,
+                       .long_seeds = 0,
+                       .long_frames = 60};
+  std::vector<Table> tables_ = EvaluateTransitions(set_, methods_, options_, nullptr);
+};
+
+TEST_F(Tables, RealMotionIsTheYardstickAndInterpolationTheUnit) {
+  const auto& real = Row("transitions_set", {"30", "real"});
+  EXPECT_EQ(real[0].value, 0);
+  EXPECT_EQ(real[2].value, 0);
+  const auto& line = Row("transitions_set", {"30", "interpolation"});
+  EXPECT_GT(line[0].value, 0.1);
+  EXPECT_DOUBLE_EQ(line[1].value, 1);
+  const auto& model = Row("transitions_set", {"30", kServed});
+  EXPECT_NEAR(model[1].value, model[0].value / line[0].value, 1e-9);
+  ASSERT_TRUE(model[1].interval);
+  EXPECT_LE(model[1].interval->low, model[1].value);
+  EXPECT_GE(model[1].interval->high, model[1].value);
+  // Who does not know the key ends elsewhere.
+  EXPECT_GT(Row("transitions_set", {"30", "music"})[0].value, model[0].value);
+}
+
+TEST_F(Tables, KeysAreMissedRawAndMetAsServed) {
+  const auto& keys = Row("keys_set", {"30", kServed});
+  EXPECT_GT(keys[0].value, 1e-4);  // the fake model misses by a little
+  EXPECT_GT(keys[1].value, 0.01);
+  EXPECT_LE(keys[5].value, 1);
+  EXPECT_LE(keys[6].value, 0.1);
+  EXPECT_EQ(Find("keys_set").rows.size(), 2U);  // neither real motion nor music alone
+}
+
+TEST_F(Tables, GenresAddUpAndTheBestSampleIsNoWorseThanOne) {
+  EXPECT_EQ(Find("genres_set").rows.size(), 3U);
+  EXPECT_DOUBLE_EQ(Row("genres_set", {"all"})[1].value,
+                   Row("transitions_set", {"30", kServed})[1].value);
+  EXPECT_FALSE(Row("genres_set", {"walk"})[1].interval);
+  for (int length : {0, 1}) {
+    EXPECT_LE(Row("samples_set", {"best of 3, T = 1"})[static_cast<size_t>(length)].value,
+              Row("samples_set", {"one, T = 1"})[static_cast<size_t>(length)].value);
+  }
+}
+
+TEST_F(Tables, AreTheSameAgainAndCountTheirFrames) {
+  const std::vector<Table> again = EvaluateTransitions(set_, methods_, options_, nullptr);
+  ASSERT_EQ(again.size(), tables_.size());
+  for (size_t i = 0; i < again.size(); ++i) EXPECT_EQ(ToJson(again[i]), ToJson(tables_[i]));
+  EXPECT_EQ(CountTransitionFrames(set_, methods_, options_), 6 * (12 + 30) * (1 + 2 + 3));
+}
+
+TEST_F(Tables, ASetThatIsTooShortHasNoRows) {
+  options_.lengths = {145};
+  tables_ = EvaluateTransitions(set_, methods_, options_, nullptr);
+  EXPECT_TRUE(Find("transitions_set").rows.empty());
+}
+
+TEST(Table, ReadsAsMarkdownAndAsJson) {
+  Table table{.name = "t",
+              .title = "Title",
+              .note = "Note.",
+              .label_headings = {"who"},
+              .columns = {{"m", 2}, {"s", 1}},
+              .rows = {{{"a–b"}, {Cell{1.234, Interval{1, 2}}, Cell{}}},
+                       {{"c"}, {Cell{5, Interval{5, 5}}, Cell{2, {}}}}},
+              .plot = {}};
+  EXPECT_EQ(ToMarkdown(table),
+            "### Title\n\nNote.\n\n"
+            "| who |                m |   s |\n"
+            "|:----|-----------------:|----:|\n"
+            "| a–b | 1.23 (1.00–2.00) |   – |\n"
+            "| c   |             5.00 | 2.0 |\n");
+  const nlohmann::json json = ToJson(table);
+  EXPECT_EQ(json["rows"][0]["m interval"][1], 2);
+  EXPECT_TRUE(json["rows"][0]["s"].is_null());
 }
 
 TEST(EvaluateLongDance, SeesAFreezeAndABentKnee) {

@@ -10,32 +10,6 @@
 /// How good a model's dances are, through the same engine and dance/ as they are served with.
 namespace choreo {
 
-/// Transitions of one length between real poses, against interpolation (lerp + slerp).
-struct TransitionRow {
-  int frames = 0;              ///< N, the key being frame N-1
-  int windows = 0;             ///< how many transitions
-  double interpolation_m = 0;  ///< L2P (paper F, Table 2): distance of global joint positions, mean
-                               ///< over joints, frames, windows
-  double model_m = 0;          ///< the same of the dance as served
-  /// The worst joint's error at the key, without arrival: mean, median and worst over windows.
-  double raw_key_m = 0, raw_key_median_m = 0, raw_key_worst_m = 0;
-  std::string worst_window;  ///< clip and first frame of the worst one
-  double final_key_m = 0;    ///< the worst of all windows, as served
-  double final_key_deg = 0;
-  /// Largest joint acceleration of a frame, 95th percentile over frames, mean over windows, m/s^2,
-  /// and the largest of all; of the dance and of what was really danced.
-  double p95_acceleration = 0, max_acceleration = 0;
-  double real_p95_acceleration = 0, real_max_acceleration = 0;
-  double skate_ratio = 0, real_skate_ratio = 0;  ///< mean over windows (quality_report.h)
-  double mean_log_likelihood = 0;                ///< nats a frame, of what was sampled
-
-  double ratio() const { return model_m / interpolation_m; }
-};
-
-/// Windows stand evenly over each clip, at most `windows_per_clip`; music where the clip has it.
-TransitionRow EvaluateTransitions(StepEngine& engine, const std::vector<PreparedClip>& clips,
-                                  int frames, int windows_per_clip, float temperature);
-
 /// A long dance judged for drift, freezing, explosion and broken limbs.
 struct LongDanceRow {
   int frames = 0;

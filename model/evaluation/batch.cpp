@@ -1,0 +1,67 @@
+#include "model/evaluation/batch.h"
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+struct Active {
+  size_t job;
+  TransitionRun run;
+  int slot;
+};
+
+}  // namespace
+
+std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
+                                               std::span<const TransitionJob> jobs,
+                                               const std::function<void(int)>& danced) {
+  std::vector<TransitionResult> results(jobs.size());
+  std::vector<Active> active;
+  size_t next = 0;
+  try {
+    while (next < jobs.size() || !active.empty()) {
+      while (next < jobs.size() && engine.free_slots() > 0) {
+        const TransitionJob& job = jobs[next];
+        if (job.request.has_audio && job.audio_rows.cols() < job.request.frames)
+          throw InvalidArgument("audio_rows", "are fewer than the frames");
+        TransitionRun run(engine.model(), job.request);
+        const int slot = engine.Admit(run.spec());
+        active.push_back({next++, std::move(run), slot});
+      }
+      std::vector<StepInput> inputs;
+      for (const Active& one : active) {
+        StepInput input{one.slot, one.run.previous(), {}};
+        const TransitionJob& job = jobs[one.job];
+        if (job.request.has_audio) {
+          input.audio_row = {job.audio_rows.col(one.run.done()).data(),
+                             static_cast<size_t>(job.audio_rows.rows())};
+        }
+        inputs.push_back(input);
+      }
+      std::vector<StepOutput> outputs(inputs.size());
+      engine.Step(inputs, outputs);
+      std::vector<Active> going_on;
+      for (size_t i = 0; i < active.size(); ++i) {
+        Active& one = active[i];
+        TransitionResult& result = results[one.job];
+        result.frames.push_back(one.run.Take(outputs[i]));
+        if (one.run.done() < one.run.frames()) {
+          going_on.push_back(std::move(one));
+          continue;
+        }
+        result.arrival = one.run.arrival();
+        result.required_speed = one.run.required_speed();
+        engine.Release(one.slot);
+      }
+      active = std::move(going_on);
+      if (danced) danced(static_cast<int>(inputs.size()));
+    }
+  } catch (...) {
+    for (const Active& one : active) engine.Release(one.slot);
+    throw;
+  }
+  return results;
+}
+
+}  // namespace choreo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/dance/transition.h"
+
+namespace choreo {
+
+/// One transition to dance.
+struct TransitionJob {
+  TransitionRequest request;
+  Eigen::MatrixXf audio_rows;  ///< [audio_features, frames]; unread without audio
+};
+
+/// How it came out.
+struct TransitionResult {
+  std::vector<DanceFrame> frames;
+  std::optional<ArrivalResult> arrival;         ///< none without a target
+  std::optional<RequiredSpeed> required_speed;  ///< none without a target
+};
+
+/// Dances many transitions as the server does, all slots of the engine together, which costs a
+/// fraction of one after the other and gives the same bits. Results have the order of the jobs.
+/// `danced` is told how many frames each step made.
+std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
+                                               std::span<const TransitionJob> jobs,
+                                               const std::function<void(int)>& danced = {});
+
+}  // namespace choreo

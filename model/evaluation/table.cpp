@@ -1,0 +1,94 @@
+#include "model/evaluation/table.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace choreo {
+namespace {
+
+std::string Fixed(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return text;
+}
+
+std::string Show(const Cell& cell, int digits) {
+  std::string text = Fixed(cell.value, digits);
+  // Without width there is nothing to say.
+  if (cell.interval && cell.interval->low < cell.interval->high) {
+    text +=
+        " (" + Fixed(cell.interval->low, digits) + "–" + Fixed(cell.interval->high, digits) + ")";
+  }
+  return text;
+}
+
+// Characters, not bytes: an en dash is one.
+size_t Width(const std::string& text) {
+  return static_cast<size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+nlohmann::json Number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+}  // namespace
+
+std::string ToMarkdown(const Table& table) {
+  std::vector<std::vector<std::string>> lines;
+  std::vector<std::string> headings = table.label_headings;
+  for (const Column& column : table.columns) headings.push_back(column.heading);
+  lines.push_back(headings);
+  for (const TableRow& row : table.rows) {
+    std::vector<std::string> line = row.labels;
+    for (size_t i = 0; i < row.cells.size(); ++i)
+      line.push_back(Show(row.cells[i], table.columns[i].digits));
+    lines.push_back(line);
+  }
+  std::vector<size_t> widths(headings.size(), 3);
+  for (const auto& line : lines) {
+    for (size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], Width(line[i]));
+  }
+  std::string text = "### " + table.title + "\n\n";
+  if (!table.note.empty()) text += table.note + "\n\n";
+  for (size_t number = 0; number < lines.size(); ++number) {
+    text += "|";
+    for (size_t i = 0; i < widths.size(); ++i) {
+      const std::string& value = lines[number][i];
+      const std::string padding(widths[i] - Width(value), ' ');
+      const bool label = i < table.label_headings.size();
+      text += " " + (label ? value + padding : padding + value) + " |";
+    }
+    text += "\n";
+    if (number > 0) continue;
+    text += "|";
+    for (size_t i = 0; i < widths.size(); ++i) {
+      const bool label = i < table.label_headings.size();
+      text += (label ? ":" : "-") + std::string(widths[i], '-') + (label ? "-|" : ":|");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+nlohmann::json ToJson(const Table& table) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const TableRow& row : table.rows) {
+    nlohmann::json entry;
+    for (size_t i = 0; i < row.labels.size(); ++i) entry[table.label_headings[i]] = row.labels[i];
+    for (size_t i = 0; i < row.cells.size(); ++i) {
+      const Cell& cell = row.cells[i];
+      entry[table.columns[i].heading] = Number(cell.value);
+      if (cell.interval) {
+        entry[table.columns[i].heading + " interval"] = {Number(cell.interval->low),
+                                                         Number(cell.interval->high)};
+      }
+    }
+    rows.push_back(entry);
+  }
+  return {{"name", table.name}, {"title", table.title}, {"note", table.note}, {"rows", rows}};
+}
+
+}  // namespace choreo

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/draw/plot.h"
+#include "model/evaluation/bootstrap.h"
+
+namespace choreo {
+
+/// A figure; NaN where there is none (a dash in Markdown, null in JSON).
+struct Cell {
+  double value = NAN;
+  std::optional<Interval> interval;  ///< 95 %
+};
+
+struct Column {
+  std::string heading;  ///< with unit
+  int digits = 2;
+};
+
+struct TableRow {
+  std::vector<std::string> labels;  ///< as many as Table::label_headings
+  std::vector<Cell> cells;          ///< as many as Table::columns
+};
+
+/// A table of results: what the evaluation prints, writes as JSON and as Markdown ready to paste.
+struct Table {
+  std::string name;  ///< of its JSON entry and its plot's file: "transitions_dancedb"
+  std::string title;
+  std::string note;  ///< one paragraph: what was measured, on how much
+  std::vector<std::string> label_headings;
+  std::vector<Column> columns;
+  std::vector<TableRow> rows;
+  std::optional<Plot> plot;
+};
+
+/// A heading, the note, the table, its columns padded so that plain text reads well too.
+std::string ToMarkdown(const Table& table);
+nlohmann::json ToJson(const Table& table);
+
+}  // namespace choreo

@@ -1,0 +1,127 @@
+#include "model/evaluation/window_figures.h"
+
+#include <algorithm>
+#include <map>
+
+#include "model/dance/quality_report.h"
+#include "model/evaluation/foot_contact_score.h"
+#include "model/evaluation/frechet.h"
+#include "model/evaluation/geometric_features.h"
+#include "model/evaluation/kinetic_features.h"
+#include "model/evaluation/npss.h"
+#include "model/evaluation/pose_distance.h"
+
+namespace choreo {
+namespace {
+
+Eigen::MatrixXd Stack(const std::vector<Eigen::VectorXd>& columns) {
+  if (columns.empty()) return {};
+  Eigen::MatrixXd matrix(columns[0].size(), static_cast<Eigen::Index>(columns.size()));
+  for (size_t i = 0; i < columns.size(); ++i) matrix.col(static_cast<Eigen::Index>(i)) = columns[i];
+  return matrix;
+}
+
+}  // namespace
+
+WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vector<Pose>& danced,
+                            const std::vector<Pose>& real) {
+  WindowFigures figures;
+  const QualityReport quality = MeasureMotion(skeleton, {.fps = fps, .frames = danced});
+  figures.skate_ratio = quality.skate_ratio;
+  figures.p95_acceleration = quality.p95_acceleration;
+  figures.max_acceleration = quality.max_acceleration;
+  const std::span<const Pose> ours = std::span(danced).subspan(kFramesBefore);
+  const std::span<const Pose> theirs = std::span(real).subspan(kFramesBefore);
+  const JointTrack track = TrackJoints(skeleton, ours), truth = TrackJoints(skeleton, theirs);
+  figures.l2p = L2P(track, truth);
+  figures.key_distance = KeyPoseDistance(track.back(), truth.back());
+  const Eigen::MatrixXd turns = GlobalQuaternions(skeleton, ours);
+  const Eigen::MatrixXd real_turns = GlobalQuaternions(skeleton, theirs);
+  figures.l2q = L2Q(turns, real_turns);
+  NpssMeter npss;
+  npss.Add(turns, real_turns);
+  figures.npss_sum = npss.sum();
+  figures.npss_weight = npss.weights();
+  figures.pfc = PhysicalFootContact(skeleton, track);
+  figures.pace.Add(track, fps);
+  if (track.size() >= 3) figures.kinetic = KineticFeatures(track, fps);
+  if (track.size() >= 2 && HasGeometricFeatures(skeleton))
+    figures.geometric = GeometricFeatures(skeleton, track, fps);
+  return figures;
+}
+
+Cell Ratio(const std::vector<WindowFigures>& above, double WindowFigures::*numerator,
+           const std::vector<WindowFigures>& below, double WindowFigures::*denominator) {
+  std::map<size_t, std::pair<double, double>> clips;
+  double over = 0, under = 0;
+  for (const WindowFigures& window : above) {
+    clips[window.clip].first += window.*numerator;
+    over += window.*numerator;
+  }
+  for (const WindowFigures& window : below) {
+    clips[window.clip].second += window.*denominator;
+    under += window.*denominator;
+  }
+  std::vector<double> numerators, denominators;
+  for (const auto& [clip, sums] : clips) {
+    numerators.push_back(sums.first);
+    denominators.push_back(sums.second);
+  }
+  if (under == 0) return {};
+  return {over / under, BootstrapRatio(numerators, denominators)};
+}
+
+Cell Mean(const std::vector<WindowFigures>& windows, double WindowFigures::*figure, double unit) {
+  std::map<size_t, std::pair<double, double>> clips;
+  double sum = 0;
+  for (const WindowFigures& window : windows) {
+    clips[window.clip].first += unit * (window.*figure);
+    clips[window.clip].second += 1;
+    sum += unit * (window.*figure);
+  }
+  std::vector<double> sums, counts;
+  for (const auto& [clip, entry] : clips) {
+    sums.push_back(entry.first);
+    counts.push_back(entry.second);
+  }
+  if (windows.empty()) return {};
+  return {sum / static_cast<double>(windows.size()), BootstrapRatio(sums, counts)};
+}
+
+double Largest(const std::vector<WindowFigures>& windows, double WindowFigures::*figure) {
+  double largest = 0;
+  for (const WindowFigures& window : windows) largest = std::max(largest, window.*figure);
+  return largest;
+}
+
+RealFeatures GatherRealFeatures(const ClipSet& set, int frames) {
+  std::vector<Eigen::VectorXd> kinetic, geometric;
+  const auto length = static_cast<size_t>(frames);
+  for (const PreparedClip& clip : set.clips) {
+    const JointTrack track = TrackJoints(clip.skeleton, clip.motion.frames);
+    for (size_t start = 0; start + length <= track.size();
+         start += std::max<size_t>(1, length / 2)) {
+      const auto first = track.begin() + static_cast<std::ptrdiff_t>(start);
+      const JointTrack part(first, first + frames);
+      if (frames >= 3) kinetic.push_back(KineticFeatures(part, clip.motion.fps));
+      if (frames >= 2 && HasGeometricFeatures(clip.skeleton))
+        geometric.push_back(GeometricFeatures(clip.skeleton, part, clip.motion.fps));
+    }
+  }
+  return {Stack(kinetic), Stack(geometric)};
+}
+
+FeatureFigures CompareFeatures(const Eigen::MatrixXd& real,
+                               const std::vector<WindowFigures>& windows,
+                               Eigen::VectorXd WindowFigures::*features) {
+  std::vector<Eigen::VectorXd> columns;
+  for (const WindowFigures& window : windows) {
+    if ((window.*features).size() > 0) columns.push_back(window.*features);
+  }
+  if (columns.size() < 2 || real.cols() < 2) return {};
+  const FeatureScale scale = FeatureScale::Of(real);
+  const Eigen::MatrixXd ours = scale.Apply(Stack(columns));
+  return {FrechetDistance(ours, scale.Apply(real)), MeanPairDistance(ours)};
+}
+
+}  // namespace choreo

@@ -1,0 +1,58 @@
+#include "model/evaluation/windows.h"
+
+#include <algorithm>
+#include <set>
+
+namespace choreo {
+
+std::string GenreOf(const PreparedClip& clip) {
+  const auto noted = clip.notes.find("genre");
+  if (noted != clip.notes.end()) return noted->second;
+  return clip.name.substr(0, clip.name.rfind('_'));
+}
+
+std::vector<std::string> Genres(const ClipSet& set) {
+  std::set<std::string> names;
+  for (const PreparedClip& clip : set.clips) names.insert(GenreOf(clip));
+  return {names.begin(), names.end()};
+}
+
+std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frames, int per_clip) {
+  std::vector<EvalWindow> windows;
+  for (size_t clip = 0; clip < set.clips.size(); ++clip) {
+    const int spare = static_cast<int>(set.clips[clip].motion.frames.size()) - history - frames;
+    if (spare < 0) continue;
+    const int count = std::min(per_clip, 1 + spare / frames);
+    for (int w = 0; w < count; ++w) {
+      const int before = count > 1 ? static_cast<int>(int64_t{spare} * w / (count - 1)) : spare / 2;
+      windows.push_back({clip, history + before});
+    }
+  }
+  return windows;
+}
+
+TransitionJob JobOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
+                    int frames, float temperature, size_t number) {
+  const PreparedClip& clip = set.clips[window.clip];
+  const auto first = clip.motion.frames.begin() + window.start;
+  TransitionJob job;
+  job.request.frames = frames;
+  job.request.history.assign(first - model.history_frames, first);
+  job.request.target = WorldTarget{first[frames - 1], {}};
+  job.request.temperature = temperature;
+  job.request.seed = number;
+  if (clip.audio.cols() > 0) {
+    job.request.has_audio = true;
+    job.request.audio_history =
+        clip.audio.middleCols(window.start - model.history_frames, model.history_frames);
+    job.audio_rows = clip.audio.middleCols(window.start, frames);
+  }
+  return job;
+}
+
+std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before) {
+  const auto first = set.clips[window.clip].motion.frames.begin() + window.start;
+  return {first - before, first + frames};
+}
+
+}  // namespace choreo

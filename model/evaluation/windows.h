@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/evaluation/batch.h"
+#include "model/training/prepared_clip.h"
+
+namespace choreo {
+
+/// Held-out clips of one data set, of one skeleton.
+struct ClipSet {
+  std::string name;  ///< of the data's folder
+  std::vector<PreparedClip> clips;
+};
+
+/// What a clip shows: its note "genre" where preparation left one, else its name up to the last
+/// underscore ("DANCE_W_25" -> "DANCE_W", "salsa_03" -> "salsa").
+std::string GenreOf(const PreparedClip& clip);
+
+/// Genres of a set, sorted, each once.
+std::vector<std::string> Genres(const ClipSet& set);
+
+/// A place where a transition was really danced: frames [start, start + frames) of the clip, with
+/// its history before.
+struct EvalWindow {
+  size_t clip = 0;  ///< within its set
+  int start = 0;
+};
+
+/// At most `per_clip` windows stand evenly over each clip and overlap by less than a transition;
+/// a clip that is too short offers none.
+std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frames, int per_clip);
+
+/// The request for a window, with its real key and its clip's music, if it has any. The window's
+/// number is the seed.
+TransitionJob JobOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
+                    int frames, float temperature, size_t number);
+
+/// What was really danced there, with `before` frames of the history in front.
+std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before);
+
+}  // namespace choreo
