@@ -5,8 +5,10 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/music.h"
+#include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/audio/mfcc.h"
+#include "model/audio/suggest_keys.h"
 #include "model/core/npy.h"
 
 namespace choreo::cli {
@@ -16,7 +18,34 @@ struct AnalyzeOptions {
   std::string song;
   bool json = false;
   std::string features;
+  std::optional<int64_t> suggest_keys;
 };
+
+void PrintJson(const Music& music, const std::optional<std::vector<SuggestedKey>>& keys) {
+  nlohmann::ordered_json json;
+  json["duration_s"] = music.audio.seconds();
+  json["sample_rate"] = music.audio.sample_rate;
+  json["tempo_bpm"] = music.track.tempo_bpm;
+  json["beats"] = music.track.Seconds();
+  if (keys) {
+    json["suggested_keys"] = nlohmann::ordered_json::array();
+    for (const SuggestedKey& key : *keys) {
+      json["suggested_keys"].push_back(
+          {{"time_s", key.time_s}, {"beat", key.beat}, {"strength", key.strength}});
+    }
+  }
+  std::cout << json.dump(2) << std::endl;
+}
+
+void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>>& keys) {
+  std::printf("%.2f s at %d Hz, %d channels; %.1f beats a minute, %zu beats\n",
+              music.audio.seconds(), music.audio.sample_rate, music.audio.channels,
+              music.track.tempo_bpm, music.track.frames.size());
+  if (!keys) return;
+  std::printf("key poses would sit well at\n");
+  for (const SuggestedKey& key : *keys)
+    std::printf("%9.3f s  beat %zu, strength %.2f\n", key.time_s, key.beat, key.strength);
+}
 
 void Run(const AnalyzeOptions& options) {
   if (!options.features.empty()) RequireWritable("--features", options.features);
@@ -26,18 +55,11 @@ void Run(const AnalyzeOptions& options) {
     WriteNpy(options.features, {{rows.rows(), rows.cols()},
                                 std::vector<float>(rows.data(), rows.data() + rows.size())});
   }
-  if (options.json) {
-    nlohmann::ordered_json json;
-    json["duration_s"] = music.audio.seconds();
-    json["sample_rate"] = music.audio.sample_rate;
-    json["tempo_bpm"] = music.tempo_bpm;
-    json["beats"] = music.beats;
-    std::cout << json.dump(2) << std::endl;
-  } else {
-    std::printf("%.2f s at %d Hz, %d channels; %.1f beats a minute, %zu beats\n",
-                music.audio.seconds(), music.audio.sample_rate, music.audio.channels,
-                music.tempo_bpm, music.beats.size());
+  std::optional<std::vector<SuggestedKey>> keys;
+  if (options.suggest_keys) {
+    keys = SuggestKeys(music.track, music.onset_strength, *options.suggest_keys, "--suggest-keys");
   }
+  options.json ? PrintJson(music, keys) : PrintText(music, keys);
 }
 
 }  // namespace
@@ -49,10 +71,17 @@ void AddAnalyzeCommand(CLI::App& program) {
   command->add_option("song", options->song, "WAV, FLAC, Ogg or MP3 file.")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_flag("--json", options->json,
-                    "Print duration_s, sample_rate, tempo_bpm and beats (seconds) as JSON.");
+  command->add_flag(
+      "--json", options->json,
+      "Print duration_s, sample_rate, tempo_bpm, beats (seconds) and suggested_keys as "
+      "JSON.");
   command->add_option("--features", options->features,
                       "FILE.npy for the MFCC rows that the models hear: [rows, 40], 30 a second.");
+  command
+      ->add_option("--suggest-keys", options->suggest_keys,
+                   "Name so many beats on which key poses would sit well: strong ones, spread over "
+                   "the song.")
+      ->check(AtLeastOne());
   command->callback([options] { Run(*options); });
 }
 

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <random>
 
+#include "model/audio/suggest_keys.h"
 #include "model/motion/canonical.h"
 
 namespace choreo::cli {
 namespace {
 
-constexpr double kShortestInterval = 1.6;  // seconds; a change of pose needs about as long
-constexpr double kPlainInterval = 2.0;     // where no beat is heard
-constexpr double kWalkingSpeed = 0.28;     // metres a second, at most
-constexpr double kTurningSpeed = 0.35;     // radians a second, at most
-constexpr double kStageRadius = 1.2;       // metres; beyond it the way leads back
+constexpr double kLeastPeriod = 1.6;    // seconds, of the count that keys keep
+constexpr double kPlainInterval = 2.0;  // where no beat is heard
+constexpr double kWalkingSpeed = 0.28;  // metres a second, at most
+constexpr double kTurningSpeed = 0.35;  // radians a second, at most
+constexpr double kStageRadius = 1.2;    // metres; beyond it the way leads back
 
 /// Uniform draws that are the same with every standard library.
 class Dice {
@@ -42,11 +43,11 @@ std::vector<double> KeyTimes(double seconds, const std::vector<double>& beats) {
   while (counts.back() + period < seconds) counts.push_back(counts.back() + period);
 
   size_t stride = 1;
-  while (period * static_cast<double>(stride) < kShortestInterval) stride *= 2;
+  while (period * static_cast<double>(stride) < kLeastPeriod) stride *= 2;
   std::vector<double> times = {0};
   for (size_t i = 0; i < counts.size(); i += stride) {
     // What a wavering count would bring too close is left out, as is what lies behind the end.
-    if (counts[i] - times.back() >= 0.75 * kShortestInterval && counts[i] < seconds)
+    if (counts[i] - times.back() >= kShortestKeyInterval && counts[i] < seconds)
       times.push_back(counts[i]);
   }
   return times;

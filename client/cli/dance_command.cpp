@@ -68,9 +68,9 @@ DanceKeys ChooseKeys(const DanceOptions& options, const Music& music, double sec
                      const DanceLength& length, const Skeleton& skeleton) {
   if (!options.keys.empty()) return ReadDanceKeys(options.keys, length, skeleton);
   DanceKeys keys;
-  keys.poses =
-      ComposeKeys({.seconds = seconds, .beats = music.beats, .seed = options.seed.value_or(0)},
-                  PoseLibrary(skeleton));
+  keys.poses = ComposeKeys(
+      {.seconds = seconds, .beats = music.track.Seconds(), .seed = options.seed.value_or(0)},
+      PoseLibrary(skeleton));
   for (size_t i = 0; i < keys.poses.size(); ++i)
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
   return keys;
@@ -150,7 +150,8 @@ void Run(const DanceOptions& options) {
   config.seed = options.seed.value_or(0);
   config.temperature = options.temperature;
   config.frames = length.frames;
-  std::copy_if(music.beats.begin(), music.beats.end(), std::back_inserter(config.music_beats),
+  const std::vector<double> beats = music.track.Seconds();
+  std::copy_if(beats.begin(), beats.end(), std::back_inserter(config.music_beats),
                [&](double beat) { return beat < seconds; });
   const client::DanceResult dance =
       Dance(connection.client(), config, keys, AudioFor(music.audio, seconds), model.fps, out);
@@ -178,7 +179,8 @@ void AddDanceCommand(CLI::App& program) {
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses: a JSON key file, or poses of a motion file, as in "
               "walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 "
-              "(the pose at 1.2 s at second 4 of the dance). May be given more than once.");
+              "(the pose at 1.2 s at second 4 of the dance). May be given more than once. "
+              "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
   command
       ->add_option("-s,--seconds", options->seconds,
                    "Length of the dance, which ends with the song at the latest; default: the "

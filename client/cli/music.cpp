@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/audio/beats.h"
+#include "model/audio/onset.h"
 
 namespace choreo::cli {
 namespace {
@@ -19,9 +19,8 @@ Music ReadMusic(const std::filesystem::path& path, double seconds) {
   Music music;
   music.audio = DecodeAudioFile(path, seconds + kTempoWindow);
   music.mono = ToModelRate(music.audio);
-  const BeatTrack beats = FindBeats(music.mono);
-  music.tempo_bpm = beats.tempo_bpm;
-  music.beats = beats.Seconds();
+  music.onset_strength = OnsetStrength(music.mono, OnsetAggregate::kMedian);
+  music.track = TrackBeats(music.onset_strength);
   return music;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "model/audio/beats.h"
 #include "model/audio/decode.h"
 
 namespace choreo::cli {
@@ -12,9 +13,9 @@ namespace choreo::cli {
 /// A song as the commands need it.
 struct Music {
   DecodedAudio audio;
-  std::vector<float> mono;  ///< at 22 050 Hz
-  double tempo_bpm = 0;
-  std::vector<double> beats;  ///< seconds
+  std::vector<float> mono;            ///< at 22 050 Hz
+  std::vector<float> onset_strength;  ///< in which the beats were found
+  BeatTrack track;
 };
 
 /// Decodes a song and finds its beats: all of it, or its first `seconds` and what comes after them

@@ -33,6 +33,13 @@ const CLI::Validator& AtLeastZero() {
   return kCheck;
 }
 
+const CLI::Validator& AtLeastOne() {
+  static const CLI::Validator kCheck =
+      NumberThat("a whole number of at least 1", ">= 1",
+                 [](double value) { return value >= 1 && value == std::floor(value); });
+  return kCheck;
+}
+
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help) {
   static const CLI::Validator kCheck(
       [](const std::string& text) -> std::string {

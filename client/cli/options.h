@@ -14,6 +14,9 @@ const CLI::Validator& AboveZero();
 /// A number of at least 0.
 const CLI::Validator& AtLeastZero();
 
+/// A whole number of at least 1.
+const CLI::Validator& AtLeastOne();
+
 /// `--seed`: a whole number of 64 bits, never negative.
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);
 

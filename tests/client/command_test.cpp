@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -255,6 +257,41 @@ TEST_F(CommandTest, AnalyzesASong) {
   ASSERT_GT(heard["beats"].size(), 8U);
   for (const double beat : heard["beats"]) EXPECT_NEAR(std::remainder(beat, 0.5), 0, 0.07);
   EXPECT_EQ(ReadNpy(folder_ / "f.npy").shape, (std::vector<int64_t>{241, 40}));
+}
+
+TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
+  WriteClicks(folder_ / "song.wav", 12);
+  const std::string analyze = "analyze " + At("song.wav") + " --suggest-keys ";
+  const Outcome outcome = Choreo(analyze + "4 --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const nlohmann::json heard = nlohmann::json::parse(outcome.said);
+  const nlohmann::json& keys = heard["suggested_keys"];
+  ASSERT_EQ(keys.size(), 4U);
+  for (size_t i = 0; i < keys.size(); ++i) {
+    EXPECT_EQ(keys[i]["time_s"], heard["beats"].at(keys[i]["beat"].get<size_t>()));
+    EXPECT_GT(keys[i]["strength"], 0);
+    EXPECT_LE(keys[i]["strength"], 1);
+    if (i > 0) {
+      EXPECT_GE(keys[i]["time_s"].get<double>() - keys[i - 1]["time_s"].get<double>(), 1.2);
+    }
+  }
+  const Outcome text = Choreo(analyze + "4");
+  EXPECT_EQ(text.code, 0);
+  EXPECT_EQ(std::count(text.said.begin(), text.said.end(), '\n'), 6) << text.said;
+  char line[32];
+  std::snprintf(line, sizeof line, "%.3f s  beat %zu", keys[2]["time_s"].get<double>(),
+                keys[2]["beat"].get<size_t>());
+  EXPECT_THAT(text.said, HasSubstr(line));
+
+  const Outcome many = Choreo(analyze + "500");
+  EXPECT_EQ(many.code, 1);
+  EXPECT_THAT(many.said, HasSubstr("--suggest-keys: 500 keys, must be 1 to "));
+  for (const std::string count : {"0", "-1", "2.5", "some"}) {
+    const Outcome bad = Choreo(analyze + count);
+    EXPECT_EQ(bad.code, 2) << bad.said;
+    EXPECT_THAT(bad.said,
+                HasSubstr("--suggest-keys: " + count + " is not a whole number of at least 1"));
+  }
 }
 
 TEST_F(CommandTest, ConvertsAndDraws) {

@@ -1,0 +1,148 @@
+#include "model/audio/suggest_keys.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "model/audio/onset.h"
+#include "tests/audio/signals.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+constexpr int64_t kPeriod = 22;  // onset frames: 0.51 s, 117 a minute
+
+/// A beat every kPeriod onset frames; every `bar`-th is strong, the others half as strong.
+struct Song {
+  Song(int64_t beats, int64_t bar) : envelope(static_cast<size_t>((beats + 1) * kPeriod), 0.0f) {
+    track.tempo_bpm = 117;
+    for (int64_t beat = 0; beat < beats; ++beat) {
+      track.frames.push_back(10 + beat * kPeriod);
+      envelope[static_cast<size_t>(track.frames.back())] = beat % bar == 0 ? 4.0f : 2.0f;
+    }
+  }
+  std::vector<SuggestedKey> Suggest(int64_t count) const {
+    return SuggestKeys(track, envelope, count, "n");
+  }
+  BeatTrack track;
+  std::vector<float> envelope;
+};
+
+std::vector<size_t> BeatsOf(const std::vector<SuggestedKey>& keys) {
+  std::vector<size_t> beats;
+  for (const SuggestedKey& key : keys) beats.push_back(key.beat);
+  return beats;
+}
+
+TEST(SuggestKeysTest, AsManyAsAskedForOnBeatsAndApart) {
+  const Song song(120, 4);
+  const std::vector<double> times = song.track.Seconds();
+  for (const int64_t count : {1, 2, 3, 7, 16, 29, 40}) {
+    const std::vector<SuggestedKey> keys = song.Suggest(count);
+    ASSERT_EQ(static_cast<int64_t>(keys.size()), count);
+    for (size_t i = 0; i < keys.size(); ++i) {
+      EXPECT_EQ(keys[i].time_s, times.at(keys[i].beat));
+      EXPECT_EQ(keys[i].strength, keys[i].beat % 4 == 0 ? 1.0 : 0.5);
+      if (i > 0) {
+        EXPECT_GE(keys[i].time_s - keys[i - 1].time_s, kShortestKeyInterval);
+      }
+    }
+  }
+}
+
+TEST(SuggestKeysTest, AreSpreadOverTheSongOnItsStrongBeats) {
+  for (const int64_t count : {3, 5, 8, 15}) {
+    const Song song(120, 4);
+    const double even = 119.0 / static_cast<double>(count);  // beats
+    const std::vector<SuggestedKey> keys = song.Suggest(count);
+    EXPECT_LT(static_cast<double>(keys.front().beat), even);
+    EXPECT_GT(static_cast<double>(keys.back().beat), 119 - even);
+    for (size_t i = 0; i < keys.size(); ++i) {
+      EXPECT_EQ(keys[i].beat % 4, 0U) << count;
+      if (i > 0) {
+        EXPECT_NEAR(static_cast<double>(keys[i].beat - keys[i - 1].beat), even, 4.0) << count;
+      }
+    }
+  }
+}
+
+TEST(SuggestKeysTest, EvenBeatsGiveEvenKeys) {
+  // All beats alike: the only difference is the spread. 41 beats span 40, 5 keys: 4, 12, 20, ...
+  EXPECT_EQ(BeatsOf(Song(41, 1).Suggest(5)), (std::vector<size_t>{4, 12, 20, 28, 36}));
+}
+
+/// Every choice of `count` beats that keeps the interval, scored as the header says.
+double BestByTryingAll(const Song& song, size_t first, int64_t left, double last, double even,
+                       std::vector<size_t>* chosen, std::vector<size_t>* best, double score,
+                       double top) {
+  const std::vector<double> times = song.track.Seconds();
+  const auto off = [](double ratio) { return (ratio - 1) * (ratio - 1); };
+  if (left == 0) {
+    score -= off((times.back() - last) / (even / 2));
+    if (score > top + 1e-12) *best = *chosen;
+    return std::max(score, top);
+  }
+  for (size_t i = first; i < times.size(); ++i) {
+    if (!chosen->empty() && times[i] - last < kShortestKeyInterval) continue;
+    const double cost =
+        chosen->empty() ? off((times[i] - times[0]) / (even / 2)) : off((times[i] - last) / even);
+    const double strength = song.envelope[static_cast<size_t>(song.track.frames[i])] / 4.0;
+    chosen->push_back(i);
+    top = BestByTryingAll(song, i + 1, left - 1, times[i], even, chosen, best,
+                          score + strength - cost, top);
+    chosen->pop_back();
+  }
+  return top;
+}
+
+TEST(SuggestKeysTest, NoOtherChoiceIsBetter) {
+  for (uint64_t seed = 0; seed < 12; ++seed) {
+    Song song(15, 1);
+    const std::vector<float> noise = Noise(15, seed);
+    for (size_t i = 0; i < 15; ++i) {
+      const float strength = i == 7 ? 4.0f : 2.0f + 1.9f * noise[i];
+      song.envelope[static_cast<size_t>(song.track.frames[i])] = strength;
+    }
+    const std::vector<double> times = song.track.Seconds();
+    const auto count = static_cast<int64_t>(2 + seed % 4);
+    std::vector<size_t> chosen, best;
+    BestByTryingAll(song, 0, count, 0, (times.back() - times.front()) / static_cast<double>(count),
+                    &chosen, &best, 0, -1e9);
+    EXPECT_EQ(BeatsOf(song.Suggest(count)), best) << seed;
+  }
+}
+
+TEST(SuggestKeysTest, ARealTrackOfClicksIsDividedWhereItsBeatsAre) {
+  const std::vector<float> song = Clicks(30 * 22050, 7000, 22 * kOnsetHop);
+  const std::vector<float> envelope = OnsetStrength(song, OnsetAggregate::kMedian);
+  const BeatTrack track = TrackBeats(envelope);
+  const std::vector<SuggestedKey> keys = SuggestKeys(track, envelope, 6, "n");
+  const std::vector<double> beats = track.Seconds();
+  for (const SuggestedKey& key : keys) {
+    EXPECT_EQ(key.time_s, beats.at(key.beat));
+    EXPECT_GT(key.strength, 0);
+    EXPECT_LE(key.strength, 1);
+  }
+  EXPECT_EQ(BeatsOf(keys), BeatsOf(SuggestKeys(track, envelope, 6, "n")));
+}
+
+TEST(SuggestKeysTest, MoreThanFitOrNoneAreRefused) {
+  const Song song(20, 4);  // keys need three beats' room: 0, 3, ... 18
+  EXPECT_EQ(song.Suggest(7).size(), 7U);
+  const auto refused = [&](int64_t count, const std::string& part) {
+    ExpectError(ErrorCode::kInvalidArgument, part, [&] { song.Suggest(count); });
+  };
+  refused(8, "n: 8 keys, must be 1 to 7: 20 beats, keys 1.2 s apart");
+  refused(0, "n: 0 keys, must be 1 to 7");
+  refused(-3, "n: -3 keys, must be 1 to 7");
+  ExpectError(ErrorCode::kInvalidArgument, "n: 2 keys, but no beat is heard",
+              [] { SuggestKeys(BeatTrack{}, {}, 2, "n"); });
+  EXPECT_EQ(BeatsOf(Song(1, 1).Suggest(1)), std::vector<size_t>{0});
+  // Whatever fits is found, also where it leaves no freedom.
+  EXPECT_EQ(BeatsOf(Song(19, 4).Suggest(7)), (std::vector<size_t>{0, 3, 6, 9, 12, 15, 18}));
+}
+
+}  // namespace
+}  // namespace choreo
