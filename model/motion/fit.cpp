@@ -48,18 +48,6 @@ std::vector<double> SlowQuantile(const std::vector<double>& values, double q,
   return means;
 }
 
-// Brings the body down to the floor, and returns the mean of what was added.
-double Ground(const Skeleton& skeleton, Motion& motion) {
-  std::vector<double> lowest;
-  lowest.reserve(motion.frames.size());
-  for (const Pose& pose : motion.frames) lowest.push_back(HeightAboveFloor(skeleton, pose));
-  const std::vector<double> floor = SlowQuantile(lowest, 0.1, kGroundWindow * motion.fps);
-  for (size_t frame = 0; frame < floor.size(); ++frame) {
-    motion.frames[frame].root_position.y() -= floor[frame];
-  }
-  return -std::accumulate(floor.begin(), floor.end(), 0.0) / static_cast<double>(floor.size());
-}
-
 }  // namespace
 
 double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose) {
@@ -70,6 +58,17 @@ double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose) {
     if (foot >= 0) clearance[foot] = rest[foot];
   }
   return (JointPositions(skeleton, pose).row(1) - clearance).minCoeff();
+}
+
+double Ground(const Skeleton& skeleton, Motion& motion) {
+  std::vector<double> lowest;
+  lowest.reserve(motion.frames.size());
+  for (const Pose& pose : motion.frames) lowest.push_back(HeightAboveFloor(skeleton, pose));
+  const std::vector<double> floor = SlowQuantile(lowest, 0.1, kGroundWindow * motion.fps);
+  for (size_t frame = 0; frame < floor.size(); ++frame) {
+    motion.frames[frame].root_position.y() -= floor[frame];
+  }
+  return -std::accumulate(floor.begin(), floor.end(), 0.0) / static_cast<double>(floor.size());
 }
 
 class PositionFitter::Solver {

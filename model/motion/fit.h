@@ -120,9 +120,12 @@ struct FitResult {
 /// body as at rest, below any other at most 5 cm of it.
 double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
+/// Brings the body down to the floor at least every few seconds. What is taken off changes slowly,
+/// so that jumps stay. Returns the mean of what was added to the heights, metres.
+double Ground(const Skeleton& skeleton, Motion& motion);
+
 /// A whole clip: measure, normalise, fit forwards, refine once with both neighbours known (zero
-/// phase), and ground: the body comes down to the floor at least every few seconds. What is taken
-/// off changes slowly, so that jumps stay. About 0.5 ms a frame.
+/// phase), and ground. About 0.5 ms a frame.
 FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
                   const FitOptions& options = {});
 

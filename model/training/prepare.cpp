@@ -14,6 +14,7 @@
 #include "model/motion/fit.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
+#include "model/training/aist_recordings.h"
 #include "model/training/jolts.h"
 #include "model/training/prepared_clip.h"
 
@@ -120,6 +121,7 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   if (recording.motion) {
     motion = Resample(*recording.motion, kModelFps);
     report["fit_error_m"] = 0.0;
+    if (recording.ground) report["ground_shift_m"] = Ground(skeleton, motion);
   } else {
     PositionClip clip = recording.positions;
     ValidateClip(clip);
@@ -183,12 +185,13 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   report["contact_share"] = clip.contacts.mean();
   if (!recording.music.empty()) {
     clip.audio = MusicRows(recording, motion.frames.size(), skipped_s, warnings);
-  } else if (options.layout == "tang2018") {
+  } else if (recording.expects_music) {
     warnings.push_back("no music");
   }
   report["music"] = !recording.music.empty();
   clip.motion = std::move(motion);
   clip.notes = {{"terms", options.terms}, {"preparation", report.dump()}};
+  if (!recording.genre.empty()) clip.notes["genre"] = recording.genre;
   return result;
 }
 
@@ -197,6 +200,7 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
 int Prepare(const PrepareOptions& options) {
   const std::vector<RecordingSource> sources = ListRecordings(options);
   std::filesystem::create_directories(options.output);
+  if (options.layout == "aist") WriteAistSplits(options);
   std::vector<json> reports(sources.size());
   std::atomic<size_t> next = 0;
   {

@@ -17,7 +17,7 @@ namespace choreo {
 /// Raw recordings → prepared clips (prepared_clip.h): the corrections that each layout needs, 30
 /// fps, rotations fitted to SMPL's skeleton or the data's own, contacts, and the rows of the music.
 struct PrepareOptions {
-  std::string layout;            ///< "tang2018" | "bvh" | "amass"
+  std::string layout;            ///< "tang2018" | "bvh" | "amass" | "aist"
   std::filesystem::path input;   ///< folder
   std::filesystem::path output;  ///< folder, created
   /// Clips whose name starts with .first run at .second fps, whatever their file says (cmu_dance's
@@ -37,15 +37,18 @@ struct PrepareOptions {
 /// those with SMPL rotations.
 struct Recording {
   std::string name;
+  std::string genre;  ///< kept with the clip; empty: not stated
   PositionClip positions;
   std::optional<Motion> motion;
   SourceMapping mapping;
   Skeleton skeleton = Skeleton::Smpl24();  ///< that rotations are fitted to, or are of
+  bool ground = false;                     ///< bring the body of `motion` down to the floor
   bool tilted_floor = false;               ///< fit and level a floor plane, take out height drift
   double cutoff_hz = 0;                    ///< low-pass before resampling; 0: none
   double time_scale = 1;
   std::filesystem::path music;  ///< empty: none
   double music_start_s = 0;     ///< of the motion's first frame within the music
+  bool expects_music = false;   ///< warn where there is none
 };
 
 /// What a layout offers: clip names and how to read each.
@@ -56,9 +59,9 @@ struct RecordingSource {
 std::vector<RecordingSource> ListRecordings(const PrepareOptions& options);
 
 /// Prepares every clip, showing progress; prints one line a clip and the means, writes
-/// OUT/report.json. A clip that can't be read is named with its reason and skipped. Returns the
-/// number of prepared clips. Throws Error where the input has nothing of the layout, or a native
-/// skeleton is asked of a layout that has none.
+/// OUT/report.json, for "aist" OUT/splits.json, too. A clip that can't be read is named with its
+/// reason and skipped. Returns the number of prepared clips. Throws Error where the input has
+/// nothing of the layout, or a native skeleton is asked of a layout that has none.
 int Prepare(const PrepareOptions& options);
 
 }  // namespace choreo

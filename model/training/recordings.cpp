@@ -9,6 +9,7 @@
 #include "model/formats/bvh.h"
 #include "model/motion/fit.h"
 #include "model/motion/tang2018_skeleton.h"
+#include "model/training/aist_recordings.h"
 #include "model/training/prepare.h"
 
 /// The layouts that `choreo-lab prepare` knows, each turned into Recordings.
@@ -60,6 +61,7 @@ Recording Tang(const std::string& name, const PrepareOptions& options) {
   recording.name = name;
   recording.mapping = Tang2018Source();
   recording.tilted_floor = true;
+  recording.expects_music = true;
   recording.cutoff_hz = kTangCutoffHz;
   const bool locked = name.rfind("DANCE_W", 0) == 0 || name.rfind("DANCE_R", 0) == 0;
   recording.time_scale = Override(options.time_scales, name, locked ? kTangTimeScale : 1.0);
@@ -172,6 +174,7 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
   if (!fs::is_directory(options.input)) {
     throw Error(ErrorCode::kNotFound, options.input.string(), "no such folder");
   }
+  if (options.layout == "aist") return ListAistRecordings(options);
   std::vector<RecordingSource> sources;
   for (const auto& entry : fs::recursive_directory_iterator(options.input)) {
     const fs::path path = entry.path();

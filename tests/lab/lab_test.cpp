@@ -5,7 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 namespace choreo {
 namespace {
@@ -17,8 +22,10 @@ struct Outcome {
   std::string said;  // stdout and stderr
 };
 
-Outcome Lab(const std::string& arguments) {
-  FILE* pipe = popen(("'" CHOREO_LAB "' " + arguments + " 2>&1").c_str(), "r");
+Outcome Lab(const std::string& arguments, const std::filesystem::path& folder = ".") {
+  const std::string command =
+      "cd '" + folder.string() + "' && '" CHOREO_LAB "' " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
   Outcome outcome;
   std::array<char, 4096> buffer;
   while (const size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
@@ -26,6 +33,20 @@ Outcome Lab(const std::string& arguments) {
   const int status = pclose(pipe);
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
+}
+
+/// What a page of docs/ tells people to type: its lines that begin with choreo-lab, without that.
+std::vector<std::string> CommandsOf(const std::string& page) {
+  std::ifstream file(SOURCE_FOLDER "/docs/" + page);
+  std::vector<std::string> commands;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("choreo-lab ")) continue;
+    for (std::string next; line.ends_with("\\") && std::getline(file, next);)
+      line.replace(line.size() - 1, 1, next);
+    if (line.ends_with("&&")) line.resize(line.size() - 2);
+    commands.push_back(line.substr(std::string("choreo-lab ").size()));
+  }
+  return commands;
 }
 
 const std::string kTrain = "train --data /absent --splits /absent.json --run /absent/run ";
@@ -46,6 +67,20 @@ TEST(LabTest, MisuseIsCodeTwo) {
     EXPECT_EQ(Lab(arguments).code, 2) << arguments;
   }
   EXPECT_THAT(Lab(kTrain + "--preset huge").said, HasSubstr("--preset: huge not in {"));
+}
+
+TEST(LabTest, KnowsTheCommandsThatReproduceThePaper) {
+  const TemporaryFolder empty;
+  const std::vector<std::string> commands = CommandsOf("reproduce.md");
+  EXPECT_EQ(commands.size(), 3U);
+  for (const std::string& command : commands) {
+#ifndef CHOREO_SERVICE
+    if (command.starts_with("prepare")) continue;
+#endif
+    // Understood, but nothing that it names is here; misuse would be code 2.
+    const Outcome outcome = Lab(command, empty.path());
+    EXPECT_EQ(outcome.code, 1) << command << '\n' << outcome.said;
+  }
 }
 
 TEST(LabTest, ADeviceThatIsNotThereIsNamedInOneLine) {

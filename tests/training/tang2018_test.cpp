@@ -12,6 +12,7 @@
 #include "model/training/prepare.h"
 #include "model/training/prepared_clip.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/music_files.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/tang2018_files.h"
 #include "tests/support/tang2018_markers.h"
@@ -24,8 +25,6 @@ namespace {
 using nlohmann::json;
 using testing::Contains;
 using testing::HasSubstr;
-
-constexpr int kRate = 22050;
 
 const Skeleton& Smpl() { return Skeleton::Smpl24(); }
 
@@ -59,34 +58,6 @@ void WritePublicLayout(const std::filesystem::path& folder, const PositionClip& 
       << json{{"start_position", start}, {"end_position", start + clip.frames.size()}};
 }
 
-// A tone that rises all the time, so that every row of features is another.
-std::vector<float> Music(double seconds) {
-  std::vector<float> samples;
-  for (int i = 0; i < seconds * kRate; ++i) {
-    const double t = static_cast<double>(i) / kRate;
-    samples.push_back(static_cast<float>(
-        std::round(16000 * std::sin(2 * M_PI * (200 * t + 60 * t * t))) / 32768));
-  }
-  return samples;
-}
-
-void WriteWav(const std::filesystem::path& path, const std::vector<float>& samples) {
-  std::ofstream out(path, std::ios::binary);
-  const auto put = [&](uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) out.put(static_cast<char>(value >> (8 * i) & 0xff));
-  };
-  const auto size = static_cast<uint32_t>(2 * samples.size());
-  out << "RIFF";
-  put(36 + size, 4);
-  out << "WAVEfmt ";
-  put(16, 4), put(1, 2), put(1, 2), put(kRate, 4), put(2 * kRate, 4), put(2, 2), put(16, 2);
-  out << "data";
-  put(size, 4);
-  for (const float sample : samples) {
-    put(static_cast<uint16_t>(static_cast<int16_t>(std::lround(sample * 32768))), 2);
-  }
-}
-
 class Tang2018Test : public testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_ / "in"); }
@@ -112,7 +83,7 @@ class Tang2018Test : public testing::Test {
   // Whether frame f of the clip hears row f + first of the music.
   static void ExpectMusicFrom(int64_t first, const PreparedClip& clip,
                               const std::vector<float>& samples) {
-    FeatureStream stream(kRate, 1);
+    FeatureStream stream(kMusicRate, 1);
     stream.Push(samples);
     stream.Finish();
     ASSERT_EQ(clip.audio.cols(), static_cast<Eigen::Index>(clip.motion.frames.size()));

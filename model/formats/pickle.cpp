@@ -1,0 +1,282 @@
+#include "model/formats/pickle.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/core/npy.h"
+
+namespace choreo {
+namespace {
+
+/// A dict of arrays takes some 40 an array. Bounds time, memory and the depth of what is built.
+constexpr int kMostOperations = 4096;
+
+enum Kind { kNone, kNumber, kText, kTuple, kDict, kGlobal, kDtype, kArray };
+constexpr const char* kKindNames[] = {"None", "number", "text",  "tuple",
+                                      "dict", "global", "dtype", "array"};
+
+struct Object;
+using Ref = std::shared_ptr<Object>;
+
+struct Object {
+  Kind kind;
+  std::string text = {};        // texts and bytes alike; a global's name, a dtype as in "<f8"
+  std::vector<Ref> items = {};  // of a tuple
+  std::map<std::string, NpyArray> dict = {};
+  std::optional<NpyArray> array = {};  // of a number, too
+};
+
+Ref Make(Kind kind, std::string text = {}) {
+  return std::make_shared<Object>(Object{.kind = kind, .text = std::move(text)});
+}
+
+const std::set<std::string> kKnownGlobals = {"numpy.ndarray", "numpy.dtype",
+                                             "numpy.core.multiarray._reconstruct",
+                                             "numpy.core.numeric._frombuffer", "_codecs.encode"};
+
+/// The machine that pickles are written for, as far as dicts of arrays need it.
+class Unpickler {
+ public:
+  Unpickler(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
+
+  std::map<std::string, NpyArray> Run() {
+    opcode_ = Byte();
+    const int protocol = Byte();
+    if (opcode_ != 0x80 || protocol < 2 || protocol > 5) Refuse("no pickle of protocol 2 to 5");
+    for (int operation = 0; operation < kMostOperations; ++operation) {
+      start_ = at_;
+      opcode_ = Byte();
+      if (opcode_ == '.') return Pop(kDict)->dict;
+      const auto known = kOperations.find(opcode_);
+      if (known == kOperations.end()) Refuse("is not read");
+      known->second(*this);
+    }
+    Refuse("more than " + std::to_string(kMostOperations) + " operations");
+  }
+
+ private:
+  static const std::map<int, void (*)(Unpickler&)> kOperations;
+
+  [[noreturn]] void Refuse(const std::string& why) const {
+    char where[48];
+    std::snprintf(where, sizeof where, "opcode 0x%02x at byte %zu: ", opcode_, start_);
+    throw InvalidArgument(name_, where + why + "; only dicts of arrays and numbers are read");
+  }
+
+  // What follows an opcode.
+  std::string_view Take(uint64_t count) {
+    if (count > bytes_.size() - at_) Refuse("the file ends within it");
+    at_ += count;
+    return bytes_.substr(at_ - count, count);
+  }
+  int Byte() { return static_cast<unsigned char>(Take(1)[0]); }
+  uint64_t Unsigned(size_t size) {
+    uint64_t value = 0;
+    const std::string_view bytes = Take(size);
+    for (size_t i = size; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+  }
+  double BigEndianDouble() { return std::bit_cast<double>(__builtin_bswap64(Unsigned(8))); }
+  Ref Line() {
+    const size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+    Ref line = Make(kText, std::string(Take(end - at_)));
+    Take(1);
+    return line;
+  }
+
+  // The stack; a null pointer is a mark.
+  void Push(Ref object) { stack_.push_back(std::move(object)); }
+  Ref Pop() {
+    if (stack_.empty() || !stack_.back()) Refuse("there is nothing on the stack");
+    Ref top = std::move(stack_.back());
+    stack_.pop_back();
+    return top;
+  }
+  Ref Pop(Kind kind) { return Expect(Pop(), kind); }
+  std::vector<Ref> PopSome(size_t count) {
+    std::vector<Ref> items(count);
+    for (size_t i = count; i-- > 0;) items[i] = Pop();
+    return items;
+  }
+  std::vector<Ref> PopToMark() {
+    const auto above = std::find(stack_.rbegin(), stack_.rend(), nullptr);
+    if (above == stack_.rend()) Refuse("there is no mark on the stack");
+    std::vector<Ref> items = PopSome(static_cast<size_t>(above - stack_.rbegin()));
+    stack_.pop_back();
+    return items;
+  }
+  Ref Expect(Ref object, Kind kind) const {
+    if (object->kind != kind) Refuse(std::string("expected a ") + kKindNames[kind]);
+    return object;
+  }
+  Ref Item(const Ref& tuple, size_t index, Kind kind) const {
+    if (index >= tuple->items.size()) Refuse("too short a tuple");
+    return Expect(tuple->items[index], kind);
+  }
+
+  template <typename Number>
+  void PushNumber(Number value) {
+    Push(Make(kNumber));
+    stack_.back()->array = NpyArray{{}, std::vector{value}};
+  }
+  void PushText(uint64_t size) { Push(Make(kText, std::string(Take(size)))); }
+  void PushTuple(std::vector<Ref> items) {
+    Push(Make(kTuple));
+    stack_.back()->items = std::move(items);
+  }
+  void Remember(uint64_t index) { Push(memo_[index] = Pop()); }
+  void Recall(uint64_t index) {
+    if (!memo_.contains(index)) Refuse("nothing was stored as " + std::to_string(index));
+    Push(memo_[index]);
+  }
+  void PushGlobal(const std::vector<Ref>& words) {
+    std::string name = Expect(words[0], kText)->text + "." + Expect(words[1], kText)->text;
+    if (name.starts_with("numpy._core.")) name.erase(6, 1);  // since NumPy 2
+    if (!kKnownGlobals.contains(name)) Refuse("it names '" + name + "'");
+    Push(Make(kGlobal, name));
+  }
+
+  /// What the call of a global would give.
+  void Reduce() {
+    const Ref given = Pop(kTuple);
+    const std::string callee = Pop(kGlobal)->text;
+    if (callee == "numpy.dtype") {
+      Push(Make(kDtype, "<" + Item(given, 0, kText)->text));
+    } else if (callee == "numpy.core.multiarray._reconstruct") {
+      Push(Make(kArray));  // BUILD fills it
+    } else if (callee == "numpy.core.numeric._frombuffer") {
+      Push(Make(kArray));
+      Fill(stack_.back(), Item(given, 2, kTuple), Item(given, 1, kDtype),
+           Item(given, 3, kText)->text == "F", Item(given, 0, kText));
+    } else if (callee == "_codecs.encode" && Item(given, 1, kText)->text == "latin1") {
+      // Protocol 2 has no bytes; Python 3 writes them as text with the same codes.
+      Push(Make(kText, Latin1(Item(given, 0, kText)->text)));
+    } else {
+      Refuse("a call of '" + callee + "'");
+    }
+  }
+
+  /// State for the dtype or array below it.
+  void Build() {
+    const Ref state = Pop(kTuple);
+    const Ref object = Pop();
+    if (object->kind == kArray) {
+      Fill(object, Item(state, 1, kTuple), Item(state, 2, kDtype),
+           Integer(Item(state, 3, kNumber)) != 0, Item(state, 4, kText));
+    } else if (Expect(object, kDtype); Item(state, 1, kText)->text != "<") {
+      Refuse("values that are not little-endian");
+    }
+    Push(object);
+  }
+
+  void Fill(const Ref& array, const Ref& shape, const Ref& dtype, bool fortran, const Ref& values) {
+    // However often the same bytes are used.
+    if ((filled_ += values->text.size()) > bytes_.size()) Refuse("more values than the file has");
+    std::string header = "{'descr': '" + dtype->text +
+                         "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': (";
+    for (const Ref& extent : shape->items)
+      header += std::to_string(Integer(Expect(extent, kNumber))) + ",";
+    header += ")}";
+    const auto size = static_cast<uint32_t>(header.size());
+    std::string npy("\x93NUMPY\x02\0", 8);
+    npy.append(reinterpret_cast<const char*>(&size), sizeof size) += header + values->text;
+    array->array = ParseNpy(std::as_bytes(std::span(npy)), name_);
+  }
+  static int64_t Integer(const Ref& number) { return number->array->As<int64_t>()[0]; }
+
+  std::string Latin1(std::string_view utf8) const {
+    std::string bytes;
+    for (size_t i = 0; i < utf8.size(); ++i) {
+      const auto lead = static_cast<unsigned char>(utf8[i]);
+      if (lead >= 0x80 && (lead >> 2 != 0x30 || i + 1 == utf8.size()))
+        Refuse("a character beyond Latin-1");
+      bytes += lead < 0x80 ? utf8[i] : static_cast<char>(lead << 6 | (utf8[++i] & 0x3f));
+    }
+    return bytes;
+  }
+
+  void SetItems(const std::vector<Ref>& items) {
+    const Ref dict = Pop(kDict);
+    for (size_t i = 0; i + 1 < items.size(); i += 2) {
+      const std::string& key = Expect(items[i], kText)->text;
+      if (!items[i + 1]->array) Refuse("'" + key + "' is neither array nor number");
+      dict->dict[key] = *items[i + 1]->array;
+    }
+    Push(dict);
+  }
+
+  std::string name_;
+  std::string_view bytes_;
+  size_t at_ = 0, start_ = 0, filled_ = 0;
+  int opcode_ = 0;
+  std::vector<Ref> stack_;
+  std::map<uint64_t, Ref> memo_;
+};
+
+const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
+    {0x95, [](Unpickler& u) { u.Take(8); }},                                         // FRAME
+    {'(', [](Unpickler& u) { u.Push(nullptr); }},                                    // MARK
+    {'N', [](Unpickler& u) { u.Push(Make(kNone)); }},                                // NONE
+    {0x88, [](Unpickler& u) { u.PushNumber(int64_t{1}); }},                          // NEWTRUE
+    {0x89, [](Unpickler& u) { u.PushNumber(int64_t{0}); }},                          // NEWFALSE
+    {'K', [](Unpickler& u) { u.PushNumber(int64_t{u.Byte()}); }},                    // BININT1
+    {'M', [](Unpickler& u) { u.PushNumber(static_cast<int64_t>(u.Unsigned(2))); }},  // BININT2
+    {'J', [](Unpickler& u) { u.PushNumber(static_cast<int32_t>(u.Unsigned(4))); }},  // BININT
+    {'G', [](Unpickler& u) { u.PushNumber(u.BigEndianDouble()); }},                  // BINFLOAT
+    {'U', [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},           // SHORT_BINSTRING
+    {'C', [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},           // SHORT_BINBYTES
+    {0x8c, [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},          // SHORT_BINUNICODE
+    {'T', [](Unpickler& u) { u.PushText(u.Unsigned(4)); }},           // BINSTRING
+    {'B', [](Unpickler& u) { u.PushText(u.Unsigned(4)); }},           // BINBYTES
+    {'X', [](Unpickler& u) { u.PushText(u.Unsigned(4)); }},           // BINUNICODE
+    {0x8e, [](Unpickler& u) { u.PushText(u.Unsigned(8)); }},          // BINBYTES8
+    {0x96, [](Unpickler& u) { u.PushText(u.Unsigned(8)); }},          // BYTEARRAY8
+    {')', [](Unpickler& u) { u.PushTuple({}); }},                     // EMPTY_TUPLE
+    {0x85, [](Unpickler& u) { u.PushTuple(u.PopSome(1)); }},          // TUPLE1
+    {0x86, [](Unpickler& u) { u.PushTuple(u.PopSome(2)); }},          // TUPLE2
+    {0x87, [](Unpickler& u) { u.PushTuple(u.PopSome(3)); }},          // TUPLE3
+    {'t', [](Unpickler& u) { u.PushTuple(u.PopToMark()); }},          // TUPLE
+    {'}', [](Unpickler& u) { u.Push(Make(kDict)); }},                 // EMPTY_DICT
+    {'s', [](Unpickler& u) { u.SetItems(u.PopSome(2)); }},            // SETITEM
+    {'u', [](Unpickler& u) { u.SetItems(u.PopToMark()); }},           // SETITEMS
+    {'q', [](Unpickler& u) { u.Remember(u.Unsigned(1)); }},           // BINPUT
+    {'r', [](Unpickler& u) { u.Remember(u.Unsigned(4)); }},           // LONG_BINPUT
+    {0x94, [](Unpickler& u) { u.Remember(u.memo_.size()); }},         // MEMOIZE
+    {'h', [](Unpickler& u) { u.Recall(u.Unsigned(1)); }},             // BINGET
+    {'j', [](Unpickler& u) { u.Recall(u.Unsigned(4)); }},             // LONG_BINGET
+    {'c', [](Unpickler& u) { u.PushGlobal({u.Line(), u.Line()}); }},  // GLOBAL
+    {0x93, [](Unpickler& u) { u.PushGlobal(u.PopSome(2)); }},         // STACK_GLOBAL
+    {'R', [](Unpickler& u) { u.Reduce(); }},                          // REDUCE
+    {'b', [](Unpickler& u) { u.Build(); }},                           // BUILD
+};
+
+}  // namespace
+
+NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name) {
+  NpzArchive arrays;
+  for (const auto& [key, array] : Unpickler(name, bytes).Run()) arrays.SetArray(key, array);
+  return arrays;
+}
+
+NpzArchive ReadPickledArrays(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  return ParsePickledArrays(bytes, path.string());
+}
+
+}  // namespace choreo

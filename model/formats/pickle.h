@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "model/formats/npz.h"
+
+namespace choreo {
+
+/// Reads a Python pickle (protocols 2 to 5) of one dict whose keys are texts and whose values are
+/// NumPy arrays or numbers (arrays without dimensions here), such as AIST++'s motions. A pickle is
+/// a program; nothing of it is run: of its opcodes and of what they may name we know those that
+/// build such a dict, and refuse the others. Arrays as NpyArray has them. Throws
+/// Error(kInvalidArgument), which names `name`, the opcode and its place, for everything else.
+NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name);
+/// As ParsePickledArrays; Error(kNotFound) for a file that cannot be opened.
+NpzArchive ReadPickledArrays(const std::filesystem::path& path);
+
+}  // namespace choreo

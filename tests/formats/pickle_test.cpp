@@ -1,0 +1,135 @@
+#include "model/formats/pickle.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+using namespace std::string_literals;
+
+/// Written by Python 3.11 with NumPy 1.24:
+///   table = np.arange(12, dtype='<f8').reshape(3, 4) / 8
+///   pickle.dumps({'table': table, 'fortran': np.asfortranarray(np.arange(6, dtype='<f4')
+///     .reshape(2, 3)), 'scaling': np.array([93.5], dtype='<f4'), 'counts': np.array([-1, 300,
+///     1 << 40], dtype='<i8'), 'loss': 0.25, 'frames': -70000, 'same': table}, protocol)
+std::filesystem::path ByNumpy(int protocol) {
+  return std::filesystem::path(CHOREO_TEST_DATA) / "pickles" /
+         ("protocol" + std::to_string(protocol) + ".pkl");
+}
+
+std::string Bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+NpzArchive Parse(const std::string& bytes) { return ParsePickledArrays(bytes, "a.pkl"); }
+
+void Refused(const std::string& bytes, const std::string& part) {
+  ExpectError(ErrorCode::kInvalidArgument, part, [&] { Parse(bytes); });
+  ExpectError(ErrorCode::kInvalidArgument, "a.pkl: opcode 0x", [&] { Parse(bytes); });
+}
+
+TEST(PickleTest, ReadsWhatNumpyPickled) {
+  for (const int protocol : {2, 3, 4, 5}) {
+    const NpzArchive arrays = ReadPickledArrays(ByNumpy(protocol));
+    const NpyArray table = arrays.Array("table");
+    EXPECT_EQ(table.shape, (std::vector<int64_t>{3, 4}));
+    const auto& values = std::get<std::vector<double>>(table.values);
+    for (size_t i = 0; i < 12; ++i) EXPECT_EQ(values.at(i), static_cast<double>(i) / 8);
+    EXPECT_EQ(arrays.Array("same").As<double>(), values);
+    const NpyArray fortran = arrays.Array("fortran");
+    EXPECT_EQ(fortran.shape, (std::vector<int64_t>{2, 3}));
+    EXPECT_EQ(std::get<std::vector<float>>(fortran.values), (std::vector<float>{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(arrays.Array("scaling").As<double>(), std::vector<double>{93.5});
+    EXPECT_EQ(std::get<std::vector<int64_t>>(arrays.Array("counts").values),
+              (std::vector<int64_t>{-1, 300, int64_t{1} << 40}));
+    EXPECT_EQ(arrays.Array("loss").As<double>(), std::vector<double>{0.25});
+    EXPECT_EQ(arrays.Array("frames").As<int64_t>(), std::vector<int64_t>{-70000});
+    EXPECT_TRUE(arrays.Array("frames").shape.empty());
+  }
+}
+
+TEST(PickleTest, RunsNothing) {
+  const TemporaryFolder folder;
+  const std::filesystem::path made = folder / "made";
+  const std::string command = "touch " + made.string();
+  const std::string argument =
+      "X" + std::string{static_cast<char>(command.size()), 0, 0, 0} + command;
+  Refused("\x80\x02" + "cposix\nsystem\n"s + argument + "\x85R.",
+          "opcode 0x63 at byte 2: it names 'posix.system'");
+  Refused("\x80\x04\x8c\x08"s + "builtins" + "\x8c\x04" + "eval" + "\x93" + argument + "\x85R.",
+          "opcode 0x93 at byte 18: it names 'builtins.eval'");
+  // What is known is not called in other ways, either.
+  Refused("\x80\x02" + "cnumpy\nndarray\n"s + argument + "\x85R.", "a call of 'numpy.ndarray'");
+  Refused("\x80\x02" + "c_codecs\nencode\n"s + argument + "U\x03zip\x86R.", "_codecs.encode");
+  EXPECT_FALSE(std::filesystem::exists(made));
+  // INST, OBJ, NEWOBJ, NEWOBJ_EX, PERSID, BINPERSID, EXT1 to EXT4, NEXT_BUFFER.
+  for (const char opcode : "io\x81\x92PQ\x82\x83\x84\x97"s) {
+    Refused("\x80\x04(}"s + opcode + "posix\nsystem\n.", " at byte 4: is not read");
+  }
+}
+
+TEST(PickleTest, OnlyDictsOfArraysAndNumbers) {
+  Refused("", "the file ends within it");
+  Refused("(dp0\n.", "no pickle of protocol 2 to 5");
+  Refused("\x80\x06}.", "no pickle of protocol 2 to 5");
+  Refused("\x80\x02)."s, "expected a dict");
+  Refused("\x80\x02."s, "nothing on the stack");
+  Refused("\x80\x02}u."s, "no mark on the stack");
+  Refused("\x80\x02}U\x01kNs."s, "'k' is neither array nor number");
+  Refused("\x80\x02}U\x01k}s."s, "'k' is neither array nor number");
+  Refused("\x80\x02}K\x01K\x02s."s, "expected a text");
+  Refused("\x80\x02}h\x05."s, "nothing was stored as 5");
+  const std::string whole = Bytes(ByNumpy(4));
+  std::string other = whole;
+  other.replace(other.find("\x8c\x01<"), 3, "\x8c\x01>");
+  Refused(other, "not little-endian");
+  other = whole;
+  other.replace(other.find("f8"), 2, "c8");
+  ExpectError(ErrorCode::kInvalidArgument, "a.pkl: values of type '<c8'", [&] { Parse(other); });
+  ExpectError(ErrorCode::kNotFound, "nowhere.pkl",
+              [] { ReadPickledArrays("/absent/nowhere.pkl"); });
+}
+
+TEST(PickleTest, SmallFilesStaySmall) {
+  Refused("\x80\x02" + std::string(5000, 'N'), "more than 4096 operations");
+  // The bytes of 32 numbers, stored once and made into array after array.
+  std::string bytes = "\x80\x02T\x00\x01\x00\x00"s + std::string(256, '\0') + "q\x01";
+  bytes +=
+      "cnumpy\ndtype\nU\x02"
+      "f8\x85Rq\x02"
+      "cnumpy.core.numeric\n_frombuffer\nq\x03"s;
+  const std::string array =
+      "h\x03(h\x01h\x02K\x20\x85U\x01"
+      "CtR"s;
+  EXPECT_EQ(Parse(bytes + "}U\x01k" + array + "s.").Array("k").size(), 32);
+  Refused(bytes + "}U\x01k" + array + array + "s.", "more values than the file has");
+}
+
+TEST(PickleTest, DamagedFilesAreRefusedOrRead) {
+  for (const int protocol : {2, 4, 5}) {
+    const std::string whole = Bytes(ByNumpy(protocol));
+    for (size_t size = 0; size < whole.size(); ++size)
+      EXPECT_THROW(Parse(whole.substr(0, size)), Error) << protocol << ' ' << size;
+    for (size_t at = 0; at < whole.size(); ++at) {
+      for (const int change : {1, 0x80, 0x55}) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ change);
+        try {
+          Parse(damaged);
+        } catch (const Error&) {
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace choreo
