@@ -10,7 +10,8 @@
 #include "model/core/error.h"
 #include "model/engine/torch_engine.h"
 #include "model/evaluation/interpolation_engine.h"
-#include "model/evaluation/long_dance.h"
+#include "model/evaluation/long_tables.h"
+#include "model/evaluation/stress_table.h"
 #include "model/evaluation/transition_tables.h"
 #include "model/training/clip_split.h"
 
@@ -113,35 +114,6 @@ void WriteResults(const Arguments& arguments, const ModelInfo& model,
   if (!arguments.markdown.empty()) Write(arguments.markdown, markdown);
 }
 
-Table LongTable(StepEngine& engine, const ClipSet& set, const EvalOptions& options) {
-  const SpeedRange real = MeasureRealSpeeds(set.clips);
-  Table table;
-  table.name = "long_" + set.name;
-  table.title = "Long dances without music, " + set.name;
-  table.note = "Poses of the clip itself as keys, each 2 s, or none.";
-  table.label_headings = {"history of", "keys"};
-  table.columns = {{"median speed m/s", 2},        {"last fifth m/s", 2}, {"reach m", 1},
-                   {"lowest root m", 2},           {"highest root m", 2}, {"hinges backwards %", 3},
-                   {"joints at real speeds %", 0}, {"worst key mm", 4}};
-  table.rows.push_back({{"real motion", "–"},
-                        {Cell{real.median, {}}, Cell{}, Cell{}, Cell{}, Cell{},
-                         Cell{100 * real.bent_backwards, {}}, Cell{}, Cell{}}});
-  const size_t count = std::min<size_t>(set.clips.size(), 5);
-  for (size_t i = 0; i < count && options.long_seeds > 0; ++i) {
-    const PreparedClip& clip = set.clips[i * set.clips.size() / count];
-    for (const int interval : {60, 0}) {
-      const LongDanceRow row = EvaluateLongDance(engine, clip, options.long_frames, interval,
-                                                 options.temperature, i, real);
-      table.rows.push_back(
-          {{clip.name, interval > 0 ? "2 s" : "none"},
-           {Cell{row.median_speed, {}}, Cell{row.late_speed, {}}, Cell{row.root_reach_m, {}},
-            Cell{row.lowest_m, {}}, Cell{row.highest_m, {}}, Cell{100 * row.bent_backwards, {}},
-            Cell{100 * row.joints_in_real_speed, {}}, Cell{1000 * row.worst_key_m, {}}}});
-    }
-  }
-  return table;
-}
-
 void Evaluate(Arguments arguments) {
   const Contest contest = MakeContest(arguments);
   StepEngine& engine = *contest.engines.front();
@@ -151,13 +123,18 @@ void Evaluate(Arguments arguments) {
                             : static_cast<float>(engine.model().default_temperature);
   const std::vector<ClipSet> sets = LoadSets(arguments, engine.model().skeleton);
   int64_t frames = 0;
-  for (const ClipSet& set : sets) frames += CountTransitionFrames(set, contest.methods, options);
+  for (const ClipSet& set : sets) {
+    frames += CountTransitionFrames(set, contest.methods, options) +
+              CountLongFrames(set, engine.model(), options);
+  }
   std::vector<Table> tables;
   ProgressBar progress("evaluating", frames);
   for (const ClipSet& set : sets) {
     for (Table& table : EvaluateTransitions(set, contest.methods, options, &progress))
       tables.push_back(std::move(table));
-    tables.push_back(LongTable(engine, set, options));
+    for (Table& table : EvaluateLongDances(set, engine, options, &progress))
+      tables.push_back(std::move(table));
+    tables.push_back(EvaluateStress(set, engine, options));
   }
   progress.Finish();
   char summary[256];

@@ -6,7 +6,6 @@
 
 #include "model/evaluation/batch.h"
 #include "model/evaluation/interpolation_engine.h"
-#include "model/evaluation/long_dance.h"
 #include "model/evaluation/transition_tables.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
@@ -183,24 +182,6 @@ TEST(Table, ReadsAsMarkdownAndAsJson) {
   const nlohmann::json json = ToJson(table);
   EXPECT_EQ(json["rows"][0]["m interval"][1], 2);
   EXPECT_TRUE(json["rows"][0]["s"].is_null());
-}
-
-TEST(EvaluateLongDance, SeesAFreezeAndABentKnee) {
-  const PreparedClip clip = SyntheticClip("a", 150, 0.1, false);
-  const SpeedRange real = MeasureRealSpeeds({clip});
-  EXPECT_GT(real.median, 0.01);
-  FakeEngine engine(1);
-  const LongDanceRow keyed = EvaluateLongDance(engine, clip, 120, 30, 0.3F, 1, real);
-  EXPECT_TRUE(keyed.finite);
-  EXPECT_GT(keyed.median_speed, 0);
-  EXPECT_LE(keyed.worst_key_m, 1e-3);
-  // Without keys the fake model settles where it stands.
-  const LongDanceRow free_dance = EvaluateLongDance(engine, clip, 120, 0, 0.0F, 1, real);
-  EXPECT_LT(free_dance.late_speed, keyed.late_speed);
-  PreparedClip bent = clip;
-  for (Pose& pose : bent.motion.frames)
-    pose.rotations.col(Skeleton::Smpl24().left_knee) = Eigen::Vector3d(-1, 0, 0);
-  EXPECT_GT(MeasureRealSpeeds({bent}).bent_backwards, 0.2);
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+#include "model/evaluation/beat_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/dance/quality_report.h"
+#include "model/evaluation/long_plans.h"
+#include "model/evaluation/song_beats.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kGap = 2;  // frames: a beat is a frame, too, as in the paper
+
+}  // namespace
+
+BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music) {
+  BeatFigures figures;
+  const std::vector<int64_t> kinematic = KinematicBeats(speeds);
+  const std::vector<double> beats = BeatsBetween(music, 0, static_cast<int>(speeds.size()) + 1);
+  if (kinematic.empty() || beats.empty()) return figures;
+  const auto hits = std::ranges::count_if(kinematic, [&](int64_t frame) {
+    return std::ranges::any_of(beats, [&](double beat) {
+      return std::abs(std::round(beat) - static_cast<double>(frame)) <= kGap;
+    });
+  });
+  const auto count = static_cast<double>(kinematic.size());
+  figures.hit_rate = static_cast<double>(hits) / count;
+  figures.coverage = count / static_cast<double>(beats.size());
+  figures.alignment = BeatAlignmentScore(speeds, beats);
+  return figures;
+}
+
+BeatTable::BeatTable(const ClipSet& set, const std::vector<std::vector<double>>& beats)
+    : set_(set), beats_(beats) {}
+
+void BeatTable::Add(const std::string& name, size_t clip, int start,
+                    const std::vector<float>& speeds) {
+  const auto frames = static_cast<int>(speeds.size()) + 1;
+  const std::vector<double> own = BeatsBetween(beats_[clip], start, frames);
+  if (own.empty()) return;
+  Entry entry{clip, ScoreBeats(speeds, own), {}};
+  int others = 0;
+  for (size_t other = 0; other < beats_.size(); ++other) {
+    if (other == clip || beats_[other].empty()) continue;
+    // As much of the dance as the other song lasts.
+    const auto length =
+        std::min(speeds.size(), static_cast<size_t>(set_.clips[other].audio.cols()) - 1);
+    const BeatFigures figures = ScoreBeats(std::span(speeds).first(length), beats_[other]);
+    entry.chance.hit_rate += figures.hit_rate;
+    entry.chance.alignment += figures.alignment;
+    ++others;
+  }
+  entry.chance.hit_rate = others > 0 ? entry.chance.hit_rate / others : NAN;
+  entry.chance.alignment = others > 0 ? entry.chance.alignment / others : NAN;
+  if (!entries_.contains(name)) names_.push_back(name);
+  entries_[name].push_back(entry);
+}
+
+Table BeatTable::Finish() const {
+  Table table;
+  table.name = "beats_" + set_.name;
+  table.title = "Steps on beats, " + set_.name;
+  table.note =
+      "Kinematic beats are maxima of the mean joint speed, hits at most two frames off a music "
+      "beat; chance: the same dances scored on the set's other songs. Alignment: minima of speed "
+      "(AIST++). Intervals over songs.";
+  table.label_headings = {"dance"};
+  table.columns = {{"dances", 0},   {"hit rate %", 1},        {"chance %", 1},  {"above chance", 1},
+                   {"coverage", 2}, {"coverage / real's", 2}, {"alignment", 3}, {"its chance", 3}};
+  std::vector<std::string> names = names_;
+  std::ranges::stable_partition(names, [](const std::string& name) { return name == "real"; });
+  double real_coverage = NAN;
+  Plot plot{.title = "Beat hit rate, song by song, " + set_.name,
+            .x_label = "song",
+            .y_label = "% of kinematic beats",
+            .series = {}};
+  for (const std::string& name : names) {
+    const std::vector<Entry>& entries = entries_.at(name);
+    const auto mean = [&](auto figure) {
+      std::vector<double> sums(set_.clips.size()), counts(set_.clips.size());
+      double sum = 0;
+      for (const Entry& entry : entries) {
+        sums[entry.clip] += figure(entry);
+        counts[entry.clip] += 1;
+        sum += figure(entry);
+      }
+      return Cell{sum / static_cast<double>(entries.size()), BootstrapRatio(sums, counts)};
+    };
+    const Cell coverage = mean([](const Entry& entry) { return entry.own.coverage; });
+    if (name == "real") real_coverage = coverage.value;
+    table.rows.push_back({{name},
+                          {Cell{static_cast<double>(entries.size()), {}},
+                           mean([](const Entry& entry) { return 100 * entry.own.hit_rate; }),
+                           mean([](const Entry& entry) { return 100 * entry.chance.hit_rate; }),
+                           mean([](const Entry& entry) {
+                             return 100 * (entry.own.hit_rate - entry.chance.hit_rate);
+                           }),
+                           coverage, Cell{coverage.value / real_coverage, {}},
+                           mean([](const Entry& entry) { return entry.own.alignment; }),
+                           mean([](const Entry& entry) { return entry.chance.alignment; })}});
+    PlotSeries own{.label = name, .x = {}, .y = {}};
+    for (size_t clip = 0; clip < set_.clips.size(); ++clip) {
+      double sum = 0, count = 0;
+      for (const Entry& entry : entries) {
+        if (entry.clip != clip) continue;
+        sum += 100 * entry.own.hit_rate;
+        ++count;
+      }
+      if (count == 0) continue;
+      own.x.push_back(static_cast<double>(clip + 1));
+      own.y.push_back(sum / count);
+    }
+    plot.series.push_back(own);
+  }
+  table.plot = plot;
+  return table;
+}
+
+}  // namespace choreo

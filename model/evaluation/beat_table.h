@@ -1,0 +1,48 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/evaluation/table.h"
+#include "model/evaluation/windows.h"
+
+namespace choreo {
+
+/// How many of the kinematic beats fall on the music's (paper F, 4.5.1: maxima of the mean joint
+/// speed, at most two frames away), and how many music beats have one. `music`: frames, ascending;
+/// those outside the dance do not count.
+struct BeatFigures {
+  double hit_rate = 0;   ///< B_a / B_k
+  double coverage = 0;   ///< B_k / B_m
+  double alignment = 0;  ///< BeatAlignmentScore
+};
+BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music);
+
+/// Gathers dances beside a set's songs, scores each on its own song and, for chance, on the set's
+/// other songs from their beginnings: what a dance hits by its own density and tempo.
+class BeatTable {
+ public:
+  /// `beats`: of each clip's song; both outlive the table.
+  BeatTable(const ClipSet& set, const std::vector<std::vector<double>>& beats);
+
+  /// A dance of the row `name` beside frames `start` on of a clip; mean joint speeds step by step.
+  /// Those of a clip without beats do not count.
+  void Add(const std::string& name, size_t clip, int start, const std::vector<float>& speeds);
+
+  /// Rows in the order in which they were first added, "real" first; intervals over songs.
+  Table Finish() const;
+
+ private:
+  struct Entry {
+    size_t clip;
+    BeatFigures own, chance;
+  };
+  const ClipSet& set_;
+  const std::vector<std::vector<double>>& beats_;
+  std::vector<std::string> names_;
+  std::map<std::string, std::vector<Entry>> entries_;
+};
+
+}  // namespace choreo

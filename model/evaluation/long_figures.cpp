@@ -1,0 +1,99 @@
+#include "model/evaluation/long_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/dance/quality_report.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kBeyondStraight = 15 * M_PI / 180;
+
+// Speeds of one joint, m/s, appended.
+void AddJointSpeeds(const JointTrack& track, Eigen::Index joint, double fps,
+                    std::vector<float>* speeds) {
+  for (size_t t = 1; t < track.size(); ++t) {
+    speeds->push_back(
+        static_cast<float>((track[t].col(joint) - track[t - 1].col(joint)).norm() * fps));
+  }
+}
+
+}  // namespace
+
+LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Pose> poses,
+                        const std::vector<int>& key_frames) {
+  LongFigures figures;
+  if (poses.empty()) return figures;
+  QualityMeter meter(skeleton, fps, 0);
+  auto key = key_frames.begin();
+  const std::vector<Hinge> hinges = Hinges(skeleton);
+  int64_t backwards = 0;
+  const Eigen::Vector3d start = poses[0].root_position;
+  figures.lowest_m = figures.highest_m = start.y();
+  for (size_t t = 0; t < poses.size(); ++t) {
+    meter.Add({poses[t], {}, 0});
+    if (key != key_frames.end() && *key == static_cast<int>(t)) {
+      meter.AddKey("", {});
+      ++key;
+    }
+    const Eigen::Vector3d& root = poses[t].root_position;
+    figures.lowest_m = std::min(figures.lowest_m, root.y());
+    figures.highest_m = std::max(figures.highest_m, root.y());
+    figures.reach_m =
+        std::max(figures.reach_m, std::hypot(root.x() - start.x(), root.z() - start.z()));
+    backwards += std::ranges::count_if(hinges, [&](const Hinge& hinge) {
+      return hinge.axis.dot(poses[t].rotations.col(hinge.joint)) < -kBeyondStraight;
+    });
+  }
+  const auto pairs = static_cast<double>(poses.size() * hinges.size());
+  figures.bent_backwards = pairs > 0 ? static_cast<double>(backwards) / pairs : 0;
+  const QualityReport report = meter.Report();
+  figures.skate_ratio = report.skate_ratio;
+  figures.p95_acceleration = report.p95_acceleration;
+  for (const KeyReport& one : report.keys)
+    figures.key_accelerations.push_back(static_cast<float>(one.max_acceleration));
+  const JointTrack track = TrackJoints(skeleton, poses);
+  figures.speeds = MeanSpeeds(track, fps);
+  figures.median_speed = Percentile(figures.speeds, 0.5);
+  figures.top_speed = Percentile(figures.speeds, 1);
+  const auto fifth = static_cast<std::ptrdiff_t>(figures.speeds.size() / 5);
+  figures.late_speed = Percentile({figures.speeds.end() - fifth, figures.speeds.end()}, 0.5);
+  for (Eigen::Index joint = 0; joint < skeleton.joints(); ++joint) {
+    std::vector<float> speeds;
+    AddJointSpeeds(track, joint, fps, &speeds);
+    figures.joint_speeds.push_back(Percentile(std::move(speeds), 0.5));
+  }
+  return figures;
+}
+
+double RealRange::JointsWithin(const LongFigures& dance) const {
+  int within = 0;
+  for (size_t joint = 0; joint < low.size(); ++joint) {
+    const double speed = dance.joint_speeds[joint];
+    if (speed >= low[joint] && speed <= high[joint]) ++within;
+  }
+  return low.empty() ? 0 : static_cast<double>(within) / static_cast<double>(low.size());
+}
+
+RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointTrack>& tracks,
+                  double fps) {
+  RealRange range;
+  std::vector<float> means;
+  for (const LongFigures& clip : real) {
+    means.insert(means.end(), clip.speeds.begin(), clip.speeds.end());
+    range.top_speed = std::max(range.top_speed, clip.top_speed);
+    range.p95_acceleration += clip.p95_acceleration / static_cast<double>(real.size());
+  }
+  range.median_speed = Percentile(std::move(means), 0.5);
+  const Eigen::Index joints = tracks.empty() ? 0 : tracks[0].at(0).cols();
+  for (Eigen::Index joint = 0; joint < joints; ++joint) {
+    std::vector<float> speeds;
+    for (const JointTrack& track : tracks) AddJointSpeeds(track, joint, fps, &speeds);
+    range.low.push_back(Percentile(speeds, 0.05));
+    range.high.push_back(Percentile(std::move(speeds), 0.95));
+  }
+  return range;
+}
+
+}  // namespace choreo

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/evaluation/joint_track.h"
+#include "model/evaluation/pace.h"
+
+namespace choreo {
+
+/// A long dance judged for drift, freezing, explosion, broken limbs and jolts at its keys.
+struct LongFigures {
+  double median_speed = 0;             ///< of the mean joint speed, m/s
+  double late_speed = 0;               ///< the same over its last fifth: freezing shows here
+  double top_speed = 0;                ///< of any frame: explosion shows here
+  double reach_m = 0;                  ///< furthest that the root goes from its start, on the floor
+  double lowest_m = 0, highest_m = 0;  ///< heights of the root
+  /// Share of (frame, hinge) pairs in which a knee or elbow is bent more than 15 degrees beyond
+  /// straight.
+  double bent_backwards = 0;
+  std::vector<double> joint_speeds;              ///< [joints] medians, m/s
+  std::vector<float> speeds;                     ///< mean joint speed step by step, m/s
+  double skate_ratio = 0, p95_acceleration = 0;  ///< quality_report.h
+  std::vector<float> key_accelerations;          ///< m/s^2, each key's within two frames
+};
+
+/// `key_frames`: ascending.
+LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Pose> poses,
+                        const std::vector<int>& key_frames);
+
+/// What real motion of a set allows.
+struct RealRange {
+  std::vector<double> low, high;  ///< [joints] 5th and 95th percentile of its speeds, m/s
+  double median_speed = 0;        ///< of the mean joint speed, over all frames
+  double top_speed = 0;
+  double p95_acceleration = 0;  ///< mean over clips
+
+  /// A dance whose last fifth is slower than a quarter of real motion has frozen.
+  bool Frozen(const LongFigures& dance) const { return dance.late_speed < 0.25 * median_speed; }
+  bool Exploded(const LongFigures& dance) const { return dance.top_speed > top_speed; }
+  /// Share of the joints whose median speed lies within low and high.
+  double JointsWithin(const LongFigures& dance) const;
+};
+
+/// `real`: figures of the clips `tracks`, one each.
+RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointTrack>& tracks,
+                  double fps);
+
+}  // namespace choreo

@@ -1,0 +1,92 @@
+#include "model/evaluation/long_plans.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace choreo {
+namespace {
+
+constexpr int kTwoSeconds = 60;
+constexpr int kEqualInterval = 100;
+constexpr int kLeastInterval = 15;  // between keys on beats
+
+// Frame `at` of a clip that is walked forwards, backwards, forwards.
+const Pose& WalkedPose(const PreparedClip& clip, int at) {
+  const int last = static_cast<int>(clip.motion.frames.size()) - 1;
+  const int phase = at % (2 * std::max(last, 1));
+  return clip.motion.frames[static_cast<size_t>(std::min(last, std::min(phase, 2 * last - phase)))];
+}
+
+std::vector<int> KeyFrames(KeyTimes times, int frames, const std::vector<double>& beats) {
+  std::vector<int> keys;
+  if (times == KeyTimes::kNone) return keys;
+  const int interval = times == KeyTimes::kEachTwoSeconds ? kTwoSeconds : kEqualInterval;
+  for (int equal = interval - 1; equal < frames; equal += interval) {
+    int frame = equal;
+    if (times == KeyTimes::kOnBeats && !beats.empty()) {
+      const auto nearest = std::ranges::min_element(
+          beats, {}, [equal](double beat) { return std::abs(beat - equal); });
+      frame = static_cast<int>(std::lround(*nearest));
+    }
+    const int earliest = keys.empty() ? kLeastInterval : keys.back() + kLeastInterval;
+    if (frame >= earliest && frame < frames) keys.push_back(frame);
+  }
+  return keys;
+}
+
+}  // namespace
+
+std::string NameOf(KeyTimes times) {
+  switch (times) {
+    case KeyTimes::kNone:
+      return "no keys";
+    case KeyTimes::kEachTwoSeconds:
+      return "keys each 2 s";
+    case KeyTimes::kEqual:
+      return "keys each 100 frames";
+    case KeyTimes::kOnBeats:
+      return "as many keys, on beats";
+  }
+  return "";
+}
+
+std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames) {
+  std::vector<double> within;
+  for (const double beat : beats) {
+    if (beat >= start && beat < start + frames) within.push_back(beat - start);
+  }
+  return within;
+}
+
+std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
+                                     int count, const EvalOptions& options,
+                                     const std::vector<std::vector<double>>& beats) {
+  const int history = model.history_frames;
+  const auto clips = static_cast<int>(set.clips.size());
+  std::vector<LongPlan> plans;
+  for (int i = 0; i < count; ++i) {
+    LongPlan plan;
+    plan.clip = static_cast<size_t>(i % clips);
+    const PreparedClip& clip = set.clips[plan.clip];
+    const auto length = static_cast<int>(clip.motion.frames.size());
+    if (length <= history) continue;
+    const bool music = clip.audio.cols() > 0;
+    const int spare = std::max(0, length - history - (music ? options.long_frames : 1));
+    const int places = (count + clips - 1) / clips;
+    plan.start = history + (places > 1 ? spare * (i / clips) / (places - 1) : 0);
+    ChainPlan& chain = plan.chain;
+    chain.frames = music ? std::min(options.long_frames, length - plan.start) : options.long_frames;
+    const auto first = clip.motion.frames.begin() + plan.start;
+    chain.history.assign(first - history, first);
+    if (music) chain.audio = clip.audio.middleCols(plan.start - history, history + chain.frames);
+    for (const int frame :
+         KeyFrames(times, chain.frames, BeatsBetween(beats[plan.clip], plan.start, chain.frames)))
+      chain.keys[frame] = WalkedPose(clip, plan.start + frame);
+    chain.seed = static_cast<uint64_t>(i);
+    chain.temperature = options.temperature;
+    plans.push_back(std::move(plan));
+  }
+  return plans;
+}
+
+}  // namespace choreo

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/evaluation/chain.h"
+#include "model/evaluation/method.h"
+#include "model/evaluation/windows.h"
+
+namespace choreo {
+
+/// Which keys a long dance has: poses of its own clip.
+enum class KeyTimes {
+  kNone,
+  kEachTwoSeconds,
+  kEqual,    ///< each 100 frames, as in paper F's Table 4
+  kOnBeats,  ///< as many, each on the beat nearest to the equal one
+};
+std::string NameOf(KeyTimes times);
+
+/// A long dance to be danced beside a clip: its frame f goes with the clip's frame start + f.
+struct LongPlan {
+  size_t clip = 0;
+  int start = 0;
+  ChainPlan chain;
+};
+
+/// `count` dances of EvalOptions::long_frames, spread evenly over the clips of a set and the places
+/// within each. Beside music a dance ends with it; else a clip that is shorter than the dance
+/// offers its keys forwards, backwards, forwards. `beats`: of each clip's music, frames.
+std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
+                                     int count, const EvalOptions& options,
+                                     const std::vector<std::vector<double>>& beats);
+
+/// Beats between two frames of a clip, counted from the first one.
+std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames);
+
+}  // namespace choreo
