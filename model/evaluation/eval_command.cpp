@@ -9,6 +9,7 @@
 
 #include "model/core/error.h"
 #include "model/engine/torch_engine.h"
+#include "model/evaluation/encoder_table.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/evaluation/long_tables.h"
 #include "model/evaluation/stress_table.h"
@@ -30,6 +31,7 @@ struct Arguments {
   std::filesystem::path json, markdown;
   EvalOptions options;
   float temperature = -1;
+  bool encode = true;
 };
 
 // The engines of one evaluation, and the methods that use them.
@@ -71,8 +73,7 @@ Contest MakeContest(const Arguments& arguments) {
   return contest;
 }
 
-std::vector<ClipSet> LoadSets(const Arguments& arguments, const Skeleton& skeleton) {
-  const Split split = arguments.split == "test" ? Split::kTest : Split::kValidation;
+std::vector<ClipSet> LoadSets(const Arguments& arguments, const Skeleton& skeleton, Split split) {
   std::vector<ClipSet> sets;
   for (std::filesystem::path folder : arguments.data) {
     if (!folder.has_filename()) folder = folder.parent_path();
@@ -121,11 +122,17 @@ void Evaluate(Arguments arguments) {
   options.temperature = arguments.temperature >= 0
                             ? arguments.temperature
                             : static_cast<float>(engine.model().default_temperature);
-  const std::vector<ClipSet> sets = LoadSets(arguments, engine.model().skeleton);
+  const Split split = arguments.split == "test" ? Split::kTest : Split::kValidation;
+  const std::vector<ClipSet> sets = LoadSets(arguments, engine.model().skeleton, split);
+  std::optional<MotionEncoder> encoder;
+  if (arguments.encode) {
+    encoder = MotionEncoder::Train(LoadSets(arguments, engine.model().skeleton, Split::kTrain));
+  }
   int64_t frames = 0;
   for (const ClipSet& set : sets) {
     frames += CountTransitionFrames(set, contest.methods, options) +
               CountLongFrames(set, engine.model(), options);
+    if (encoder) frames += CountEncodedFrames(set, contest.methods, options);
   }
   std::vector<Table> tables;
   ProgressBar progress("evaluating", frames);
@@ -134,6 +141,8 @@ void Evaluate(Arguments arguments) {
       tables.push_back(std::move(table));
     for (Table& table : EvaluateLongDances(set, engine, options, &progress))
       tables.push_back(std::move(table));
+    if (encoder)
+      tables.push_back(EvaluateEncoded(set, contest.methods, *encoder, options, &progress));
     tables.push_back(EvaluateStress(set, engine, options));
   }
   progress.Finish();
@@ -189,6 +198,9 @@ void AddEvalCommand(CLI::App& app) {
   command->add_option("--long-frames", options.long_frames, "Frames of a long dance")
       ->capture_default_str()
       ->check(CLI::Range(60, 100000));
+  command->add_flag("!--no-encoder", arguments->encode,
+                    "No FID, variability and diversity, for which an encoder is learnt from the "
+                    "training clips of the data");
   command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
       ->check(CLI::Range(0.0, 2.0));
   command->callback([arguments] { Evaluate(*arguments); });

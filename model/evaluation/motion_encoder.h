@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "model/evaluation/joint_track.h"
+#include "model/evaluation/windows.h"
+
+namespace choreo {
+
+/// The motion encoder of FID, variability and diversity (paper F, 4.5.2 and 4.5.4), trained by us:
+/// a linear autoencoder in closed form, that is the principal components of training motion. A
+/// window of kWindow frames, seen from its middle frame's place and heading, becomes kCodes
+/// numbers; each has variance 1 over the training windows. Immutable; thread-safe.
+///
+/// It is learnt from the training split at each evaluation, in seconds, so that no file goes with
+/// the program; version() names recipe and data, and figures of different versions don't compare.
+class MotionEncoder {
+ public:
+  static constexpr int kWindow = 30;  ///< frames
+  static constexpr int kStride = 10;  ///< frames from one window to the next
+  static constexpr int kCodes = 32;   ///< at most: fewer where there are fewer training windows
+
+  /// Learns from every window of the sets, the same for all clips. Throws Error(kInvalidArgument)
+  /// for fewer than two windows.
+  static MotionEncoder Train(const std::vector<ClipSet>& training);
+
+  /// Codes of all windows of a dance, [codes, windows].
+  Eigen::MatrixXd Encode(const Skeleton& skeleton, std::span<const Pose> poses) const;
+
+  const std::string& version() const { return version_; }
+  double explained() const { return explained_; }  ///< share of training motion's variance
+
+ private:
+  Eigen::VectorXd mean_;
+  Eigen::MatrixXd projection_;  // [codes, inputs]
+  std::string version_;
+  double explained_ = 0;
+};
+
+}  // namespace choreo

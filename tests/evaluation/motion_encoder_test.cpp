@@ -1,0 +1,80 @@
+#include "model/evaluation/motion_encoder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/evaluation/encoder_table.h"
+#include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/fake_engine.h"
+#include "tests/support/synthetic_clips.h"
+
+namespace choreo {
+namespace {
+
+using testing_support::SyntheticClip;
+
+ClipSet Clips(int frames) {
+  return {"set",
+          {SyntheticClip("a_1", frames, 0.1, false), SyntheticClip("b_1", frames, 2.1, false)}};
+}
+
+TEST(MotionEncoder, ItsCodesAreUncorrelatedAndOfUnitVarianceInTraining) {
+  const ClipSet set = Clips(600);
+  const MotionEncoder encoder = MotionEncoder::Train({set});
+  Eigen::MatrixXd codes(0, 0);
+  for (const PreparedClip& clip : set.clips) {
+    const Eigen::MatrixXd some = encoder.Encode(clip.skeleton, clip.motion.frames);
+    EXPECT_EQ(some.cols(), 1 + (600 - 30) / 10);
+    const Eigen::Index before = codes.cols();
+    codes.conservativeResize(some.rows(), before + some.cols());
+    codes.rightCols(some.cols()) = some;
+  }
+  EXPECT_LT(codes.rowwise().mean().norm(), 1e-6);
+  const Eigen::MatrixXd covariance = codes * codes.transpose() / static_cast<double>(codes.cols());
+  EXPECT_LT((covariance - Eigen::MatrixXd::Identity(codes.rows(), codes.rows())).norm(), 1e-4);
+  EXPECT_GT(encoder.explained(), 0.95);
+}
+
+TEST(MotionEncoder, DoesNotSeeWhereTheDancerStandsOrFaces) {
+  const ClipSet set = Clips(300);
+  const MotionEncoder encoder = MotionEncoder::Train({set});
+  std::vector<Pose> moved = set.clips[0].motion.frames;
+  const GroundFrame elsewhere{{2, 0, -1}, 0.8};
+  for (Pose& pose : moved) pose = elsewhere.ToWorld(pose);
+  const Skeleton& skeleton = set.clips[0].skeleton;
+  EXPECT_LT((encoder.Encode(skeleton, moved) - encoder.Encode(skeleton, set.clips[0].motion.frames))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-3);
+}
+
+TEST(MotionEncoder, NamesItsDataAndNeedsSome) {
+  EXPECT_NE(MotionEncoder::Train({Clips(300)}).version(),
+            MotionEncoder::Train({Clips(310)}).version());
+  ExpectError(ErrorCode::kInvalidArgument, "0 windows", [] { MotionEncoder::Train({Clips(20)}); });
+}
+
+TEST(EvaluateEncoded, RealMotionIsNearestAndSeedsVaryOnlyWithNoise) {
+  const ClipSet set = Clips(600);
+  const MotionEncoder encoder = MotionEncoder::Train({set});
+  FakeEngine engine(16);
+  const std::vector<Method> methods = {{"real", Method::Kind::kReal},
+                                       {"free", Method::Kind::kEngine, &engine, false},
+                                       {kServed, Method::Kind::kEngine, &engine}};
+  EvalOptions options{.temperature = 0.5F, .long_frames = 120};
+  const Table table = EvaluateEncoded(set, methods, encoder, options, nullptr);
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_LT(table.rows[0].cells[0].value, table.rows[1].cells[0].value);
+  EXPECT_GT(table.rows[1].cells[1].value, 0);
+  EXPECT_GT(table.rows[2].cells[2].value, table.rows[2].cells[1].value);
+  EXPECT_EQ(CountEncodedFrames(set, methods, options), 2 * 8 * 15 * 120);
+  options.temperature = 0;
+  EXPECT_EQ(EvaluateEncoded(set, methods, encoder, options, nullptr).rows[2].cells[1].value, 0);
+}
+
+}  // namespace
+}  // namespace choreo
