@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/engine/torch_engine.h"
+#include "model/engine/engines.h"
 #include "model/motion/kinematics.h"
 
 /// Frames a second of an engine, by how many streams step together. Run it on a quiet machine and
@@ -15,7 +15,7 @@ namespace {
 constexpr int kFrames = 60;  // of each transition
 
 StepEngine& Engine() {
-  static const std::unique_ptr<StepEngine> engine = MakeTorchEngine(
+  static const std::unique_ptr<StepEngine> engine = MakeEngine(
       std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors", Device{},
       64);
   return *engine;

@@ -11,6 +11,7 @@
 namespace choreo {
 namespace {
 
+constexpr std::array<std::string_view, 3> kEngines = {"auto", "torch", "packed"};
 constexpr std::array<std::string_view, 7> kLogLevels = {"trace", "debug",    "info", "warning",
                                                         "error", "critical", "off"};
 
@@ -56,6 +57,13 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                  "Where to compute: auto (a GPU if this build and machine have one), cpu, or "
                  "cuda:N[,N...].")
       ->envname("CHOREO_DEVICE")
+      ->capture_default_str();
+  app.add_option(
+         "--engine", config.engine,
+         "What computes: torch (LibTorch, on any device), packed (our own kernels, on the "
+         "CPU), or auto, the faster of the two. Replicas that take over each other's dances "
+         "must agree.")
+      ->envname("CHOREO_ENGINE")
       ->capture_default_str();
   app.add_option("--slots", config.slots,
                  "Transitions in progress at once, for each model and device.")
@@ -115,6 +123,9 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
 void ServerConfig::Validate() const {
   CheckAddress(listen);
   for (const auto& path : checkpoints) CheckFile("--checkpoint", path);
+  if (std::find(kEngines.begin(), kEngines.end(), engine) == kEngines.end()) {
+    throw InvalidArgument("--engine", '"' + engine + "\" is none of auto, torch, packed");
+  }
   CheckRange("--slots", slots, 1, 4096);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);

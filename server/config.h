@@ -16,6 +16,7 @@ struct ServerConfig {
   /// One model each; the first is the default. Empty: the checkpoint that ships.
   std::vector<std::filesystem::path> checkpoints;
   std::string device = "auto";  ///< auto, cpu, or cuda:N[,N...]
+  std::string engine = "auto";  ///< auto (packed on the CPU), torch, packed
   int slots = 16;               ///< transitions in progress at once, for each model and device
   int max_waiting = 64;         ///< transitions that may wait for a slot, for each model
   int max_streams = 64;         ///< calls in progress at once; those beyond are refused

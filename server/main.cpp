@@ -10,7 +10,7 @@
 #include "model/core/error.h"
 #include "model/core/threads.h"
 #include "model/engine/devices.h"
-#include "model/engine/torch_engine.h"
+#include "model/engine/engines.h"
 #include "server/config.h"
 #include "server/server.h"
 
@@ -43,7 +43,7 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
   }
   std::vector<Server::Engines> models;
   for (const auto& path : checkpoints) {
-    models.push_back(MakeTorchEngines(path, workers, slots));
+    models.push_back(MakeEngines(path, workers, slots, ParseEngineKind(config.engine)));
     const StepEngine& engine = *models.back().front();
     spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...) of {} slots",
                  path.string(), engine.model().name, engine.model().fingerprint, workers.size(),

@@ -30,7 +30,7 @@ int UsableCores();
 
 /// Sets how many threads one matrix product uses, in every BLAS and OpenMP runtime loaded. Throws
 /// Error(kInvalidArgument) unless threads is in [1, 1024]. LibTorch's own pools are the business of
-/// engine/torch_engine.h.
+/// engine/engines.h.
 void SetMathThreads(int threads);
 
 /// From here on, denormal results and operands count as zero on the calling thread and on threads

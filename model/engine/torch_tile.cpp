@@ -2,7 +2,8 @@
 
 #include <torch/torch.h>
 
-#include <span>
+#include <algorithm>
+#include <utility>
 
 #include "model/core/random.h"
 
@@ -10,8 +11,11 @@ namespace choreo {
 
 using torch::Tensor;
 
-TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows)
-    : weights_(std::move(weights)), rows_(rows) {
+TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
+    : weights_(std::move(weights)),
+      rows_(rows),
+      states_(torch::zeros({slots, weights_->model->StateWidth()}, weights_->device)),
+      static_conditions_(static_cast<size_t>(slots)) {
   const FlowModel& model = weights_->model;
   const FlowConfig& config = model->config();
   const auto options = torch::TensorOptions().pinned_memory(weights_->device.is_cuda());
@@ -23,7 +27,43 @@ TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows)
   host_[kNoise] = torch::zeros({rows, width}, options);
 }
 
-void TorchTile::Run(FlowState* state) {
+void TorchTile::Begin(int slot, std::vector<float> static_condition) {
+  const c10::InferenceMode inference;
+  states_[slot].zero_();
+  static_conditions_[static_cast<size_t>(slot)] = std::move(static_condition);
+}
+
+void TorchTile::Run(std::span<FlowRow> rows) {
+  const c10::InferenceMode inference;
+  Tensor slots = torch::zeros({rows_}, torch::kLong);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const FlowRow& row = rows[i];
+    std::ranges::copy(row.past, Row(kPast, i));
+    std::ranges::copy(row.audio, Row(kAudio, i));
+    *Row(kHasAudio, i) = row.has_audio ? 1.0F : 0.0F;
+    const int64_t width = host_[kCondition].size(1);
+    std::copy_n(static_conditions_[static_cast<size_t>(row.slot)].data() + row.frame * width, width,
+                Row(kCondition, i));
+    std::ranges::copy(row.noise, Row(kNoise, i));
+    slots.data_ptr<int64_t>()[i] = row.slot;
+  }
+  // Rows beyond these are padding: they hold what was there, read slot 0's state, and are dropped.
+  slots = slots.to(weights_->device);
+  FlowState state = states_.index_select(0, slots);
+  Compute(&state);
+  if (state.size(1) > 0) {
+    const auto count = static_cast<int64_t>(rows.size());
+    states_.index_copy_(0, slots.narrow(0, 0, count), state.narrow(0, 0, count));
+  }
+  const int64_t width = features_.size(1);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    std::copy_n(features_.data_ptr<float>() + static_cast<int64_t>(i) * width, width,
+                rows[i].features.data());
+    rows[i].log_likelihood = log_likelihood_.data_ptr<float>()[i];
+  }
+}
+
+void TorchTile::Compute(FlowState* state) {
   Tensor inputs[kInputs];
   for (int i = 0; i < kInputs; ++i) inputs[i] = host_[i].to(weights_->device, true);
   FlowModel model = weights_->model;
@@ -36,6 +76,7 @@ void TorchTile::Run(FlowState* state) {
 
 // Two probes visit every place, each time among other neighbours.
 bool TorchTile::RowsAreIndependent() {
+  const c10::InferenceMode inference;
   Random random(1);
   const int state_width = weights_->model->StateWidth();
   const auto fill = [&](Tensor tensor) {
@@ -55,7 +96,7 @@ bool TorchTile::RowsAreIndependent() {
       fill(state);
       state[place].copy_(rows[kInputs]);
       state = state.to(weights_->device);
-      Run(&state);
+      Compute(&state);
       const Tensor result =
           torch::cat({features_[place], log_likelihood_[place].unsqueeze(0), state[place].cpu()});
       if (!expected.defined()) expected = result.clone();
@@ -67,7 +108,7 @@ bool TorchTile::RowsAreIndependent() {
 
 int TorchTile::VerifiedRows(const std::shared_ptr<TorchWeights>& weights) {
   constexpr int kRows = 16;
-  return TorchTile(weights, kRows).RowsAreIndependent() ? kRows : 1;
+  return TorchTile(weights, kRows, 1).RowsAreIndependent() ? kRows : 1;
 }
 
 }  // namespace choreo

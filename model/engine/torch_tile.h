@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/engine/flow_tile.h"
 #include "model/flow/flow_model.h"
 
 namespace choreo {
@@ -16,43 +17,36 @@ struct TorchWeights {
   torch::Device device{torch::kCPU};
 };
 
-/// A fixed number of rows that the flow steps together, with its inputs and outputs in host memory.
-/// All calls under c10::InferenceMode. Not thread-safe.
-class TorchTile {
+/// The flow, stepped by LibTorch: a fixed number of rows together, padded, with inputs and outputs
+/// in host memory. The reference that faster tiles are held to.
+class TorchTile : public FlowTile {
  public:
-  TorchTile(std::shared_ptr<TorchWeights> weights, int rows);
+  TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots);
 
-  int rows() const { return rows_; }
   /// The largest of the usual tile sizes whose rows' bits depend neither on their place nor on
   /// their neighbours; 1 at worst.
   static int VerifiedRows(const std::shared_ptr<TorchWeights>& weights);
 
-  /// Inputs of one row, to be written before Run; as FlowModel::Step has them.
-  float* past(int row) { return Row(kPast, row); }
-  float* audio(int row) { return Row(kAudio, row); }
-  float* has_audio(int row) { return Row(kHasAudio, row); }
-  float* condition(int row) { return Row(kCondition, row); }
-  float* noise(int row) { return Row(kNoise, row); }
-
-  /// Steps every row. `state` [rows, StateWidth()], on the device, is replaced.
-  void Run(FlowState* state);
-
-  /// Outputs of one row, valid until the next Run.
-  const float* features(int row) const { return features_[row].data_ptr<float>(); }
-  float log_likelihood(int row) const { return log_likelihood_.data_ptr<float>()[row]; }
+  int rows() const override { return rows_; }
+  void Begin(int slot, std::vector<float> static_condition) override;
+  void Run(std::span<FlowRow> rows) override;
 
  private:
   enum Input { kPast, kAudio, kHasAudio, kCondition, kNoise, kInputs };
-  float* Row(Input input, int row) {
-    return host_[input].data_ptr<float>() + row * host_[input].stride(0);
+  float* Row(Input input, size_t row) {
+    return host_[input].data_ptr<float>() + static_cast<int64_t>(row) * host_[input].stride(0);
   }
+  /// Steps every row of the inputs. `state` [rows, StateWidth()], on the device, is replaced.
+  void Compute(FlowState* state);
   bool RowsAreIndependent();
 
   std::shared_ptr<TorchWeights> weights_;
   int rows_;
-  torch::Tensor host_[kInputs];   ///< [rows, ...], pinned for CUDA
-  torch::Tensor features_;        ///< [rows, width], on the CPU
-  torch::Tensor log_likelihood_;  ///< [rows], on the CPU
+  torch::Tensor states_;                               ///< [slots, StateWidth()], on the device
+  std::vector<std::vector<float>> static_conditions_;  ///< of the slots
+  torch::Tensor host_[kInputs];                        ///< [rows, ...], pinned for CUDA
+  torch::Tensor features_;                             ///< [rows, width], on the CPU
+  torch::Tensor log_likelihood_;                       ///< [rows], on the CPU
 };
 
 }  // namespace choreo

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
-#include "model/engine/torch_engine.h"
+#include "model/engine/engines.h"
 #include "model/evaluation/encoder_table.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/evaluation/long_tables.h"
@@ -28,6 +28,7 @@ struct Arguments {
   std::string split = "validation";
   std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
   std::vector<std::string> others;
+  std::string engine = "auto";
   std::filesystem::path json, markdown;
   EvalOptions options;
   float temperature = -1;
@@ -48,7 +49,8 @@ struct Contest {
 Contest MakeContest(const Arguments& arguments) {
   using Kind = Method::Kind;
   Contest contest;
-  StepEngine* model = contest.Add(MakeTorchEngine(arguments.model, Device{}, kSlots));
+  const EngineKind kind = ParseEngineKind(arguments.engine);
+  StepEngine* model = contest.Add(MakeEngine(arguments.model, Device{}, kSlots, kind));
   const auto wants = [&](const char* name) {
     return std::ranges::find(arguments.baselines, name) != arguments.baselines.end();
   };
@@ -64,7 +66,7 @@ Contest MakeContest(const Arguments& arguments) {
     const size_t equals = other.find('=');
     if (equals == std::string::npos || equals == 0 || other.substr(0, equals) == kServed)
       throw InvalidArgument("--other", "'" + other + "' is not NAME=CHECKPOINT");
-    StepEngine* engine = contest.Add(MakeTorchEngine(other.substr(equals + 1), Device{}, kSlots));
+    StepEngine* engine = contest.Add(MakeEngine(other.substr(equals + 1), Device{}, kSlots, kind));
     if (!(engine->model().skeleton == model->model().skeleton))
       throw InvalidArgument("--other", other + " dances on another skeleton than the model");
     contest.methods.push_back({other.substr(0, equals), Kind::kEngine, engine});
@@ -179,6 +181,9 @@ void AddEvalCommand(CLI::App& app) {
       ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
   command->add_option("--other", arguments->others,
                       "NAME=CHECKPOINT: a row for another model, danced just as the first");
+  command->add_option("--engine", arguments->engine, "auto | torch | packed")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "torch", "packed"}));
   command->add_option("--json", arguments->json,
                       "Also write the figures here, and plots beside it");
   command->add_option("--markdown", arguments->markdown, "Also write the tables here");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
+#include "model/flow/random_checkpoint.h"
 #include "model/motion/skeleton_json.h"
 
 namespace choreo {
@@ -63,36 +64,55 @@ std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
 }
 
 Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
-  const Safetensors content = ReadSafetensors(path);
+  return ParseCheckpoint(ReadSafetensors(path), path.string());
+}
+
+Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) {
   const auto meta = [&](const std::string& key) -> const std::string& {
     const auto found = content.metadata.find(key);
     if (found == content.metadata.end()) {
-      throw InvalidArgument(path.string(), "not a choreo checkpoint: it has no '" + key + "'");
+      throw InvalidArgument(name, "not a choreo checkpoint: it has no '" + key + "'");
     }
     return found->second;
   };
   if (meta("format") != kFormat) {
     throw InvalidArgument(
-        path.string(), "format '" + meta("format") + "', but this build reads '" + kFormat + "'");
+        name, "format '" + meta("format") + "', but this build reads '" + kFormat + "'");
   }
   Checkpoint checkpoint;
   checkpoint.card = meta("card");
   checkpoint.hash = meta(kHashKey);
   const std::string actual = ContentHash(content, kHashKey);
   if (actual != checkpoint.hash) {
-    throw InvalidArgument(path.string(), "content hash " + actual + ", but the file states " +
-                                             checkpoint.hash + ": it is damaged or was edited");
+    throw InvalidArgument(name, "content hash " + actual + ", but the file states " +
+                                    checkpoint.hash + ": it is damaged or was edited");
   }
   try {
     checkpoint.model = FlowModel(nlohmann::json::parse(meta("config")).get<FlowConfig>(),
                                  SkeletonFromJson(meta("skeleton")));
   } catch (const std::exception& error) {  // of the JSON or of the skeleton in it
-    throw InvalidArgument(path.string(),
-                          std::string("its configuration can't be read: ") + error.what());
+    throw InvalidArgument(name, std::string("its configuration can't be read: ") + error.what());
   }
   ImportTensors(content, "", checkpoint.model.get());
   checkpoint.model->eval();
   return checkpoint;
+}
+
+void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,
+                           const Skeleton& skeleton, uint64_t seed) {
+  torch::manual_seed(seed);
+  FlowModel model(config, skeleton);
+  torch::NoGradGuard no_grad;
+  for (auto& item : model->named_parameters()) {
+    // What starts as zero would hide everything before it.
+    const bool zero = !item.value().any().item<bool>();
+    if (zero) item.value().copy_(0.05 * torch::randn_like(item.value()));
+  }
+  model->SetFeatureNormalisation(0.05 * torch::randn({model->feature_width()}),
+                                 0.02 + 0.1 * torch::rand({model->feature_width()}));
+  model->SetAudioNormalisation(torch::randn({config.audio_features}),
+                               1 + torch::rand({config.audio_features}));
+  SaveCheckpoint(path, model, {{"licence", "none: random weights"}});
 }
 
 }  // namespace choreo

@@ -21,6 +21,8 @@ struct Checkpoint {
 /// Throws Error(kNotFound) or Error(kInvalidArgument): no such file, truncated, another format
 /// version, wrong hash, or tensors that do not fit the configuration; the message says which.
 Checkpoint LoadCheckpoint(const std::filesystem::path& path);
+/// Of a file that has been read already; `name` is what errors call it.
+Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
 
 /// Writes atomically; returns the content hash. `card` is JSON.
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,

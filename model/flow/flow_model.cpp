@@ -94,6 +94,10 @@ TransitionContext FlowModelImpl::Begin(const TransitionTensors& transition) {
   return context;
 }
 
+void FlowModelImpl::ForgetFlow() {
+  for (Tensor& parameter : flow_->parameters()) parameter.set_data(torch::empty({0}));
+}
+
 Tensor FlowModelImpl::Standardise(const Tensor& features) const {
   return (features - feature_mean_) / feature_std_;
 }

@@ -50,6 +50,8 @@ class FlowModelImpl : public torch::nn::Module {
                   const torch::Tensor& noise, const std::vector<torch::Tensor>& inverse_weights,
                   FlowState* state);
   std::vector<torch::Tensor> InverseWeights() const { return flow_->InverseWeights(); }
+  /// Frees the flow's weights, which are most of the memory: afterwards there is only Begin.
+  void ForgetFlow();
 
   /// Exact log-likelihood of frames, [batch, N] nats in standardised space. `features` [batch, tau
   /// + N, width] physical, history first; `audio` [batch, tau + N, audio_features]; `has_audio`

@@ -5,7 +5,7 @@
 #include "model/core/error.h"
 #include "model/core/threads.h"
 #include "model/engine/devices.h"
-#include "model/engine/torch_engine.h"
+#include "model/engine/engines.h"
 #include "model/evaluation/eval_command.h"
 
 #ifdef CHOREO_SERVICE

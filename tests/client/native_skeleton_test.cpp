@@ -7,7 +7,7 @@
 #include "client/choreo_client.h"
 #include "client/cli/choreography.h"
 #include "client/cli/pose_library.h"
-#include "model/engine/torch_engine.h"
+#include "model/engine/engines.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "model/training/prepare.h"
@@ -70,7 +70,7 @@ class NativeSkeletonTest : public testing::Test {
     train.report_every = 100;
     Train(train);
     std::vector<Server::Engines> models(1);
-    models[0].push_back(MakeTorchEngine(train.run / "checkpoint.safetensors", {}, 2));
+    models[0].push_back(MakeEngine(train.run / "checkpoint.safetensors", {}, 2));
     ServerConfig config;
     config.listen = "127.0.0.1:0";
     server_ = std::make_unique<Server>(config, std::move(models));

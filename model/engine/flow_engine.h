@@ -4,18 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "model/engine/flow_tile.h"
 #include "model/engine/step_engine.h"
-#include "model/engine/torch_tile.h"
+#include "model/engine/transition_planner.h"
 #include "model/engine/transition_window.h"
 
 namespace choreo {
 
-/// The flow model, stepped by LibTorch; made by torch_engine.h. Rows go through a tile of fixed
-/// size, so a row's bits depend neither on its slot nor on who steps with it.
-class TorchStepEngine : public StepEngine {
+/// The flow model in slots, whatever computes its parts: a planner at admission, a tile for every
+/// step. Made by engines.h.
+class FlowEngine : public StepEngine {
  public:
-  TorchStepEngine(std::shared_ptr<TorchWeights> weights, ModelInfo info, std::string device,
-                  int slots, int tile_rows);
+  FlowEngine(ModelInfo info, std::string device, int slots,
+             std::shared_ptr<const TransitionPlanner> planner, std::unique_ptr<FlowTile> tile);
 
   const ModelInfo& model() const override { return info_; }
   std::string device() const override { return device_; }
@@ -30,17 +31,17 @@ class TorchStepEngine : public StepEngine {
     explicit Slot(const ModelInfo& model) : window(model) {}
     bool taken = false;
     TransitionWindow window;
-    torch::Tensor static_condition;  // [N, static_width], on the CPU
   };
-  std::vector<Pose> Plan(const TransitionSpec& spec, Slot* slot) const;
+  Slot& At(const StepInput& input) { return slots_[static_cast<size_t>(input.slot)]; }
   void StepTile(std::span<const StepInput> in, std::span<StepOutput> out);
 
-  std::shared_ptr<TorchWeights> weights_;
   ModelInfo info_;
   std::string device_;
   std::vector<Slot> slots_;
-  TorchTile tile_;
-  torch::Tensor states_;  // [slots, StateWidth()], on the device
+  std::shared_ptr<const TransitionPlanner> planner_;
+  std::unique_ptr<FlowTile> tile_;
+  std::vector<FlowRow> rows_;            // of one tile
+  std::vector<float> noise_, features_;  // [rows of a tile, width]
 };
 
 }  // namespace choreo

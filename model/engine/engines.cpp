@@ -1,0 +1,172 @@
+#include "model/engine/engines.h"
+
+#include <ATen/Parallel.h>
+#include <ATen/Version.h>
+#include <torch/cuda.h>
+#include <torch/torch.h>
+
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/core/threads.h"
+#include "model/engine/build_identity.h"
+#include "model/engine/flow_engine.h"
+#include "model/engine/packed_flow.h"
+#include "model/engine/packed_kernels.h"
+#include "model/engine/packed_tile.h"
+#include "model/engine/torch_planner.h"
+#include "model/engine/torch_tile.h"
+#include "model/flow/checkpoint.h"
+
+namespace choreo {
+namespace {
+
+torch::Device ToTorch(const Device& device) {
+  return device.kind == Device::Kind::kCpu
+             ? torch::Device(torch::kCPU)
+             : torch::Device(torch::kCUDA, static_cast<torch::DeviceIndex>(device.index));
+}
+
+// What LibTorch's own kernels were chosen for, as in "AVX512"; empty if it doesn't tell.
+std::string CpuCapability() {
+  const std::string config = at::show_config();
+  const std::string key = "CPU capability usage: ";
+  const size_t at = config.find(key);
+  if (at == std::string::npos) return "";
+  const size_t begin = at + key.size();
+  return config.substr(begin, config.find('\n', begin) - begin);
+}
+
+// Everything that can change a bit of what LibTorch computes, but for the weights.
+std::string TorchKernels(const torch::Device& device) {
+  const std::string torch = "torch " TORCH_VERSION ", ";
+  if (device.is_cuda()) return torch + "cuda";
+  return torch + DetectBlas().name + ", " + CpuCapability() + ", " +
+         std::to_string(at::get_num_threads()) + " threads";
+}
+
+std::string LicenceOf(const std::string& card) {
+  const auto json = nlohmann::json::parse(card, nullptr, /*allow_exceptions=*/false);
+  return json.is_object() ? json.value("licence", "") : "";
+}
+
+// The fastest kernels that keep rows apart.
+const PackedKernels& VerifiedKernels() {
+  for (const PackedKernels* kernels : PackedKernelsHere()) {
+    if (RowsAreIndependent(*kernels)) return *kernels;
+    std::clog << "choreo: with " << kernels->name
+              << " a row's bits depend on its batch, so slower instructions are used\n";
+  }
+  throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
+}
+
+// What the engines of one device share.
+struct Loaded {
+  ModelInfo info;
+  std::shared_ptr<const TransitionPlanner> planner;
+  std::shared_ptr<TorchWeights> torch;  // either this
+  int torch_rows = 0;
+  std::shared_ptr<const PackedFlow> packed;  // or this
+
+  std::unique_ptr<FlowTile> Tile(int slots) const {
+    if (packed) return std::make_unique<PackedTile>(packed, slots);
+    return std::make_unique<TorchTile>(torch, torch_rows, slots);
+  }
+};
+
+Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind kind) {
+  const Safetensors content = ReadSafetensors(path);
+  const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
+  FlowModel model = checkpoint.model;
+  const FlowConfig& config = model->config();
+  const torch::Device there = ToTorch(device);
+  Loaded loaded;
+  std::string kernels = TorchKernels(there);
+  if (kind == EngineKind::kPacked || (kind == EngineKind::kAuto && there.is_cpu())) {
+    if (!there.is_cpu()) {
+      throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
+    }
+    const PackedKernels& fastest = VerifiedKernels();
+    loaded.packed = std::make_shared<PackedFlow>(content, config, model->feature_width(), fastest);
+    model->ForgetFlow();
+    kernels = std::string("packed ") + fastest.name + ", plans by " + kernels;
+  } else {
+    model->to(there);
+    loaded.torch = std::make_shared<TorchWeights>();
+    loaded.torch->device = there;
+    loaded.torch->inverse_weights = model->InverseWeights();
+    loaded.torch->model = model;
+    loaded.torch_rows = TorchTile::VerifiedRows(loaded.torch);
+    if (loaded.torch_rows == 1) {
+      std::clog << "choreo: on " << device.name()
+                << " a row's bits depend on its batch, so rows are stepped one by one (slower)\n";
+    }
+    kernels += ", tile " + std::to_string(loaded.torch_rows);
+  }
+  loaded.planner = std::make_shared<TorchPlanner>(model, there);
+  loaded.info = {.name = config.preset,
+                 .fingerprint = config.preset + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION +
+                                ", " + BuildIdentity() + "/" + kernels,
+                 .licence = LicenceOf(checkpoint.card),
+                 .card = checkpoint.card,
+                 .skeleton = model->skeleton(),
+                 .fps = 30,
+                 .history_frames = config.history_frames,
+                 .audio_features = config.audio_features,
+                 .max_transition_frames = config.max_transition_frames,
+                 .default_temperature = config.temperature};
+  return loaded;
+}
+
+}  // namespace
+
+EngineKind ParseEngineKind(std::string_view text) {
+  if (text == "auto") return EngineKind::kAuto;
+  if (text == "torch") return EngineKind::kTorch;
+  if (text == "packed") return EngineKind::kPacked;
+  throw InvalidArgument("engine", "'" + std::string(text) + "' is not one of auto, torch, packed");
+}
+
+AvailableDevices TorchDevices() {
+  return {.cuda_build = at::hasCUDA(),
+          .cuda_devices = static_cast<int>(torch::cuda::device_count())};
+}
+
+void SetTorchThreads(int threads) {
+  SetMathThreads(threads);
+  at::set_num_threads(threads);
+}
+
+std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& path,
+                                                     std::span<const Device> devices, int slots,
+                                                     EngineKind kind) {
+  if (slots < 1 || slots > 4096) {
+    throw InvalidArgument("slots", std::to_string(slots) + " is not in [1, 4096]");
+  }
+  const c10::InferenceMode inference;
+  // Exact float32 everywhere: bits before speed.
+  at::globalContext().setAllowTF32CuBLAS(false);
+  at::globalContext().setAllowTF32CuDNN(false);
+  at::globalContext().setDeterministicCuDNN(true);
+
+  std::map<Device, Loaded> loaded;
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  for (const Device& device : devices) {
+    const auto [here, is_new] = loaded.try_emplace(device);
+    if (is_new) here->second = Load(path, device, kind);
+    const Loaded& shared = here->second;
+    engines.push_back(std::make_unique<FlowEngine>(shared.info, device.name(), slots,
+                                                   shared.planner, shared.Tile(slots)));
+  }
+  return engines;
+}
+
+std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
+                                       const Device& device, int slots, EngineKind kind) {
+  return std::move(MakeEngines(checkpoint, {&device, 1}, slots, kind).front());
+}
+
+}  // namespace choreo

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/engine/devices.h"
+#include "model/engine/step_engine.h"
+
+/// Makes the engines that run the flow model (model/flow). This header is free of torch.
+///
+/// A row's bits depend neither on its slot nor on who steps with it. That is verified when engines
+/// are made, with random rows in every place; where it doesn't hold, slower kernels or tiles of one
+/// row are taken.
+namespace choreo {
+
+/// What steps the flow. The plan at admission is LibTorch's in any case.
+enum class EngineKind {
+  kAuto,    ///< the faster one: packed on the CPU, else torch
+  kTorch,   ///< LibTorch, on any of its devices; the reference that others are held to
+  kPacked,  ///< own kernels on packed weights, on the CPU alone
+};
+
+/// Reads `auto | torch | packed`. Throws Error(kInvalidArgument, "engine") for another name.
+EngineKind ParseEngineKind(std::string_view text);
+
+/// What LibTorch can use here.
+AvailableDevices TorchDevices();
+
+/// Threads of one of LibTorch's matrix products or operations, process-wide. Call before engines
+/// step. Throws Error(kInvalidArgument) unless threads is in [1, 1024].
+void SetTorchThreads(int threads);
+
+/// Loads a checkpoint once and makes an engine on each device, with `slots` slots each; engines of
+/// one device share its weights. Throws as LoadCheckpoint does (model/flow/checkpoint.h), and
+/// Error(kInvalidArgument) unless slots is in [1, 4096], and for kPacked on another device than the
+/// CPU.
+std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& checkpoint,
+                                                     std::span<const Device> devices, int slots,
+                                                     EngineKind kind = EngineKind::kAuto);
+std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
+                                       const Device& device, int slots,
+                                       EngineKind kind = EngineKind::kAuto);
+
+}  // namespace choreo

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace choreo {
+
+/// One slot's share of a step of the flow: model/flow's FlowModel::Step for one row.
+struct FlowRow {
+  int slot = 0;
+  int frame = 0;                 ///< of the slot's transition
+  std::span<const float> past;   ///< [tau, width] features in physical units, oldest first
+  std::span<const float> audio;  ///< [tau + 1, audio_features] MFCC rows
+  bool has_audio = false;        ///< false: `audio` is ignored
+  std::span<const float> noise;  ///< [width], temperature applied
+  std::span<float> features;     ///< [width], written: physical units
+  float log_likelihood = 0;      ///< written: nats, standardised space
+};
+
+/// The flow on one device, with recurrent state and condition of as many transitions as its engine
+/// has slots. Not thread-safe.
+class FlowTile {
+ public:
+  virtual ~FlowTile() = default;
+  /// Rows that one Run takes at most.
+  virtual int rows() const = 0;
+  /// A transition starts in `slot`, with state zero. `static_condition`: [frames, width] as
+  /// TransitionPlan has it.
+  virtual void Begin(int slot, std::vector<float> static_condition) = 0;
+  /// Steps these rows together. What comes out for a row depends neither on its place nor on the
+  /// other rows.
+  virtual void Run(std::span<FlowRow> rows) = 0;
+};
+
+}  // namespace choreo

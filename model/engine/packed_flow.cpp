@@ -1,0 +1,177 @@
+#include "model/engine/packed_flow.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <string>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+using Matrix = RowMajorMatrix;
+
+class Tensors {
+ public:
+  explicit Tensors(const Safetensors& content) : content_(content) {}
+
+  Eigen::Map<const Matrix> Get(const std::string& name, long rows, long columns) const {
+    const std::vector<float>& data = Find(name, {rows, columns}).data;
+    return {data.data(), rows, columns};
+  }
+  Eigen::Map<const Eigen::VectorXf> Get(const std::string& name, long size) const {
+    return {Find(name, {size}).data.data(), size};
+  }
+
+ private:
+  const NamedTensor& Find(const std::string& name, const std::vector<int64_t>& shape) const {
+    const auto found = content_.tensors.find(name);
+    if (found == content_.tensors.end()) {
+      throw InvalidArgument(name, "the file has no such tensor");
+    }
+    if (found->second.shape != shape) {
+      throw InvalidArgument(name, "its shape does not fit the configuration");
+    }
+    return found->second;
+  }
+  const Safetensors& content_;
+};
+
+// LibTorch's linear layers hold [out, in].
+PackedLinear Linear(const PackedKernels& kernels, const Tensors& tensors, const std::string& name,
+                    long in, long out) {
+  return {kernels, tensors.Get(name + ".weight", out, in).transpose(),
+          tensors.Get(name + ".bias", out)};
+}
+
+// Rows of [in] and [hidden] on top of each other, biases summed: one product a layer.
+PackedLinear LstmLayer(const PackedKernels& kernels, const Tensors& tensors,
+                       const std::string& name, const std::string& layer, long in, long hidden) {
+  Matrix weight(in + hidden, 4 * hidden);
+  weight << tensors.Get(name + ".weight_ih_" + layer, 4 * hidden, in).transpose(),
+      tensors.Get(name + ".weight_hh_" + layer, 4 * hidden, hidden).transpose();
+  return {kernels, weight,
+          tensors.Get(name + ".bias_ih_" + layer, 4 * hidden) +
+              tensors.Get(name + ".bias_hh_" + layer, 4 * hidden)};
+}
+
+// Inverse of y = (x + bias) exp(log_scale) W^T.
+PackedLinear Unmix(const PackedKernels& kernels, const Tensors& tensors, const std::string& name,
+                   long width) {
+  const auto square = [&](const char* part) -> Eigen::MatrixXd {
+    return tensors.Get(name + part, width, width).cast<double>();
+  };
+  const auto vector = [&](const char* part) -> Eigen::VectorXd {
+    return tensors.Get(name + part, width).cast<double>();
+  };
+  const Eigen::MatrixXd lower = square("lower").triangularView<Eigen::UnitLower>();
+  Eigen::MatrixXd upper = square("upper").triangularView<Eigen::StrictlyUpper>();
+  upper.diagonal() = vector("sign").array() * vector("log_diagonal").array().exp();
+  const Eigen::MatrixXd inverse = (square("permutation") * lower * upper).inverse();
+  const Eigen::VectorXd scale = (-vector("norm_log_scale")).array().exp();
+  return {kernels, (scale.asDiagonal() * inverse).transpose().cast<float>(),
+          -tensors.Get(name + "norm_bias", width)};
+}
+
+// The condition's columns come behind z_lo in checkpoints, the static ones last. Here the live ones
+// come first and the static ones leave.
+struct FirstLayer {
+  Matrix live_and_low;  // [live + low, out]
+  Matrix fixed;         // [static, out]
+};
+FirstLayer Split(const Eigen::Map<const Matrix>& weight, long low, long live) {
+  const long fixed = weight.cols() - low - live;
+  FirstLayer parts{Matrix(live + low, weight.rows()), weight.rightCols(fixed).transpose()};
+  parts.live_and_low << weight.middleCols(low, live).transpose(), weight.leftCols(low).transpose();
+  return parts;
+}
+
+}  // namespace
+
+PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int features,
+                       const PackedKernels& with)
+    : kernels(with),
+      width(features),
+      tau(config.history_frames),
+      audio_features(config.audio_features),
+      flow_steps(config.flow_steps),
+      hidden(config.hidden),
+      recurrent(config.recurrent),
+      encoded(config.condition_width > 0),
+      live(tau * width + (tau + 1) * audio_features + 1),
+      condition(encoded ? config.condition_width : live) {
+  const Tensors tensors(content);
+  feature_mean = tensors.Get("feature_mean", width);
+  feature_std = tensors.Get("feature_std", width);
+  feature_scale = feature_std.cwiseInverse();
+  audio_mean = tensors.Get("audio_mean", audio_features);
+  audio_scale = tensors.Get("audio_std", audio_features).cwiseInverse();
+
+  const std::string first_weight = recurrent ? "network.lstm.weight_ih_l0" : "network.first.weight";
+  if (encoded) {
+    static_width = condition;  // encode_static is the planner's part
+    const long past = tau * width, audio = live - past;
+    Matrix weight(live, condition);
+    weight << tensors.Get("encode_past.weight", condition, past).transpose(),
+        tensors.Get("encode_audio.weight", condition, audio).transpose();
+    encoding_bias_ =
+        tensors.Get("encode_past.bias", condition) + tensors.Get("encode_audio.bias", condition);
+    encode_live = PackedLinear(kernels, weight, Eigen::VectorXf::Zero(condition));
+    encode = Linear(kernels, tensors, "encode", condition, condition);
+  } else {
+    const auto found = content.tensors.find("flow.steps.0." + first_weight);
+    if (found == content.tensors.end() || found->second.shape.size() != 2 ||
+        found->second.shape[1] < low() + live) {
+      throw InvalidArgument("flow.steps.0." + first_weight, "is missing, or has too few columns");
+    }
+    static_width = static_cast<int>(found->second.shape[1]) - low() - live;
+  }
+
+  double log_det_sum = 0;
+  for (int k = 0; k < flow_steps; ++k) {
+    const std::string name = "flow.steps." + std::to_string(k) + ".";
+    const std::string network = name + "network.";
+    const int seen = low() + condition + (encoded ? 0 : static_width);
+    FirstLayer parts =
+        Split(tensors.Get(name + first_weight, first_width(), seen), low(), condition);
+    Coupling& coupling = couplings.emplace_back();
+    Eigen::VectorXf bias;
+    if (recurrent) {
+      Matrix weight(input_width(), first_width());
+      weight << parts.live_and_low,
+          tensors.Get(network + "lstm.weight_hh_l0", first_width(), hidden).transpose();
+      parts.live_and_low = weight;
+      bias = tensors.Get(network + "lstm.bias_ih_l0", first_width()) +
+             tensors.Get(network + "lstm.bias_hh_l0", first_width());
+      coupling.second = LstmLayer(kernels, tensors, network + "lstm", "l1", hidden, hidden);
+    } else {
+      bias = tensors.Get(network + "first.bias", first_width());
+      coupling.second = Linear(kernels, tensors, network + "second", hidden, hidden);
+    }
+    coupling.first = PackedLinear(kernels, parts.live_and_low, bias);
+    if (!encoded) hoisted_.emplace_back(kernels, parts.fixed, bias);
+    coupling.last = Linear(kernels, tensors, network + "last", hidden, 2 * high());
+    coupling.unmix = Unmix(kernels, tensors, name, width);
+    log_det_sum += tensors.Get(name + "norm_log_scale", width).cast<double>().sum() +
+                   tensors.Get(name + "log_diagonal", width).cast<double>().sum();
+  }
+  log_det = static_cast<float>(log_det_sum);
+}
+
+void PackedFlow::Hoist(const float* static_condition, long rows, float* hoisted) const {
+  const long stride = hoisted_width();
+  if (encoded) {
+    for (long row = 0; row < rows; ++row) {
+      for (long i = 0; i < condition; ++i) {
+        hoisted[row * stride + i] = static_condition[row * static_width + i] + encoding_bias_[i];
+      }
+    }
+    return;
+  }
+  for (const PackedLinear& fixed : hoisted_) {
+    fixed.Run(static_condition, static_width, hoisted, stride, rows);
+    hoisted += fixed.padded();
+  }
+}
+
+}  // namespace choreo

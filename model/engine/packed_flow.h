@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/core/safetensors.h"
+#include "model/engine/packed_kernels.h"
+#include "model/engine/packed_matrix.h"
+#include "model/flow/flow_config.h"
+
+namespace choreo {
+
+/// The flow's weights as PackedTile wants them, read from a checkpoint's tensors by name. Read
+/// only; the engines of a process share them.
+///
+/// Every coupling's network sees [condition of the frame | z_lo | own hidden state], a row of
+/// `input_width` floats; what of the condition is known at admission has left the columns and comes
+/// in as the hoisted row.
+struct PackedFlow {
+  /// One step of the flow, as its inverse runs it.
+  struct Coupling {
+    PackedLinear first;   ///< [input_width] -> gates of the first LSTM layer, or the hidden width
+    PackedLinear second;  ///< [hidden | own hidden state] likewise; a perceptron's is [hidden]
+    PackedLinear last;    ///< [hidden] -> [a, b]
+    PackedLinear unmix;   ///< inverse of ActNorm and invertible linear map, folded in double
+  };
+
+  /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
+  /// configuration. `width`: of the features.
+  PackedFlow(const Safetensors& content, const FlowConfig& config, int width,
+             const PackedKernels& kernels);
+
+  int low() const { return width / 2; }
+  int high() const { return width - low(); }
+  /// Floats of one slot's recurrent state: for each step h and c of both layers.
+  int state_width() const { return recurrent ? flow_steps * 4 * hidden : 0; }
+  /// Outputs of a coupling's first layer.
+  int first_width() const { return recurrent ? 4 * hidden : hidden; }
+  /// Width of Hoist's rows: the encoding's first layer, or every coupling's.
+  long hoisted_width() const {
+    return encoded ? encode_live.padded() : flow_steps * couplings.front().first.padded();
+  }
+  int input_width() const { return condition + low() + (recurrent ? hidden : 0); }
+
+  /// static_condition [rows, static_width] -> hoisted [rows, hoisted_width()]: what every frame's
+  /// first product starts from, biases included.
+  /// Allocates nothing.
+  void Hoist(const float* static_condition, long rows, float* hoisted) const;
+
+  const PackedKernels& kernels;
+  int width, tau, audio_features, flow_steps, hidden;
+  bool recurrent;
+  bool encoded;      ///< one shared condition encoding, else the raw condition
+  int live;          ///< floats of past and music that a frame's condition is made of
+  int condition;     ///< columns of the condition that couplings see: the encoding's, or `live`
+  int static_width;  ///< of TransitionPlan::static_condition
+  Eigen::VectorXf feature_mean, feature_std, feature_scale;  ///< scale = 1 / std
+  Eigen::VectorXf audio_mean, audio_scale;
+  float log_det = 0;  ///< the part that is the same in every frame
+  PackedLinear encode_live, encode;
+  std::vector<Coupling> couplings;
+
+ private:
+  Eigen::VectorXf encoding_bias_;      // encoded: of past and music
+  std::vector<PackedLinear> hoisted_;  // raw: each coupling's static columns
+};
+
+}  // namespace choreo

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+
+/// The loops in which the packed engine spends its time, compiled once for each instruction set.
+/// Every element of a product is one sum over the depth, from first to last, so a row's bits depend
+/// neither on how many rows are multiplied with it nor on its place. All float32.
+namespace choreo {
+
+/// c [rows, panels * panel] = init + a b. Columns of `b` lie in panels of PackedKernels::panel,
+/// padded with zeros, each [depth, panel], one after another.
+struct PackedProduct {
+  const float* a = nullptr;  ///< [rows, depth]
+  long a_stride = 0;         ///< floats from row to row
+  const float* b = nullptr;
+  long depth = 0, panels = 0;
+  const float* init = nullptr;  ///< [rows, panels * panel]; may be `c`
+  long init_stride = 0;         ///< 0: one row for all (a bias)
+  float* c = nullptr;
+  long c_stride = 0;
+  long rows = 0;
+};
+
+/// The affine coupling's inverse (paper F, Eq. 7) on one row.
+struct PackedCoupling {
+  const float* ab = nullptr;  ///< [a, b], 2 * width
+  float* high = nullptr;      ///< width, z_hi -> h_hi
+  long width = 0;
+  float delta_bias = 0, delta_floor = 0;
+};
+
+struct PackedKernels {
+  const char* name;  ///< "avx512"
+  long panel;        ///< columns
+  void (*multiply)(const PackedProduct& product);
+  /// x = silu(x)
+  void (*silu)(float* x, long count);
+  /// One LSTM cell of a row: gates [4 * width] (input, forget, cell, output), state updated.
+  void (*lstm)(const float* gates, float* hidden, float* cell, long width);
+  /// Returns the product of the deltas, whose logarithm is the log-determinant.
+  double (*coupling)(const PackedCoupling& coupling);
+  /// out [repeats, width] = clamp((x - mean) * scale, -bound, bound), mean and scale [width]
+  void (*standardise)(const float* x, const float* mean, const float* scale, long width,
+                      long repeats, float bound, float* out);
+  /// out = (x bent softly towards bound + 1 beyond the bound) * scale + mean
+  void (*bend)(const float* x, const float* mean, const float* scale, long width, float bound,
+               float* out);
+};
+
+/// What this machine can run, fastest first; never empty.
+std::span<const PackedKernels* const> PackedKernelsHere();
+
+/// Multiplies random rows in every place of batches of several sizes; true if their bits never
+/// differ. Takes about a millisecond.
+bool RowsAreIndependent(const PackedKernels& kernels);
+
+}  // namespace choreo

@@ -1,0 +1,179 @@
+// The body of packed_kernels_*.cpp, which is compiled for one instruction set each: no #pragma
+// once, and nothing of the standard library is called, because the linker could take such an inline
+// function's copy from here for all machines. Defines CHOREO_KERNELS, after these are defined:
+//   CHOREO_KERNELS        variable to define
+//   CHOREO_KERNELS_NAME   what it is called
+//   CHOREO_VECTOR_BYTES   of one register
+//   CHOREO_MOST_ROWS      of which two registers each are summed at once
+#include "model/engine/packed_kernels.h"
+
+namespace choreo {
+extern const PackedKernels CHOREO_KERNELS;
+namespace {
+
+constexpr int kVectorBytes = CHOREO_VECTOR_BYTES;
+constexpr int kMostRows = CHOREO_MOST_ROWS;
+constexpr long kLanes = kVectorBytes / 4;
+constexpr long kPanel = 2 * kLanes;
+constexpr long kAhead = 512;  // floats that are asked for before they are needed
+
+// Aligned as floats are: rows begin anywhere.
+typedef float Vector __attribute__((vector_size(kVectorBytes), aligned(4), may_alias));
+
+template <int kRows, int kPanels>
+void Block(const PackedProduct& p, long row, long panel) {
+  constexpr int kVectors = 2 * kPanels;
+  const float* a = p.a + row * p.a_stride;
+  const float* init = p.init + row * p.init_stride + panel * kPanel;
+  Vector sum[kRows][kVectors];
+#pragma GCC unroll 16
+  for (int r = 0; r < kRows; ++r) {
+#pragma GCC unroll 8
+    for (int v = 0; v < kVectors; ++v) {
+      sum[r][v] = *reinterpret_cast<const Vector*>(init + r * p.init_stride + v * kLanes);
+    }
+  }
+  const float* b = p.b + panel * p.depth * kPanel;
+  for (long k = 0; k < p.depth; ++k, b += kPanel) {
+    Vector weight[kVectors];
+#pragma GCC unroll 8
+    for (int v = 0; v < kVectors; ++v) {
+      const float* at = b + v / 2 * p.depth * kPanel + v % 2 * kLanes;
+      weight[v] = *reinterpret_cast<const Vector*>(at);
+      __builtin_prefetch(at + kAhead);
+    }
+#pragma GCC unroll 16
+    for (int r = 0; r < kRows; ++r) {
+      const float x = a[r * p.a_stride + k];
+#pragma GCC unroll 8
+      for (int v = 0; v < kVectors; ++v) sum[r][v] += x * weight[v];
+    }
+  }
+  float* c = p.c + row * p.c_stride + panel * kPanel;
+#pragma GCC unroll 16
+  for (int r = 0; r < kRows; ++r) {
+#pragma GCC unroll 8
+    for (int v = 0; v < kVectors; ++v) {
+      *reinterpret_cast<Vector*>(c + r * p.c_stride + v * kLanes) = sum[r][v];
+    }
+  }
+}
+
+template <int kRows>
+void OnePanel(const PackedProduct& p, long row, long rows, long panel) {
+  if constexpr (kRows > 1) {
+    if (rows < kRows) return OnePanel<kRows - 1>(p, row, rows, panel);
+  }
+  Block<kRows, 1>(p, row, panel);
+}
+
+void Multiply(const PackedProduct& p) {
+  // Few rows leave registers for several panels, without which sums would wait for each other.
+  const long together = p.rows <= 2 ? 4 : p.rows <= 4 ? 2 : 1;
+  const long blocks = (p.rows + kMostRows - 1) / kMostRows;
+  for (long panel = 0; panel < p.panels;) {
+    if (together == 4 && p.panels - panel >= 4) {
+      p.rows == 1 ? Block<1, 4>(p, 0, panel) : Block<2, 4>(p, 0, panel);
+      panel += 4;
+    } else if (together >= 2 && p.panels - panel >= 2) {
+      p.rows == 1   ? Block<1, 2>(p, 0, panel)
+      : p.rows == 2 ? Block<2, 2>(p, 0, panel)
+      : p.rows == 3 ? Block<3, 2>(p, 0, panel)
+                    : Block<4, 2>(p, 0, panel);
+      panel += 2;
+    } else {
+      // Even shares: a last block of one row costs nearly as much as one of many.
+      long row = 0;
+      for (long left = blocks; left > 0; --left) {
+        const long rows = (p.rows - row + left - 1) / left;
+        OnePanel<kMostRows>(p, row, rows, panel);
+        row += rows;
+      }
+      ++panel;
+    }
+  }
+}
+
+// From here on scalars: compilers make vectors of these loops. Selections are written as minima and
+// maxima are computed, a < b ? a : b.
+
+inline float Clamp(float x, float least, float most) {
+  const float above = x < least ? least : x;
+  return above > most ? most : above;
+}
+
+// exp(x) to 2 ulp; x is kept within [-87, 87].
+inline float Exp(float x) {
+  const float bounded = Clamp(x, -87.0F, 87.0F);
+  constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: what is added to it is rounded to a whole
+  const float rounded = bounded * 1.44269504F + kRounder;
+  const float n = rounded - kRounder;
+  const float r = (bounded - n * 0.693359375F) + n * 2.12194440e-4F;
+  const float series =
+      1.0F +
+      r * (1.0F +
+           r * (0.5F + r * (1.6666665e-1F +
+                            r * (4.1665796e-2F +
+                                 r * (8.3334519e-3F + r * (1.3981999e-3F + r * 1.9875691e-4F))))));
+  return series * __builtin_bit_cast(float, (__builtin_bit_cast(int, rounded) << 23) + (127 << 23));
+}
+
+inline float Sigmoid(float x) { return 1.0F / (1.0F + Exp(-x)); }
+inline float Tanh(float x) { return 1.0F - 2.0F / (1.0F + Exp(2.0F * x)); }
+
+void Silu(float* __restrict x, long count) {
+  for (long i = 0; i < count; ++i) x[i] *= Sigmoid(x[i]);
+}
+
+void Lstm(const float* __restrict gates, float* __restrict hidden, float* __restrict cell,
+          long width) {
+  for (long i = 0; i < width; ++i) {
+    const float next =
+        Sigmoid(gates[width + i]) * cell[i] + Sigmoid(gates[i]) * Tanh(gates[2 * width + i]);
+    cell[i] = next;
+    hidden[i] = Sigmoid(gates[3 * width + i]) * Tanh(next);
+  }
+}
+
+double Coupling(const PackedCoupling& coupling) {
+  const float* __restrict ab = coupling.ab;
+  float* __restrict high = coupling.high;
+  double product = 1;
+  for (long i = 0; i < coupling.width; ++i) {
+    const float delta =
+        coupling.delta_floor +
+        (1.0F - coupling.delta_floor) * Sigmoid(ab[coupling.width + i] + coupling.delta_bias);
+    high[i] = (high[i] - (1.0F - delta) * ab[i]) / delta;
+    product *= delta;
+  }
+  return product;
+}
+
+void Standardise(const float* __restrict x, const float* __restrict mean,
+                 const float* __restrict scale, long width, long repeats, float bound,
+                 float* __restrict out) {
+  for (long repeat = 0; repeat < repeats; ++repeat, x += width, out += width) {
+    for (long i = 0; i < width; ++i) out[i] = Clamp((x[i] - mean[i]) * scale[i], -bound, bound);
+  }
+}
+
+void Bend(const float* __restrict x, const float* __restrict mean, const float* __restrict scale,
+          long width, float bound, float* __restrict out) {
+  for (long i = 0; i < width; ++i) {
+    const float inside = Clamp(x[i], -bound, bound);
+    out[i] = (inside + Tanh(x[i] - inside)) * scale[i] + mean[i];
+  }
+}
+
+}  // namespace
+
+const PackedKernels CHOREO_KERNELS = {.name = CHOREO_KERNELS_NAME,
+                                      .panel = kPanel,
+                                      .multiply = Multiply,
+                                      .silu = Silu,
+                                      .lstm = Lstm,
+                                      .coupling = Coupling,
+                                      .standardise = Standardise,
+                                      .bend = Bend};
+
+}  // namespace choreo

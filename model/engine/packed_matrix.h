@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+#include "model/engine/packed_kernels.h"
+
+namespace choreo {
+
+using RowMajorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Zeros, in pages as large as the system gives: small ones cost a large matrix a third of its
+/// speed.
+class LargePages {
+ public:
+  LargePages() = default;
+  explicit LargePages(size_t count);
+  float* data() { return data_.get(); }
+  const float* data() const { return data_.get(); }
+
+ private:
+  struct Free {
+    void operator()(float* data) const noexcept;
+  };
+  std::unique_ptr<float, Free> data_;
+};
+
+/// A linear map x W + bias, laid out for PackedKernels::multiply. Read only: engines share it.
+class PackedLinear {
+ public:
+  PackedLinear() = default;
+  /// weight [depth, columns], bias [columns].
+  PackedLinear(const PackedKernels& kernels, const RowMajorMatrix& weight,
+               const Eigen::VectorXf& bias);
+
+  long depth() const { return depth_; }
+  long columns() const { return columns_; }
+  /// Columns that are written: `columns()`, filled up to whole panels.
+  long padded() const { return panels_ == 0 ? 0 : panels_ * kernels_->panel; }
+  /// y [rows, >= padded()] = bias + x W
+  void Run(const float* x, long x_stride, float* y, long y_stride, long rows) const {
+    Multiply(x, x_stride, bias_.data(), 0, y, y_stride, rows);
+  }
+  /// y += x W, without the bias
+  void Add(const float* x, long x_stride, float* y, long y_stride, long rows) const {
+    Multiply(x, x_stride, y, y_stride, y, y_stride, rows);
+  }
+
+ private:
+  void Multiply(const float* x, long x_stride, const float* init, long init_stride, float* y,
+                long y_stride, long rows) const;
+
+  const PackedKernels* kernels_ = nullptr;
+  long depth_ = 0, columns_ = 0, panels_ = 0;
+  LargePages weight_, bias_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,169 @@
+#include "model/engine/packed_tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace choreo {
+namespace {
+
+// As model/flow has them (coupling_flow.cpp, flow_model.cpp); the parity test holds both together.
+constexpr float kDeltaBias = 2.0F;
+constexpr float kDeltaFloor = 0.05F;
+constexpr float kFeatureClamp = 6.0F;
+constexpr float kSampleBound = 3.0F;
+
+}  // namespace
+
+PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
+    : flow_(std::move(flow)), slots_(static_cast<size_t>(slots)) {
+  const PackedFlow::Coupling& coupling = flow_->couplings.front();
+  live_ = Buffer(std::max<long>(flow_->live, flow_->encode.padded()));
+  encoding_ = Buffer(flow_->encode.padded());
+  input_ = Buffer(flow_->input_width());
+  wide_ = Buffer(coupling.first.padded());
+  hidden_ = Buffer(flow_->recurrent ? 2 * flow_->hidden : coupling.second.padded());
+  ab_ = Buffer(coupling.last.padded());
+  z_ = Buffer(coupling.unmix.padded());
+  mixed_ = Buffer(coupling.unmix.padded());
+}
+
+void PackedTile::Begin(int slot_index, std::vector<float> static_condition) {
+  Slot& slot = slots_[static_cast<size_t>(slot_index)];
+  slot.static_condition = std::move(static_condition);
+  const long frames = static_cast<long>(slot.static_condition.size()) / flow_->static_width;
+  slot.hoisted.resize(static_cast<size_t>(std::min(kAhead, frames) * flow_->hoisted_width()));
+  slot.state.assign(static_cast<size_t>(flow_->state_width()), 0.0F);
+  Hoist(&slot, 0);
+}
+
+void PackedTile::Hoist(Slot* slot, long frame) {
+  const long frames = static_cast<long>(slot->static_condition.size()) / flow_->static_width;
+  slot->hoisted_from = frame;
+  flow_->Hoist(slot->static_condition.data() + frame * flow_->static_width,
+               std::min(kAhead, frames - frame), slot->hoisted.data());
+}
+
+// Writes `input_`'s condition columns.
+void PackedTile::Condition(std::span<const FlowRow> rows) {
+  const PackedFlow& flow = *flow_;
+  const auto count = static_cast<long>(rows.size());
+  const long past = flow.tau * flow.width;
+  for (long i = 0; i < count; ++i) {
+    const FlowRow& row = rows[static_cast<size_t>(i)];
+    Slot& slot = slots_[static_cast<size_t>(row.slot)];
+    if (row.frame >= slot.hoisted_from + kAhead) Hoist(&slot, row.frame);
+    float* live = flow.encoded ? live_.Row(i) : input_.Row(i);
+    flow.kernels.standardise(row.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
+                             flow.width, flow.tau, kFeatureClamp, live);
+    if (row.has_audio) {
+      flow.kernels.standardise(row.audio.data(), flow.audio_mean.data(), flow.audio_scale.data(),
+                               flow.audio_features, flow.tau + 1, kFeatureClamp, live + past);
+    } else {
+      std::fill(live + past, live + flow.live, 0.0F);
+    }
+    live[flow.live - 1] = row.has_audio ? 1.0F : 0.0F;
+    if (flow.encoded) {
+      std::copy_n(slot.hoisted.data() + (row.frame - slot.hoisted_from) * flow.hoisted_width(),
+                  flow.hoisted_width(), encoding_.Row(i));
+    }
+  }
+  if (!flow.encoded) return;
+  flow.encode_live.Add(live_.Row(0), live_.stride, encoding_.Row(0), encoding_.stride, count);
+  flow.kernels.silu(encoding_.Row(0), count * encoding_.stride);
+  // live_ has done its part, and is wider.
+  flow.encode.Run(encoding_.Row(0), encoding_.stride, live_.Row(0), live_.stride, count);
+  for (long i = 0; i < count; ++i) {
+    flow.kernels.silu(live_.Row(i), flow.condition);
+    std::copy_n(live_.Row(i), flow.condition, input_.Row(i));
+  }
+}
+
+// From `input_` to `hidden_`, what the last layer sees.
+void PackedTile::Hidden(std::span<const FlowRow> rows, int step) {
+  const PackedFlow& flow = *flow_;
+  const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];
+  const auto count = static_cast<long>(rows.size());
+  const long hidden = flow.hidden;
+  const auto state = [&](long i) {
+    return slots_[static_cast<size_t>(rows[static_cast<size_t>(i)].slot)].state.data() +
+           step * 4 * hidden;
+  };
+  if (flow.recurrent) {
+    for (long i = 0; i < count; ++i) {
+      std::copy_n(state(i), hidden, input_.Row(i) + flow.condition + flow.low());
+    }
+  }
+  if (flow.encoded) {
+    coupling.first.Run(input_.Row(0), input_.stride, wide_.Row(0), wide_.stride, count);
+  } else {
+    for (long i = 0; i < count; ++i) {
+      const FlowRow& row = rows[static_cast<size_t>(i)];
+      const Slot& slot = slots_[static_cast<size_t>(row.slot)];
+      std::copy_n(slot.hoisted.data() + (row.frame - slot.hoisted_from) * flow.hoisted_width() +
+                      step * wide_.stride,
+                  wide_.stride, wide_.Row(i));
+    }
+    coupling.first.Add(input_.Row(0), input_.stride, wide_.Row(0), wide_.stride, count);
+  }
+  if (!flow.recurrent) {
+    flow.kernels.silu(wide_.Row(0), count * wide_.stride);
+    coupling.second.Run(wide_.Row(0), wide_.stride, hidden_.Row(0), hidden_.stride, count);
+    flow.kernels.silu(hidden_.Row(0), count * hidden_.stride);
+    return;
+  }
+  for (long i = 0; i < count; ++i) {
+    float* h = state(i);
+    flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
+    std::copy_n(h, 2 * hidden, hidden_.Row(i));
+  }
+  coupling.second.Run(hidden_.Row(0), hidden_.stride, wide_.Row(0), wide_.stride, count);
+  for (long i = 0; i < count; ++i) {
+    float* h = state(i) + hidden;
+    flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
+    std::copy_n(h, hidden, hidden_.Row(i));
+  }
+}
+
+// The inverse of one step, z_ -> z_.
+void PackedTile::Couple(std::span<FlowRow> rows, int step) {
+  const PackedFlow& flow = *flow_;
+  const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];
+  const auto count = static_cast<long>(rows.size());
+  for (long i = 0; i < count; ++i) {
+    std::copy_n(z_.Row(i), flow.low(), input_.Row(i) + flow.condition);
+  }
+  Hidden(rows, step);
+  coupling.last.Run(hidden_.Row(0), hidden_.stride, ab_.Row(0), ab_.stride, count);
+  for (long i = 0; i < count; ++i) {
+    const double deltas = flow.kernels.coupling({.ab = ab_.Row(i),
+                                                 .high = z_.Row(i) + flow.low(),
+                                                 .width = flow.high(),
+                                                 .delta_bias = kDeltaBias,
+                                                 .delta_floor = kDeltaFloor});
+    rows[static_cast<size_t>(i)].log_likelihood += static_cast<float>(std::log(deltas));
+  }
+  coupling.unmix.Run(z_.Row(0), z_.stride, mixed_.Row(0), mixed_.stride, count);
+  std::swap(z_, mixed_);
+}
+
+void PackedTile::Run(std::span<FlowRow> rows) {
+  const PackedFlow& flow = *flow_;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    FlowRow& row = rows[i];
+    std::ranges::copy(row.noise, z_.Row(static_cast<long>(i)));
+    double squares = 0;
+    for (const float value : row.noise) squares += static_cast<double>(value) * value;
+    const double base = squares + std::log(2 * std::numbers::pi) * flow.width;
+    row.log_likelihood = static_cast<float>(-0.5 * base) + flow.log_det;
+  }
+  Condition(rows);
+  for (int step = flow.flow_steps - 1; step >= 0; --step) Couple(rows, step);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    flow.kernels.bend(z_.Row(static_cast<long>(i)), flow.feature_mean.data(),
+                      flow.feature_std.data(), flow.width, kSampleBound, rows[i].features.data());
+  }
+}
+
+}  // namespace choreo
