@@ -48,7 +48,7 @@ void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>
 }
 
 void Run(const AnalyzeOptions& options) {
-  if (!options.features.empty()) RequireWritable("--features", options.features);
+  RequireOutputs({{"--features", options.features}}, {{"song", options.song}});
   const Music music = ReadMusic(options.song);
   if (!options.features.empty()) {
     const FeatureMatrix rows = Mfcc(music.mono);

@@ -19,7 +19,7 @@ struct ConvertOptions {
 
 void Run(const ConvertOptions& options) {
   RequireMotionFile(options.out);
-  RequireWritable("out", options.out);
+  RequireOutputs({{"out", options.out}}, {{"in", options.in}});
   auto [skeleton, motion] = ReadMotion(options.in);
   if (options.smpl) {
     motion = Retarget(skeleton, motion, Skeleton::Smpl24());

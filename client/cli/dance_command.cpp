@@ -9,10 +9,12 @@
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/dance_keys.h"
+#include "client/cli/key_file.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
+#include "model/core/atomic_file.h"
 #include "model/core/progress.h"
 #include "model/formats/motion_file.h"
 
@@ -41,8 +43,9 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
   RequireMotionFile(path);
   if (options.no_clobber && std::filesystem::exists(path))
     throw InvalidArgument("--no-clobber", path.string() + " is there already");
-  RequireWritable("--out", path);
-  if (!options.report.empty()) RequireWritable("--report", options.report);
+  std::vector<NamedFile> inputs = {{"song", options.song}};
+  for (const std::string& keys : options.keys) inputs.push_back({"--keyframes", FileOf(keys)});
+  RequireOutputs({{"--out", path}, {"--report", options.report}}, inputs);
   return path;
 }
 
@@ -159,7 +162,7 @@ void Run(const DanceOptions& options) {
   WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
-  if (!options.report.empty()) WriteText(options.report, ReportJson(written));
+  if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
   std::cout << ReportText(written) << out.string() << std::endl;
   CheckKeys(written);
 }

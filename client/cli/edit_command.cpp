@@ -8,12 +8,14 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
+#include "client/cli/key_file.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/pose_source.h"
 #include "client/cli/report.h"
 #include "client/edit.h"
+#include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
 #include "model/motion/canonical.h"
@@ -51,8 +53,10 @@ void CheckOptions(const EditOptions& options) {
                                       " keys; each --key needs one");
   }
   RequireMotionFile(options.out);
-  RequireWritable("--out", options.out);
-  if (!options.new_report.empty()) RequireWritable("--new-report", options.new_report);
+  std::vector<NamedFile> inputs = {
+      {"dance", options.dance}, {"--report", options.report}, {"--song", options.song}};
+  for (const std::string& key : options.keys) inputs.push_back({"--key", FileOf(key)});
+  RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
   if (options.report.empty() && !options.new_report.empty()) {
     throw InvalidArgument("--new-report", "needs --report, which it is made of");
   }
@@ -133,7 +137,7 @@ class Session {
     nlohmann::ordered_json report = {{"frames", frames_}, {"fps", edit_.model.fps}};
     report["keyframes"] = nlohmann::ordered_json::array();
     for (const auto& [frame, key] : keys_) report["keyframes"].push_back(key);
-    WriteText(options_.new_report, report.dump(2) + "\n");
+    WriteFile(options_.new_report, report.dump(2) + "\n");
   }
 
  private:

@@ -275,12 +275,15 @@ std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name
   return keys;
 }
 
+std::filesystem::path FileOf(const std::string& source) {
+  std::error_code error;
+  return std::filesystem::exists(source, error) ? source : source.substr(0, source.rfind('@'));
+}
+
 std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton) {
-  // A file whose name has an @ is still a file.
-  const size_t at = std::filesystem::exists(source) ? std::string::npos : source.rfind('@');
-  if (at != std::string::npos) {
-    return ReadMotionKeys(source.substr(0, at), std::string_view(source).substr(at + 1), source,
-                          skeleton);
+  const std::string file = FileOf(source);
+  if (file.size() < source.size()) {
+    return ReadMotionKeys(file, std::string_view(source).substr(file.size() + 1), source, skeleton);
   }
   if (IsMotionFile(source)) {
     throw InvalidArgument(source,

@@ -30,6 +30,9 @@ namespace choreo::cli {
 std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                           const Skeleton& skeleton);
 
+/// The file that such a source names: MOTION of MOTION@SECONDS. One whose name has an @ is a file.
+std::filesystem::path FileOf(const std::string& source);
+
 /// Key poses named on a command line:
 ///   keys.json              a key file
 ///   walk.bvh@1.2,3.4       the poses of a motion file (formats/motion_file.h) at these seconds,

@@ -4,26 +4,62 @@
 #include <cstring>
 #include <fstream>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
+namespace {
 
-void RequireWritable(const std::string& option, const std::filesystem::path& path) {
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder))
-    throw Error(ErrorCode::kNotFound, option, path.string() + ": no folder " + folder.string());
-  if (std::filesystem::is_directory(path))
-    throw InvalidArgument(option, path.string() + " is a folder");
+namespace fs = std::filesystem;
+
+void RequireWritable(const NamedFile& file) {
+  const std::string name = file.path.string();
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidArgument(file.option, name + " cannot be written: " + why);
+  };
+  const fs::path folder = file.path.has_parent_path() ? file.path.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw Error(ErrorCode::kNotFound, file.option, name + ": no folder " + folder.string());
+  const fs::file_type there = fs::status(file.path, error).type();
+  if (there == fs::file_type::none) refuse(error.message());
+  if (there == fs::file_type::directory) throw InvalidArgument(file.option, name + " is a folder");
   // Trying is the only question that has a sure answer; nothing is left behind.
-  const bool is_new = !std::filesystem::exists(path);
-  errno = 0;
-  const bool opens = std::ofstream(path, std::ios::app).is_open();
-  const int reason = errno;
-  if (!opens) {
-    throw InvalidArgument(option, path.string() + " cannot be written: " + std::strerror(reason));
+  const auto open = [&](const fs::path& path) {
+    errno = 0;
+    if (!std::ofstream(path, std::ios::app).is_open()) refuse(std::strerror(errno));
+  };
+  if (there != fs::file_type::not_found) open(file.path);
+  const AtomicFile beside(file.path);
+  open(beside.partial());
+}
+
+/// Files that are there are one by whatever names; others, by what their names come to.
+bool SameFile(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return fs::is_regular_file(a, error);
+  const auto whole = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, error), error);
+  };
+  return whole(a) == whole(b) && !fs::exists(a, error);
+}
+
+}  // namespace
+
+void RequireOutputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
+  const auto refuse = [](const NamedFile& output, const NamedFile& other, const char* use) {
+    throw InvalidArgument(output.option,
+                          output.path.string() + " is the file that " + other.option + use);
+  };
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    if (output->path.empty()) continue;
+    RequireWritable(*output);
+    for (auto other = outputs.begin(); other != output; ++other)
+      if (SameFile(output->path, other->path)) refuse(*output, *other, " is written to");
+    for (const NamedFile& input : inputs)
+      if (SameFile(output->path, input.path)) refuse(*output, input, " is read from");
   }
-  if (is_new) std::filesystem::remove(path);
 }
 
 void RequireExtension(const std::string& option, const std::filesystem::path& path,

@@ -69,14 +69,12 @@ void Run(const RenderOptions& options) {
     throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
   if (options.video.empty() && !options.film.format.song.empty())
     throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
-  if (!options.out.empty()) {
-    RequireExtension("--out", options.out, ".png");
-    RequireWritable("--out", options.out);
-  }
-  if (!options.video.empty()) {
-    RequireExtension("--video", options.video, ".mp4");
-    RequireWritable("--video", options.video);
-  }
+  if (!options.out.empty()) RequireExtension("--out", options.out, ".png");
+  if (!options.video.empty()) RequireExtension("--video", options.video, ".mp4");
+  RequireOutputs({{"--out", options.out}, {"--video", options.video}},
+                 {{"motion", options.motion},
+                  {"--report", options.report},
+                  {"--song", options.film.format.song}});
   const SkeletonMotion dance = ReadMotion(options.motion);
   std::vector<double> keys;
   if (!options.report.empty()) keys = KeyTimes(options.report);

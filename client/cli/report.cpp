@@ -145,10 +145,4 @@ std::string ReportText(const WrittenDance& dance) {
   return text;
 }
 
-void WriteText(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  if (!file) throw Error(ErrorCode::kInternal, path.string(), "cannot be written");
-}
-
 }  // namespace choreo::cli

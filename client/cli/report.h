@@ -36,7 +36,4 @@ nlohmann::ordered_json ReadReport(const std::filesystem::path& path);
 /// A few lines for people.
 std::string ReportText(const WrittenDance& dance);
 
-/// Throws Error(kInternal) where the file cannot be written.
-void WriteText(const std::filesystem::path& path, const std::string& text);
-
 }  // namespace choreo::cli

@@ -6,11 +6,13 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
+#include "client/cli/key_file.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/pose_source.h"
 #include "client/cli/report.h"
+#include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
@@ -31,10 +33,22 @@ struct TransitionOptions {
   std::string report;
 };
 
+/// The best one's is `out`; the others' are FILE.2, FILE.3 and so on.
+std::filesystem::path CandidatePath(const std::filesystem::path& out, size_t rank) {
+  if (rank == 0) return out;
+  std::filesystem::path path = out;
+  return path.replace_filename(out.stem().string() + "." + std::to_string(rank + 1) +
+                               out.extension().string());
+}
+
 void Run(const TransitionOptions& options) {
   RequireMotionFile(options.out);
-  RequireWritable("--out", options.out);
-  if (!options.report.empty()) RequireWritable("--report", options.report);
+  std::vector<NamedFile> outputs = {{"--report", options.report}};
+  for (size_t rank = 0; rank < static_cast<size_t>(options.candidates); ++rank)
+    outputs.push_back({"--out", CandidatePath(options.out, rank)});
+  RequireOutputs(
+      outputs,
+      {{"--from", FileOf(options.from)}, {"--to", FileOf(options.to)}, {"--song", options.song}});
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
 
@@ -63,18 +77,14 @@ void Run(const TransitionOptions& options) {
   for (const client::Warning& warning : result.warnings)
     std::cerr << "warning: " << warning.message << '\n';
 
-  const std::filesystem::path out = options.out;
   for (size_t rank = 0; rank < result.candidates.size(); ++rank) {
-    std::filesystem::path path = out;
-    if (rank > 0)
-      path.replace_filename(out.stem().string() + "." + std::to_string(rank + 1) +
-                            out.extension().string());
+    const std::filesystem::path path = CandidatePath(options.out, rank);
     const client::TransitionCandidate& candidate = result.candidates[rank];
     WriteMotion(path, result.header.skeleton, candidate.motion, &candidate.contacts);
     const WrittenDance written =
         Examine(result.header, candidate.report, candidate.motion, {target});
     std::cout << ReportText(written) << path.string() << std::endl;
-    if (rank == 0 && !options.report.empty()) WriteText(options.report, ReportJson(written));
+    if (rank == 0 && !options.report.empty()) WriteFile(options.report, ReportJson(written));
     CheckKeys(written);
   }
 }
@@ -97,6 +107,7 @@ void AddTransitionCommand(CLI::App& program) {
   command
       ->add_option("--candidates", options->candidates,
                    "Alternatives, 1 to 32; the best is FILE, the others FILE.2, ...")
+      ->check(CLI::Range(1, 32))
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0.");
   command->add_option("--temperature", options->temperature,

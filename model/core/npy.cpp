@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -272,11 +273,7 @@ std::string SerializeNpy(const NpyArray& array) {
 }
 
 void WriteNpy(const std::filesystem::path& path, const NpyArray& array) {
-  const std::string bytes = SerializeNpy(array);
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw Error(ErrorCode::kInternal, path.string(), "cannot be written");
+  WriteFile(path, SerializeNpy(array));
 }
 
 }  // namespace choreo

@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -108,8 +109,8 @@ void WriteSafetensors(const std::filesystem::path& path, const Safetensors& cont
   text.append((8 - text.size() % 8) % 8, ' ');  // tensors start 8-byte aligned
   const uint64_t header_bytes = text.size();
 
-  const std::filesystem::path partial = path.string() + ".partial";
-  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
+  AtomicFile beside(path);
+  std::ofstream file(beside.partial(), std::ios::binary | std::ios::trunc);
   file.write(reinterpret_cast<const char*>(&header_bytes), 8);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
   for (const auto& [name, tensor] : content.tensors) {
@@ -118,7 +119,7 @@ void WriteSafetensors(const std::filesystem::path& path, const Safetensors& cont
   }
   file.close();
   if (!file) throw Error(ErrorCode::kInternal, path.string(), "can't be written (disk full?)");
-  std::filesystem::rename(partial, path);
+  beside.Commit();
 }
 
 std::string ContentHash(const Safetensors& content, const std::string& without) {

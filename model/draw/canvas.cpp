@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -80,11 +81,13 @@ void Canvas::Paste(const Picture& picture, int x, int y) const {
 }
 
 void Canvas::WritePng(const std::filesystem::path& png) const {
-  const cairo_status_t status = cairo_surface_write_to_png(surface_, png.c_str());
+  AtomicFile file(png);
+  const cairo_status_t status = cairo_surface_write_to_png(surface_, file.partial().c_str());
   if (status != CAIRO_STATUS_SUCCESS) {
     throw Error(ErrorCode::kInternal, png.string(),
                 std::string("cannot be written: ") + cairo_status_to_string(status));
   }
+  file.Commit();
 }
 
 }  // namespace choreo

@@ -72,17 +72,15 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
 
 VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& format,
                            int64_t frames)
-    : mp4_(mp4), part_(mp4.string() + ".part"), format_(format) {
+    : mp4_(mp4), file_(mp4), format_(format) {
   CheckFormat(format);
-  Start(Arguments(format, frames, part_));
+  Start(Arguments(format, frames, file_.partial()));
 }
 
 VideoEncoder::~VideoEncoder() {
   if (process_ > 0) kill(process_, SIGKILL);
   Wait();
   if (said_ >= 0) close(said_);
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
 }
 
 void VideoEncoder::Start(const std::vector<std::string>& arguments) {
@@ -138,9 +136,7 @@ void VideoEncoder::Write(const Picture& picture) {
 
 void VideoEncoder::Finish() {
   if (!Wait()) Fail();
-  std::error_code error;
-  std::filesystem::rename(part_, mp4_, error);
-  if (error) throw Error(ErrorCode::kInternal, mp4_.string(), error.message());
+  file_.Commit();
 }
 
 bool VideoEncoder::Wait() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/atomic_file.h"
 #include "model/draw/picture.h"
 
 namespace choreo {
@@ -42,7 +43,8 @@ class VideoEncoder {
   bool Wait();
   [[noreturn]] void Fail();
 
-  std::filesystem::path mp4_, part_;
+  std::filesystem::path mp4_;
+  AtomicFile file_;
   VideoFormat format_;
   pid_t process_ = -1;
   int input_ = -1;  // our end of its standard input

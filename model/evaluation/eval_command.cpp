@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/engine/engines.h"
 #include "model/evaluation/encoder_table.h"
@@ -90,12 +90,6 @@ std::vector<ClipSet> LoadSets(const Arguments& arguments, const Skeleton& skelet
   return sets;
 }
 
-void Write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file) throw Error(ErrorCode::kInternal, path.string(), "can't be written");
-}
-
 // OUT.json, OUT_TABLE.png beside it, and the Markdown that shows both.
 void WriteResults(const Arguments& arguments, const ModelInfo& model,
                   const std::vector<Table>& tables, const std::string& summary) {
@@ -113,8 +107,8 @@ void WriteResults(const Arguments& arguments, const ModelInfo& model,
     DrawPlot(*table.plot, png);
     markdown += "\n![" + table.plot->title + "](" + png.filename().string() + ")\n";
   }
-  if (!arguments.json.empty()) Write(arguments.json, report.dump(1) + "\n");
-  if (!arguments.markdown.empty()) Write(arguments.markdown, markdown);
+  if (!arguments.json.empty()) WriteFile(arguments.json, report.dump(1) + "\n");
+  if (!arguments.markdown.empty()) WriteFile(arguments.markdown, markdown);
 }
 
 void Evaluate(Arguments arguments) {

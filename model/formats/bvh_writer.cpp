@@ -1,7 +1,7 @@
 #include <cstdio>
-#include <fstream>
-#include <ostream>
+#include <sstream>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
 
@@ -83,9 +83,9 @@ void WriteBvh(std::ostream& out, const BvhFile& file) {
 }
 
 void WriteBvh(const std::filesystem::path& path, const BvhFile& file) {
-  std::ofstream out(path, std::ios::binary);
-  if (out) WriteBvh(out, file);
-  if (!out.flush()) throw Error(ErrorCode::kInternal, path.string(), "cannot be written");
+  std::ostringstream text;
+  WriteBvh(text, file);
+  WriteFile(path, text.view());
 }
 
 }  // namespace choreo

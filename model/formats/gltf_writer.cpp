@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
 #include "model/body/skin.h"
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/gltf.h"
 #include "model/motion/kinematics.h"
@@ -232,15 +232,10 @@ void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const
   const GlbBuilder builder(skeleton, motion);
   std::ostringstream bytes;
   tinygltf::TinyGLTF gltf;
-  std::ofstream file;
-  if (gltf.WriteGltfSceneToStream(&builder.model(), bytes, false, true)) {
-    file.open(path, std::ios::binary);
-    file << std::move(bytes).str();
-    file.close();
-  } else {
-    file.setstate(std::ios::failbit);
+  if (!gltf.WriteGltfSceneToStream(&builder.model(), bytes, false, true)) {
+    throw Error(ErrorCode::kInternal, path.string(), "cannot be written as glTF");
   }
-  if (!file) throw Error(ErrorCode::kInternal, path.string(), "cannot be written");
+  WriteFile(path, bytes.view());
 }
 
 }  // namespace choreo

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -117,8 +118,10 @@ void NpzArchive::Write(const std::filesystem::path& path) const {
   const auto fail = [&](const std::string& why) {
     return Error(ErrorCode::kInternal, name, "cannot be written: " + why);
   };
+  AtomicFile file(path);
   int code = 0;
-  std::unique_ptr<zip_t, Discard> archive(zip_open(name.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
+  std::unique_ptr<zip_t, Discard> archive(
+      zip_open(file.partial().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
   if (!archive) throw fail(ErrorText(code));
   for (const auto& [key, bytes] : members_) {
     zip_source_t* source = zip_source_buffer(archive.get(), bytes.data(), bytes.size(), 0);
@@ -133,6 +136,7 @@ void NpzArchive::Write(const std::filesystem::path& path) const {
   }
   if (zip_close(archive.get()) != 0) throw fail(zip_strerror(archive.get()));
   archive.release();
+  file.Commit();
 }
 
 const std::string& NpzArchive::Member(const std::string& key) const {

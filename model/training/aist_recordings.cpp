@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/pickle.h"
@@ -117,10 +118,7 @@ void WriteAistSplits(const PrepareOptions& options) {
   for (const auto& [name, path] : FindMotions(options.input)) {
     if (!list_of.contains(name)) parts["unused"].push_back(name);
   }
-  const fs::path out = options.output / "splits.json";
-  std::ofstream file(out);
-  file << nlohmann::ordered_json{{"aist", parts}}.dump(1) << "\n";
-  if (!file.flush()) throw Error(ErrorCode::kInternal, out.string(), "cannot be written");
+  WriteFile(options.output / "splits.json", nlohmann::ordered_json{{"aist", parts}}.dump(1) + "\n");
 }
 
 }  // namespace choreo

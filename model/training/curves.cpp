@@ -1,11 +1,11 @@
 #include "model/training/curves.h"
 
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <string_view>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/draw/plot.h"
 
@@ -55,10 +55,7 @@ void Curves::Restore(const std::string& csv) {
 }
 
 void Curves::Write(const std::filesystem::path& folder) const {
-  std::ofstream file(folder / "curves.csv", std::ios::trunc);
-  file << Serialise();
-  if (!file)
-    throw Error(ErrorCode::kInternal, (folder / "curves.csv").string(), "can't be written");
+  WriteFile(folder / "curves.csv", Serialise());
 
   // Columns back out of the text: a restored run has nothing else.
   std::vector<std::string> names;

@@ -3,12 +3,12 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "model/audio/decode.h"
 #include "model/audio/feature_stream.h"
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/progress.h"
 #include "model/motion/fit.h"
@@ -257,7 +257,7 @@ int Prepare(const PrepareOptions& options) {
                 static_cast<double>(frames) / kModelFps / 60,
                 100 * error / static_cast<double>(frames));
   }
-  std::ofstream(options.output / "report.json") << json(reports).dump(1) << "\n";
+  WriteFile(options.output / "report.json", json(reports).dump(1) + "\n");
   return prepared;
 }
 

@@ -190,9 +190,52 @@ TEST_F(CommandTest, ChecksItsOutputsBeforeItDances) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "t.npz"));
   refused(transition + " -o " + At("t.npz"), "127.0.0.1:1");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "t.npz"));
+  refused(transition + " -o " + std::string(300, 'n') + ".npz", "cannot be written: File name too");
   const Outcome jpg = Choreo("render " + At("song.wav") + " --out " + At("s.jpg"));
   EXPECT_EQ(jpg.code, 1);
   EXPECT_THAT(jpg.said, HasSubstr("s.jpg does not end in .png"));
+}
+
+TEST_F(CommandTest, NoOutputDestroysAnotherOrAnInput) {
+  WriteClicks(folder_ / "song.wav", 3);
+  WriteMotion(folder_ / "d.npz", Body(), {.fps = 30, .frames = {RestPose(Body())}});
+  std::filesystem::create_symlink("d.npz", folder_ / "link.npz");
+  const auto read = [&](const std::string& name) {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const std::string song = read("song.wav"), motion = read("d.npz");
+  const auto refused = [&](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = Choreo(arguments);
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(part));
+    EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
+  };
+  // No server is there: whoever got so far would say so.
+  const std::string server = " --server 127.0.0.1:1 --deadline 0.3 ";
+  const std::string dance = "dance " + At("song.wav") + server;
+  refused(dance + "-o " + At("x.npz") + " --report " + At("./x.npz"),
+          "--report: " + (folder_ / "./x.npz").string() + " is the file that --out is written to");
+  refused(dance + "--report " + At("song.wav"), "song.wav is the file that song is read from");
+  refused(dance + "-k " + At("d.npz@0=1") + " -o " + At("link.npz"),
+          "link.npz is the file that --keyframes is read from");
+  refused("edit " + At("d.npz") + server + "--loop -o " + At("e.npz") + " --new-report " +
+              At("e.npz"),
+          "--new-report: ");
+  refused("edit " + At("d.npz") + server + "--loop -o " + At("d.npz"),
+          "--out: " + (folder_ / "d.npz").string() + " is the file that dance is read from");
+  const std::string transition = "transition --to groove" + server + "--from ";
+  refused(transition + "kick --candidates 3 -o " + At("t.npz") + " --report " + At("t.3.npz"),
+          "t.3.npz is the file that --report is written to");
+  refused(transition + At("d.npz@0") + " -o " + At("d.npz"),
+          "d.npz is the file that --from is read from");
+  refused("convert " + At("d.npz") + " " + At("link.npz"), "the file that in is read from");
+  refused("analyze " + At("song.wav") + " --features " + At("song.wav"), "song is read from");
+  std::ofstream(folder_ / "s.png") << "mine";
+  refused("render " + At("d.npz") + " --out " + At("s.png") + " --report " + At("s.png"),
+          "s.png is the file that --report is read from");
+  EXPECT_EQ(read("song.wav"), song);
+  EXPECT_EQ(read("d.npz"), motion);
 }
 
 TEST_F(CommandTest, RefusesNumbersThatAreNone) {

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/core/atomic_file.h"
 #include "tests/draw/decoded_png.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/temporary_folder.h"
 
 namespace choreo {
@@ -74,6 +76,19 @@ TEST(ContactSheet, BreaksIntoRows) {
   const DecodedPng png(folder / "a.png");
   EXPECT_EQ(png.width, 2 * 24 + 2 * 60 + 10);
   EXPECT_GT(png.height, 160);
+}
+
+TEST(ContactSheet, AWriteThatFailsLeavesWhatWasThere) {
+  const TemporaryFolder folder;
+  WriteFile(folder / "a.png", "good");
+  {
+    const FullDisk full(1000);
+    ExpectError(ErrorCode::kInternal, "cannot be written", [&] {
+      DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31), Small(), folder / "a.png");
+    });
+  }
+  EXPECT_EQ(std::filesystem::file_size(folder / "a.png"), 4U);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(ContactSheet, RefusesWhatItCannotDraw) {

@@ -109,7 +109,7 @@ TEST(Video, PictureAndSongBeginTogetherAndEndTogether) {
   };
   DrawVideo(kSmpl, Cheer(kFrames, kMove), options, mp4);
   EXPECT_EQ(drawn, kFrames);
-  EXPECT_FALSE(std::filesystem::exists(mp4.string() + ".part"));
+  EXPECT_FALSE(std::filesystem::exists(mp4.string() + ".partial"));
 
   const std::string frames = Decode(mp4, "-map 0:v -f rawvideo -pix_fmt gray");
   constexpr size_t kPixels = 96 * 64;
@@ -168,7 +168,7 @@ TEST(Video, FailsWithFfmpegsOwnWordsAndLeavesNothing) {
   ExpectError(ErrorCode::kCancelled, "enough",
               [&] { DrawVideo(kSmpl, Cheer(60, 4), broken, folder / "out.mp4"); });
   EXPECT_FALSE(std::filesystem::exists(folder / "out.mp4"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "out.mp4.part"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.mp4.partial"));
 }
 
 TEST(Video, SaysThatFfmpegIsMissing) {

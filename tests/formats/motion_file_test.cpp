@@ -5,11 +5,13 @@
 #include <fstream>
 #include <map>
 
+#include "model/core/atomic_file.h"
 #include "model/formats/bvh.h"
 #include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/native_tang2018.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,6 +36,22 @@ TEST(MotionFile, EveryFormatGivesTheMotionBack) {
       EXPECT_LT(error.angle_deg, tolerance_deg);
     }
   }
+}
+
+TEST(MotionFile, AWriteThatFailsLeavesWhatWasThere) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 21, 30, 30);
+  for (const char* name : {"a.npz", "a.bvh", "a.glb"}) {
+    SCOPED_TRACE(name);
+    WriteFile(folder / name, "good");
+    {
+      const FullDisk full(5000);
+      ExpectError(ErrorCode::kInternal, "cannot be written",
+                  [&] { WriteMotion(folder / name, kSmpl, motion); });
+    }
+    EXPECT_EQ(std::filesystem::file_size(folder / name), 4U);
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);
 }
 
 // Our motion as a capture studio would hand it over: other names, inches, no hands, no collars'
