@@ -30,7 +30,8 @@ build: packages  ## Install what is missing and compile everything (PRESET=relea
 packages:  ## Install the Debian packages that are missing
 	@scripts/install_packages.sh build run demo video
 
-bench: build  ## Run the benchmarks
+bench: build  ## Run the benchmarks; writes docs/performance.md
+	@scripts/install_packages.sh bench
 	@scripts/bench.sh $(BUILD)/bin
 
 verify: build  ## Everything too long for `make test`: sanitizers, no gRPC, the installed package, the container (as root)

@@ -1,25 +1,62 @@
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <iostream>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "bench/bare_product.h"
+#include "bench/flow_probe.h"
+#include "model/core/threads.h"
 #include "model/engine/engines.h"
+#include "model/engine/packed_kernels.h"
+#include "model/engine/packed_matrix.h"
+#include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
 
-/// Frames a second of an engine, by how many streams step together. Run it on a quiet machine and
-/// quote ratios.
+/// Both engines, and beside them what limits them: the bare matrix products of the same shapes, and
+/// memory. All on one thread, in CPU time of that thread, so that a machine that does something
+/// else besides disturbs less; quote ratios of one run.
+///
+/// `default` is the model that ships; `paper` has paper F's size and random weights.
 namespace choreo {
 namespace {
 
 constexpr int kFrames = 60;  // of each transition
+constexpr int kMostStreams = 64;
 
-StepEngine& Engine() {
-  static const std::unique_ptr<StepEngine> engine = MakeEngine(
-      std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors", Device{},
-      64);
-  return *engine;
-}
+/// What a run measures, and where it is for a while.
+class Models {
+ public:
+  Models() {
+    std::filesystem::create_directories(folder_);
+    paths_["default"] =
+        std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors";
+    paths_["paper"] = folder_ / "paper.safetensors";
+    WriteRandomCheckpoint(paths_["paper"], FlowConfig::Preset("paper"), Skeleton::Smpl24(), 1);
+  }
+  ~Models() { std::filesystem::remove_all(folder_); }
+  Models(const Models&) = delete;
+  Models& operator=(const Models&) = delete;
+
+  const std::filesystem::path& Path(const std::string& model) const { return paths_.at(model); }
+  StepEngine& Engine(const std::string& model, const std::string& kind) {
+    std::unique_ptr<StepEngine>& engine = engines_[model + kind];
+    if (!engine) {
+      engine = MakeEngine(paths_.at(model), Device{}, kMostStreams, ParseEngineKind(kind));
+    }
+    return *engine;
+  }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("engine_bench_" + std::to_string(getpid()));
+  std::map<std::string, std::filesystem::path> paths_;
+  std::map<std::string, std::unique_ptr<StepEngine>> engines_;
+};
 
 TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   TransitionSpec spec;
@@ -30,40 +67,143 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.target = Target{key, {}};
   spec.seed = seed;
   spec.temperature = static_cast<float>(model.default_temperature);
+  spec.has_audio = true;
+  spec.audio_history = Eigen::MatrixXf::Zero(model.audio_features, model.history_frames);
   return spec;
 }
 
-// Whole transitions, admission (the plan) included.
-void TransitionsTogether(benchmark::State& state) {
-  StepEngine& engine = Engine();
-  const auto streams = static_cast<size_t>(state.range(0));
-  std::vector<StepInput> inputs(streams);
-  std::vector<StepOutput> outputs(streams);
-  std::vector<Pose> previous(streams);
+/// Frames of streams that step together, all of a frame but the dance around it.
+void Frames(benchmark::State& state, StepEngine& engine, int streams) {
+  const std::vector<float> audio(static_cast<size_t>(engine.model().audio_features));
+  std::vector<StepInput> inputs(static_cast<size_t>(streams));
+  std::vector<StepOutput> outputs(inputs.size());
+  std::vector<Pose> previous(inputs.size());
+  int frame = kFrames;
+  const auto release = [&] {
+    for (const StepInput& input : inputs) engine.Release(input.slot);
+  };
+  bool admitted = false;
   for (auto _ : state) {
-    for (size_t i = 0; i < streams; ++i) {
-      inputs[i] = {};
-      inputs[i].slot = engine.Admit(Spec(engine.model(), i));
+    if (frame == kFrames) {
+      state.PauseTiming();
+      if (admitted) release();
+      for (size_t i = 0; i < inputs.size(); ++i) {
+        inputs[i] = {engine.Admit(Spec(engine.model(), i)), nullptr, audio};
+      }
+      admitted = true;
+      frame = 0;
+      state.ResumeTiming();
     }
-    for (int frame = 0; frame < kFrames; ++frame) {
-      engine.Step(inputs, outputs);
-      for (size_t i = 0; i < streams; ++i) {
-        previous[i] = outputs[i].pose;
-        inputs[i].previous = &previous[i];
+    engine.Step(inputs, outputs);
+    ++frame;
+    for (size_t i = 0; i < inputs.size(); ++i) {
+      previous[i] = outputs[i].pose;
+      inputs[i].previous = &previous[i];
+    }
+  }
+  release();
+  state.SetItemsProcessed(state.iterations() * streams);
+}
+
+/// Admissions of transitions of kFrames: the plan and what is computed ahead.
+void Admissions(benchmark::State& state, StepEngine& engine) {
+  for (auto _ : state) engine.Release(engine.Admit(Spec(engine.model(), 1)));
+  state.SetItemsProcessed(state.iterations());
+}
+
+/// The packed engine's products of one frame.
+std::vector<BareProducts::Shape> Shapes(const std::string& model, int width) {
+  const FlowConfig config = FlowConfig::Preset(model);
+  const int tau = config.history_frames, hidden = config.hidden, low = width / 2;
+  const int live = tau * width + (tau + 1) * config.audio_features + 1;
+  const int condition = config.condition_width > 0 ? config.condition_width : live;
+  std::vector<BareProducts::Shape> shapes;
+  if (config.condition_width > 0) shapes = {{live, condition}, {condition, condition}};
+  for (int step = 0; step < config.flow_steps; ++step) {
+    if (config.recurrent) {
+      shapes.push_back({condition + low + hidden, 4 * hidden});
+      shapes.push_back({2 * hidden, 4 * hidden});
+    } else {
+      shapes.push_back({condition + low, hidden});
+      shapes.push_back({hidden, hidden});
+    }
+    shapes.push_back({hidden, 2 * (width - low)});
+    shapes.push_back({width, width});
+  }
+  return shapes;
+}
+
+void Bare(benchmark::State& state, const std::vector<BareProducts::Shape>& shapes, int rows) {
+  BareProducts products(shapes, rows);
+  for (auto _ : state) products.Run();
+  state.SetItemsProcessed(state.iterations() * rows);
+  state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(products.bytes()));
+}
+
+void ReadMemory(benchmark::State& state) {
+  constexpr size_t kCount = size_t{100} << 20;  // floats, far more than any cache holds
+  const LargePages pages(kCount);
+  const auto* words = reinterpret_cast<const uint64_t*>(pages.data());
+  for (auto _ : state) {
+    uint64_t sums[4] = {};
+    for (size_t i = 0; i < kCount / 2; i += 4) {
+      for (size_t j = 0; j < 4; ++j) sums[j] += words[i + j];
+    }
+    benchmark::DoNotOptimize(sums);
+  }
+  state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(kCount * sizeof(float)));
+}
+
+void Register(Models* models) {
+  for (const std::string model : {"default", "paper"}) {
+    const auto add = [&](const std::string& name, auto run) {
+      benchmark::RegisterBenchmark((model + "/" + name).c_str(), run)
+          ->Unit(benchmark::kMillisecond);
+    };
+    for (const std::string kind : {"packed", "torch"}) {
+      for (const int streams : {1, 8, 32, 64}) {
+        add(kind + "/" + std::to_string(streams),
+            [=](benchmark::State& state) { Frames(state, models->Engine(model, kind), streams); });
       }
     }
-    for (const StepInput& input : inputs) engine.Release(input.slot);
+    for (const int rows : {1, 8, 32, 64}) {
+      add("bare/" + std::to_string(rows), [=](benchmark::State& state) {
+        const int joints = Skeleton::Smpl24().joints();
+        Bare(state, Shapes(model, 3 + 3 * joints + 3 + 4), rows);
+      });
+    }
+    add("admission",
+        [=](benchmark::State& state) { Admissions(state, models->Engine(model, "packed")); });
   }
-  state.SetItemsProcessed(state.iterations() * kFrames * static_cast<int64_t>(streams));  // frames
+  benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }
-BENCHMARK(TransitionsTogether)
-    ->Arg(1)
-    ->Arg(16)
-    ->Arg(64)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
 
 }  // namespace
 }  // namespace choreo
 
-BENCHMARK_MAIN();
+/// engine_bench [--probes FOLDER]: besides, checkpoints and probes for bench/peer_torch.py go
+/// there.
+int main(int argc, char** argv) {
+  using namespace choreo;
+  benchmark::Initialize(&argc, argv);
+  SetTorchThreads(1);
+  FlushDenormals();
+  Models models;
+  if (argc == 3 && std::string(argv[1]) == "--probes") {
+    const std::filesystem::path folder = argv[2];
+    std::filesystem::create_directories(folder);
+    for (const std::string model : {"default", "paper"}) {
+      const std::filesystem::path checkpoint = folder / (model + ".safetensors");
+      std::filesystem::copy_file(models.Path(model), checkpoint,
+                                 std::filesystem::copy_options::overwrite_existing);
+      WriteFlowProbe(checkpoint, folder / (model + ".probe.safetensors"));
+    }
+  } else if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    return 2;
+  }
+  benchmark::AddCustomContext("kernels", PackedKernelsHere().front()->name);
+  benchmark::AddCustomContext("blas", DetectBlas().name);
+  Register(&models);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

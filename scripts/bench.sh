@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
-# Runs every benchmark program of a build.
+# Runs the benchmarks of a build and writes docs/performance.md.
 #   scripts/bench.sh BIN_DIRECTORY
 set -euo pipefail
-shopt -s nullglob
-for program in "$1"/*_bench; do
-  "$program"
-done
+root=$(cd "$(dirname "$0")/.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$1/engine_bench" --probes "$folder" --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
+  --benchmark_report_aggregates_only=true --benchmark_min_time=0.1 --benchmark_out="$folder/engine.json"
+/usr/bin/python3 "$root/bench/peer_torch.py" "$folder" >"$folder/peer.json"
+/usr/bin/python3 "$root/bench/report.py" "$folder/engine.json" "$folder/peer.json" "$root"
+if [[ -x $1/live_bench ]]; then "$1/live_bench"; fi

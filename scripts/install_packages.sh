@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that this project needs. The one place that names them.
 #
-#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test lint verify; default: build run demo video test
+#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint verify; default: build run demo video test
 #
 # Runs as root, or through sudo. Quick when everything is there already: it asks dpkg first and touches apt only for what is missing.
 set -euo pipefail
@@ -13,7 +13,7 @@ build=(
   libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
   libeigen3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
   libsndfile1-dev libzip-dev libxxhash-dev libcairo2-dev libtinygltf-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libdnnl-dev
 )
 # To run what was compiled elsewhere. Debian's LibTorch has only a slow BLAS of its own: libopenblas0-pthread takes its place.
 run=(
@@ -26,6 +26,8 @@ demo=(fretsonfire-songs-sectoid)
 video=(ffmpeg)
 # An independent reader of the files that we write; what the examples of other languages and web pages need (they are tests, too).
 test=(python3-numpy python3-grpcio nodejs npm)
+# What `make bench` compares with.
+bench=(python3-torch python3-numpy)
 lint=(clang-format clang-tidy)
 # To build the container without a container engine.
 verify=(buildah debootstrap)
@@ -41,9 +43,10 @@ for group in "${groups[@]}"; do
     demo) wanted+=("${demo[@]}") ;;
     video) wanted+=("${video[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    bench) wanted+=("${bench[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     verify) wanted+=("${verify[@]}") ;;
-    *) echo "install_packages.sh: unknown group '$group' (build run demo video test lint verify)" >&2; exit 2 ;;
+    *) echo "install_packages.sh: unknown group '$group' (build run demo video test bench lint verify)" >&2; exit 2 ;;
   esac
 done
 

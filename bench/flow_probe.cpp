@@ -1,0 +1,82 @@
+#include "bench/flow_probe.h"
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "model/core/random.h"
+#include "model/core/safetensors.h"
+#include "model/engine/packed_tile.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kRows = 3, kFrames = 3;
+
+NamedTensor Zeros(std::vector<int64_t> shape) {
+  int64_t count = 1;
+  for (const int64_t extent : shape) count *= extent;
+  return {std::move(shape), std::vector<float>(static_cast<size_t>(count))};
+}
+
+NamedTensor Normal(Random* random, std::vector<int64_t> shape, float size) {
+  NamedTensor tensor = Zeros(std::move(shape));
+  random->FillNormal(tensor.data);
+  for (float& value : tensor.data) value *= size;
+  return tensor;
+}
+
+/// Row of a tensor [kRows, ...].
+std::span<float> Row(NamedTensor& tensor, int row) {
+  const size_t width = tensor.data.size() / kRows;
+  return {tensor.data.data() + static_cast<size_t>(row) * width, width};
+}
+
+}  // namespace
+
+void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesystem::path& out) {
+  Safetensors model = ReadSafetensors(checkpoint);
+  const auto config = nlohmann::json::parse(model.metadata.at("config")).get<FlowConfig>();
+  const auto width = static_cast<int>(model.tensors.at("feature_mean").data.size());
+  const auto flow =
+      std::make_shared<PackedFlow>(model, config, width, *PackedKernelsHere().front());
+  PackedTile tile(flow, kRows);
+  Random random(11);
+  Safetensors probe;
+  NamedTensor& condition = probe.tensors["static_condition"] =
+      Normal(&random, {kRows, kFrames, flow->static_width}, 0.5F);
+  for (int row = 0; row < kRows; ++row) {
+    const std::span<float> of_row = Row(condition, row);
+    tile.Begin(row, {of_row.begin(), of_row.end()});
+  }
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const std::string number = "." + std::to_string(frame);
+    const auto add = [&](const char* name, NamedTensor tensor) -> NamedTensor& {
+      return probe.tensors[name + number] = std::move(tensor);
+    };
+    NamedTensor& past = add("past", Normal(&random, {kRows, flow->tau, width}, 0.1F));
+    NamedTensor& audio =
+        add("audio", Normal(&random, {kRows, flow->tau + 1, flow->audio_features}, 1));
+    NamedTensor& has_audio = add("has_audio", Zeros({kRows}));
+    NamedTensor& noise = add("noise", Normal(&random, {kRows, width}, 0.5F));
+    NamedTensor& features = add("features", Zeros({kRows, width}));
+    NamedTensor& log_likelihood = add("log_likelihood", Zeros({kRows}));
+    std::vector<FlowRow> rows(kRows);
+    for (int row = 0; row < kRows; ++row) {
+      has_audio.data[static_cast<size_t>(row)] = row == 1 ? 0.0F : 1.0F;
+      rows[static_cast<size_t>(row)] = {.slot = row,
+                                        .frame = frame,
+                                        .past = Row(past, row),
+                                        .audio = Row(audio, row),
+                                        .has_audio = row != 1,
+                                        .noise = Row(noise, row),
+                                        .features = Row(features, row)};
+    }
+    tile.Run(rows);
+    for (size_t row = 0; row < kRows; ++row) log_likelihood.data[row] = rows[row].log_likelihood;
+  }
+  WriteSafetensors(out, probe);
+}
+
+}  // namespace choreo
