@@ -12,6 +12,7 @@
 #include "model/evaluation/encoder_table.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/evaluation/long_tables.h"
+#include "model/evaluation/method_sheet.h"
 #include "model/evaluation/stress_table.h"
 #include "model/evaluation/transition_tables.h"
 #include "model/training/clip_split.h"
@@ -32,7 +33,7 @@ struct Arguments {
   std::filesystem::path json, markdown;
   EvalOptions options;
   float temperature = -1;
-  bool encode = true;
+  bool encode = true, sheets = false;
 };
 
 // The engines of one evaluation, and the methods that use them.
@@ -105,10 +106,29 @@ void WriteResults(const Arguments& arguments, const ModelInfo& model,
     std::filesystem::path png = arguments.json;
     png.replace_filename(arguments.json.stem().string() + "_" + table.name + ".png");
     DrawPlot(*table.plot, png);
-    markdown += "\n![" + table.plot->title + "](" + png.filename().string() + ")\n";
+    if (arguments.markdown.empty()) continue;
+    const auto here = std::filesystem::absolute(arguments.markdown).parent_path();
+    markdown += "\n![" + table.plot->title + "](" +
+                std::filesystem::relative(png, here).generic_string() + ")\n";
   }
   if (!arguments.json.empty()) WriteFile(arguments.json, report.dump(1) + "\n");
   if (!arguments.markdown.empty()) WriteFile(arguments.markdown, markdown);
+}
+
+// OUT_sheet_SET_METHOD.png beside OUT.json.
+void DrawSheets(const Arguments& arguments, const Contest& contest,
+                const std::vector<ClipSet>& sets) {
+  for (const ClipSet& set : sets) {
+    for (const Method& method : contest.methods) {
+      std::string name = "_sheet_" + set.name + "_" + method.name + ".png";
+      std::ranges::replace_if(
+          name, [](char c) { return c == ' ' || c == ',' || c == '/'; }, '_');
+      std::filesystem::path png = arguments.json;
+      png.replace_filename(arguments.json.stem().string() + name);
+      DrawMethodSheet(set, method, contest.engines.front()->model(), arguments.options.temperature,
+                      png);
+    }
+  }
 }
 
 void Evaluate(Arguments arguments) {
@@ -150,6 +170,7 @@ void Evaluate(Arguments arguments) {
   std::printf("%s\n", summary);
   for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());
   WriteResults(arguments, engine.model(), tables, summary);
+  if (arguments.sheets) DrawSheets(arguments, contest, sets);
 }
 
 }  // namespace
@@ -180,6 +201,10 @@ void AddEvalCommand(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "torch", "packed"}));
   command->add_option("--json", arguments->json,
                       "Also write the figures here, and plots beside it");
+  command
+      ->add_flag("--sheets", arguments->sheets,
+                 "Also draw ten random transitions of each method beside the JSON")
+      ->needs("--json");
   command->add_option("--markdown", arguments->markdown, "Also write the tables here");
   command->add_option("--lengths", options.lengths, "Frames of the transitions")
       ->capture_default_str()

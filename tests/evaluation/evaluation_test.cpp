@@ -6,12 +6,14 @@
 
 #include "model/evaluation/batch.h"
 #include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/method_sheet.h"
 #include "model/evaluation/transition_tables.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_engine.h"
 #include "tests/support/synthetic_clips.h"
+#include "tests/support/temporary_folder.h"
 
 namespace choreo {
 namespace {
@@ -156,6 +158,15 @@ TEST_F(Tables, AreTheSameAgainAndCountTheirFrames) {
   ASSERT_EQ(again.size(), tables_.size());
   for (size_t i = 0; i < again.size(); ++i) EXPECT_EQ(ToJson(again[i]), ToJson(tables_[i]));
   EXPECT_EQ(CountTransitionFrames(set_, methods_, options_), 6 * (12 + 30) * (1 + 2 + 3));
+}
+
+TEST_F(Tables, MethodsAreDrawn) {
+  const TemporaryFolder folder;
+  for (const Method& method : methods_) {
+    const auto png = folder.path() / (method.name + ".png");
+    DrawMethodSheet(set_, method, engine_.model(), 0.3F, png);
+    EXPECT_GT(std::filesystem::file_size(png), 1000U);
+  }
 }
 
 TEST_F(Tables, ASetThatIsTooShortHasNoRows) {
