@@ -21,7 +21,8 @@ demo: build  ## Install, build, serve, and dance 24 s to a real song; results in
 
 test: build  ## Install, build and run every test (a few minutes)
 	@scripts/install_packages.sh test
-	@scripts/run_tests.sh $(BUILD)
+	@# All that tests need is there now: what still can't be had is a failure.
+	@CHOREO_SKIP_CODE=1 scripts/run_tests.sh $(BUILD)
 
 build: packages  ## Install what is missing and compile everything (PRESET=release|debug|asan|tsan)
 	@cmake --preset $(PRESET) $(if $(wildcard $(BUILD)/build.ninja),>/dev/null,)

@@ -1,5 +1,8 @@
 #include "server/status.h"
 
+#include <string>
+#include <string_view>
+
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -7,6 +10,7 @@ namespace choreo {
 namespace {
 
 constexpr int kRetrySeconds = 1;
+constexpr size_t kMostBytes = 600;  // of a message
 
 struct Mapping {
   grpc::StatusCode code;
@@ -40,25 +44,49 @@ Mapping Map(ErrorCode code) {
   return {grpc::StatusCode::INTERNAL, "INTERNAL", false};
 }
 
+// Text in which a client's own words may stand, as one short line: a status travels in HTTP/2's
+// trailers, which take 8 KiB in all, and its words go to people and into logs. Both ends of what is
+// too long are kept: the first names the field, the last the limit.
+std::string OneShortLine(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) {
+      line += c;
+    } else {
+      constexpr const char* kDigits = "0123456789abcdef";
+      line += {'\\', 'x', kDigits[(c >> 4) & 15], kDigits[c & 15]};
+    }
+  }
+  if (line.size() <= kMostBytes) return line;
+  const auto inside = [&line](size_t at) {  // of a character of several bytes
+    return (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80;
+  };
+  size_t head = 2 * kMostBytes / 3, tail = line.size() - kMostBytes / 3;
+  while (inside(head)) --head;
+  while (inside(tail)) ++tail;
+  return line.substr(0, head) + "..." + line.substr(tail);
+}
+
 }  // namespace
 
 grpc::Status ToStatus(const Error& error) {
   const Mapping mapping = Map(error.code());
+  const std::string message = OneShortLine(error.what()), field = OneShortLine(error.field());
   google::rpc::Status status;
   status.set_code(mapping.code);
-  status.set_message(error.what());
+  status.set_message(message);
 
   google::rpc::ErrorInfo info;
   info.set_reason(mapping.reason);
   info.set_domain("choreo");
-  if (!error.field().empty()) (*info.mutable_metadata())["field"] = error.field();
+  if (!field.empty()) (*info.mutable_metadata())["field"] = field;
   status.add_details()->PackFrom(info);
 
-  if (!error.field().empty()) {
+  if (!field.empty()) {
     google::rpc::BadRequest bad_request;
     auto* violation = bad_request.add_field_violations();
-    violation->set_field(error.field());
-    violation->set_description(error.what());
+    violation->set_field(field);
+    violation->set_description(message);
     status.add_details()->PackFrom(bad_request);
   }
   if (mapping.retry) {
@@ -66,7 +94,7 @@ grpc::Status ToStatus(const Error& error) {
     retry.mutable_retry_delay()->set_seconds(kRetrySeconds);
     status.add_details()->PackFrom(retry);
   }
-  return {mapping.code, error.what(), status.SerializeAsString()};
+  return {mapping.code, message, status.SerializeAsString()};
 }
 
 }  // namespace choreo

@@ -20,12 +20,13 @@ enum class ErrorCode {
   kInternal,
 };
 
-/// The one exception type of this project. `field()` is the path of the offending value as its sender knows it, as in
-/// "keyframes[3].rotations[16]"; empty where there is none. `what()` names the field, the value and the limit.
+/// The one exception type of this project. `field()` is the path of the offending value as its
+/// sender knows it, as in "keyframes[3].rotations[16]"; empty where there is none. `what()` names
+/// the field, the value and the limit.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, std::string field, const std::string& message)
-      : std::runtime_error(field.empty() ? message : field + ": " + message),
+      : std::runtime_error(WithoutNul(field.empty() ? message : field + ": " + message)),
         code_(code),
         field_(std::move(field)) {}
 
@@ -33,6 +34,12 @@ class Error : public std::runtime_error {
   const std::string& field() const noexcept { return field_; }
 
  private:
+  /// what() would end there.
+  static std::string WithoutNul(std::string text) {
+    for (size_t at; (at = text.find('\0')) != std::string::npos;) text.replace(at, 1, "\\x00");
+    return text;
+  }
+
   ErrorCode code_;
   std::string field_;
 };

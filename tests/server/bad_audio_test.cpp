@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(
                       },
                       grpc::StatusCode::OUT_OF_RANGE,
                       "config.audio_format.first_sample",
-                      {"5000"}},
+                      {"5000", "0"}},
         BadStreamCase{"NaN",
                       [](const Key&) {
                         v1::StreamDanceRequest audio = AudioRequest(100, 0);
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
                       },
                       kInvalid,
                       "audio.data",
-                      {"399"}},
+                      {"399", "4 bytes"}},
         BadStreamCase{"WithoutFormat",
                       [](const Key&) {
                         return Requests{ConfigRequest(), AudioRequest(100, 0)};

@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
                       }),
                       kInvalid,
                       "keyframes[0].root_position[0]",
-                      {"nan"}},
+                      {"nan", "not finite"}},
         BadStreamCase{"PositionInfinite",
                       WithKey([](auto& k) {
                         k.mutable_pose()->mutable_root_position()->set_y(
@@ -86,17 +86,17 @@ INSTANTIATE_TEST_SUITE_P(
                       WithKey([](auto& k) { k.set_frame(-1); }),
                       kInvalid,
                       "keyframes[0].frame",
-                      {"-1"}},
+                      {"-1", "108000"}},
         BadStreamCase{"HugeFrame",
                       WithKey([](auto& k) { k.set_frame(int64_t{1} << 62); }),
                       kInvalid,
                       "keyframes[0].frame",
-                      {"4611686018427387904"}},
+                      {"4611686018427387904", "108000"}},
         BadStreamCase{"TimeNaN",
                       WithKey([](auto& k) { k.set_time(std::nan("")); }),
                       kInvalid,
                       "keyframes[0].time",
-                      {"nan"}},
+                      {"nan", "not finite"}},
         BadStreamCase{"IntervalZero",
                       WithKey([](auto& k) { k.set_interval_after_previous(0); }),
                       kInvalid,
@@ -106,14 +106,14 @@ INSTANTIATE_TEST_SUITE_P(
                       WithKey([](auto& k) { k.set_interval_after_previous(-7); }),
                       kInvalid,
                       "keyframes[0].interval_after_previous",
-                      {"-7"}},
+                      {"-7", "[2, "}},
         BadStreamCase{"IntervalHuge",
                       WithKey([](auto& k) {
                         k.set_interval_after_previous(std::numeric_limits<int64_t>::max());
                       }),
                       kInvalid,
                       "keyframes[0].interval_after_previous",
-                      {"9223372036854775807"}},
+                      {"9223372036854775807", "[2, "}},
         BadStreamCase{"MaskTwice",
                       WithKey([](auto& k) {
                         k.mutable_mask()->add_joints(3);

@@ -87,6 +87,16 @@ INSTANTIATE_TEST_SUITE_P(
                       grpc::StatusCode::NOT_FOUND,
                       "remove_keyframes[0].id",
                       {"ghost"}},
+        BadStreamCase{"RemovedTwice",
+                      [](const Key& key) {
+                        v1::StreamDanceRequest until, remove;
+                        until.mutable_generate_until()->set_frame(10);
+                        remove.mutable_remove_keyframe()->set_id("k");
+                        return Requests{ConfigRequest(), until, key, remove, remove};
+                      },
+                      grpc::StatusCode::NOT_FOUND,
+                      "remove_keyframes[1].id",
+                      {"\"k\""}},
         BadStreamCase{"Control",
                       [](const Key&) {
                         v1::StreamDanceRequest controls;
@@ -106,6 +116,17 @@ INSTANTIATE_TEST_SUITE_P(
                       grpc::StatusCode::NOT_FOUND,
                       "config.model",
                       {"paper", "fake"}},
+        // However long or odd a client's words are, the answer is one line that fits its trailers.
+        BadStreamCase{"EndlessModel",
+                      WithConfig([](auto& c) { c.set_model(std::string(100'000, 'x')); }),
+                      grpc::StatusCode::NOT_FOUND,
+                      "config.model",
+                      {"xxx...xxx", "fake"}},
+        BadStreamCase{"ModelOfControlCharacters",
+                      WithConfig([](auto& c) { c.set_model(std::string("m\n\0\x7f\u00e9", 6)); }),
+                      grpc::StatusCode::NOT_FOUND,
+                      "config.model",
+                      {"m\\x0a\\x00\\x7f\u00e9", "fake"}},
         BadStreamCase{"FrameRate",
                       WithConfig([](auto& c) { c.set_frame_rate(121); }),
                       kInvalid,
@@ -115,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
                       WithConfig([](auto& c) { c.set_frame_rate(std::nan("")); }),
                       kInvalid,
                       "config.frame_rate",
-                      {"nan"}},
+                      {"nan", "120"}},
         BadStreamCase{"Temperature",
                       WithConfig([](auto& c) { c.set_temperature(-0.5); }),
                       kInvalid,

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$1"
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
   echo "skipped: there is no Node.js with npm here (scripts/install_packages.sh test)"
-  exit 77
+  exit "${CHOREO_SKIP_CODE:-77}"
 fi
 
 # Several builds may be tested at once.
@@ -19,6 +19,6 @@ npm ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 >"$log" 2>&1 && e
 cat "$log"
 if grep -qE 'ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|EHOSTUNREACH|ENETUNREACH|ETIMEDOUT|ERR_SOCKET_TIMEOUT' "$log"; then
   echo "skipped: npm reaches no registry"
-  exit 77
+  exit "${CHOREO_SKIP_CODE:-77}"
 fi
 exit 1
