@@ -162,12 +162,14 @@ void Evaluate(Arguments arguments) {
     tables.push_back(EvaluateStress(set, engine, options));
   }
   progress.Finish();
-  char summary[256];
-  std::snprintf(summary, sizeof(summary),
-                "Model %s (%s), %s clips, temperature %.2f unless a row says otherwise.",
-                engine.model().name.c_str(), engine.model().fingerprint.c_str(),
-                arguments.split.c_str(), options.temperature);
-  std::printf("%s\n", summary);
+  // Of the fingerprint the model's part; builds differ, figures hardly.
+  const std::string& print = engine.model().fingerprint;
+  char temperature[32];
+  std::snprintf(temperature, sizeof(temperature), "%.2f", options.temperature);
+  const std::string summary = "Model " + print.substr(0, print.find('/', print.find('/') + 1)) +
+                              ", " + arguments.split + " clips, temperature " + temperature +
+                              " unless a row says otherwise.";
+  std::printf("%s\n", summary.c_str());
   for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());
   WriteResults(arguments, engine.model(), tables, summary);
   if (arguments.sheets) DrawSheets(arguments, contest, sets);
