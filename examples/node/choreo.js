@@ -3,6 +3,7 @@
 import { join } from 'node:path';
 import { Readable } from 'node:stream';
 import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
 import grpc from '@grpc/grpc-js';
 import protoLoader from '@grpc/proto-loader';
 import protobuf from 'protobufjs';
@@ -117,14 +118,22 @@ export function pose(skeleton, rotations = {}, { x = 0, z = 0 } = {}) {
   };
 }
 
-/** Runs a program: Ctrl-C cancels, errors are shown with the fields that they name. */
-export async function run(main) {
+/** A number above 0 out of a program's options. */
+export function positive(options, name) {
+  const number = Number(options[name]);
+  if (number > 0 && Number.isFinite(number)) return number;
+  throw Object.assign(new Error(`${options[name]} is not a number above 0`), { code: `--${name}` });
+}
+
+/** Runs a program with options as node:util's parseArgs has them: Ctrl-C cancels, errors are shown with the fields that they name. */
+export async function run(options, main) {
   const stop = new AbortController();
   process.once('SIGINT', () => stop.abort());
   try {
-    await main(stop.signal);
+    await main(parseArgs({ options }).values, stop.signal);
   } catch (error) {
-    console.error(error.code ? `${error.code}: ${error.message}` : error);
+    if (error.path) console.error(error.message); // of a file, with its code
+    else console.error(error.code ? `${error.code}: ${error.message}` : error);
     for (const { field } of error.violations ?? []) console.error(`  field: ${field}`);
     if (error.retryAfter) console.error(`  try again in ${error.retryAfter} s`);
     process.exitCode = 1;

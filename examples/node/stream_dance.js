@@ -1,23 +1,20 @@
 // Dances through two key poses to music that is still being played, or to a song:
 //   node stream_dance.js [--server HOST:PORT] [--song FILE] [--seconds 6] [--seed 1] [--speed 1] [--out dance.json]
 import { writeFile } from 'node:fs/promises';
-import { parseArgs } from 'node:util';
-import { ChoreoClient, pose, run } from './choreo.js';
+import { ChoreoClient, pose, positive, run } from './choreo.js';
 import { clicks, file, live, pcm } from './music.js';
 
-const { values: options } = parseArgs({
-  options: {
-    server: { type: 'string', default: process.env.CHOREO_SERVER ?? '127.0.0.1:50051' },
-    song: { type: 'string' },
-    seconds: { type: 'string', default: '6' },
-    seed: { type: 'string', default: '1' },
-    speed: { type: 'string', default: '1' },
-    out: { type: 'string' },
-  },
-});
+const flags = {
+  server: { type: 'string', default: process.env.CHOREO_SERVER ?? '127.0.0.1:50051' },
+  song: { type: 'string' },
+  seconds: { type: 'string', default: '6' },
+  seed: { type: 'string', default: '1' },
+  speed: { type: 'string', default: '1' },
+  out: { type: 'string' },
+};
 
-async function* requests({ skeleton, model_frame_rate }) {
-  const seconds = Number(options.seconds);
+async function* requests(options, { skeleton, model_frame_rate }) {
+  const seconds = positive(options, 'seconds');
   yield {
     config: {
       seed: options.seed,
@@ -29,16 +26,16 @@ async function* requests({ skeleton, model_frame_rate }) {
   yield { keyframe: { id: 'arms up', time: seconds * 0.4, pose: armsUp } };
   yield { keyframe: { id: 'rest', time: seconds * 0.8, pose: pose(skeleton) } };
   yield { keyframes_complete: {} };
-  yield* options.song ? file(options.song) : live(clicks(seconds), Number(options.speed));
+  yield* options.song ? file(options.song) : live(clicks(seconds), positive(options, 'speed'));
   yield { end_of_audio: {} };
 }
 
-await run(async (signal) => {
+await run(flags, async (options, signal) => {
   const client = new ChoreoClient(options.server);
   const model = (await client.info()).models[0];
   const dance = { frame_rate: 0, root_positions: [], rotations: [] };
   let frames = 0;
-  for await (const answer of client.streamDance(requests(model), { signal })) {
+  for await (const answer of client.streamDance(requests(options, model), { signal })) {
     switch (answer.response) {
       case 'header':
         dance.frame_rate = answer.header.frame_rate;

@@ -1,40 +1,38 @@
 // Makes several ways from rest to a pose, best first:
 //   node transition.js [--server HOST:PORT] [--frames 45] [--candidates 3] [--seed 1]
-import { parseArgs } from 'node:util';
-import { ChoreoClient, pose, run } from './choreo.js';
+import { ChoreoClient, pose, positive, run } from './choreo.js';
 import { clicks, pcm } from './music.js';
 
-const { values: options } = parseArgs({
-  options: {
-    server: { type: 'string', default: process.env.CHOREO_SERVER ?? '127.0.0.1:50051' },
-    frames: { type: 'string', default: '45' },
-    candidates: { type: 'string', default: '3' },
-    seed: { type: 'string', default: '1' },
-  },
-});
+const flags = {
+  server: { type: 'string', default: process.env.CHOREO_SERVER ?? '127.0.0.1:50051' },
+  frames: { type: 'string', default: '45' },
+  candidates: { type: 'string', default: '3' },
+  seed: { type: 'string', default: '1' },
+};
 
-await run(async (signal) => {
+await run(flags, async (options, signal) => {
   const client = new ChoreoClient(options.server);
   const { skeleton, model_frame_rate } = (await client.info()).models[0];
+  const frames = positive(options, 'frames');
   const request = {
     config: { seed: options.seed, audio_format: pcm },
-    frames: Number(options.frames),
-    candidates: Number(options.candidates),
+    frames,
+    candidates: positive(options, 'candidates'),
     target: pose(skeleton, { left_shoulder: [0, 0, 1], right_shoulder: [0, 0, -1] }),
-    audio: { data: clicks(Number(options.frames) / model_frame_rate) },
+    audio: { data: clicks(frames / model_frame_rate) },
   };
-  const frames = new Map(); // candidate -> how many have come
+  const came = new Map(); // candidate -> how many have come
   for await (const answer of client.generateTransition(request, { signal })) {
     if (answer.response === 'frames') {
       const { candidate, count } = answer.frames;
-      frames.set(candidate, (frames.get(candidate) ?? 0) + count);
-      process.stderr.write(`\r${[...frames.values()].join(' + ')} frames`);
+      came.set(candidate, (came.get(candidate) ?? 0) + count);
+      process.stderr.write(`\r${[...came.values()].join(' + ')} frames`);
     } else if (answer.response === 'summary') {
       console.log();
       for (const { candidate, report } of answer.summary.candidates) {
         const key = report.keyframes[0].errors;
         console.log(
-          `candidate ${candidate}: ${frames.get(candidate)} frames, the model's own miss ${(100 * key.raw_error_m).toFixed(1)} cm, ` +
+          `candidate ${candidate}: ${came.get(candidate)} frames, the model's own miss ${(100 * key.raw_error_m).toFixed(1)} cm, ` +
             `left of it ${(1000 * key.final_error_m).toFixed(3)} mm, skating ${(100 * report.skate_ratio).toFixed(0)} %`,
         );
       }

@@ -71,5 +71,7 @@ def run(main):
         for field, _ in field_violations(error):
             print(f"  field: {field}", file=sys.stderr)
         sys.exit(1)
+    except OSError as error:
+        sys.exit(f"{error.filename}: {error.strerror}")
     except KeyboardInterrupt:
         sys.exit("CANCELLED")

@@ -10,7 +10,7 @@ from choreo_client import choreography, connect, pose, run
 from music import PCM, clicks, file, live
 
 
-def requests(options, model):
+def requests(options, model, music):
     audio_format = choreography.AudioFormat(encoding=choreography.AUDIO_ENCODING_FILE) if options.song else PCM
     frames = round(options.seconds * model.model_frame_rate)
     yield {"config": choreography.DanceConfig(seed=options.seed, frames=frames, audio_format=audio_format)}
@@ -18,7 +18,7 @@ def requests(options, model):
     yield {"keyframe": choreography.Keyframe(id="arms up", time=options.seconds * 0.4, pose=arms_up)}
     yield {"keyframe": choreography.Keyframe(id="rest", time=options.seconds * 0.8, pose=pose(model.skeleton))}
     yield {"keyframes_complete": choreography.KeyframesComplete()}
-    for piece in file(options.song) if options.song else live(clicks(options.seconds), options.speed):
+    for piece in music:
         yield {"audio": piece}
     yield {"end_of_audio": choreography.EndOfAudio()}
 
@@ -33,9 +33,10 @@ def main():
     parser.add_argument("--out", help="JSON file for the dance")
     options = parser.parse_args()
 
+    music = file(options.song) if options.song else live(clicks(options.seconds), options.speed)
     server = connect(options.server)
     model = server.GetServerInfo(choreography.GetServerInfoRequest()).models[0]
-    call = server.StreamDance(choreography.StreamDanceRequest(**request) for request in requests(options, model))
+    call = server.StreamDance(choreography.StreamDanceRequest(**request) for request in requests(options, model, music))
     dance = {"root_positions": [], "rotations": []}
     frames = 0
     try:

@@ -170,6 +170,20 @@ test('stream_dance.js dances live and to a song', async () => {
   }
 });
 
+test('options that are no numbers, and songs that are missing, are named', async () => {
+  for (const seconds of ['abc', '-3', '0']) {
+    const { code, err } = await program('stream_dance.js', `--seconds=${seconds}`);
+    assert.equal(code, 1);
+    assert.equal(err, `--seconds: ${seconds} is not a number above 0\n`);
+  }
+  const dash = await program('stream_dance.js', '--seconds', '-3');
+  assert.equal(dash.code, 1);
+  assert.match(dash.err, /^ERR_PARSE_ARGS_INVALID_OPTION_VALUE: Option '--seconds'/);
+  const { code, err } = await program('stream_dance.js', '--song', '/absent/song.mp3');
+  assert.equal(code, 1);
+  assert.match(err, /^ENOENT: no such file or directory, open '\/absent\/song.mp3'\n$/);
+});
+
 test('transition.js ranks candidates, and shows the field of an error', async () => {
   const good = await program('transition.js', '--frames', '20', '--candidates', '4');
   assert.equal(good.code, 0, good.err);

@@ -72,6 +72,10 @@ class PythonTest(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("60 frames", done.stdout)
 
+    def test_a_missing_song_is_named(self):
+        done = program("stream_dance.py", "--song", "/absent/song.mp3")
+        self.assertEqual((done.returncode, done.stderr), (1, "/absent/song.mp3: No such file or directory\n"))
+
     def test_transition_ranks_candidates_and_shows_the_field_of_an_error(self):
         good = program("transition.py", "--frames", 20, "--candidates", 4)
         self.assertEqual(good.returncode, 0, good.stderr)
