@@ -41,6 +41,9 @@ struct Options {
   /// Go on when only a server of another fingerprint is left: smoothly, yet not as the dance would
   /// have gone. `Resumed` says so.
   bool allow_inexact_resume = false;
+  /// Called, on the thread of a call, before it is tried again; what this throws ends it. For those
+  /// who know that there is no use. None if empty.
+  std::function<void()> before_retry = {};
 };
 
 /// One model that a server has loaded.

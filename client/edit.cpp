@@ -34,9 +34,6 @@ class Edit {
       throw InvalidArgument("dance", std::to_string(dance.contacts.size()) + " contacts, but " +
                                          std::to_string(dance.motion.frames.size()) + " frames");
     }
-    if (options.audio.format.kind == AudioKind::kFile) {
-      throw InvalidArgument("audio", "is a file; only samples can be cut");
-    }
     const Motion& motion = dance.motion;
     poses_ = motion.fps == fps() ? motion.frames : Resample(motion, fps()).frames;
     // A file's rotations may have gone round more than once; what is sent takes the shortest way.
@@ -116,30 +113,8 @@ class Edit {
     request.config.seed = options_.seed;
     request.config.temperature = options_.temperature;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
-    AddMusic(first, frames, &request);
+    SetMusic(options_.audio, options_.model, first, &request);
     return request;
-  }
-
-  /// As much of the song as the frames hear: a message has a limit, a song has none.
-  void AddMusic(int64_t first, int64_t frames, TransitionRequest* request) const {
-    const Audio& song = options_.audio;
-    if (song.format.kind == AudioKind::kNone) return;
-    const auto channels = static_cast<size_t>(song.format.channels);
-    const auto total = static_cast<int64_t>(song.samples.size() / channels);
-    if (total == 0) throw InvalidArgument("audio", "has no samples");
-    const auto sample = [&](double seconds) {
-      return Whole(std::floor(seconds * song.format.sample_rate));
-    };
-    const double start = static_cast<double>(first) / fps();
-    const double end = start + static_cast<double>(frames) / fps() + kMusicBeyond_s;
-    // Behind the song's end there is silence, which its last sample says as well as any.
-    const int64_t from =
-        std::clamp<int64_t>(sample(start - options_.model.audio_lead_s) - 1, 0, total - 1);
-    const int64_t to = std::clamp<int64_t>(sample(end), from + 1, total);
-    request->audio.format = song.format;
-    request->audio_first_sample = from;
-    request->audio.samples.assign(song.samples.begin() + from * static_cast<int64_t>(channels),
-                                  song.samples.begin() + to * static_cast<int64_t>(channels));
   }
 
   /// Those of the nearest new frame.
@@ -184,6 +159,29 @@ void CheckKeyEdit(int64_t frame, int64_t from, int64_t to, int64_t frames) {
 }
 
 }  // namespace
+
+void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
+              TransitionRequest* request) {
+  if (song.format.kind == AudioKind::kNone) return;
+  if (song.format.kind == AudioKind::kFile) {
+    throw InvalidArgument("audio", "is a file; only samples can be cut");
+  }
+  const auto channels = static_cast<int64_t>(song.format.channels);
+  const int64_t total = static_cast<int64_t>(song.samples.size()) / channels;
+  if (total == 0) throw InvalidArgument("audio", "has no samples");
+  const auto sample = [&](double seconds) {
+    return Whole(std::floor(seconds * song.format.sample_rate));
+  };
+  const double start = static_cast<double>(first) / model.fps;
+  const double end = start + static_cast<double>(request->frames) / model.fps + kMusicBeyond_s;
+  // Behind the song's end there is silence, which its last sample says as well as any.
+  const int64_t from = std::clamp<int64_t>(sample(start - model.audio_lead_s) - 1, 0, total - 1);
+  const int64_t to = std::clamp<int64_t>(sample(end), from + 1, total);
+  request->audio.format = song.format;
+  request->audio_first_sample = from;
+  request->audio.samples.assign(song.samples.begin() + from * channels,
+                                song.samples.begin() + to * channels);
+}
 
 int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& model) {
   if (dance.motion.frames.empty()) throw InvalidArgument("dance", "has no frames");

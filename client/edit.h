@@ -47,6 +47,12 @@ struct EditedDance {
   std::vector<Warning> warnings = {};
 };
 
+/// Gives a transition as much of a song as its frames hear, of which `first` is the first: a
+/// message has a limit, a song has none. `song`: as EditOptions::audio. Throws
+/// Error(kInvalidArgument) whose field is "audio".
+void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
+              TransitionRequest* request);
+
 /// The number of a dance's frames at the model's rate. Throws Error(kInvalidArgument) for a dance
 /// without frames.
 int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& model);

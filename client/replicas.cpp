@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace choreo::client {
 namespace {
@@ -29,7 +30,9 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
 
 void CheckNotNegative(const char* field, double value) {
   if (!(value >= 0) || !std::isfinite(value)) {
-    throw InvalidArgument(field, std::to_string(value) + " is not a finite number >= 0");
+    std::ostringstream message;
+    message << value << " is not a finite number >= 0";
+    throw InvalidArgument(field, message.str());
   }
 }
 
@@ -72,6 +75,7 @@ bool Replicas::Leave(const Server& failed) {
 Patience::Patience(const Options& options)
     : retry_s_(options.retry_s),
       first_backoff_s_(options.first_backoff_s),
+      before_retry_(options.before_retry),
       jitter_(std::random_device{}()) {
   if (options.deadline_s > 0) {
     deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -96,6 +100,7 @@ std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& 
   if (deadline_ && Clock::now() + std::chrono::duration_cast<Clock::duration>(wait) >= *deadline_) {
     return std::nullopt;
   }
+  if (before_retry_) before_retry_();
   return wait;
 }
 

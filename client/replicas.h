@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -50,7 +51,8 @@ class Patience {
 
   std::optional<Clock::time_point> deadline() const { return deadline_; }
   /// How long to wait after `failed` before trying again, the same server or another one
-  /// (`elsewhere`); none if trying again would not help, or is no longer allowed.
+  /// (`elsewhere`); none if trying again would not help, or is no longer allowed. Throws what
+  /// Options::before_retry does.
   std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed, bool elsewhere);
   /// There was progress: count from the beginning.
   void Reset() { failures_ = 0; }
@@ -58,6 +60,7 @@ class Patience {
  private:
   double retry_s_;
   double first_backoff_s_;
+  std::function<void()> before_retry_;
   std::optional<Clock::time_point> deadline_;
   int failures_ = 0;  // since the last progress
   std::chrono::steady_clock::time_point failing_since_;

@@ -158,6 +158,9 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
       "checking and reflection.\nEvery setting can also come from the environment or a file.",
       "choreod"};
   app.set_version_flag("--version", CHOREO_VERSION);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("choreod: ") + error.what() + "; see --help\n";
+  });
   AddOptions(app, config);
   try {
     app.parse(argc, argv);

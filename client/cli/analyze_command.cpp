@@ -81,7 +81,7 @@ void AddAnalyzeCommand(CLI::App& program) {
       ->add_option("--suggest-keys", options->suggest_keys,
                    "Name so many beats on which key poses would sit well: strong ones, spread over "
                    "the song.")
-      ->check(AtLeastOne());
+      ->check(WholeNumberFrom(1, 1'000'000));
   command->callback([options] { Run(*options); });
 }
 

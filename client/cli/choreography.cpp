@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include "model/audio/suggest_keys.h"
 #include "model/motion/canonical.h"
@@ -82,8 +83,9 @@ class Walk {
 std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
                                          std::span<const LibraryPose> poses) {
   if (!(request.seconds >= 2)) {
-    throw InvalidArgument(
-        "--seconds", std::to_string(request.seconds) + " is less than 2: too short for key poses");
+    std::ostringstream message;
+    message << request.seconds << " is less than 2: too short for key poses";
+    throw InvalidArgument("--seconds", message.str());
   }
   Dice dice(request.seed);
   Walk walk(&dice);

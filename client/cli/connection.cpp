@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "client/cli/interruption.h"
 #include "client/cli/options.h"
 
 namespace choreo::cli {
@@ -16,7 +17,7 @@ void ServerOptions::AddTo(CLI::App& command) {
   command.add_option("--ca", ca_certificate,
                      "PEM file of the authority to trust, with --tls; default: the system's.");
   command.add_option("--deadline", deadline_s, "Give up after this many seconds; 0: never.")
-      ->check(AtLeastZero())
+      ->check(TimeInSeconds())
       ->capture_default_str();
 }
 
@@ -36,6 +37,10 @@ Connection::Connection(const ServerOptions& options) {
     own_ = std::make_unique<LocalServer>();
     client_options.addresses = {own_->address()};
   }
+  client_options.before_retry = [own = own_.get()] {
+    Interruption::Check();
+    if (own) own->RequireRunning();
+  };
   client_ = std::make_unique<client::Client>(client_options);
   server_ = client_->GetServerInfo();
 }

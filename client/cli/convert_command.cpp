@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "client/cli/commands.h"
+#include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/contacts.h"
@@ -43,7 +44,7 @@ void AddConvertCommand(CLI::App& program) {
   command->add_option("in", options->in, "Motion to read.")->required()->check(CLI::ExistingFile);
   command->add_option("out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")->required();
   command->add_option("--fps", options->fps, "Resample to this rate; default: as it is.")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->check(NumberFrom(1, 1000));
   command->add_flag("--smpl", options->smpl,
                     "Retarget what has a skeleton of its own to SMPL's 24 joints.");
   command->callback([options] { Run(*options); });

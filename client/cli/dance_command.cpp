@@ -9,6 +9,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/dance_keys.h"
+#include "client/cli/interruption.h"
 #include "client/cli/key_file.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
@@ -111,15 +112,20 @@ class Display {
   std::unique_ptr<ProgressBar> bar_;
 };
 
-/// Dances. What came of a dance that was cut off is written, too.
+/// Dances. What came of a dance that was cut off, or interrupted, is written, too.
 client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
                           const DanceKeys& keys, const client::Audio& audio, double model_fps,
                           const std::filesystem::path& out) {
   client::DanceResult dance;
   Display display(*config.frames, model_fps);
+  const Interruption interruption;
   try {
     client.Dance(
-        config, keys.poses, audio, [&](const client::Message& message) { display(message); },
+        config, keys.poses, audio,
+        [&](const client::Message& message) {
+          Interruption::Check();
+          display(message);
+        },
         &dance);
   } catch (const Error& error) {
     if (!dance.motion.frames.empty()) {
@@ -192,8 +198,10 @@ void AddDanceCommand(CLI::App& program) {
   AddSeed(*command, options->seed, "Same seed, same dance. Default: 0.");
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
-  command->add_option("--fps", options->fps,
-                      "Frames a second that are written, 1 to 120; default: the model's.");
+  command
+      ->add_option("--fps", options->fps,
+                   "Frames a second that are written, 1 to 120; default: the model's.")
+      ->check(NumberFrom(1, 120));
   command->add_option("-m,--model", options->model,
                       "Model of the server to dance with; default: its first.");
   command->add_option("-o,--out", options->out,

@@ -90,6 +90,8 @@ class Session {
     edit_.seed = options.seed.value_or(0);
     edit_.temperature = options.temperature;
     longest_ = edit_.model.max_transition_frames - 1;
+    if (options.around_s) CheckAround(*options.around_s);
+    CheckKeys();
     dance_ = ReadDance(options.dance, edit_.model.skeleton);
     frames_ = CountModelFrames(dance_, edit_.model);
     if (!options.song.empty()) edit_.audio = ReadAudioFor(options.song, Seconds(frames_));
@@ -98,7 +100,7 @@ class Session {
 
   void SetKey(const std::string& source, double at_s) {
     const NamedPose named = ReadPose(source, edit_.model.skeleton);
-    const int64_t frame = std::llround(at_s * edit_.model.fps);
+    const int64_t frame = Frame(at_s);
     if (frame >= frames_) {
       std::ostringstream message;
       message << at_s << " s lies behind the dance, which has its last frame at "
@@ -141,14 +143,15 @@ class Session {
   }
 
  private:
+  int64_t Frame(double seconds) const { return std::llround(seconds * edit_.model.fps); }
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / edit_.model.fps; }
 
   void ReadKeys() {
     const auto report = ReadReport(options_.report);
     if (report["fps"] != edit_.model.fps) {
-      throw InvalidArgument(
-          options_.report + ":fps",
-          report["fps"].dump() + ", but the model runs at " + std::to_string(edit_.model.fps));
+      std::ostringstream message;
+      message << report["fps"].dump() << ", but the model runs at " << edit_.model.fps;
+      throw InvalidArgument(options_.report + ":fps", message.str());
     }
     for (const auto& key : report["keyframes"]) {
       const auto frame = key["frame"].get<int64_t>();
@@ -162,6 +165,25 @@ class Session {
     }
   }
 
+  void CheckKeys() const {
+    std::map<int64_t, std::string> sources;  // by frame
+    for (size_t i = 0; i < options_.keys.size(); ++i) {
+      const auto [same, is_new] = sources.emplace(Frame(options_.at_s[i]), options_.keys[i]);
+      if (!is_new) {
+        throw InvalidArgument("--key", same->second + " and " + options_.keys[i] +
+                                           " both ask for frame " + std::to_string(same->first));
+      }
+    }
+  }
+  void CheckAround(double seconds) const {
+    constexpr double kLeast = 2;  // frames
+    const double frames = std::round(seconds * edit_.model.fps);
+    if (frames >= kLeast && frames <= static_cast<double>(longest_)) return;
+    std::ostringstream message;
+    message << seconds << " s, must be " << kLeast / edit_.model.fps << " to " << Seconds(longest_)
+            << " s: " << kLeast << " to " << longest_ << " frames";
+    throw InvalidArgument("--around", message.str());
+  }
   int64_t Around() const {
     return std::min(
         longest_,
@@ -233,7 +255,7 @@ void AddEditCommand(CLI::App& program) {
               "A pose of the library (kick, ...), which is set where the dancer is; or a "
               "key file, or MOTION@SECOND. May be given more than once, each with its --at.");
   AddRepeated(*command, "--at", options->at_s, "Second of the dance for the key.")
-      ->check(AtLeastZero());
+      ->check(TimeInSeconds());
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files, too, where the dancer is and faces at that moment.");
   command->add_flag("--loop", options->loop,

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "model/core/json_depth.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
@@ -25,6 +26,9 @@ std::string Shown(const json& value) {
   if (text.size() > 40) text = text.substr(0, 37) + "...";
   return text;
 }
+
+/// Behind the end of any dance, and far from where numbers of frames end.
+constexpr double kMaxSeconds = 1e9;
 
 double Number(const json& value, const std::string& field) {
   if (!value.is_number()) throw InvalidArgument(field, Shown(value) + " is not a number");
@@ -83,13 +87,19 @@ std::vector<bool> Joints(const json& value, const std::string& field, const Skel
 }
 
 // Numbers of one list, or of a list of lists.
-void Flatten(const json& value, const std::string& field, std::vector<double>& out) {
-  if (!value.is_array()) {
-    out.push_back(Number(value, field));
-    return;
+std::vector<double> Flatten(const json& value, const std::string& field) {
+  std::vector<double> out;
+  const auto at = [](size_t index) { return "[" + std::to_string(index) + "]"; };
+  for (size_t i = 0; i < value.size(); ++i) {
+    const json& inner = value[i];
+    if (!inner.is_array()) {
+      out.push_back(Number(inner, field + at(i)));
+      continue;
+    }
+    for (size_t j = 0; j < inner.size(); ++j)
+      out.push_back(Number(inner[j], field + at(i) + at(j)));
   }
-  for (size_t i = 0; i < value.size(); ++i)
-    Flatten(value[i], field + "[" + std::to_string(i) + "]", out);
+  return out;
 }
 
 // A pose under the names that SMPL motion files give it, as one frame of such a file.
@@ -99,8 +109,15 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
   key.mask.root_position = value.contains(trans);
   NpzArchive file;
   const auto add = [&](const std::string& name) {
-    std::vector<double> numbers;
-    Flatten(value[name], field + "." + name, numbers);
+    if (!value[name].is_array()) {
+      throw InvalidArgument(field + "." + name, Shown(value[name]) + " is no list");
+    }
+    std::vector<double> numbers = Flatten(value[name], field + "." + name);
+    // As they stand there: what turns the world into ours hides an absurd angle.
+    if (name == poses && numbers.size() % 3 == 0) {
+      CheckAngles(Eigen::Map<const Eigen::Matrix3Xd>(numbers.data(), 3, std::ssize(numbers) / 3),
+                  field + "." + name);
+    }
     const auto count = static_cast<int64_t>(numbers.size());
     file.SetArray(name, {{1, count}, std::move(numbers)});
   };
@@ -116,7 +133,6 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
   } catch (const Error& error) {
     throw InvalidArgument(field, error.what());
   }
-  CheckAngles(key.pose.rotations, field + "." + poses);
   try {
     key.pose = Retarget(Skeleton::Smpl24(), key.pose, skeleton);
   } catch (const Error& error) {
@@ -190,10 +206,13 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
     key.time_s = Number(value["time"], field + ".time");
     if (!(key.time_s >= 0))
       throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is before 0");
+    if (key.time_s > kMaxSeconds)
+      throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is beyond 1e9 s");
   } else {
-    if (!value["frame"].is_number_unsigned()) {
-      throw InvalidArgument(field + ".frame",
-                            Shown(value["frame"]) + " is not a whole number >= 0");
+    if (!IsFrameNumber(value["frame"])) {
+      throw InvalidArgument(field + ".frame", Shown(value["frame"]) +
+                                                  " is not a whole number from 0 to " +
+                                                  std::to_string(kMaxFrameNumber));
     }
     key.frame = value["frame"].get<int64_t>();
   }
@@ -215,8 +234,8 @@ double ParseSeconds(std::string_view text, const std::string& source) {
   double seconds = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (code != std::errc() || end != text.data() + text.size() || !(seconds >= 0) ||
-      !std::isfinite(seconds)) {
-    throw InvalidArgument(source, "\"" + std::string(text) + "\" is not a time in seconds");
+      seconds > kMaxSeconds) {
+    throw InvalidArgument(source, "\"" + std::string(text) + "\" is not a time, 0 to 1e9 seconds");
   }
   return seconds;
 }
@@ -251,10 +270,11 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
 
 std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                   const Skeleton& skeleton) {
+  CheckJsonDepth(text, name);
   json root;
   try {
     root = json::parse(text);
-  } catch (const json::parse_error& error) {
+  } catch (const json::exception& error) {  // numbers too large for any, too
     throw InvalidArgument(name, "is not JSON: " + std::string(error.what()));
   }
   if (!root.is_object() || !root.contains("keyframes") || !root["keyframes"].is_array()) {

@@ -28,6 +28,7 @@ constexpr const char* kListens = "choreod listens on ";
   // Whatever happens to us, it does not stay behind. The parent may have died before this line.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
+  setpgid(0, 0);  // a terminal's Ctrl-C is for us, who stop it in order
   dup2(to, STDOUT_FILENO);
   execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning",
         "--drain-seconds", "0", nullptr);
@@ -39,7 +40,8 @@ constexpr const char* kListens = "choreod listens on ";
 LocalServer::LocalServer()
     : LocalServer(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod") {}
 
-LocalServer::LocalServer(const std::filesystem::path& program, const std::string& listen) {
+LocalServer::LocalServer(const std::filesystem::path& program, const std::string& listen)
+    : program_(program) {
   if (access(program.c_str(), X_OK) != 0) {
     throw Error(ErrorCode::kNotFound, program.string(),
                 "is not there to be started; name a server with --server");
@@ -60,6 +62,16 @@ LocalServer::LocalServer(const std::filesystem::path& program, const std::string
 }
 
 LocalServer::~LocalServer() { Stop(); }
+
+void LocalServer::RequireRunning() {
+  int status = 0;
+  if (process_ > 0 && waitpid(process_, &status, WNOHANG) == 0) return;
+  process_ = -1;
+  const std::string how = WIFSIGNALED(status) ? std::string(strsignal(WTERMSIG(status)))
+                                              : "exit code " + std::to_string(WEXITSTATUS(status));
+  throw Error(ErrorCode::kUnavailable, program_,
+              "the server that was started for this is gone (" + how + ")");
+}
 
 std::string LocalServer::ReadAddress(int from) {
   const Clock::time_point limit = Clock::now() + kStartLimit;

@@ -24,12 +24,15 @@ class LocalServer {
 
   const std::string& address() const { return address_; }
   pid_t process() const { return process_; }
+  /// Throws Error(kUnavailable) saying how it ended, if it has.
+  void RequireRunning();
 
  private:
   /// Reads the line in which the server says where it listens; empty if it ends or takes too long.
   static std::string ReadAddress(int from);
   void Stop() noexcept;
 
+  std::string program_;
   pid_t process_ = -1;
   std::string address_;
 };

@@ -1,13 +1,16 @@
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include "client/cli/commands.h"
+#include "client/cli/interruption.h"
 #include "model/core/error.h"
 
 namespace {
 
 constexpr int kFailed = 1;
 constexpr int kMisused = 2;
+constexpr int kInterrupted = 130;  // as shells say it of Ctrl-C
 
 }  // namespace
 
@@ -16,6 +19,9 @@ int main(int argc, char** argv) {
                    "choreo"};
   program.set_version_flag("--version", CHOREO_VERSION);
   program.require_subcommand(1);
+  program.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("choreo: ") + error.what() + "; see --help\n";
+  });
   choreo::cli::AddDanceCommand(program);
   choreo::cli::AddTransitionCommand(program);
   choreo::cli::AddEditCommand(program);
@@ -31,6 +37,7 @@ int main(int argc, char** argv) {
     // Help and version come this way too, with code 0.
     return program.exit(error) == 0 ? 0 : kMisused;
   } catch (const std::exception& error) {
+    if (choreo::cli::Interruption::Came()) return kInterrupted;
     std::cerr << "choreo: " << error.what() << std::endl;
     return kFailed;
   }

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 namespace choreo::cli {
 namespace {
@@ -27,17 +28,20 @@ const CLI::Validator& AboveZero() {
   return kCheck;
 }
 
-const CLI::Validator& AtLeastZero() {
-  static const CLI::Validator kCheck =
-      NumberThat("a number of at least 0", ">= 0", [](double value) { return value >= 0; });
-  return kCheck;
+CLI::Validator NumberFrom(double low, double high) {
+  std::ostringstream limits;
+  limits << "a number from " << low << " to " << high;
+  return NumberThat(limits.str(), "", [=](double value) { return value >= low && value <= high; });
 }
 
-const CLI::Validator& AtLeastOne() {
-  static const CLI::Validator kCheck =
-      NumberThat("a whole number of at least 1", ">= 1",
-                 [](double value) { return value >= 1 && value == std::floor(value); });
-  return kCheck;
+CLI::Validator TimeInSeconds() { return NumberFrom(0, 1e9); }
+
+CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
+  return NumberThat("a whole number from " + std::to_string(low) + " to " + std::to_string(high),
+                    "", [=](double value) {
+                      return value == std::floor(value) && value >= static_cast<double>(low) &&
+                             value <= static_cast<double>(high);
+                    });
 }
 
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help) {

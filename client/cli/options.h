@@ -11,11 +11,12 @@ namespace choreo::cli {
 
 /// A number above 0.
 const CLI::Validator& AboveZero();
-/// A number of at least 0.
-const CLI::Validator& AtLeastZero();
+/// A time, 0 to 1e9 seconds: more than any dance, and no trouble for a counter of frames.
+CLI::Validator TimeInSeconds();
 
-/// A whole number of at least 1.
-const CLI::Validator& AtLeastOne();
+/// A number within these limits, and a whole one.
+CLI::Validator NumberFrom(double low, double high);
+CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 
 /// `--seed`: a whole number of 64 bits, never negative.
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);

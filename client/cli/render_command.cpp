@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/commands.h"
+#include "client/cli/interruption.h"
+#include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
 #include "model/core/error.h"
@@ -56,7 +58,9 @@ void DrawFilm(const RenderOptions& options, const SkeletonMotion& dance, std::ve
     throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in 1280x720");
   }
   std::unique_ptr<ProgressBar> bar;
+  const Interruption interruption;
   film.on_frame = [&](int64_t frames) {
+    Interruption::Check();
     if (!bar) bar = std::make_unique<ProgressBar>("rendering", frames);
     bar->Advance();
   };
@@ -97,10 +101,10 @@ void AddRenderCommand(CLI::App& program) {
                    "Report of the dance: its key poses are highlighted.")
       ->check(CLI::ExistingFile);
   command->add_option("--frames", options->sheet.frames, "Frames to show, evenly spaced.")
-      ->check(CLI::Range(1, 1000))
+      ->check(WholeNumberFrom(1, 1000))
       ->capture_default_str();
   command->add_option("--columns", options->sheet.columns, "Frames in a row.")
-      ->check(CLI::Range(1, 100))
+      ->check(WholeNumberFrom(1, 100))
       ->capture_default_str();
   command->add_option("--title", options->sheet.title, "Heading; default: the file's name.");
   command->add_option("--video", options->video,
@@ -110,6 +114,7 @@ void AddRenderCommand(CLI::App& program) {
                    "The video's music: begins with the first frame, ends with the last.")
       ->check(CLI::ExistingFile);
   command->add_option("--fps", options->film.format.fps, "Frames a second of the video, 1 to 120.")
+      ->check(NumberFrom(1, 120))
       ->capture_default_str();
   command->add_option("--size", options->size, "Of the video, pixels.")->capture_default_str();
   command->callback([options] { Run(*options); });

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "client/cli/key_file.h"
+#include "model/core/json_depth.h"
 
 namespace choreo::cli {
 namespace {
@@ -107,17 +111,20 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key) {
 
 nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
   std::ifstream file(path);
-  auto report = nlohmann::ordered_json::parse(file, nullptr, false);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CheckJsonDepth(text, path.string());
+  auto report = nlohmann::ordered_json::parse(text, nullptr, false);
   if (!report.is_object() || !report.contains("keyframes") || !report["keyframes"].is_array() ||
       !report.contains("fps") || !report["fps"].is_number() || !(report["fps"] > 0)) {
     throw InvalidArgument(path.string(), "is not the report of a dance");
   }
   for (size_t i = 0; i < report["keyframes"].size(); ++i) {
     const auto& key = report["keyframes"][i];
-    if (!key.is_object() || !key.contains("frame") || !key["frame"].is_number_unsigned() ||
+    if (!key.is_object() || !key.contains("frame") || !IsFrameNumber(key["frame"]) ||
         !key.contains("id") || !key["id"].is_string()) {
       throw InvalidArgument(path.string() + ":keyframes[" + std::to_string(i) + "]",
-                            "has no id, or no frame that is a whole number >= 0");
+                            "has no id, or no frame that is a whole number from 0 to " +
+                                std::to_string(kMaxFrameNumber));
     }
   }
   return report;

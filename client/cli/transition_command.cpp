@@ -12,6 +12,7 @@
 #include "client/cli/output_file.h"
 #include "client/cli/pose_source.h"
 #include "client/cli/report.h"
+#include "client/edit.h"
 #include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"
 
@@ -65,13 +66,14 @@ void Run(const TransitionOptions& options) {
   request.target = target.pose;
   request.target_mask = target.mask;
   if (!options.song.empty()) {
-    request.audio = ReadAudioFor(options.song, options.at_s + options.frames / model.fps);
-    if (options.at_s >= Seconds(request.audio)) {
+    const client::Audio song =
+        ReadAudioFor(options.song, options.at_s + options.frames / model.fps);
+    if (options.at_s >= Seconds(song)) {
       std::ostringstream message;
-      message << options.at_s << " s lies behind the song's end at " << Seconds(request.audio)
-              << " s";
+      message << options.at_s << " s lies behind the song's end at " << Seconds(song) << " s";
       throw InvalidArgument("--at", message.str());
     }
+    client::SetMusic(song, model, request.config.first_frame, &request);
   }
   const client::TransitionResult result = connection.client().GenerateTransition(request);
   for (const client::Warning& warning : result.warnings)
@@ -98,16 +100,17 @@ void AddTransitionCommand(CLI::App& program) {
   const std::string pose = "a pose of the library (contrapposto, ...), key file, or MOTION@SECOND.";
   command->add_option("--from", options->from, "Where to begin: " + pose)->required();
   command->add_option("--to", options->to, "Where to end: " + pose)->required();
-  command->add_option("-n,--frames", options->frames, "Length, in frames of the model.")
+  command->add_option("-n,--frames", options->frames, "Length, in frames of the model, 1 to 1800.")
+      ->check(WholeNumberFrom(1, 1800))
       ->capture_default_str();
   command->add_option("--song", options->song, "Music to move to.")->check(CLI::ExistingFile);
   command->add_option("--at", options->at_s, "Second of the song at which it begins.")
-      ->check(AtLeastZero())
+      ->check(TimeInSeconds())
       ->capture_default_str();
   command
       ->add_option("--candidates", options->candidates,
                    "Alternatives, 1 to 32; the best is FILE, the others FILE.2, ...")
-      ->check(CLI::Range(1, 32))
+      ->check(WholeNumberFrom(1, 32))
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0.");
   command->add_option("--temperature", options->temperature,

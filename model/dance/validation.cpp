@@ -10,9 +10,6 @@
 namespace choreo {
 namespace {
 
-// A continuous motion may have wound up this far; beyond it nothing is left of a float's precision.
-constexpr double kMaxWoundRotation = 1'000;
-
 std::string At(const std::string& field, int64_t index) {
   return field + "[" + std::to_string(index) + "]";
 }
@@ -24,25 +21,7 @@ void CheckPose(const Skeleton& skeleton, const Pose& pose, double max_rotation,
                                                     " joints, the model has " +
                                                     std::to_string(skeleton.joints()));
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    const double value = pose.root_position[axis];
-    const std::string path = field + ".root_position";
-    if (!std::isfinite(value))
-      throw InvalidArgument(At(path, axis), Show(value) + " is not finite");
-    if (std::abs(value) > kMaxPosition) {
-      throw InvalidArgument(At(path, axis), Show(value) + " m is further than " +
-                                                Show(kMaxPosition) + " m from the origin");
-    }
-  }
-  for (int joint = 0; joint < pose.rotations.cols(); ++joint) {
-    const double angle = pose.rotations.col(joint).norm();
-    const std::string path = field + ".rotations";
-    if (!std::isfinite(angle))
-      throw InvalidArgument(At(path, joint), Show(angle) + " is not finite");
-    if (angle > max_rotation) {
-      throw InvalidArgument(At(path, joint), Show(angle) + " rad exceeds " + limit_name);
-    }
-  }
+  CheckPoseLimits(pose, max_rotation, limit_name, field);
 }
 
 }  // namespace

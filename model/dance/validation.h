@@ -8,13 +8,13 @@
 #include "model/dance/transition.h"
 #include "model/engine/step_engine.h"
 #include "model/motion/motion.h"
+#include "model/motion/pose_limits.h"
 
 /// What a dance accepts from outside (for audio see audio/format.h). Every function throws
 /// Error(kInvalidArgument) whose field is the sender's path and whose message gives the value and
 /// the limit, as in "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
 namespace choreo {
 
-inline constexpr double kMaxPosition = 10'000;  ///< metres from the origin, each axis
 inline constexpr double kMaxRotation =
     6.2832;  ///< radians: 2π, rounded up for senders that compute in floats
 inline constexpr double kMaxTemperature = 2.0;

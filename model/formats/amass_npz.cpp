@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/core/error.h"
+#include "model/motion/pose_limits.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -74,6 +75,7 @@ Motion Assemble(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotatio
         Eigen::Map<const Eigen::Matrix3Xd>(rotations.col(frame).data(), 3, known);
     motion.frames.push_back(std::move(pose));
   }
+  CheckMotionLimits(motion);  // before turns of the world hide an absurd angle
   return motion;
 }
 

@@ -53,7 +53,8 @@ struct BvhFile {
 /// Throws Error(kInvalidArgument) whose field is "NAME:LINE" and whose message names the token that
 /// was found and what was expected. Refused are, besides other syntax errors: a second root, a
 /// hierarchy without channels, a channel given twice, numbers that are not finite, fewer or more
-/// values than the header states, a frame time outside 1e-5 to 10 s.
+/// values than the header states, a frame time outside 1e-5 to 10 s, lengths beyond 1e7 and angles
+/// beyond 1000 radians (motion/pose_limits.h).
 BvhFile ParseBvh(std::string_view text, const std::string& name);
 /// As ParseBvh; Error(kNotFound) where the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);

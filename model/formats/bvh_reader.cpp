@@ -3,15 +3,20 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <optional>
+#include <sstream>
 
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
+#include "model/motion/pose_limits.h"
 
 namespace choreo {
 namespace {
 
 constexpr double kMinFrameTime = 1e-5, kMaxFrameTime = 10;
+constexpr double kMaxLength = 1000 * kMaxPosition;  // file units, which may be millimetres
+constexpr double kMaxDegrees = kMaxWoundRotation * 180 / M_PI;
 
 // White space separates tokens; lines count for messages alone.
 class Tokens {
@@ -58,7 +63,7 @@ class Tokens {
     if (!SameWord(token, word)) Fail("'" + std::string(word) + "'", token);
   }
 
-  double Number(const char* expected) {
+  double Number(const char* expected, double limit = std::numeric_limits<double>::infinity()) {
     std::string_view token = Next(expected);
     const std::string_view digits = token.starts_with('+') ? token.substr(1) : token;
     double value = 0;
@@ -71,6 +76,11 @@ class Tokens {
       value = 0;  // below the smallest double
     } else if (error != std::errc() || !std::isfinite(value)) {
       Fail(std::string(expected) + " that is finite", token);
+    }
+    if (std::abs(value) > limit) {
+      std::ostringstream within;
+      within << expected << " from " << -limit << " to " << limit;
+      Fail(within.str(), token);
     }
     return value;
   }
@@ -139,7 +149,8 @@ std::vector<BvhJoint> ReadHierarchy(Tokens& tokens) {
     joints.push_back(std::move(joint));
     tokens.Expect("{");
     tokens.Expect("OFFSET");
-    for (int axis = 0; axis < 3; ++axis) joints.back().offset[axis] = tokens.Number("a number");
+    for (int axis = 0; axis < 3; ++axis)
+      joints.back().offset[axis] = tokens.Number("a number", kMaxLength);
   };
   begin(std::string(tokens.RestOfLine("a joint name")), false);
   while (!open.empty()) {
@@ -173,7 +184,12 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   BvhFile file;
   file.joints = ReadHierarchy(tokens);
   int64_t channels = 0;
-  for (const BvhJoint& joint : file.joints) channels += static_cast<int64_t>(joint.channels.size());
+  std::vector<bool> is_position;  // of each channel
+  for (const BvhJoint& joint : file.joints) {
+    channels += static_cast<int64_t>(joint.channels.size());
+    for (const BvhChannel channel : joint.channels)
+      is_position.push_back(channel <= BvhChannel::kZPosition);
+  }
   if (channels == 0) tokens.Fail("a joint with channels", "a hierarchy without any");
 
   tokens.Expect("MOTION");
@@ -186,7 +202,11 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
     tokens.Fail("a frame time of 1e-5 to 10 s", std::to_string(file.frame_time));
   }
   std::vector<double> values;  // grown as they come: the header's count may be anything
-  for (int64_t i = 0; i < frames * channels; ++i) values.push_back(tokens.Number("a number"));
+  for (int64_t i = 0; i < frames * channels; ++i) {
+    values.push_back(is_position[static_cast<size_t>(i % channels)]
+                         ? tokens.Number("a number", kMaxLength)
+                         : tokens.Number("a number of degrees", kMaxDegrees));
+  }
   if (!tokens.AtEnd()) {
     tokens.Fail("the end of the file after " + std::to_string(frames) + " frames of " +
                     std::to_string(channels) + " values",

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "model/core/json_depth.h"
+
 namespace choreo {
 
 // In one expression GCC 12 sees an overlap in operator+ that is not there (-Wrestrict).
@@ -14,10 +16,24 @@ std::string GltfItem(const char* list, size_t index) {
   return item;
 }
 
+namespace {
+
+/// The first chunk of a file, as far as it is there.
+std::string_view JsonOf(const std::vector<char>& bytes) {
+  constexpr size_t kHeaders = 20;  // of the file and of the chunk, whose length stands at 12
+  if (bytes.size() < kHeaders) return {};
+  uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  return std::string_view(bytes.data(), bytes.size()).substr(kHeaders, length);
+}
+
+}  // namespace
+
 tinygltf::Model ParseGlb(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+  CheckJsonDepth(JsonOf(bytes), "");
   tinygltf::TinyGLTF gltf;
   // A motion comes from one file: no others are opened, and pictures are not looked at.
   gltf.SetFsCallbacks(

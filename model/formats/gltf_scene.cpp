@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
+#include "model/motion/pose_limits.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
@@ -177,6 +179,13 @@ std::vector<Eigen::Affine3d> GltfScene::Place(const std::vector<Placement>& loca
   for (const size_t node : order_) {
     world[node] = local[node].Transform();
     if (parents_[node] >= 0) world[node] = world[static_cast<size_t>(parents_[node])] * world[node];
+    const double distance = world[node].translation().cwiseAbs().maxCoeff();
+    if (!(distance <= kMaxPosition)) {
+      std::ostringstream message;
+      message << "stands at " << distance << " m, further than " << kMaxPosition
+              << " m from the origin";
+      throw InvalidArgument(GltfItem("nodes", node), message.str());
+    }
   }
   return world;
 }

@@ -11,6 +11,7 @@
 #include "model/formats/npz.h"
 #include "model/motion/fit.h"
 #include "model/motion/fit_sources.h"
+#include "model/motion/pose_limits.h"
 #include "model/motion/retarget.h"
 
 namespace choreo {
@@ -55,6 +56,11 @@ SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) {
     named([&] { return FromBvh(file, wanted); });
   }
   if (read.motion.frames.empty()) throw InvalidArgument(path.string(), "has no frames");
+  try {
+    CheckMotionLimits(read.motion);
+  } catch (const Error& error) {
+    throw InvalidArgument(path.string(), error.what());
+  }
   return read;
 }
 

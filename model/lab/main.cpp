@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
   CLI::App app("Prepare data, train models, measure them", "choreo-lab");
   app.set_version_flag("--version", CHOREO_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("choreo-lab: ") + error.what() + "; see --help\n";
+  });
 #ifdef CHOREO_SERVICE  // preparation decodes music, which needs libsndfile
   choreo::AddPrepareCommand(app);
 #endif

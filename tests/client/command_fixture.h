@@ -21,9 +21,9 @@ struct Outcome {
   std::string said;  ///< stdout and stderr
 };
 
-/// Runs `choreo` as a shell would.
-inline Outcome Choreo(const std::string& arguments) {
-  const std::string command = "'" CHOREO_PROGRAM "' " + arguments + " 2>&1";
+/// Runs `choreo` as a shell would, which does `first` before.
+inline Outcome Choreo(const std::string& arguments, const std::string& first = "") {
+  const std::string command = first + "'" CHOREO_PROGRAM "' " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   Outcome outcome;
   std::array<char, 4096> buffer;

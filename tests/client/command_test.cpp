@@ -219,9 +219,9 @@ TEST_F(CommandTest, NoOutputDestroysAnotherOrAnInput) {
   refused(dance + "--report " + At("song.wav"), "song.wav is the file that song is read from");
   refused(dance + "-k " + At("d.npz@0=1") + " -o " + At("link.npz"),
           "link.npz is the file that --keyframes is read from");
-  refused("edit " + At("d.npz") + server + "--loop -o " + At("e.npz") + " --new-report " +
-              At("e.npz"),
-          "--new-report: ");
+  refused(
+      "edit " + At("d.npz") + server + "--loop -o " + At("e.npz") + " --new-report " + At("e.npz"),
+      "--new-report: ");
   refused("edit " + At("d.npz") + server + "--loop -o " + At("d.npz"),
           "--out: " + (folder_ / "d.npz").string() + " is the file that dance is read from");
   const std::string transition = "transition --to groove" + server + "--from ";
@@ -244,13 +244,22 @@ TEST_F(CommandTest, RefusesNumbersThatAreNone) {
     const Outcome outcome = Choreo(arguments + Server());
     EXPECT_EQ(outcome.code, 2) << outcome.said;
     EXPECT_THAT(outcome.said, HasSubstr(part));
+    EXPECT_THAT(outcome.said, testing::StartsWith("choreo: "));
+    EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
     EXPECT_LT(outcome.said.size(), 200U) << outcome.said;
   };
   refused("dance --seconds 0 " + At("song.wav"), "0 is not a number above 0");
   refused("dance --seconds nan " + At("song.wav"), "nan is not a number above 0");
   refused("dance --seed -1 " + At("song.wav"), "-1 is not a whole number from 0");
   const std::string transition = "transition --from kick --to groove -o " + At("t.npz");
-  refused(transition + " --at -1", "-1 is not a number of at least 0");
+  refused(transition + " --at -1", "-1 is not a number from 0 to 1e+09");
+  refused(transition + " -n 9999999999999", "is not a whole number from 1 to 1800");
+  refused(transition + " -n 99999999999999999999999", "is not a whole number from 1 to 1800");
+  refused(transition + " --candidates 33", "33 is not a whole number from 1 to 32");
+  refused("dance --fps 0 " + At("song.wav"), "0 is not a number from 1 to 120");
+  const Outcome brief = Choreo("dance --seconds 1e-9 " + At("song.wav") + Server());
+  EXPECT_EQ(brief.code, 1);
+  EXPECT_THAT(brief.said, HasSubstr("--seconds: 1e-09 is less than 2"));
   const Outcome late = Choreo(transition + " --at 100 --song " + At("song.wav") + Server());
   EXPECT_EQ(late.code, 1);
   EXPECT_THAT(late.said, HasSubstr("--at: 100 s lies behind the song's end at 3 s"));
@@ -287,6 +296,18 @@ TEST_F(CommandTest, MovesFromPoseToPose) {
         ComparePoses(Body(), motion.frames.back(), cli::FindLibraryPose("kick").pose).position_m,
         0.001);
   }
+}
+
+// Only what the frames hear is sent: a song may be longer than a message.
+TEST_F(CommandTest, ATransitionHearsItsPartOfALongSong) {
+  WriteClicks(folder_ / "song.wav", 200);  // 16.8 MiB of samples
+  const auto move = [&](const std::string& name, const std::string& more) {
+    const Outcome outcome = Choreo("transition --from groove --to kick --frames 30 --at 195 -o " +
+                                   At(name) + more + Server());
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return ReadMotion(folder_ / name, Body()).frames[15].rotations.eval();
+  };
+  EXPECT_NE(move("heard.npz", " --song " + At("song.wav")), move("silent.npz", ""));
 }
 
 TEST_F(CommandTest, AnalyzesASong) {
@@ -333,7 +354,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
     const Outcome bad = Choreo(analyze + count);
     EXPECT_EQ(bad.code, 2) << bad.said;
     EXPECT_THAT(bad.said,
-                HasSubstr("--suggest-keys: " + count + " is not a whole number of at least 1"));
+                HasSubstr("--suggest-keys: " + count + " is not a whole number from 1 to 1000000"));
   }
 }
 
@@ -458,7 +479,7 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
   const Outcome absurd = Choreo("convert /dev/null b.npz --fps 1e9");
   EXPECT_EQ(absurd.code, 2);
-  EXPECT_THAT(absurd.said, HasSubstr("--fps: Value 1e9 not in range"));
+  EXPECT_THAT(absurd.said, HasSubstr("--fps: 1e9 is not a number from 1 to 1000"));
   for (const char* command :
        {"", "dance", "transition", "edit", "analyze", "info", "health", "convert", "render"}) {
     const Outcome outcome = Choreo(std::string(command) + " --help");

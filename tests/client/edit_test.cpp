@@ -227,12 +227,25 @@ TEST_F(EditTest, SaysWhatCannotBe) {
   expect_failure("", "--key: is missing, and so is --loop");
   expect_failure("--key kick", "--at: 0 times for 1 keys");
   expect_failure("--key swan --at 1", "swan: is no pose of the library");
+  expect_failure("--key kick --at 3 --key groove --at 3.001",
+                 "--key: kick and groove both ask for frame 90");
+  for (const std::string around : {"1e300", "0.01", "60"}) {
+    expect_failure("--key kick --at 5 --around " + around,
+                   "s, must be 0.0666667 to 59.9667 s: 2 to 1799 frames");
+  }
   expect_failure("--key kick --at 11",
                  "11 s lies behind the dance, which has its last frame at 9.96");
   expect_failure("--key kick --at " + Seconds(keys_[1] + 1) + " --report " + At("report.json"),
                  "from: " + std::to_string(keys_[1]) + " with a key at frame " +
                      std::to_string(keys_[1] + 1) + ": must be at least 2 before it");
   expect_failure("--key kick --at 2 --report " + At("other.json"), "far stands at frame 900");
+  std::ofstream(folder_ / "huge.json")
+      << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 18446744073709551615}]})";
+  expect_failure(
+      "--key kick --at 2 --report " + At("huge.json"),
+      "keyframes[0]: has no id, or no frame that is a whole number from 0 to 1000000000");
+  std::ofstream(folder_ / "deep.json") << std::string(1'000'000, '[');
+  expect_failure("--key kick --at 2 --report " + At("deep.json"), "more than 64 levels");
   expect_failure("--key kick --at 2 --report " + At("song.wav"), "is not the report of a dance");
   expect_failure("--loop --new-report " + At("n.json"), "--new-report: needs --report");
 }

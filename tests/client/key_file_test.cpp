@@ -99,6 +99,42 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   const std::string same = R"({"id": "a", "time": 1, "rotations": )" + Rotations() + "}";
   refused(R"({"keyframes": [)" + same + "," + same + "]}",
           "keyframes[1].id: \"a\" stands for an earlier key");
+  refused(File(R"("frame": 18446744073709551615, "rotations": )" + Rotations()),
+          "keyframes[0].frame: 18446744073709551615 is not a whole number from 0 to 1000000000");
+  refused(File(R"("time": 1e300, "rotations": )" + Rotations()),
+          "keyframes[0].time: 1e+300 s is beyond 1e9 s");
+  refused(Key(Rotations("[0, 1e999, 0]")), "keys.json: is not JSON");
+  refused(Key(Rotations("[0, 1e999, 0]")), "1e999");
+}
+
+// What is read, copied or printed level by level would run out of stack.
+TEST(KeyFileTest, RefusesWhatIsNestedTooDeeply) {
+  const auto nested = [](size_t levels, const std::string& inner) {
+    return std::string(levels, '[') + inner + std::string(levels, ']');
+  };
+  const auto key = [](const std::string& poses) {
+    return File(R"("time": 1, "smpl_poses": )" + poses);
+  };
+  ExpectError(ErrorCode::kInvalidArgument, "keys.json: is JSON of more than 64 levels",
+              [&] { Parse(key(nested(1'000'000, "0"))); });
+  ExpectError(ErrorCode::kInvalidArgument, "keyframes[0].smpl_poses[0][0]: [0] is not a number",
+              [&] { Parse(key(nested(3, "0"))); });
+  // Brackets in texts are none.
+  EXPECT_EQ(Parse(File(R"("id": "\"[[", "time": 1, "rotations": )" + Rotations()))[0].id, "\"[[");
+  ExpectError(ErrorCode::kInvalidArgument, "smpl_poses: 3 is no list", [&] { Parse(key("3")); });
+}
+
+// Turning Z up into Y up would make a small angle of any.
+TEST(KeyFileTest, RefusesAbsurdAnglesAsTheyAreWritten) {
+  const auto refused = [](double root, const std::string& part) {
+    std::vector<double> poses(72, 0.1);
+    poses[0] = root;
+    ExpectError(ErrorCode::kInvalidArgument, part, [&] {
+      Parse(File(R"("time": 1, "smpl_poses": )" + nlohmann::json(poses).dump()));
+    });
+  };
+  refused(1e30, "keyframes[0].smpl_poses[0]: 1e+30 rad exceeds 2π");
+  refused(7, "keyframes[0].smpl_poses[0]: 7.00143 rad exceeds 2π");
 }
 
 // Where SMPL's joints are, as its authors and EDGE define it, written down without our code: Z up,
@@ -263,7 +299,7 @@ TEST_F(MotionKeysTest, TakesTheShortestWayAfterAnyNumberOfTurns) {
 
 TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
   for (const char* times : {"", "x", "1,", "-1", "1.2x", "1=", "nan"}) {
-    ExpectError(ErrorCode::kInvalidArgument, "is not a time in seconds",
+    ExpectError(ErrorCode::kInvalidArgument, "is not a time, 0 to 1e9 seconds",
                 [&] { ReadKeys(path_ + "@" + times, Body()); });
   }
   ExpectError(ErrorCode::kInvalidArgument, "second 3.5 lies behind the motion's end at 3",

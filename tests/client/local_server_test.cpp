@@ -1,6 +1,8 @@
 #include "client/cli/local_server.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include "client/choreo_client.h"
 #include "tests/support/expect_error.h"
@@ -15,9 +17,24 @@ TEST(LocalServerTest, ServesAsLongAsItLives) {
     address = server.address();
     const client::Client client({.addresses = {address}});
     EXPECT_EQ(client.GetServerInfo().models.front().name, "fake");
+    EXPECT_NE(getpgid(server.process()), getpgid(0)) << "Ctrl-C would reach it";
   }
   const client::Client client({.addresses = {address}, .retry_s = 0});
   ExpectError(ErrorCode::kUnavailable, address, [&] { client.GetServerInfo(); });
+}
+
+// Whoever waits for what is gone waits in vain.
+TEST(LocalServerTest, NoticesThatItIsGone) {
+  LocalServer server{std::filesystem::path(FAKE_CHOREOD)};
+  const client::Client client({.addresses = {server.address()},
+                               .retry_s = 1e6,
+                               .before_retry = [&] { server.RequireRunning(); }});
+  client.GetServerInfo();
+  server.RequireRunning();
+  kill(server.process(), SIGKILL);
+  ExpectError(ErrorCode::kUnavailable, "started for this is gone (Killed)",
+              [&] { client.GetServerInfo(); });
+  EXPECT_EQ(server.process(), -1);
 }
 
 TEST(LocalServerTest, SaysWhenThereIsNothingToStart) {

@@ -54,6 +54,62 @@ TEST(MotionFile, AWriteThatFailsLeavesWhatWasThere) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);
 }
 
+TEST(MotionFile, RefusesAbsurdValuesAndNamesThem) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& name, const std::string& part) {
+    ExpectError(ErrorCode::kInvalidArgument, name + part, [&] { ReadMotion(folder / name); });
+  };
+  const auto amass = [&](const std::string& name, double trans, double root) {
+    std::vector<double> poses(2 * 72, 0.0);
+    poses[72] = root;
+    NpzArchive npz;
+    npz.SetArray("trans", {{2, 3}, std::vector<double>{0, 0, 0, 0, trans, 0}});
+    npz.SetArray("poses", {{2, 72}, std::move(poses)});
+    npz.SetArray("mocap_framerate", {{}, std::vector<double>{30}});
+    npz.Write(folder / name);
+  };
+  amass("far.npz", 1e300, 0);
+  refused("far.npz", ": frames[1].root_position[1]: 1e+300 m is further than 10000 m");
+  // The world's turn would hide it.
+  amass("turned.npz", 0, 1e30);
+  refused("turned.npz", ": frames[1].rotations[0]: 1e+30 rad exceeds 1000");
+  amass("wound.npz", 0, 100);
+  EXPECT_EQ(ReadMotion(folder / "wound.npz").motion.frames.size(), 2U);
+
+  Motion motion = fixtures::SmoothMotion(kSmpl, 21, 3, 30);
+  motion.frames[2].root_position.x() = 2e4;
+  for (const char* name : {"a.npz", "a.bvh", "a.glb"}) WriteMotion(folder / name, kSmpl, motion);
+  refused("a.npz", ": frames[2].root_position[0]: 20000 m is further than 10000 m");
+  refused("a.bvh", ": frames[2].root_position[0]: 20000 m is further than 10000 m");
+  refused("a.glb", ": nodes[0]: stands at 20000 m, further than 10000 m from the origin");
+
+  const auto bvh = [&](const std::string& name, const std::string& values) {
+    WriteFile(folder / name,
+              "HIERARCHY\nROOT box\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition "
+              "Zrotation Xrotation Yrotation\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n" +
+                  values);
+  };
+  bvh("angle.bvh", "0 0 0 0 1e30 0");
+  refused("angle.bvh", ":10: found '1e30', expected a number of degrees from -57295.8 to 57295.8");
+  bvh("length.bvh", "0 0 -2e7 0 0 0");
+  refused("length.bvh", ":10: found '-2e7', expected a number from -1e+07 to 1e+07");
+}
+
+// tinygltf calls itself once a level.
+TEST(MotionFile, RefusesGltfThatIsNestedTooDeeply) {
+  const TemporaryFolder folder;
+  std::string json = R"({"asset": {"version": "2.0"}, "extras": )" + std::string(1'000'000, '[') +
+                     std::string(1'000'000, ']') + "}";
+  json.append((4 - json.size() % 4) % 4, ' ');
+  std::string bytes("glTF\2\0\0\0", 8);
+  for (const size_t number : {json.size() + 20, json.size()}) {
+    for (int byte = 0; byte < 4; ++byte) bytes += static_cast<char>(number >> 8 * byte);
+  }
+  WriteFile(folder / "a.glb", bytes + "JSON" + json);
+  ExpectError(ErrorCode::kInvalidArgument, "a.glb: is JSON of more than 64 levels",
+              [&] { ReadMotion(folder / "a.glb"); });
+}
+
 // Our motion as a capture studio would hand it over: other names, inches, no hands, no collars'
 // rotations lost, and 12 cm above the floor.
 BvhFile StudioBvh(const Motion& motion) {
