@@ -21,6 +21,36 @@ constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's s
 constexpr double kBasis = 10000;         // Eq. 9
 constexpr double kLeastAlong = 0.25, kAlongSoftness = 0.1;  // of BoundedSixD
 constexpr double kFreeTurn = 0.25, kRootTurn = 0.15;        // of BoundedSixD's root
+constexpr double kTurnHorizon = 12;   // frames that a dancer goes on turning as she does
+constexpr double kResidualSigma = 2;  // frames, of SmoothInTime
+
+// The way round that the dancer is already turning. A key half a turn away can be reached both
+// ways, and slerp's shorter one is the wrong one about as often as not: of two turns that end
+// alike, `turn` [batch, 3] and its complement, the one nearer to what the last frames' turning
+// leads to.
+Tensor WayRound(const Tensor& turn, const TransitionTensors& transition) {
+  const int64_t history = transition.history_rotation.size(1);
+  if (history < 3) return turn;
+  const auto root = [&](int64_t frame) {
+    return transition.history_rotation.select(1, frame).select(1, 0);
+  };
+  const Tensor rate =
+      LogMapBatch(torch::matmul(root(history - 3).transpose(-1, -2), root(history - 1))) / 2;
+  const double ahead = std::min(kTurnHorizon, static_cast<double>(transition.frames));
+  const Tensor expected = ahead * rate;
+  const Tensor angle = turn.square().sum(-1, true).add(1e-12).sqrt();
+  const Tensor other = turn * (1 - 2 * M_PI / angle);
+  const auto miss = [&](const Tensor& way) { return (way - expected).square().sum(-1, true); };
+  return torch::where(miss(other) < miss(turn), other, turn);
+}
+
+// Low-pass along [batch, N, features]: a plan that changes its mind about the way round does so
+// over some frames, with limbs that can follow; what is quicker than that is the flow's.
+Tensor SmoothInTime(const Tensor& x) {
+  const Tensor at = torch::arange(x.size(1), x.options());
+  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / kResidualSigma;
+  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
+}
 
 // `line` plus `turn`, both [batch, N, joints, 6]. The mean of two ways round (left or right?)
 // nearly cancels a column of the line, and what is left flips by half a turn from one frame to the
@@ -43,7 +73,7 @@ Tensor BoundedSixD(const Tensor& line, const Tensor& turn) {
 
 }  // namespace
 
-TrajectoryTensors Interpolate(const TransitionTensors& transition) {
+TrajectoryTensors Interpolate(const TransitionTensors& transition, bool as_turning) {
   const int64_t joints = transition.target_rotation.size(1);
   const Tensor u = torch::arange(1, transition.frames + 1, transition.target_position.options()) /
                    static_cast<double>(transition.frames);
@@ -52,9 +82,13 @@ TrajectoryTensors Interpolate(const TransitionTensors& transition) {
   const Tensor joint_mask = transition.target_mask.narrow(1, 0, joints);
   const Tensor root_mask = transition.target_mask.narrow(1, joints, 1);
   const Tensor move = (transition.target_position - from_position) * root_mask;
-  const Tensor turn =
-      LogMapBatch(torch::matmul(from_rotation.transpose(-1, -2), transition.target_rotation)) *
-      joint_mask.unsqueeze(-1);
+  Tensor turn =
+      LogMapBatch(torch::matmul(from_rotation.transpose(-1, -2), transition.target_rotation));
+  if (as_turning) {
+    turn = torch::cat(
+        {WayRound(turn.select(1, 0), transition).unsqueeze(1), turn.narrow(1, 1, joints - 1)}, 1);
+  }
+  turn = turn * joint_mask.unsqueeze(-1);
   return {from_position.unsqueeze(1) + u.view({1, -1, 1}) * move.unsqueeze(1),
           torch::matmul(from_rotation.unsqueeze(1),
                         ExpMapBatch(u.view({1, -1, 1, 1}) * turn.unsqueeze(1)))};
@@ -116,7 +150,7 @@ PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
   const int64_t batch = transition.target_position.size(0), frames = transition.frames;
   const int64_t history = transition.history_position.size(1), time = history + frames;
   const auto options = transition.target_position.options();
-  const TrajectoryTensors line = Interpolate(transition);
+  const TrajectoryTensors line = Interpolate(transition, /*as_turning=*/true);
 
   const Tensor line_six_d = SixDBatch(line.rotation).flatten(2);
   const Tensor position = torch::cat({transition.history_position, line.position}, 1);
@@ -159,7 +193,7 @@ PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
   const Tensor mask = transition.target_mask.unsqueeze(1);  // [batch, 1, joints + 1]
   const Tensor ramp = from_start.unsqueeze(-1) *
                       (1 - mask + mask * to_key.unsqueeze(-1));  // [batch, N, joints + 1]
-  const Tensor residual = head_(hidden) * pose_std_;
+  const Tensor residual = SmoothInTime(head_(hidden)) * pose_std_;
   const Tensor move = residual.narrow(2, 0, 3) * ramp.narrow(2, joints_, 1);
   const Tensor turn = residual.narrow(2, 3, 6 * joints_).view({batch, frames, joints_, 6}) *
                       ramp.narrow(2, 0, joints_).unsqueeze(-1);

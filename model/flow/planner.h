@@ -29,8 +29,9 @@ struct TrajectoryTensors {
 };
 
 /// Interpolation from the last history pose to the key (lerp and slerp, the field's first
-/// baseline); what the key does not name stays as it is. Frame N-1 is the key.
-TrajectoryTensors Interpolate(const TransitionTensors& transition);
+/// baseline); what the key does not name stays as it is. Frame N-1 is the key. `as_turning`: the
+/// root goes the way round that the history leads to, not always the shorter one.
+TrajectoryTensors Interpolate(const TransitionTensors& transition, bool as_turning = false);
 
 /// Sinusoidal embedding of frame counts, Eq. 9: `counts` [...] → [..., width]; even places sine,
 /// odd ones cosine, basis 10 000.
@@ -51,7 +52,7 @@ class PlannerBlockImpl : public torch::nn::Module {
 };
 TORCH_MODULE(PlannerBlock);
 
-/// Proposes the mean of a transition: interpolation plus a residual from a transformer over
+/// Proposes the mean of a transition: interpolation plus a smooth residual from a transformer over
 /// history, gap and key. Not part of either paper; docs/decisions.md says why it is here. It hears
 /// no music, so a live transition starts without waiting for its own.
 class PlannerImpl : public torch::nn::Module {
@@ -64,8 +65,8 @@ class PlannerImpl : public torch::nn::Module {
                            ///< flow to condition on
   };
   Plan forward(const TransitionTensors& transition);
-  /// Spread of real poses, [3 + 6 joints] (root position, 6D rotations): tokens and residuals are in
-  /// these units, without which training hardly moves.
+  /// Spread of real poses, [3 + 6 joints] (root position, 6D rotations): tokens and residuals are
+  /// in these units, without which training hardly moves.
   void SetPoseNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
   int width() const { return width_; }
 
