@@ -125,7 +125,9 @@ int CouplingFlowImpl::StateWidth() const {
 }
 
 FlowState CouplingFlowImpl::InitialState(int64_t batch) const {
-  return torch::zeros({batch, StateWidth()}, steps_->ptr(0)->parameters()[0].options());
+  const auto options =
+      steps_->is_empty() ? torch::TensorOptions() : steps_->ptr(0)->parameters()[0].options();
+  return torch::zeros({batch, StateWidth()}, options);
 }
 
 namespace {
@@ -135,7 +137,7 @@ namespace {
 template <typename Visit>
 void WithStates(const torch::nn::ModuleList& steps, FlowState* state, bool backwards, Visit visit) {
   const int count = static_cast<int>(steps->size());
-  const int64_t width = state->size(-1) / count;
+  const int64_t width = count > 0 ? state->size(-1) / count : 0;
   auto pieces = width > 0 ? state->split(width, -1) : std::vector<Tensor>(count);
   for (int i = 0; i < count; ++i) {
     const int k = backwards ? count - 1 - i : i;

@@ -6,7 +6,8 @@
 
 namespace choreo {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlannerConfig, width, layers, heads)
+// With defaults: checkpoints from before there were two kinds do not name theirs.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(PlannerConfig, width, recurrent, layers, heads)
 
 // One list serves both directions, so that a field can't be written and not read.
 #define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                    \
@@ -51,7 +52,16 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     config.history_noise = 0.1;
     return config;
   }
-  throw InvalidArgument("preset", "'" + name + "' is not one of paper, default, ablation");
+  if (name == "recurrent") {  // the baseline, on its own
+    config.flow_steps = 0;
+    config.recurrent = false;
+    config.planner = {.width = 320, .recurrent = true};
+    config.max_transition_frames = 150;
+    config.temperature = 0;
+    return config;
+  }
+  throw InvalidArgument("preset",
+                        "'" + name + "' is not one of paper, default, ablation, recurrent");
 }
 
 }  // namespace choreo

@@ -5,10 +5,11 @@
 
 namespace choreo {
 
-/// The planner: a transformer that proposes the whole transition once, from history and key (its
-/// mean); width 0 means none.
+/// The planner, which proposes the whole transition once, from history and key (its mean); width 0
+/// means none.
 struct PlannerConfig {
   int width = 0;
+  bool recurrent = false;  ///< Harvey et al.'s network instead of a transformer
   int layers = 4;
   int heads = 6;
 };
@@ -19,7 +20,7 @@ struct FlowConfig {
   std::string preset = "default";
   int history_frames = 10;  ///< tau
   int audio_features = 40;  ///< MFCCs a row
-  int flow_steps = 16;      ///< K
+  int flow_steps = 16;      ///< K; 0: no flow, the plan is what is danced
   int hidden = 512;         ///< width of each coupling's network
   bool recurrent = true;    ///< coupling network: 2-layer LSTM (the paper's) or 2-layer perceptron
   int condition_width = 0;  ///< 0: the raw condition goes to every coupling (the paper); else one
@@ -38,7 +39,8 @@ struct FlowConfig {
   double history_noise =
       0.0;  ///< standard deviation added to past frames in training, in standardised units
 
-  /// `paper` | `default` | `ablation`. Throws Error(kInvalidArgument) for another name.
+  /// `paper` | `default` | `ablation` | `recurrent`. Throws Error(kInvalidArgument) for another
+  /// name.
   static FlowConfig Preset(const std::string& name);
 };
 

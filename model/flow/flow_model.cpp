@@ -36,7 +36,7 @@ FlowModelImpl::FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton)
   audio_mean_ = register_buffer("audio_mean", torch::zeros({config.audio_features}));
   audio_std_ = register_buffer("audio_std", torch::ones({config.audio_features}));
   if (config.planner.width > 0) {
-    planner_ = register_module("planner", Planner(skeleton.joints(), config.planner));
+    planner_ = register_module("planner", MakePlanner(skeleton.joints(), config.planner));
   }
   const int joints = skeleton.joints();
   const int past = config.history_frames * width_;
@@ -67,7 +67,7 @@ TransitionContext FlowModelImpl::Begin(const TransitionTensors& transition) {
   TransitionContext context;
   Tensor hidden;
   if (has_planner()) {
-    PlannerImpl::Plan plan = planner_(transition);
+    PlannerImpl::Plan plan = planner_->forward(transition);
     context.reference = plan.trajectory;
     hidden = plan.hidden;
   }
@@ -170,6 +170,47 @@ void FlowModelImpl::InitialiseActNorm(const Tensor& features, const Tensor& audi
   torch::NoGradGuard no_grad;
   const auto [x, condition] = Windows(features, audio, has_audio, context);
   flow_->InitialiseActNorm(x, condition);
+}
+
+Tensor FlowModelImpl::RelativeFeatures(const Tensor& absolute, const TrajectoryTensors& truth,
+                                       const TransitionContext& context) const {
+  if (!context.reference.position.defined()) return absolute;
+  const int64_t tau = config_.history_frames, pose_width = 3 + 3 * skeleton_.joints();
+  const Tensor move = truth.position - context.reference.position;
+  const Tensor turn =
+      LogMapBatch(torch::matmul(context.reference.rotation.transpose(-1, -2), truth.rotation));
+  const Tensor relative = torch::cat({move, turn.flatten(2)}, -1);
+  const Tensor history = torch::zeros({absolute.size(0), tau, pose_width}, absolute.options());
+  return torch::cat(
+      {torch::cat({history, relative}, 1), absolute.narrow(2, pose_width, width_ - pose_width)},
+      -1);
+}
+
+TrajectoryTensors FlowModelImpl::Decode(const Tensor& features,
+                                        const TransitionContext& context) const {
+  const int64_t joints = skeleton_.joints();
+  const Tensor position = features.narrow(-1, 0, 3);
+  const Tensor rotation = ExpMapBatch(
+      features.narrow(-1, 3, 3 * joints).reshape({features.size(0), features.size(1), joints, 3}));
+  if (!context.reference.position.defined()) return {position, rotation};
+  return {context.reference.position + position,
+          torch::matmul(context.reference.rotation, rotation)};
+}
+
+Tensor FlowModelImpl::Rollout(const Tensor& history, const Tensor& audio, const Tensor& has_audio,
+                              const TransitionContext& context, const Tensor& noise) {
+  const int64_t tau = config_.history_frames, frames = noise.size(1);
+  const std::vector<Tensor> inverse_weights = InverseWeights();
+  FlowState state = flow_->InitialState(noise.size(0));
+  std::vector<Tensor> past = history.unbind(1);
+  for (int64_t t = 0; t < frames; ++t) {
+    const std::vector<Tensor> window(past.end() - tau, past.end());
+    past.push_back(Step(torch::stack(window, 1), audio.narrow(1, t, tau + 1), has_audio,
+                        context.static_condition.select(1, t), noise.select(1, t), inverse_weights,
+                        &state)
+                       .features);
+  }
+  return torch::stack(std::vector<Tensor>(past.begin() + tau, past.end()), 1);
 }
 
 void FlowModelImpl::SetFeatureNormalisation(const Tensor& mean, const Tensor& std) {

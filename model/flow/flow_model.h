@@ -80,7 +80,7 @@ class FlowModelImpl : public torch::nn::Module {
   /// Statistics by which the network's inputs are standardised: [width], [audio_features].
   void SetFeatureNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
   void SetAudioNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
-  bool has_planner() const { return !planner_.is_empty(); }
+  bool has_planner() const { return planner_ != nullptr; }
   Planner planner() const { return planner_; }
   CouplingFlow flow() const { return flow_; }
 
@@ -100,7 +100,7 @@ class FlowModelImpl : public torch::nn::Module {
   Skeleton skeleton_;
   int width_;
   torch::Tensor feature_mean_, feature_std_, audio_mean_, audio_std_;
-  Planner planner_{nullptr};
+  Planner planner_;
   CouplingFlow flow_{nullptr};
   /// Shared encoding (condition_width > 0): one linear map a part, summed, then a second layer.
   torch::nn::Linear encode_past_{nullptr}, encode_static_{nullptr}, encode_audio_{nullptr},

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/flow/recurrent_planner.h"
 #include "model/flow/torch_kinematics.h"
 
 namespace choreo {
@@ -101,6 +102,52 @@ Tensor TimeEmbedding(const Tensor& counts, int64_t width) {
   return torch::stack({phase.sin(), phase.cos()}, -1).flatten(-2).narrow(-1, 0, width);
 }
 
+PlannerImpl::PlannerImpl(int joints) : joints_(joints) {
+  pose_mean_ = register_buffer("pose_mean", torch::zeros({3 + 6 * joints}));
+  pose_std_ = register_buffer("pose_std", torch::ones({3 + 6 * joints}));
+}
+
+Tensor PlannerImpl::PoseFeatures(const TrajectoryTensors& poses) const {
+  const Tensor six_d = SixDBatch(poses.rotation).flatten(-2);
+  return (torch::cat({poses.position, six_d}, -1) - pose_mean_) / pose_std_;
+}
+
+void PlannerImpl::SetPoseNormalisation(const Tensor& mean, const Tensor& std) {
+  torch::NoGradGuard no_grad;
+  pose_mean_.copy_(mean);
+  pose_std_.copy_(std);
+}
+
+namespace {
+
+// Pre-norm transformer block with a learnt bias for every clipped distance in time.
+class PlannerBlockImpl : public torch::nn::Module {
+ public:
+  PlannerBlockImpl(int width, int heads);
+  // x [batch, time, width]; distance [time, time] indices into the bias table.
+  Tensor forward(const Tensor& x, const Tensor& distance);
+
+ private:
+  int heads_;
+  torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
+  torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr};
+  Tensor distance_bias_;  // [2 * kMaxDistance + 1, heads]
+};
+TORCH_MODULE(PlannerBlock);
+
+// Interpolation plus a smooth residual from a transformer over history, gap and key.
+class TransformerPlanner : public PlannerImpl {
+ public:
+  TransformerPlanner(int joints, const PlannerConfig& config);
+  Plan forward(const TransitionTensors& transition) override;
+
+ private:
+  int width_;
+  torch::nn::Linear embed_{nullptr}, head_{nullptr};
+  torch::nn::LayerNorm norm_{nullptr};
+  torch::nn::ModuleList blocks_;
+};
+
 PlannerBlockImpl::PlannerBlockImpl(int width, int heads) : heads_(heads) {
   using torch::nn::LayerNormOptions;
   attention_norm_ =
@@ -130,13 +177,11 @@ Tensor PlannerBlockImpl::forward(const Tensor& x, const Tensor& distance) {
   return attended + down_(torch::gelu(up_(mlp_norm_(attended))));
 }
 
-PlannerImpl::PlannerImpl(int joints, const PlannerConfig& config)
-    : joints_(joints), width_(config.width) {
+TransformerPlanner::TransformerPlanner(int joints, const PlannerConfig& config)
+    : PlannerImpl(joints), width_(config.width) {
   // Token: the pose, its step, the step that leaves the history (root 3, rotations 6 a joint,
   // each), key mask (joints + root), is-history, is-key, two frame counts.
   const int64_t features = 3 * (3 + 6 * joints) + joints + 1 + 2 + 2 * kEmbeddingWidth;
-  pose_mean_ = register_buffer("pose_mean", torch::zeros({3 + 6 * joints}));
-  pose_std_ = register_buffer("pose_std", torch::ones({3 + 6 * joints}));
   embed_ = register_module("embed", torch::nn::Linear(features, width_));
   blocks_ = register_module("blocks", torch::nn::ModuleList());
   for (int i = 0; i < config.layers; ++i) blocks_->push_back(PlannerBlock(width_, config.heads));
@@ -146,16 +191,13 @@ PlannerImpl::PlannerImpl(int joints, const PlannerConfig& config)
   torch::nn::init::zeros_(head_->bias);
 }
 
-PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
+PlannerImpl::Plan TransformerPlanner::forward(const TransitionTensors& transition) {
   const int64_t batch = transition.target_position.size(0), frames = transition.frames;
   const int64_t history = transition.history_position.size(1), time = history + frames;
   const auto options = transition.target_position.options();
   const TrajectoryTensors line = Interpolate(transition, /*as_turning=*/true);
 
   const Tensor line_six_d = SixDBatch(line.rotation).flatten(2);
-  const Tensor position = torch::cat({transition.history_position, line.position}, 1);
-  const Tensor six_d =
-      torch::cat({SixDBatch(transition.history_rotation).flatten(2), line_six_d}, 1);
   const Tensor is_history = torch::zeros({1, time, 1}, options);
   is_history.narrow(1, 0, history).fill_(1);
   const Tensor is_key = torch::zeros({1, time, 1}, options);
@@ -163,7 +205,8 @@ PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
   const Tensor present = transition.target_mask.amax(1).view({batch, 1, 1});
   const Tensor since = torch::arange(-history, frames, options).view({1, time});
   const Tensor left = (frames - 1) - since;
-  const Tensor poses = (torch::cat({position, six_d}, -1) - pose_mean_) / pose_std_;
+  const Tensor poses = PoseFeatures({torch::cat({transition.history_position, line.position}, 1),
+                                     torch::cat({transition.history_rotation, line.rotation}, 1)});
   // Velocities stand in the tokens: attention takes very long to find such small differences
   // itself.
   const Tensor steps_before = kVelocityScale * (poses - torch::roll(poses, 1, 1));
@@ -202,10 +245,12 @@ PlannerImpl::Plan PlannerImpl::forward(const TransitionTensors& transition) {
           hidden};
 }
 
-void PlannerImpl::SetPoseNormalisation(const Tensor& mean, const Tensor& std) {
-  torch::NoGradGuard no_grad;
-  pose_mean_.copy_(mean);
-  pose_std_.copy_(std);
+}  // namespace
+
+Planner MakePlanner(int joints, const PlannerConfig& config) {
+  if (config.width == 0) return nullptr;
+  if (config.recurrent) return std::make_shared<RecurrentPlanner>(joints, config);
+  return std::make_shared<TransformerPlanner>(joints, config);
 }
 
 }  // namespace choreo

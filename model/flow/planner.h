@@ -1,11 +1,9 @@
 #pragma once
 
 #include <torch/nn/module.h>
-#include <torch/nn/modules/container/modulelist.h>
-#include <torch/nn/modules/linear.h>
-#include <torch/nn/modules/normalization.h>
-#include <torch/nn/pimpl.h>
 #include <torch/types.h>
+
+#include <memory>
 
 #include "model/flow/flow_config.h"
 
@@ -37,46 +35,32 @@ TrajectoryTensors Interpolate(const TransitionTensors& transition, bool as_turni
 /// odd ones cosine, basis 10 000.
 torch::Tensor TimeEmbedding(const torch::Tensor& counts, int64_t width);
 
-/// Pre-norm transformer block with a learnt bias for every clipped distance in time.
-class PlannerBlockImpl : public torch::nn::Module {
- public:
-  PlannerBlockImpl(int width, int heads);
-  /// x [batch, time, width]; distance [time, time] indices into the bias table.
-  torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& distance);
-
- private:
-  int heads_;
-  torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
-  torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr};
-  torch::Tensor distance_bias_;  // [2 * kMaxDistance + 1, heads]
-};
-TORCH_MODULE(PlannerBlock);
-
-/// Proposes the mean of a transition: interpolation plus a smooth residual from a transformer over
-/// history, gap and key. Not part of either paper; docs/decisions.md says why it is here. It hears
-/// no music, so a live transition starts without waiting for its own.
+/// Proposes the mean of a transition once, from history, gap and key, for the flow to dance around.
+/// Not part of paper F; docs/decisions.md says why it is here. It hears no music, so a live
+/// transition starts without waiting for its own.
 class PlannerImpl : public torch::nn::Module {
  public:
-  PlannerImpl(int joints, const PlannerConfig& config);
-
   struct Plan {
     TrajectoryTensors trajectory;
     torch::Tensor hidden;  ///< [batch, N, width]: what the planner knows of each frame, for the
                            ///< flow to condition on
   };
-  Plan forward(const TransitionTensors& transition);
+  virtual Plan forward(const TransitionTensors& transition) = 0;
   /// Spread of real poses, [3 + 6 joints] (root position, 6D rotations): tokens and residuals are
   /// in these units, without which training hardly moves.
   void SetPoseNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
-  int width() const { return width_; }
 
- private:
-  int joints_, width_;
+ protected:
+  explicit PlannerImpl(int joints);
+  /// Positions [..., 3] and rotations [..., joints, 3, 3] → [..., 3 + 6 joints], standardised.
+  torch::Tensor PoseFeatures(const TrajectoryTensors& poses) const;
+
+  int joints_;
   torch::Tensor pose_mean_, pose_std_;
-  torch::nn::Linear embed_{nullptr}, head_{nullptr};
-  torch::nn::LayerNorm norm_{nullptr};
-  torch::nn::ModuleList blocks_;
 };
-TORCH_MODULE(Planner);
+using Planner = std::shared_ptr<PlannerImpl>;
+
+/// The planner that `config` asks for; none where its width is 0.
+Planner MakePlanner(int joints, const PlannerConfig& config);
 
 }  // namespace choreo

@@ -4,7 +4,7 @@
 
 namespace choreo {
 
-nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps,
+nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int64_t flow_steps,
                          const std::vector<PreparedClip>& clips, const std::string& hash,
                          const std::vector<ValidationRow>& rows) {
   nlohmann::json figures = nlohmann::json::array();
@@ -33,24 +33,24 @@ nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps,
   nlohmann::json names = nlohmann::json::array();
   for (const auto& folder : options.data) names.push_back(folder.filename().string());
   licence.back() = '.';
-  return {
-      {"preset", options.preset},
-      {"data",
-       {{"names", names},
-        {"clips_by_layout", sources},
-        {"clips_by_terms", terms},
-        {"frames", frames},
-        {"hash", hash}}},
-      {"licence", licence},
-      {"command", options.Command()},
-      {"steps", {{"planner", planner_steps}, {"flow", options.flow_steps}}},
-      {"validation", figures},
-      {"limits",
-       "Trained on transitions of " + std::to_string(options.shortest) + " to " +
-           std::to_string(options.longest) +
-           " frames at 30 fps. The plan does not hear the music, the flow around it does; steps "
-           "are not aligned to beats. Without keys it drifts towards calm poses. Feet may slide. "
-           "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
+  return {{"preset", options.preset},
+          {"data",
+           {{"names", names},
+            {"clips_by_layout", sources},
+            {"clips_by_terms", terms},
+            {"frames", frames},
+            {"hash", hash}}},
+          {"licence", licence},
+          {"command", options.Command()},
+          {"steps", {{"planner", planner_steps}, {"flow", flow_steps}}},
+          {"validation", figures},
+          {"limits",
+           "Trained on transitions of " + std::to_string(options.shortest) + " to " +
+               std::to_string(options.longest) +
+               " frames at 30 fps. The plan does not hear the music, the flow around it does (if "
+               "there is one); steps are not aligned to beats. Without keys it drifts towards calm "
+               "poses. Feet may slide. "
+               "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
 }
 
 }  // namespace choreo

@@ -10,7 +10,9 @@ namespace choreo {
 void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
-  command->add_option("--preset", options->preset, "default | paper | ablation")
+  command
+      ->add_option("--preset", options->preset,
+                   "default | paper | ablation | recurrent (the baseline of Harvey et al.)")
       ->check(CLI::IsMember({"default", "paper", "ablation"}))
       ->capture_default_str();
   command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")

@@ -56,6 +56,7 @@ class Run {
     torch::manual_seed(options.seed);
     model_ = FlowModel(ConfigOf(options), train_.skeleton());
     planner_steps_ = model_->has_planner() ? options.planner_steps : 0;
+    flow_steps_ = model_->config().flow_steps > 0 ? options.flow_steps : 0;
     NormaliseAudio(train_, &model_);
     if (model_->has_planner()) NormalisePoses(PoseBatches(), &model_);
     model_->to(device_);
@@ -74,7 +75,7 @@ class Run {
   }
 
   void Go() {
-    const int64_t total = planner_steps_ + options_.flow_steps;
+    const int64_t total = planner_steps_ + flow_steps_;
     ProgressBar progress("train " + options_.preset, total - step_);
     const auto start = std::chrono::steady_clock::now();
     const double seconds_before = seconds_;
@@ -92,6 +93,7 @@ class Run {
       }
       if (stop) return;
     }
+    if (flow_steps_ == 0) StartFlowStage();
     Finish();
   }
 
@@ -157,7 +159,7 @@ class Run {
       Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),
                           model_->config().temperature));
     }
-    const double rate = StageRate(options_.flow_rate, step_ - planner_steps_, options_.flow_steps);
+    const double rate = StageRate(options_.flow_rate, step_ - planner_steps_, flow_steps_);
     flow_adam_->Step(rate, kMaxGradientNorm);
     encoder_adam_->Step(rate, kMaxGradientNorm);
   }
@@ -277,7 +279,7 @@ class Run {
     const std::vector<ValidationRow> rows =
         Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
     const nlohmann::json card =
-        ModelCard(options_, planner_steps_, train_.clips(), train_.Hash(), rows);
+        ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows);
     const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
     std::printf("%s\n", card.dump(2).c_str());
     std::printf("checkpoint %s, content hash %s\n",
@@ -290,7 +292,7 @@ class Run {
   torch::Device device_;
   FlowModel model_{nullptr};
   std::unique_ptr<Adam> planner_adam_, flow_adam_, encoder_adam_;
-  int64_t planner_steps_ = 0;
+  int64_t planner_steps_ = 0, flow_steps_ = 0;
   int64_t step_ = 0;
   double seconds_ = 0;
   LossRow losses_;

@@ -156,19 +156,79 @@ INSTANTIATE_TEST_SUITE_P(Shapes, FlowTest,
 TEST(Planner, StartsAsInterpolationAndEndsOnTheKey) {
   torch::NoGradGuard no_grad;
   torch::manual_seed(5);
-  Planner planner(24, PlannerConfig{.width = 24, .layers = 1, .heads = 2});
+  const Planner planner = MakePlanner(24, {.width = 24, .layers = 1, .heads = 2});
   const TransitionTensors transition = RandomTransition(2, 20);
   const TrajectoryTensors line = Interpolate(transition);
-  EXPECT_TRUE(torch::allclose(planner(transition).trajectory.position, line.position, 1e-5, 1e-6));
+  EXPECT_TRUE(
+      torch::allclose(planner->forward(transition).trajectory.position, line.position, 1e-5, 1e-6));
   EXPECT_TRUE(torch::allclose(line.position.select(1, 19), transition.target_position, 1e-5, 1e-5));
   EXPECT_TRUE(torch::allclose(line.rotation.select(1, 19), transition.target_rotation, 1e-4, 1e-4));
   Shake(*planner);
-  const auto shaken = planner(transition).trajectory;
+  const auto shaken = planner->forward(transition).trajectory;
   EXPECT_GT((shaken.position - line.position).abs().max().item<double>(), 1e-3);
   EXPECT_TRUE(
       torch::allclose(shaken.position.select(1, 19), transition.target_position, 1e-5, 1e-5));
   EXPECT_TRUE(
       torch::allclose(shaken.rotation.select(1, 19), transition.target_rotation, 1e-4, 1e-4));
+}
+
+// A dancer who spins to her left by `rate` radians a frame, and a key that is `turn` radians ahead.
+TransitionTensors Spin(double rate, double turn, int64_t frames) {
+  TransitionTensors spin = RandomTransition(1, frames);
+  const auto heading = [](double angle) {
+    return ExpMapBatch(torch::tensor({0.0F, static_cast<float>(angle), 0.0F}));
+  };
+  const int64_t history = spin.history_position.size(1);
+  for (int64_t s = 0; s < history; ++s) {
+    spin.history_rotation[0][s][0] = heading(rate * static_cast<double>(s - history + 1));
+  }
+  spin.target_rotation[0][0] = heading(turn);
+  return spin;
+}
+
+TEST(Interpolation, GoesTheWayRoundThatTheDancerIsTurning) {
+  const auto first_turn = [](const TransitionTensors& spin, bool as_turning) {
+    const auto line = Interpolate(spin, as_turning);
+    const Tensor before = spin.history_rotation[0][-1][0], after = line.rotation[0][0][0];
+    return LogMapBatch(torch::matmul(before.t(), after))[1].item<double>();
+  };
+  // 190 degrees to the left are 170 to the right.
+  const double left = 190 * M_PI / 180, right = left - 2 * M_PI;
+  EXPECT_NEAR(first_turn(Spin(0.1, left, 30), false), right / 30, 1e-4);
+  EXPECT_NEAR(first_turn(Spin(0.1, left, 30), true), left / 30, 1e-4);
+  EXPECT_NEAR(first_turn(Spin(-0.1, left, 30), true), right / 30, 1e-4);
+  EXPECT_NEAR(first_turn(Spin(0, left, 30), true), right / 30, 1e-4);
+  // A quarter turn against the spin stays one.
+  EXPECT_NEAR(first_turn(Spin(0.1, -M_PI / 2, 30), true), -M_PI / 60, 1e-4);
+}
+
+TEST(Planner, TheRecurrentOneStandsStillUntilTrainedThenHeedsKeyAndTime) {
+  torch::NoGradGuard no_grad;
+  torch::manual_seed(5);
+  const Planner planner = MakePlanner(24, {.width = 24, .recurrent = true});
+  TransitionTensors transition = RandomTransition(2, 20);
+  planner->eval();
+  const auto still = planner->forward(transition).trajectory;
+  EXPECT_TRUE(torch::allclose(still.position.select(1, 19),
+                              transition.history_position.select(1, -1), 1e-5, 1e-6));
+  Shake(*planner);
+  const auto plan = planner->forward(transition);
+  EXPECT_EQ(plan.hidden.sizes(), (std::vector<int64_t>{2, 20, 24}));
+  EXPECT_TRUE(
+      torch::equal(plan.trajectory.position, planner->forward(transition).trajectory.position));
+  // Its first frame knows of the key and of the frames that are left.
+  const auto first = [&] { return planner->forward(transition).trajectory.position.select(1, 0); };
+  const Tensor before = first();
+  transition.frames = 40;
+  EXPECT_FALSE(torch::equal(first(), before));
+  transition.frames = 20;
+  transition.target_position = transition.target_position + 1;
+  EXPECT_FALSE(torch::equal(first(), before));
+  // A key that is masked is not there.
+  transition.target_mask.zero_();
+  const Tensor free = first();
+  transition.target_position = transition.target_position + 1;
+  EXPECT_TRUE(torch::equal(first(), free));
 }
 
 TEST(TimeEmbeddingTest, IsEquationNine) {

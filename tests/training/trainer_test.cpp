@@ -80,6 +80,26 @@ TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
   }
 }
 
+TEST_F(TrainerTest, ABaselineWithoutAFlowIsItsPlan) {
+  TrainOptions options = Options("recurrent", 4);
+  options.preset = "recurrent";
+  options.planner_steps = 4;
+  Train(options);
+  torch::NoGradGuard no_grad;
+  Checkpoint made = LoadCheckpoint(options.run / "checkpoint.safetensors");
+  const ClipStore clips(options.data, options.splits, Split::kTrain);
+  Random random(1);
+  const MotionBatch batch = clips.Draw(3, 10, 8, {}, &random);
+  const TransitionContext context = made.model->Begin(batch.transition);
+  const torch::Tensor features = made.model->RelativeFeatures(batch.features, batch.truth, context);
+  const TrajectoryTensors danced = made.model->Decode(
+      made.model->Rollout(features.narrow(1, 0, 10), batch.audio, batch.has_audio, context,
+                          torch::zeros({3, 8, features.size(2)})),
+      context);
+  EXPECT_TRUE(torch::allclose(danced.position, context.reference.position, 1e-5, 1e-5));
+  EXPECT_TRUE(torch::allclose(danced.rotation, context.reference.rotation, 1e-4, 1e-4));
+}
+
 TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   const auto failure = [](TrainOptions options) -> std::string {
     try {
