@@ -85,9 +85,14 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
   const torch::Device there = ToTorch(device);
   Loaded loaded;
   std::string kernels = TorchKernels(there);
-  if (kind == EngineKind::kPacked || (kind == EngineKind::kAuto && there.is_cpu())) {
+  // A baseline without a flow has nothing to pack.
+  if (kind == EngineKind::kPacked ||
+      (kind == EngineKind::kAuto && there.is_cpu() && config.flow_steps > 0)) {
     if (!there.is_cpu()) {
       throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
+    }
+    if (config.flow_steps == 0) {
+      throw InvalidArgument("engine", "packed computes a flow, and " + path.string() + " has none");
     }
     const PackedKernels& fastest = VerifiedKernels();
     loaded.packed = std::make_shared<PackedFlow>(content, config, model->feature_width(), fastest);

@@ -97,6 +97,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
       flow_steps(config.flow_steps),
       hidden(config.hidden),
       recurrent(config.recurrent),
+      planned(config.planner.width > 0),
       encoded(config.condition_width > 0),
       live(tau * width + (tau + 1) * audio_features + 1),
       condition(encoded ? config.condition_width : live) {

@@ -40,6 +40,8 @@ struct PackedFlow {
   long hoisted_width() const {
     return encoded ? encode_live.padded() : flow_steps * couplings.front().first.padded();
   }
+  /// Root position and rotations; velocities and contacts stand behind them.
+  int pose_width() const { return width - 3 - 4; }
   int input_width() const { return condition + low() + (recurrent ? hidden : 0); }
 
   /// static_condition [rows, static_width] -> hoisted [rows, hoisted_width()]: what every frame's
@@ -50,6 +52,7 @@ struct PackedFlow {
   const PackedKernels& kernels;
   int width, tau, audio_features, flow_steps, hidden;
   bool recurrent;
+  bool planned;      ///< features are relative to a plan
   bool encoded;      ///< one shared condition encoding, else the raw condition
   int live;          ///< floats of past and music that a frame's condition is made of
   int condition;     ///< columns of the condition that couplings see: the encoding's, or `live`

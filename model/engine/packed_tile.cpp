@@ -14,6 +14,16 @@ constexpr float kDeltaFloor = 0.05F;
 constexpr float kFeatureClamp = 6.0F;
 constexpr float kSampleBound = 3.0F;
 
+// `past` [tau, width], standardised: see kStrayed.
+void DropStrayed(const PackedFlow& flow, std::span<const float> noise, float* past) {
+  const Eigen::Map<const Eigen::ArrayXf> drawn(noise.data(), flow.width);
+  const float most = kStrayed * (1 + std::sqrt(drawn.square().mean()));
+  for (int frame = 0; frame < flow.tau; ++frame, past += flow.width) {
+    Eigen::Map<Eigen::ArrayXf> features(past, flow.width);
+    if (features.head(flow.pose_width()).abs().maxCoeff() >= most) features.setZero();
+  }
+}
+
 }  // namespace
 
 PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
@@ -57,6 +67,7 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
     float* live = flow.encoded ? live_.Row(i) : input_.Row(i);
     flow.kernels.standardise(row.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
                              flow.width, flow.tau, kFeatureClamp, live);
+    if (flow.planned) DropStrayed(flow, row.noise, live);
     if (row.has_audio) {
       flow.kernels.standardise(row.audio.data(), flow.audio_mean.data(), flow.audio_scale.data(),
                                flow.audio_features, flow.tau + 1, kFeatureClamp, live + past);

@@ -14,6 +14,12 @@ struct PlannerConfig {
   int heads = 6;
 };
 
+/// Sampling around a plan drops past frames that strayed from it, as training drops frames at
+/// random: a frame is dropped where a position or rotation is farther away than this many standard
+/// deviations, times 1 + the root mean square of the noise. Frames that strayed would be followed
+/// farther astray, to where no dance ever was.
+inline constexpr float kStrayed = 1.5F;
+
 /// Shape and training-time switches of the flow model (paper F, Section 3.2). Stored in every
 /// checkpoint.
 struct FlowConfig {

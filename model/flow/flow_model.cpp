@@ -119,7 +119,13 @@ FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& 
                                               const Tensor& static_condition, const Tensor& noise,
                                               const std::vector<Tensor>& inverse_weights,
                                               FlowState* state) {
-  const Tensor clamped = Standardise(past).clamp(-kFeatureClamp, kFeatureClamp).flatten(1);
+  Tensor clamped = Standardise(past).clamp(-kFeatureClamp, kFeatureClamp);
+  if (has_planner()) {
+    const Tensor far = clamped.narrow(2, 0, 3 + 3 * skeleton_.joints()).abs().amax(2, true);
+    const Tensor most = kStrayed * (1 + noise.square().mean(1).sqrt().view({-1, 1, 1}));
+    clamped = clamped * (far < most).to(clamped.dtype());
+  }
+  clamped = clamped.flatten(1);
   const Tensor rows = torch::cat({StandardiseAudio(audio, has_audio).flatten(1), has_audio}, 1);
   const Tensor condition = Condition(clamped, rows, static_condition).unsqueeze(1);
   Tensor log_det = torch::zeros({noise.size(0), 1}, noise.options());
