@@ -58,7 +58,6 @@ void DrawFilm(const RenderOptions& options, const SkeletonMotion& dance, std::ve
     throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in 1280x720");
   }
   std::unique_ptr<ProgressBar> bar;
-  const Interruption interruption;
   film.on_frame = [&](int64_t frames) {
     Interruption::Check();
     if (!bar) bar = std::make_unique<ProgressBar>("rendering", frames);
@@ -75,6 +74,7 @@ void Run(const RenderOptions& options) {
     throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
   if (!options.out.empty()) RequireExtension("--out", options.out, ".png");
   if (!options.video.empty()) RequireExtension("--video", options.video, ".mp4");
+  const Interruption interruption;  // from here on there may be half a file to take away
   RequireOutputs({{"--out", options.out}, {"--video", options.video}},
                  {{"motion", options.motion},
                   {"--report", options.report},
@@ -82,6 +82,7 @@ void Run(const RenderOptions& options) {
   const SkeletonMotion dance = ReadMotion(options.motion);
   std::vector<double> keys;
   if (!options.report.empty()) keys = KeyTimes(options.report);
+  Interruption::Check();
   if (!options.out.empty()) DrawSheet(options, dance, keys);
   if (!options.video.empty()) DrawFilm(options, dance, keys);
 }
