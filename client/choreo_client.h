@@ -134,8 +134,9 @@ struct DanceConfig {
   AudioFormat audio = {};
   std::optional<int64_t> frames =
       {};  ///< the dance ends before this frame; otherwise with the music or the last key
-  /// Times of the music's beats, seconds, ascending: for Beat messages and the report, never for
-  /// the dance. Empty: the server finds them in a kFile, and knows none in a kPcmFloat.
+  /// Times of the music's beats, seconds, ascending: limbs are fastest on them, Beat messages and
+  /// the report tell of them. Empty: the server finds them in a kFile, and knows none in a
+  /// kPcmFloat.
   std::vector<double> music_beats = {};
 };
 

@@ -35,7 +35,7 @@ struct DanceConfig {
     int64_t first_sample = 0;
   };
   std::optional<Audio> audio;       ///< none: the model dances without music
-  std::vector<double> music_beats;  ///< seconds, ascending; for the report's beat figures alone
+  std::vector<double> music_beats;  ///< seconds, ascending: the dance is timed to them
 
   /// Where the dance starts: 0, or the continuation's frame.
   int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }

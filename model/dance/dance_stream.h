@@ -43,7 +43,7 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// In place of DanceConfig::music_beats, for who learns them later; until the last frame.
+  /// In place of DanceConfig::music_beats, for who learns them later; before the first sample.
   void SetMusicBeats(std::vector<double> seconds);
 
   /// See Timeline. A key too late is answered by a KeyRejection event. Errors name "keyframes[i]",

@@ -30,7 +30,7 @@ struct GroupRequest {
   int channels = 0;
   int64_t first_sample = 0;
   std::vector<float> samples;
-  std::vector<double> music_beats;  ///< seconds, for the report alone
+  std::vector<double> music_beats;  ///< seconds, ascending: the dance is timed to them
 
   bool has_audio() const { return sample_rate != 0; }
   /// Number of the first frame to be made, and the poses before it, wherever they are told.

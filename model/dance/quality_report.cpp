@@ -11,9 +11,10 @@
 namespace choreo {
 namespace {
 
-constexpr double kToeHeight = 0.05;  // metres
-constexpr double kSkateSpeed = 0.2;  // metres a second
-constexpr double kBeatGap = 2;       // frames
+constexpr double kToeHeight = 0.05;          // metres
+constexpr double kSkateSpeed = 0.2;          // metres a second
+constexpr double kBeatGap = 2;               // frames
+constexpr double kBeatDeviation = 1.0 / 12;  // seconds, of the Gaussian over speeds
 constexpr int64_t kFramesAroundKey = 2;
 
 }  // namespace
@@ -87,7 +88,7 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
     if (frame >= 0 && frame < static_cast<double>(frames_)) beats.push_back(frame);
   }
   if (beats.empty()) return report;
-  const std::vector<int64_t> kinematic = KinematicBeats(speed_);
+  const std::vector<int64_t> kinematic = KinematicBeats(speed_, fps_);
   report.beat_coverage = static_cast<double>(kinematic.size()) / static_cast<double>(beats.size());
   if (kinematic.empty()) return report;
   const auto hits = std::count_if(kinematic.begin(), kinematic.end(), [&beats](int64_t frame) {
@@ -99,7 +100,29 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   return report;
 }
 
-std::vector<int64_t> KinematicBeats(std::span<const float> speed) {
+namespace {
+
+std::vector<double> Smooth(std::span<const float> curve, double deviation) {
+  const auto reach = static_cast<int64_t>(std::ceil(4 * deviation));
+  const auto size = static_cast<int64_t>(curve.size());
+  std::vector<double> smooth(curve.size());
+  for (int64_t i = 0; i < size; ++i) {
+    double sum = 0, weights = 0;
+    for (int64_t k = std::max<int64_t>(0, i - reach); k <= std::min(size - 1, i + reach); ++k) {
+      const double away = static_cast<double>(k - i) / deviation;
+      const double weight = std::exp(-0.5 * away * away);
+      sum += weight * curve[static_cast<size_t>(k)];
+      weights += weight;
+    }
+    smooth[static_cast<size_t>(i)] = sum / weights;
+  }
+  return smooth;
+}
+
+}  // namespace
+
+std::vector<int64_t> KinematicBeats(std::span<const float> curve, double fps) {
+  const std::vector<double> speed = Smooth(curve, kBeatDeviation * fps);
   std::vector<int64_t> beats;
   size_t start = 0;  // of the plateau that position i belongs to
   for (size_t i = 1; i < speed.size(); ++i) {

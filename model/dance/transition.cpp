@@ -36,6 +36,18 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
+// Beats in frames from the first one: those of the transition, one before and one behind.
+std::vector<double> BeatsAround(const TransitionRequest& request) {
+  const auto first = static_cast<double>(request.first_frame);
+  auto from = std::ranges::upper_bound(request.beats, first - 1);
+  auto to = std::ranges::lower_bound(request.beats, first + request.frames);
+  if (from != request.beats.begin()) --from;
+  if (to != request.beats.end()) ++to;
+  std::vector<double> beats(from, to);
+  for (double& beat : beats) beat -= first;
+  return beats;
+}
+
 Pose Near(Pose pose, const Pose& previous) {
   for (int joint = 0; joint < pose.rotations.cols(); ++joint) {
     pose.rotations.col(joint) =
@@ -95,6 +107,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.history = CanonicalHistory(ground_, history);
   spec_.has_audio = request.has_audio;
   if (request.has_audio) spec_.audio_history = request.audio_history;
+  spec_.beats = BeatsAround(request);
   spec_.seed = request.seed;
   spec_.candidate = request.candidate;
   spec_.first_frame = request.first_frame;

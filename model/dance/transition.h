@@ -32,6 +32,9 @@ struct TransitionRequest {
   bool has_audio = false;
   Eigen::MatrixXf audio_history;  ///< [audio_features, tau] rows of the frames before the first;
                                   ///< unread without audio
+  /// Where the music beats, in absolute frames, ascending; those near the transition count. Empty:
+  /// unknown.
+  std::vector<double> beats;
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute

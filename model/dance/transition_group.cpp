@@ -190,6 +190,8 @@ void TransitionGroup::Impl::Begin() {
   transition.after = request_.after;
   transition.has_audio = audio_.has_value();
   transition.audio_history = audio_history_;
+  for (const double seconds : request_.music_beats)
+    transition.beats.push_back(seconds * model_.fps);
   transition.seed = request_.seed;
   transition.first_frame = first_frame_;
   transition.temperature =

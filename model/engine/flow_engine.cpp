@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/engine/plan_timing.h"
 #include "model/motion/pose_codec.h"
 
 namespace choreo {
@@ -40,6 +41,8 @@ int FlowEngine::Admit(const TransitionSpec& spec) {
   const int slot = static_cast<int>(free - slots_.begin());
   TransitionPlan plan = planner_->Plan(spec);
   tile_->Begin(slot, std::move(plan.static_condition));
+  if (!spec.beats.empty() && !plan.poses.empty())
+    plan.poses = TimeToBeats(spec.history.back(), plan.poses, spec.beats);
   free->window.Begin(spec, std::move(plan.poses));
   free->taken = true;
   return slot;

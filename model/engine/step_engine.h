@@ -27,6 +27,8 @@ struct ModelInfo {
   int audio_features = 40;  ///< MFCC rows' width
   int max_transition_frames = 1800;
   double default_temperature = 0.3;
+  double fine_temperature = 1;  ///< share of the temperature that a frame's own noise has
+  double follow = 1;  ///< share of the way that what leaves the plan goes to the flow's proposal
 };
 
 /// The key pose at the end of a transition.
@@ -44,6 +46,9 @@ struct TransitionSpec {
   bool has_audio = false;        ///< false: audio rows are ignored, the model dances without music
   Eigen::MatrixXf
       audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first
+  /// Where the music beats, in frames from frame 0, ascending; the plan is timed to it
+  /// (plan_timing.h). Empty: unknown.
+  std::vector<double> beats;
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,

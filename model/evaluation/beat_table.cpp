@@ -12,12 +12,20 @@ namespace {
 
 constexpr double kGap = 2;  // frames: a beat is a frame, too, as in the paper
 
+std::vector<double> Within(const std::vector<double>& beats, int frames) {
+  std::vector<double> within;
+  std::ranges::copy_if(beats, std::back_inserter(within),
+                       [frames](double beat) { return beat >= 0 && beat < frames; });
+  return within;
+}
+
 }  // namespace
 
-BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music) {
+BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music,
+                       double fps) {
   BeatFigures figures;
-  const std::vector<int64_t> kinematic = KinematicBeats(speeds);
-  const std::vector<double> beats = BeatsBetween(music, 0, static_cast<int>(speeds.size()) + 1);
+  const std::vector<int64_t> kinematic = KinematicBeats(speeds, fps);
+  const std::vector<double> beats = Within(music, static_cast<int>(speeds.size()) + 1);
   if (kinematic.empty() || beats.empty()) return figures;
   const auto hits = std::ranges::count_if(kinematic, [&](int64_t frame) {
     return std::ranges::any_of(beats, [&](double beat) {
@@ -27,26 +35,26 @@ BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>&
   const auto count = static_cast<double>(kinematic.size());
   figures.hit_rate = static_cast<double>(hits) / count;
   figures.coverage = count / static_cast<double>(beats.size());
-  figures.alignment = BeatAlignmentScore(speeds, beats);
+  figures.alignment = BeatAlignmentScore(speeds, beats, fps);
   return figures;
 }
 
-BeatTable::BeatTable(const ClipSet& set, const std::vector<std::vector<double>>& beats)
-    : set_(set), beats_(beats) {}
+BeatTable::BeatTable(const ClipSet& set) : set_(set) {}
 
 void BeatTable::Add(const std::string& name, size_t clip, int start,
                     const std::vector<float>& speeds) {
   const auto frames = static_cast<int>(speeds.size()) + 1;
-  const std::vector<double> own = BeatsBetween(beats_[clip], start, frames);
+  const std::vector<double> own = set_.BeatsBetween(clip, start, frames);
   if (own.empty()) return;
-  Entry entry{clip, ScoreBeats(speeds, own), {}};
+  const double fps = set_.clips[clip].motion.fps;
+  Entry entry{clip, ScoreBeats(speeds, own, fps), {}};
   int others = 0;
-  for (size_t other = 0; other < beats_.size(); ++other) {
-    if (other == clip || beats_[other].empty()) continue;
+  for (size_t other = 0; other < set_.beats.size(); ++other) {
+    if (other == clip || set_.beats[other].empty()) continue;
     // As much of the dance as the other song lasts.
     const auto length =
         std::min(speeds.size(), static_cast<size_t>(set_.clips[other].audio.cols()) - 1);
-    const BeatFigures figures = ScoreBeats(std::span(speeds).first(length), beats_[other]);
+    const BeatFigures figures = ScoreBeats(std::span(speeds).first(length), set_.beats[other], fps);
     entry.chance.hit_rate += figures.hit_rate;
     entry.chance.alignment += figures.alignment;
     ++others;
@@ -62,8 +70,10 @@ Table BeatTable::Finish() const {
   table.name = "beats_" + set_.name;
   table.title = "Steps on beats, " + set_.name;
   table.note =
-      "Kinematic beats are maxima of the mean joint speed, hits at most two frames off a music "
-      "beat; chance: the same dances scored on the set's other songs. Alignment: minima of speed "
+      "Kinematic beats are maxima of the mean joint speed, smoothed by a Gaussian of 1/12 s; hits "
+      "at "
+      "most two frames off a music beat; chance: the same dances scored on the set's other songs. "
+      "Alignment: minima of speed "
       "(AIST++). Intervals over songs.";
   table.label_headings = {"dance"};
   table.columns = {{"dances", 0},   {"hit rate %", 1},        {"chance %", 1},  {"above chance", 1},

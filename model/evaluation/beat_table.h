@@ -18,14 +18,15 @@ struct BeatFigures {
   double coverage = 0;   ///< B_k / B_m
   double alignment = 0;  ///< BeatAlignmentScore
 };
-BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music);
+BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music,
+                       double fps);
 
 /// Gathers dances beside a set's songs, scores each on its own song and, for chance, on the set's
 /// other songs from their beginnings: what a dance hits by its own density and tempo.
 class BeatTable {
  public:
-  /// `beats`: of each clip's song; both outlive the table.
-  BeatTable(const ClipSet& set, const std::vector<std::vector<double>>& beats);
+  /// The set outlives the table.
+  explicit BeatTable(const ClipSet& set);
 
   /// A dance of the row `name` beside frames `start` on of a clip; mean joint speeds step by step.
   /// Those of a clip without beats do not count.
@@ -40,7 +41,6 @@ class BeatTable {
     BeatFigures own, chance;
   };
   const ClipSet& set_;
-  const std::vector<std::vector<double>>& beats_;
   std::vector<std::string> names_;
   std::map<std::string, std::vector<Entry>> entries_;
 };

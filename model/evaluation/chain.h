@@ -16,6 +16,7 @@ struct ChainPlan {
   std::map<int, Pose> keys;  ///< by frame of the dance, each below `frames`
   /// [audio_features, history frames + frames], or no columns: dances without music.
   Eigen::MatrixXf audio;
+  std::vector<double> beats;  ///< of the music, in frames of the dance
   uint64_t seed = 0;
   float temperature = 0;
 };

@@ -22,10 +22,9 @@ EvalOptions Shorter(const EvalOptions& options) {
 // Inputs one after another, the samples of each together.
 std::vector<LongPlan> Plans(const ClipSet& set, const Method& method, const EvalOptions& options) {
   const KeyTimes times = method.keys ? KeyTimes::kEachTwoSeconds : KeyTimes::kNone;
-  const std::vector<std::vector<double>> no_beats(set.clips.size());
   std::vector<LongPlan> plans;
   for (const LongPlan& input :
-       PlanLongDances(method.engine->model(), set, times, kInputs, Shorter(options), no_beats)) {
+       PlanLongDances(method.engine->model(), set, times, kInputs, Shorter(options))) {
     for (int sample = 0; sample < kSamples; ++sample) {
       plans.push_back(input);
       plans.back().chain.seed += static_cast<uint64_t>(1000 * sample);

@@ -13,6 +13,7 @@
 #include "model/evaluation/interpolation_engine.h"
 #include "model/evaluation/long_tables.h"
 #include "model/evaluation/method_sheet.h"
+#include "model/evaluation/song_beats.h"
 #include "model/evaluation/stress_table.h"
 #include "model/evaluation/transition_tables.h"
 #include "model/training/clip_split.h"
@@ -81,6 +82,8 @@ std::vector<ClipSet> LoadSets(const Arguments& arguments, const Skeleton& skelet
   for (std::filesystem::path folder : arguments.data) {
     if (!folder.has_filename()) folder = folder.parent_path();
     sets.push_back({folder.filename().string(), LoadClips({folder}, arguments.splits, split)});
+    for (const PreparedClip& clip : sets.back().clips)
+      sets.back().beats.push_back(SongBeats(clip.audio, clip.motion.fps));
     const Skeleton& theirs = sets.back().clips.front().skeleton;
     if (!(theirs == skeleton)) {
       throw InvalidArgument("--data", folder.string() + ": the clips' skeleton is " +

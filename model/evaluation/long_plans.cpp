@@ -50,17 +50,8 @@ std::string NameOf(KeyTimes times) {
   return "";
 }
 
-std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames) {
-  std::vector<double> within;
-  for (const double beat : beats) {
-    if (beat >= start && beat < start + frames) within.push_back(beat - start);
-  }
-  return within;
-}
-
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
-                                     int count, const EvalOptions& options,
-                                     const std::vector<std::vector<double>>& beats) {
+                                     int count, const EvalOptions& options) {
   const int history = model.history_frames;
   const auto clips = static_cast<int>(set.clips.size());
   std::vector<LongPlan> plans;
@@ -79,8 +70,8 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
     const auto first = clip.motion.frames.begin() + plan.start;
     chain.history.assign(first - history, first);
     if (music) chain.audio = clip.audio.middleCols(plan.start - history, history + chain.frames);
-    for (const int frame :
-         KeyFrames(times, chain.frames, BeatsBetween(beats[plan.clip], plan.start, chain.frames)))
+    chain.beats = set.BeatsBetween(plan.clip, plan.start, chain.frames);
+    for (const int frame : KeyFrames(times, chain.frames, chain.beats))
       chain.keys[frame] = WalkedPose(clip, plan.start + frame);
     chain.seed = static_cast<uint64_t>(i);
     chain.temperature = options.temperature;

@@ -27,12 +27,8 @@ struct LongPlan {
 
 /// `count` dances of EvalOptions::long_frames, spread evenly over the clips of a set and the places
 /// within each. Beside music a dance ends with it; else a clip that is shorter than the dance
-/// offers its keys forwards, backwards, forwards. `beats`: of each clip's music, frames.
+/// offers its keys forwards, backwards, forwards.
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
-                                     int count, const EvalOptions& options,
-                                     const std::vector<std::vector<double>>& beats);
-
-/// Beats between two frames of a clip, counted from the first one.
-std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames);
+                                     int count, const EvalOptions& options);
 
 }  // namespace choreo

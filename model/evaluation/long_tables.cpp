@@ -8,7 +8,6 @@
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/long_plans.h"
 #include "model/evaluation/pose_distance.h"
-#include "model/evaluation/song_beats.h"
 
 namespace choreo {
 namespace {
@@ -24,13 +23,6 @@ std::vector<KeyTimes> KindsFor(const ClipSet& set) {
   std::vector<KeyTimes> kinds = {KeyTimes::kNone, KeyTimes::kEachTwoSeconds};
   if (HasMusic(set)) kinds.insert(kinds.end(), {KeyTimes::kEqual, KeyTimes::kOnBeats});
   return kinds;
-}
-
-std::vector<std::vector<double>> FindBeats(const ClipSet& set) {
-  std::vector<std::vector<double>> beats;
-  for (const PreparedClip& clip : set.clips)
-    beats.push_back(SongBeats(clip.audio, clip.motion.fps));
-  return beats;
 }
 
 std::vector<Chain> Dance(StepEngine& engine, const std::vector<LongPlan>& plans, const ClipSet& set,
@@ -146,7 +138,7 @@ double Distance(const Skeleton& skeleton, const Chain& a, const Chain& b) {
 }
 
 Table InfluenceTable(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
-                     const std::vector<std::vector<double>>& beats, ProgressBar* progress) {
+                     ProgressBar* progress) {
   Table table;
   table.name = "influence_" + set.name;
   table.title = "What changes a dance, " + set.name;
@@ -161,7 +153,7 @@ Table InfluenceTable(const ClipSet& set, StepEngine& engine, const EvalOptions& 
   shorter.long_frames = std::min(options.long_frames, kInfluenceFrames);
   for (const KeyTimes times : {KeyTimes::kNone, KeyTimes::kEachTwoSeconds}) {
     const std::vector<LongPlan> plans =
-        PlanLongDances(engine.model(), set, times, kInfluenceDances, shorter, beats);
+        PlanLongDances(engine.model(), set, times, kInfluenceDances, shorter);
     if (plans.empty()) continue;
     const auto dance = [&](auto change) {
       std::vector<LongPlan> changed = plans;
@@ -188,9 +180,13 @@ Table InfluenceTable(const ClipSet& set, StepEngine& engine, const EvalOptions& 
                      const auto& song = set.clips[(plan.clip + 1) % set.clips.size()].audio;
                      for (Eigen::Index t = 0; t < plan.chain.audio.cols() && song.cols() > 0; ++t)
                        plan.chain.audio.col(t) = song.col(t % song.cols());
+                     plan.chain.beats =
+                         set.BeatsBetween((plan.clip + 1) % set.clips.size(), 0, plan.chain.frames);
                    })));
-      row.cells.push_back(
-          distance(as_is, dance([](LongPlan& plan) { plan.chain.audio.resize(0, 0); })));
+      row.cells.push_back(distance(as_is, dance([](LongPlan& plan) {
+                                     plan.chain.audio.resize(0, 0);
+                                     plan.chain.beats.clear();
+                                   })));
     }
     table.rows.push_back(row);
   }
@@ -203,7 +199,6 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
                                       const EvalOptions& options, ProgressBar* progress) {
   if (options.long_seeds == 0) return {};
   const ModelInfo& model = engine.model();
-  const auto beats = FindBeats(set);
   std::vector<LongFigures> real;
   std::vector<JointTrack> tracks;
   for (const PreparedClip& clip : set.clips) {
@@ -219,10 +214,10 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
                     .x_label = "seconds",
                     .y_label = "m/s",
                     .series = {SpeedCurve("real motion", real, model.fps, options.long_frames)}};
-  BeatTable beat_table(set, beats);
+  BeatTable beat_table(set);
   for (const KeyTimes times : KindsFor(set)) {
     const std::vector<LongPlan> plans =
-        PlanLongDances(model, set, times, options.long_seeds, options, beats);
+        PlanLongDances(model, set, times, options.long_seeds, options);
     const std::vector<Chain> chains = Dance(engine, plans, set, progress);
     std::vector<LongFigures> dances;
     double worst_key = 0;
@@ -245,16 +240,15 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
       beat_table.Add("real", clip, 0, real[clip].speeds);
     tables.push_back(beat_table.Finish());
   }
-  tables.push_back(InfluenceTable(set, engine, options, beats, progress));
+  tables.push_back(InfluenceTable(set, engine, options, progress));
   return tables;
 }
 
 int64_t CountLongFrames(const ClipSet& set, const ModelInfo& model, const EvalOptions& options) {
   if (options.long_seeds == 0) return 0;
-  const std::vector<std::vector<double>> none(set.clips.size());
   int64_t frames = 0;
   const auto add = [&](int count, const EvalOptions& like, int64_t times) {
-    for (const LongPlan& plan : PlanLongDances(model, set, KeyTimes::kNone, count, like, none))
+    for (const LongPlan& plan : PlanLongDances(model, set, KeyTimes::kNone, count, like))
       frames += times * plan.chain.frames;
   };
   add(options.long_seeds, options, static_cast<int64_t>(KindsFor(set).size()));

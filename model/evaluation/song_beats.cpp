@@ -57,10 +57,11 @@ std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps) {
   return beats;
 }
 
-double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats) {
+double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
+                          double fps) {
   std::vector<float> slowness(speeds.begin(), speeds.end());
   for (float& value : slowness) value = -value;
-  const std::vector<int64_t> minima = KinematicBeats(slowness);
+  const std::vector<int64_t> minima = KinematicBeats(slowness, fps);
   if (minima.empty() || music_beats.empty()) return 0;
   double sum = 0;
   for (const int64_t frame : minima) {

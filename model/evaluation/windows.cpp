@@ -4,6 +4,20 @@
 #include <set>
 
 namespace choreo {
+namespace {
+
+constexpr int kBeatMargin = 60;  // frames around a transition, whose timing looks to both sides
+
+}  // namespace
+
+std::vector<double> ClipSet::BeatsBetween(size_t clip, int start, int frames) const {
+  std::vector<double> within;
+  if (clip >= beats.size()) return within;
+  for (const double beat : beats[clip]) {
+    if (beat >= start && beat < start + frames) within.push_back(beat - start);
+  }
+  return within;
+}
 
 std::string GenreOf(const PreparedClip& clip) {
   const auto noted = clip.notes.find("genre");
@@ -41,6 +55,9 @@ TransitionJob JobOf(const ModelInfo& model, const ClipSet& set, const EvalWindow
   job.request.target = WorldTarget{first[frames - 1], {}};
   job.request.temperature = temperature;
   job.request.seed = number;
+  job.request.beats =
+      set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
+  for (double& beat : job.request.beats) beat -= kBeatMargin;
   if (clip.audio.cols() > 0) {
     job.request.has_audio = true;
     job.request.audio_history =

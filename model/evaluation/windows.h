@@ -12,6 +12,12 @@ namespace choreo {
 struct ClipSet {
   std::string name;  ///< of the data's folder
   std::vector<PreparedClip> clips;
+  /// Where each clip's music beats, in frames of its motion, ascending (song_beats.h); fewer than
+  /// clips: unknown of the others.
+  std::vector<std::vector<double>> beats = {};
+
+  /// The beats of `clip` in [start, start + frames), counted from start.
+  std::vector<double> BeatsBetween(size_t clip, int start, int frames) const;
 };
 
 /// What a clip shows: its note "genre" where preparation left one, else its name up to the last

@@ -37,8 +37,7 @@ EvalOptions Short() {
 TEST(DanceChains, ReachTheirKeysAndGoOnAlone) {
   const ClipSet set = Clips(false);
   FakeEngine engine(3);
-  const auto plans =
-      PlanLongDances(engine.model(), set, KeyTimes::kEachTwoSeconds, 4, Short(), {{}, {}});
+  const auto plans = PlanLongDances(engine.model(), set, KeyTimes::kEachTwoSeconds, 4, Short());
   ASSERT_EQ(plans.size(), 4U);
   std::vector<ChainPlan> chains;
   for (const LongPlan& plan : plans) chains.push_back(plan.chain);
@@ -62,7 +61,7 @@ TEST(DanceChains, ReachTheirKeysAndGoOnAlone) {
 TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
   const ClipSet set = Clips(true);
   for (const LongPlan& plan :
-       PlanLongDances(FakeEngine(1).model(), set, KeyTimes::kNone, 2, Short(), {{}, {}})) {
+       PlanLongDances(FakeEngine(1).model(), set, KeyTimes::kNone, 2, Short())) {
     EXPECT_EQ(plan.start, 10);
     EXPECT_EQ(plan.chain.frames, static_cast<int>(set.clips[plan.clip].motion.frames.size()) - 10);
     EXPECT_EQ(plan.chain.audio.cols(), plan.chain.frames + 10);
@@ -70,12 +69,13 @@ TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
 }
 
 TEST(PlanLongDances, KeysOnBeatsStandOnTheBeatNearestToTheEqualOnes) {
-  const ClipSet set = Clips(true);
+  ClipSet set = Clips(true);
   std::vector<double> beats;
   for (double at = 0; at < 230; at += 24) beats.push_back(at);  // of the clip
+  set.beats = {beats, beats};
   const ModelInfo model = FakeEngine(1).model();
-  const auto equal = PlanLongDances(model, set, KeyTimes::kEqual, 2, Short(), {beats, beats});
-  const auto on = PlanLongDances(model, set, KeyTimes::kOnBeats, 2, Short(), {beats, beats});
+  const auto equal = PlanLongDances(model, set, KeyTimes::kEqual, 2, Short());
+  const auto on = PlanLongDances(model, set, KeyTimes::kOnBeats, 2, Short());
   ASSERT_EQ(equal[1].chain.keys.size(), 2U);
   EXPECT_TRUE(equal[1].chain.keys.contains(99));
   ASSERT_EQ(on[1].chain.keys.size(), 2U);
@@ -116,19 +116,20 @@ TEST(ScoreBeats, CountsMaximaAtMostTwoFramesOff) {
   std::vector<float> speeds;
   for (int step = 0; step < 100; ++step)  // maxima at frames 10, 20, ..., 100
     speeds.push_back(static_cast<float>(std::cos(2 * M_PI * (step + 1) / 10)));
-  const BeatFigures on = ScoreBeats(speeds, {12, 22, 32, 42, 300});
+  const BeatFigures on = ScoreBeats(speeds, {12, 22, 32, 42, 300}, 30);
   EXPECT_NEAR(on.hit_rate, 4.0 / 9, 1e-9);  // the last maximum may still rise
   EXPECT_NEAR(on.coverage, 9.0 / 4, 1e-9);
-  EXPECT_EQ(ScoreBeats(speeds, {13, 23}).hit_rate, 0);
-  EXPECT_EQ(ScoreBeats(speeds, {}).hit_rate, 0);
+  EXPECT_EQ(ScoreBeats(speeds, {13, 23}, 30).hit_rate, 0);
+  EXPECT_EQ(ScoreBeats(speeds, {}, 30).hit_rate, 0);
 }
 
 TEST(BeatTable, ADanceOnItsSongsBeatsIsAboveChance) {
-  const ClipSet set = Clips(true);
-  std::vector<std::vector<double>> beats(2);
+  ClipSet set = Clips(true);
+  auto& beats = set.beats;
+  beats.resize(2);
   for (double at = 10; at < 190; at += 20) beats[0].push_back(at);
   for (double at = 16; at < 220; at += 20) beats[1].push_back(at);
-  BeatTable table(set, beats);
+  BeatTable table(set);
   for (size_t clip : {0U, 1U}) {
     std::vector<float> speeds(180, 0.0F);
     for (const double beat : beats[clip]) {
@@ -163,8 +164,7 @@ TEST(EvaluateLongDances, TellsTheSameStoryTwiceAndCountsItsFrames) {
     ASSERT_EQ(influence.columns.size(), music ? 4U : 2U);
     EXPECT_GT(influence.rows[0].cells.back().value, 0);
     int64_t frames = 0;
-    for (const LongPlan& plan :
-         PlanLongDances(engine.model(), set, KeyTimes::kNone, 4, Short(), {{}, {}}))
+    for (const LongPlan& plan : PlanLongDances(engine.model(), set, KeyTimes::kNone, 4, Short()))
       frames += plan.chain.frames;
     EXPECT_GE(CountLongFrames(set, engine.model(), Short()), 2 * frames);
   }

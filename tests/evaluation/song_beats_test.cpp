@@ -44,13 +44,15 @@ TEST(SongBeats, SilenceHasNone) {
 }
 
 TEST(BeatAlignment, IsAGaussianOfTheDistanceToTheNearestBeat) {
+  constexpr double kUnsmoothed = 1;  // a frame a second: the Gaussian is a twelfth of a frame
   // Minima of speed at frames 3 and 8 (step i leads to frame i + 1).
   const std::vector<float> speeds = {3, 2, 1, 2, 3, 2, 1, 0.5F, 1, 2};
-  EXPECT_DOUBLE_EQ(BeatAlignmentScore(speeds, std::vector<double>{3, 8, 60}), 1);
-  EXPECT_NEAR(BeatAlignmentScore(speeds, std::vector<double>{0, 11}), std::exp(-0.5), 1e-12);
-  EXPECT_NEAR(BeatAlignmentScore(speeds, std::vector<double>{3}), (1 + std::exp(-25.0 / 18)) / 2,
+  EXPECT_DOUBLE_EQ(BeatAlignmentScore(speeds, std::vector<double>{3, 8, 60}, kUnsmoothed), 1);
+  EXPECT_NEAR(BeatAlignmentScore(speeds, std::vector<double>{0, 11}, kUnsmoothed), std::exp(-0.5),
               1e-12);
-  EXPECT_EQ(BeatAlignmentScore(speeds, {}), 0);
+  EXPECT_NEAR(BeatAlignmentScore(speeds, std::vector<double>{3}, kUnsmoothed),
+              (1 + std::exp(-25.0 / 18)) / 2, 1e-12);
+  EXPECT_EQ(BeatAlignmentScore(speeds, {}, kUnsmoothed), 0);
 }
 
 }  // namespace
