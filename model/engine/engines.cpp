@@ -122,7 +122,9 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
                  .history_frames = config.history_frames,
                  .audio_features = config.audio_features,
                  .max_transition_frames = config.max_transition_frames,
-                 .default_temperature = config.temperature};
+                 .default_temperature = config.temperature,
+                 .fine_temperature = config.fine_temperature,
+                 .follow = config.follow};
   return loaded;
 }
 

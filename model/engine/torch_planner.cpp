@@ -2,8 +2,10 @@
 
 #include <torch/torch.h>
 
+#include <cmath>
 #include <utility>
 
+#include "model/core/random.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -47,6 +49,23 @@ Tensor Mask(const TransitionSpec& spec, int joints) {
   return mask;
 }
 
+// Noise of the plan, times the temperature: [1, waves, components]. Where no key holds a dance it
+// varies more, by the root of the temperature: at what serves keys well it would all but stand. It
+// stands behind the noise of
+// the first frame's own features, so the two are unrelated.
+Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
+  const int64_t waves = VarietyImpl::Waves(spec.frames);
+  const int64_t components = model->variety()->components();
+  const auto used = static_cast<size_t>(model->feature_width());
+  std::vector<float> noise(used + static_cast<size_t>(waves * components));
+  FillNormal(spec.seed, spec.candidate, spec.first_frame, noise);
+  Tensor variety = torch::empty({1, waves, components});
+  const float scale = spec.target ? spec.temperature : std::sqrt(spec.temperature);
+  float* out = variety.data_ptr<float>();
+  for (size_t i = used; i < noise.size(); ++i) *out++ = scale * noise[i];
+  return variety;
+}
+
 std::vector<Pose> Poses(const Tensor& positions, const Tensor& rotations, const Pose* before) {
   const Tensor position = positions.cpu().contiguous(), rotation = rotations.cpu().contiguous();
   const int64_t joints = rotation.size(1);
@@ -78,13 +97,16 @@ TransitionPlan TorchPlanner::Plan(const TransitionSpec& spec) const {
   // Where no key is asked for, the last pose stands in: the mask hides it.
   const Pose& goal = spec.target ? spec.target->pose : spec.history.back();
   FlowModel model = model_;
+  Tensor variety;
+  if (model->variety() && spec.temperature > 0) variety = there(VarietyOf(spec, model));
   const TransitionContext context =
       model->Begin({.frames = spec.frames,
                     .history_position = there(Positions(spec.history).unsqueeze(0)),
                     .history_rotation = there(Rotations(spec.history).unsqueeze(0)),
                     .target_position = there(Positions({&goal, 1})),
                     .target_rotation = there(Rotations({&goal, 1})),
-                    .target_mask = there(Mask(spec, model->skeleton().joints()))});
+                    .target_mask = there(Mask(spec, model->skeleton().joints()))},
+                   variety);
   TransitionPlan plan;
   const Tensor condition = context.static_condition[0].cpu().contiguous();
   plan.static_condition.assign(condition.data_ptr<float>(),

@@ -13,10 +13,13 @@ TransitionWindow::TransitionWindow(const ModelInfo& model)
       fps_(model.fps),
       tau_(model.history_frames),
       audio_features_(model.audio_features),
+      fine_temperature_(static_cast<float>(model.fine_temperature)),
+      follow_(static_cast<float>(model.follow)),
       codec_(model.skeleton),
       past_(static_cast<size_t>(tau_ * codec_.width())),
       audio_(static_cast<size_t>((tau_ + 1) * audio_features_)),
-      contacts_(model.skeleton) {}
+      contacts_(model.skeleton),
+      proposed_(static_cast<size_t>(codec_.width())) {}
 
 void TransitionWindow::Begin(const TransitionSpec& spec, std::vector<Pose> plan) {
   frames_ = spec.frames;
@@ -91,12 +94,18 @@ void TransitionWindow::Advance(const StepInput& input) {
 
 void TransitionWindow::FillNoise(std::span<float> noise) const {
   FillNormal(seed_, candidate_, first_frame_ + frame_, noise);
-  for (float& value : noise) value *= temperature_;
+  for (float& value : noise) value *= fine_temperature_ * temperature_;
 }
 
 void TransitionWindow::Finish(std::span<const float> features, StepOutput* output) {
-  codec_.Decode(Eigen::Map<const Eigen::VectorXf>(features.data(),
-                                                  static_cast<Eigen::Index>(features.size())),
+  std::ranges::copy(features, proposed_.begin());
+  if (!plan_.empty()) {
+    const auto pose = static_cast<size_t>(codec_.velocity_at());
+    const float* last = PastRow(tau_ - 1).data();
+    for (size_t i = 0; i < pose; ++i) proposed_[i] = last[i] + follow_ * (proposed_[i] - last[i]);
+  }
+  codec_.Decode(Eigen::Map<const Eigen::VectorXf>(proposed_.data(),
+                                                  static_cast<Eigen::Index>(proposed_.size())),
                 Reference(frame_), decoded_);
   output->pose = decoded_.pose;
   for (size_t foot = 0; foot < output->contacts.size(); ++foot) {

@@ -37,10 +37,10 @@ class TransitionWindow {
   bool has_audio() const { return has_audio_; }
   std::span<const float> past() const { return past_; }    ///< [tau, width], oldest first
   std::span<const float> audio() const { return audio_; }  ///< [tau + 1, audio_features]
-  /// The frame's noise times the temperature, [width].
+  /// The frame's noise times its share of the temperature, [width].
   void FillNoise(std::span<float> noise) const;
 
-  /// Decodes the model's features [width] of the frame, which is then done.
+  /// Follows the model's features [width] of the frame and decodes them; the frame is then done.
   void Finish(std::span<const float> features, StepOutput* output);
 
  private:
@@ -54,6 +54,7 @@ class TransitionWindow {
   Skeleton skeleton_;
   double fps_;
   int tau_, audio_features_;
+  float fine_temperature_, follow_;
   PoseCodec codec_;
   std::vector<float> past_, audio_;
 
@@ -71,6 +72,7 @@ class TransitionWindow {
 
   // Kept for their memory.
   JointPlacement placement_;
+  std::vector<float> proposed_;
   PoseCodec::Decoded decoded_;
 };
 

@@ -7,14 +7,16 @@
 namespace choreo {
 
 // With defaults: checkpoints from before there were two kinds do not name theirs.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(PlannerConfig, width, recurrent, layers, heads)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(PlannerConfig, width, recurrent, layers, heads,
+                                                dropout, variety)
 
 // One list serves both directions, so that a field can't be written and not read.
-#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                    \
-  apply(preset) apply(history_frames) apply(audio_features) apply(flow_steps) apply(hidden) \
-      apply(recurrent) apply(condition_width) apply(planner) apply(max_transition_frames)   \
-          apply(temperature) apply(keys) apply(key_loss) apply(time_embedding)              \
-              apply(forward_embedding) apply(history_dropout) apply(history_noise)
+#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                       \
+  apply(preset) apply(history_frames) apply(audio_features) apply(flow_steps) apply(hidden)    \
+      apply(recurrent) apply(condition_width) apply(planner) apply(max_transition_frames)      \
+          apply(temperature) apply(fine_temperature) apply(follow) apply(keys) apply(key_loss) \
+              apply(time_embedding) apply(forward_embedding) apply(history_dropout)            \
+                  apply(history_noise)
 
 void to_json(nlohmann::json& json, const FlowConfig& config) {
   json = nlohmann::json::object();
@@ -24,7 +26,8 @@ void to_json(nlohmann::json& json, const FlowConfig& config) {
 }
 
 void from_json(const nlohmann::json& json, FlowConfig& config) {
-#define CHOREO_READ(field) json.at(#field).get_to(config.field);
+  // Fields that a checkpoint is older than keep their defaults.
+#define CHOREO_READ(field) config.field = json.value(#field, config.field);
   CHOREO_FLOW_CONFIG_FIELDS(CHOREO_READ)
 #undef CHOREO_READ
 }
@@ -38,9 +41,11 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     config.hidden = 192;
     config.recurrent = false;
     config.condition_width = 256;
-    config.planner = {.width = 160, .layers = 3, .heads = 5};
+    config.planner = {.width = 160, .layers = 3, .heads = 5, .dropout = 0.1, .variety = 24};
     config.max_transition_frames = 150;
-    config.temperature = 0.05;
+    config.temperature = 0.25;
+    config.fine_temperature = 0.15;
+    config.follow = 0.5;
     config.history_dropout = 0.7;
     config.history_noise = 0.3;
     return config;

@@ -12,6 +12,8 @@ struct PlannerConfig {
   bool recurrent = false;  ///< Harvey et al.'s network instead of a transformer
   int layers = 4;
   int heads = 6;
+  double dropout = 0;  ///< of what each half of a block adds, in its own training
+  int variety = 0;  ///< principal components of what plans leave open (variety.h); 0: none
 };
 
 /// Sampling around a plan drops past frames that strayed from it, as training drops frames at
@@ -34,6 +36,10 @@ struct FlowConfig {
   PlannerConfig planner;
   int max_transition_frames = 1800;
   double temperature = 1.0;  ///< served by default
+  /// Of sampling. Around a varied plan, a frame's own noise is this share of the temperature, and
+  /// what leaves the plan goes this share of the way to what the flow proposes in each frame: a low
+  /// pass, without which frames shake.
+  double fine_temperature = 1.0, follow = 1.0;
 
   /// Switches of the ablations.
   bool keys = true;

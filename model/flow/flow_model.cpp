@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/flow/torch_kinematics.h"
+#include "model/motion/mirror.h"
 
 namespace choreo {
 
@@ -37,7 +38,11 @@ FlowModelImpl::FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton)
   audio_std_ = register_buffer("audio_std", torch::ones({config.audio_features}));
   if (config.planner.width > 0) {
     planner_ = register_module("planner", MakePlanner(skeleton.joints(), config.planner));
+    if (config.planner.variety > 0)
+      variety_ = register_module("variety", Variety(skeleton.joints(), config.planner.variety));
   }
+  const std::vector<int> pairs = MirrorPairs(skeleton);
+  pairs_ = torch::tensor(std::vector<int64_t>(pairs.begin(), pairs.end()));
   const int joints = skeleton.joints();
   const int past = config.history_frames * width_;
   const int audio = (config.history_frames + 1) * config.audio_features + 1;
@@ -61,16 +66,31 @@ int FlowModelImpl::static_width() const {
                                      : 3 + 6 * joints + joints + 1 + width_ + config_.planner.width;
 }
 
-TransitionContext FlowModelImpl::Begin(const TransitionTensors& transition) {
+TransitionContext FlowModelImpl::Begin(const TransitionTensors& transition, const Tensor& variety) {
+  PlannerImpl::Plan plan;
+  if (has_planner()) plan = PlanOf(transition);
+  if (variety.defined()) plan.trajectory = variety_->Vary(transition, plan.trajectory, variety);
+  return Hoist(transition, plan);
+}
+
+TransitionContext FlowModelImpl::BeginNear(const TransitionTensors& transition,
+                                           const TrajectoryTensors& truth) {
+  PlannerImpl::Plan plan;
+  if (has_planner()) plan = PlanOf(transition);
+  if (variety_) plan.trajectory = variety_->Approach(transition, plan.trajectory, truth);
+  return Hoist(transition, plan);
+}
+
+PlannerImpl::Plan FlowModelImpl::PlanOf(const TransitionTensors& transition) {
+  return planner_->Balanced(transition, pairs_.to(transition.target_position.device()));
+}
+
+TransitionContext FlowModelImpl::Hoist(const TransitionTensors& transition,
+                                       const PlannerImpl::Plan& plan) {
   const int64_t batch = transition.target_position.size(0), frames = transition.frames;
   const int64_t joints = skeleton_.joints();
   TransitionContext context;
-  Tensor hidden;
-  if (has_planner()) {
-    PlannerImpl::Plan plan = planner_->forward(transition);
-    context.reference = plan.trajectory;
-    hidden = plan.hidden;
-  }
+  context.reference = plan.trajectory;
   const Tensor mask =
       config_.keys ? transition.target_mask : torch::zeros_like(transition.target_mask);
   const Tensor present = mask.amax(1, true);  // [batch, 1]
@@ -86,7 +106,7 @@ TransitionContext FlowModelImpl::Begin(const TransitionTensors& transition) {
   std::vector<Tensor> parts = {
       key.unsqueeze(1).expand({batch, frames, key.size(1)}),
       config_.time_embedding ? embedding * present.unsqueeze(1) : torch::zeros_like(embedding)};
-  if (has_planner()) parts.push_back(hidden);
+  if (has_planner()) parts.push_back(plan.hidden);
   context.static_condition = torch::cat(parts, -1);
   if (config_.condition_width > 0) {
     context.static_condition = encode_static_(context.static_condition);
@@ -209,12 +229,16 @@ Tensor FlowModelImpl::Rollout(const Tensor& history, const Tensor& audio, const 
   const std::vector<Tensor> inverse_weights = InverseWeights();
   FlowState state = flow_->InitialState(noise.size(0));
   std::vector<Tensor> past = history.unbind(1);
+  Tensor follow = torch::ones({width_}, noise.options());
+  follow.narrow(0, 0, 3 + 3 * skeleton_.joints()).fill_(config_.follow);
   for (int64_t t = 0; t < frames; ++t) {
     const std::vector<Tensor> window(past.end() - tau, past.end());
-    past.push_back(Step(torch::stack(window, 1), audio.narrow(1, t, tau + 1), has_audio,
-                        context.static_condition.select(1, t), noise.select(1, t), inverse_weights,
-                        &state)
-                       .features);
+    const Tensor proposed =
+        Step(torch::stack(window, 1), audio.narrow(1, t, tau + 1), has_audio,
+             context.static_condition.select(1, t), config_.fine_temperature * noise.select(1, t),
+             inverse_weights, &state)
+            .features;
+    past.push_back(has_planner() ? past.back() + follow * (proposed - past.back()) : proposed);
   }
   return torch::stack(std::vector<Tensor>(past.begin() + tau, past.end()), 1);
 }

@@ -6,6 +6,7 @@
 #include "model/flow/coupling_flow.h"
 #include "model/flow/flow_config.h"
 #include "model/flow/planner.h"
+#include "model/flow/variety.h"
 #include "model/motion/skeleton.h"
 
 /// Paper F's model: p(x_t | past tau frames, music, key pose, frames left), an autoregressive
@@ -33,8 +34,12 @@ class FlowModelImpl : public torch::nn::Module {
   int static_width() const;
   int StateWidth() const { return flow_->StateWidth(); }
 
-  /// Plans a batch of transitions and hoists their static condition.
-  TransitionContext Begin(const TransitionTensors& transition);
+  /// Plans a batch of transitions and hoists their static condition. `variety` [batch,
+  /// Variety::Waves(N), components] of unit spread, times the temperature, varies the plan;
+  /// undefined: its mean.
+  TransitionContext Begin(const TransitionTensors& transition, const torch::Tensor& variety = {});
+  /// The same around the plan that comes nearest to `truth`, as training has it.
+  TransitionContext BeginNear(const TransitionTensors& transition, const TrajectoryTensors& truth);
 
   /// One frame for a batch of slots, which may belong to different transitions. Features in
   /// physical units.
@@ -82,9 +87,12 @@ class FlowModelImpl : public torch::nn::Module {
   void SetAudioNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
   bool has_planner() const { return planner_ != nullptr; }
   Planner planner() const { return planner_; }
+  Variety variety() const { return variety_; }  ///< null: plans do not vary
   CouplingFlow flow() const { return flow_; }
 
  private:
+  PlannerImpl::Plan PlanOf(const TransitionTensors& transition);
+  TransitionContext Hoist(const TransitionTensors& transition, const PlannerImpl::Plan& plan);
   torch::Tensor Standardise(const torch::Tensor& features) const;
   torch::Tensor StandardiseAudio(const torch::Tensor& audio, const torch::Tensor& has_audio) const;
   /// Condition of every frame from standardised, flattened parts.
@@ -101,6 +109,8 @@ class FlowModelImpl : public torch::nn::Module {
   int width_;
   torch::Tensor feature_mean_, feature_std_, audio_mean_, audio_std_;
   Planner planner_;
+  Variety variety_{nullptr};
+  torch::Tensor pairs_;  // [joints] of MirrorPairs
   CouplingFlow flow_{nullptr};
   /// Shared encoding (condition_width > 0): one linear map a part, summed, then a second layer.
   torch::nn::Linear encode_past_{nullptr}, encode_static_{nullptr}, encode_audio_{nullptr},

@@ -120,15 +120,64 @@ void PlannerImpl::SetPoseNormalisation(const Tensor& mean, const Tensor& std) {
 
 namespace {
 
+Tensor MirrorPositions(const Tensor& positions) {
+  return positions * torch::tensor({-1.0F, 1.0F, 1.0F}, positions.options());
+}
+
+// Rotations [..., joints, 3, 3] of the other side's joints, each M R M with M the reflection.
+Tensor MirrorRotations(const Tensor& rotations, const Tensor& pairs) {
+  const Tensor reflection = torch::tensor({-1.0F, 1.0F, 1.0F}, rotations.options());
+  return rotations.index_select(-3, pairs) * torch::outer(reflection, reflection);
+}
+
+}  // namespace
+
+TransitionTensors MirrorTransition(const TransitionTensors& transition, const Tensor& pairs) {
+  const int64_t joints = transition.target_rotation.size(1);
+  TransitionTensors mirrored = transition;
+  mirrored.history_position = MirrorPositions(transition.history_position);
+  mirrored.target_position = MirrorPositions(transition.target_position);
+  mirrored.history_rotation = MirrorRotations(transition.history_rotation, pairs);
+  mirrored.target_rotation = MirrorRotations(transition.target_rotation, pairs);
+  mirrored.target_mask =
+      torch::cat({transition.target_mask.narrow(1, 0, joints).index_select(1, pairs),
+                  transition.target_mask.narrow(1, joints, 1)},
+                 1);
+  return mirrored;
+}
+
+PlannerImpl::Plan PlannerImpl::Balanced(const TransitionTensors& transition, const Tensor& pairs) {
+  const TransitionTensors other = MirrorTransition(transition, pairs);
+  const int64_t batch = transition.target_position.size(0);
+  const auto both = [](const Tensor& a, const Tensor& b) { return torch::cat({a, b}, 0); };
+  const Plan plan =
+      forward({.frames = transition.frames,
+               .history_position = both(transition.history_position, other.history_position),
+               .history_rotation = both(transition.history_rotation, other.history_rotation),
+               .target_position = both(transition.target_position, other.target_position),
+               .target_rotation = both(transition.target_rotation, other.target_rotation),
+               .target_mask = both(transition.target_mask, other.target_mask)});
+  const Tensor& position = plan.trajectory.position;
+  const Tensor& rotation = plan.trajectory.rotation;
+  const Tensor six_d = SixDBatch(rotation.narrow(0, 0, batch)) +
+                       SixDBatch(MirrorRotations(rotation.narrow(0, batch, batch), pairs));
+  return {{0.5 * (position.narrow(0, 0, batch) + MirrorPositions(position.narrow(0, batch, batch))),
+           MatrixFromSixDBatch(six_d)},
+          plan.hidden.narrow(0, 0, batch)};
+}
+
+namespace {
+
 // Pre-norm transformer block with a learnt bias for every clipped distance in time.
 class PlannerBlockImpl : public torch::nn::Module {
  public:
-  PlannerBlockImpl(int width, int heads);
+  PlannerBlockImpl(int width, int heads, double dropout);
   // x [batch, time, width]; distance [time, time] indices into the bias table.
   Tensor forward(const Tensor& x, const Tensor& distance);
 
  private:
   int heads_;
+  double dropout_;
   torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
   torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr};
   Tensor distance_bias_;  // [2 * kMaxDistance + 1, heads]
@@ -148,7 +197,8 @@ class TransformerPlanner : public PlannerImpl {
   torch::nn::ModuleList blocks_;
 };
 
-PlannerBlockImpl::PlannerBlockImpl(int width, int heads) : heads_(heads) {
+PlannerBlockImpl::PlannerBlockImpl(int width, int heads, double dropout)
+    : heads_(heads), dropout_(dropout) {
   using torch::nn::LayerNormOptions;
   attention_norm_ =
       register_module("attention_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
@@ -173,8 +223,9 @@ Tensor PlannerBlockImpl::forward(const Tensor& x, const Tensor& distance) {
       torch::softmax(torch::matmul(qkv[0] * scale, qkv[1].transpose(-1, -2)) + bias, -1);
   const Tensor mixed =
       torch::matmul(attention, qkv[2]).transpose(1, 2).reshape({batch, time, width});
-  const Tensor attended = x + out_(mixed);
-  return attended + down_(torch::gelu(up_(mlp_norm_(attended))));
+  const auto drop = [this](const Tensor& y) { return torch::dropout(y, dropout_, is_training()); };
+  const Tensor attended = x + drop(out_(mixed));
+  return attended + drop(down_(torch::gelu(up_(mlp_norm_(attended)))));
 }
 
 TransformerPlanner::TransformerPlanner(int joints, const PlannerConfig& config)
@@ -184,7 +235,8 @@ TransformerPlanner::TransformerPlanner(int joints, const PlannerConfig& config)
   const int64_t features = 3 * (3 + 6 * joints) + joints + 1 + 2 + 2 * kEmbeddingWidth;
   embed_ = register_module("embed", torch::nn::Linear(features, width_));
   blocks_ = register_module("blocks", torch::nn::ModuleList());
-  for (int i = 0; i < config.layers; ++i) blocks_->push_back(PlannerBlock(width_, config.heads));
+  for (int i = 0; i < config.layers; ++i)
+    blocks_->push_back(PlannerBlock(width_, config.heads, config.dropout));
   norm_ = register_module("norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({width_})));
   head_ = register_module("head", torch::nn::Linear(width_, 3 + 6 * joints));
   torch::nn::init::zeros_(head_->weight);

@@ -46,6 +46,9 @@ class PlannerImpl : public torch::nn::Module {
                            ///< flow to condition on
   };
   virtual Plan forward(const TransitionTensors& transition) = 0;
+  /// What `forward` makes of the transition and of its mirror image, mirrored back, on average: a
+  /// dancer has no better side, and two opinions are nearer to the truth than one.
+  Plan Balanced(const TransitionTensors& transition, const torch::Tensor& pairs);
   /// Spread of real poses, [3 + 6 joints] (root position, 6D rotations): tokens and residuals are
   /// in these units, without which training hardly moves.
   void SetPoseNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
@@ -59,6 +62,9 @@ class PlannerImpl : public torch::nn::Module {
   torch::Tensor pose_mean_, pose_std_;
 };
 using Planner = std::shared_ptr<PlannerImpl>;
+
+/// The transition seen in a mirror; `pairs` [joints] as motion/mirror.h has them.
+TransitionTensors MirrorTransition(const TransitionTensors& transition, const torch::Tensor& pairs);
 
 /// The planner that `config` asks for; none where its width is 0.
 Planner MakePlanner(int joints, const PlannerConfig& config);

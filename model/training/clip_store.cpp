@@ -6,13 +6,52 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/error.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
+#include "model/motion/resample.h"
 
 namespace choreo {
+namespace {
+
+constexpr double kMostTempo = 1.33;
+
+// A window of a clip: frame i of it stands at clip frame first + i * tempo.
+struct Place {
+  int64_t first;
+  double tempo;
+  int64_t Frame(int i) const { return first + std::lround(i * tempo); }
+};
+
+// 1, or with the given probability a tempo at which the window's frames still lie in the clip.
+double Tempo(const PreparedClip& clip, int64_t first, int window, double probability,
+             Random* random) {
+  if (!(random->Uniform() < probability)) return 1;
+  const double tempo = std::pow(kMostTempo, random->Uniform(-1, 1));
+  const auto last = static_cast<double>(clip.motion.frames.size()) - 1;
+  return static_cast<double>(first) + window * tempo <= last ? tempo : 1;
+}
+
+std::vector<Pose> PosesAt(const PreparedClip& clip, const Place& place, int count) {
+  const auto& frames = clip.motion.frames;
+  const auto first = frames.begin() + place.first;
+  if (place.tempo == 1) return {first, first + count};
+  std::vector<Pose> poses;
+  for (int i = 0; i < count; ++i) {
+    const double at = i * place.tempo;
+    const auto before = static_cast<std::ptrdiff_t>(at);
+    const double part = at - static_cast<double>(before);
+    poses.push_back(part > 0 ? InterpolatePoses(first[before], first[before + 1], part)
+                             : first[before]);
+  }
+  return poses;
+}
+
+}  // namespace
+
 ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
                      const std::filesystem::path& splits_file, Split split)
     : clips_(LoadClips(folders, splits_file, split)), skeleton_(clips_.front().skeleton) {}
@@ -64,8 +103,8 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
     const PreparedClip& clip = clips_[index];
     const int64_t start = pick - (index > 0 ? ends[index - 1] : 0) + 1;
     const bool mirrored = variation.mirror && random->Uniform() < 0.5;
-    std::vector<Pose> poses(clip.motion.frames.begin() + (start - 1),
-                            clip.motion.frames.begin() + (start + window));
+    const Place place{start - 1, Tempo(clip, start - 1, window, variation.tempo, random)};
+    std::vector<Pose> poses = PosesAt(clip, place, window + 1);
     if (mirrored) {
       for (Pose& pose : poses) pose = Mirror(skeleton_, pose);
     }
@@ -82,7 +121,7 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
       for (int foot = 0; foot < 4; ++foot) {
         // Contacts stand left then right; a mirrored dancer swaps them.
         contacts[static_cast<size_t>(foot)] =
-            clip.contacts(mirrored ? (foot + 2) % 4 : foot, start + t);
+            clip.contacts(mirrored ? (foot + 2) % 4 : foot, place.Frame(t + 1));
       }
       const Eigen::VectorXf x = codec.Encode(pose, previous, nullptr, contacts, clip.motion.fps);
       std::copy(x.data(), x.data() + width, features[b][t].data_ptr<float>());
@@ -93,7 +132,7 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
         out[i] = static_cast<float>(pose.rotations.data()[i]);
       previous = pose;
     }
-    if (clip.audio.size() > 0 && random->Uniform() >= variation.drop_audio) {
+    if (clip.audio.size() > 0 && place.tempo == 1 && random->Uniform() >= variation.drop_audio) {
       has_audio[b][0] = 1;
       std::copy(clip.audio.col(start).data(),
                 clip.audio.col(start).data() + int64_t{window} * audio_width,

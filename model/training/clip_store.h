@@ -37,6 +37,8 @@ class ClipStore {
     double drop_key = 0;     ///< probability that a window has no key
     double drop_audio = 0;   ///< probability that its music is masked
     double partial_key = 0;  ///< probability that joints or the root's position are not in the key
+    double tempo = 0;  ///< probability that a window is danced faster or slower, by at most a third
+                       ///< and without its music, which would no longer fit
     double hold_history =
         0;  ///< probability that only the last few poses are known, the earliest being held
   };

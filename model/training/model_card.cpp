@@ -48,8 +48,8 @@ nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int
            "Trained on transitions of " + std::to_string(options.shortest) + " to " +
                std::to_string(options.longest) +
                " frames at 30 fps. The plan does not hear the music, the flow around it does (if "
-               "there is one); steps are not aligned to beats. Without keys it drifts towards calm "
-               "poses. Feet may slide. "
+               "there is one), and plans are timed to the beats when they are danced. Without keys "
+               "it is calmer than real dancers. "
                "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
 }
 

@@ -56,8 +56,8 @@ void NormaliseFeatures(const std::vector<MotionBatch>& batches, FlowModel* model
   FlowModel& flow = *model;
   std::vector<Tensor> seen;
   for (const MotionBatch& batch : batches) {
-    const Tensor features =
-        flow->RelativeFeatures(batch.features, batch.truth, flow->Begin(batch.transition));
+    const Tensor features = flow->RelativeFeatures(batch.features, batch.truth,
+                                                   flow->BeginNear(batch.transition, batch.truth));
     seen.push_back(
         features.narrow(1, flow->config().history_frames, batch.transition.frames).flatten(0, 1));
   }

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "model/core/error.h"
+#include "model/flow/flow_config.h"
 #include "model/training/trainer.h"
 
 namespace choreo {
@@ -13,12 +15,23 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   command
       ->add_option("--preset", options->preset,
                    "default | paper | ablation | recurrent (the baseline of Harvey et al.)")
-      ->check(CLI::IsMember({"default", "paper", "ablation"}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            try {
+              FlowConfig::Preset(name);
+            } catch (const Error& error) {
+              return std::string(error.what()).substr(error.field().size() + 2);
+            }
+            return std::string();
+          },
+          ""));
   command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
       ->required();
   command->add_option("--splits", options->splits, "Which clip trains, validates, tests (JSON)")
       ->required();
+  command->add_option("--planner", options->planner,
+                      "Checkpoint whose planner the first stage goes on from (same preset)");
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
       ->required();
   command->add_option("--device", options->device, "auto | cpu | cuda:N")->capture_default_str();
@@ -41,6 +54,10 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   command->add_option("--longest", options->longest, "Longest training transition, frames")
       ->capture_default_str();
   command->add_option("--rollout-frames", options->rollout_frames, "Frames of the sampled roll-out")
+      ->capture_default_str();
+  command
+      ->add_option("--tempo", options->tempo,
+                   "Share of the planner's windows that are danced faster or slower")
       ->capture_default_str();
   command->add_option("--report-every", options->report_every, "Steps between reports")
       ->capture_default_str();

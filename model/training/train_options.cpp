@@ -19,7 +19,8 @@ std::string TrainOptions::Fixed() const {
   text << "--preset " << preset << " --planner-steps " << planner_steps << " --flow-steps "
        << flow_steps << " --batch " << batch << " --planner-rate " << planner_rate
        << " --flow-rate " << flow_rate << " --shortest " << shortest << " --longest " << longest
-       << " --rollout-frames " << rollout_frames << " --seed " << seed
+       << " --rollout-frames " << rollout_frames << " --tempo " << tempo << " --seed " << seed
+       << (planner.empty() ? "" : " --planner " + planner.filename().string())
        << (no_keys ? " --no-keys" : "") << (no_key_loss ? " --no-key-loss" : "")
        << (no_time_embedding ? " --no-time-embedding" : "")
        << (forward_embedding ? " --forward-embedding" : "");
@@ -32,13 +33,15 @@ void TrainOptions::Validate() const {
     if (!good) throw InvalidArgument(name, value + ", but it must be " + limit);
   };
   require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
-  require(planner_steps >= 1, "--planner-steps", std::to_string(planner_steps), "at least 1");
+  require(planner_steps >= (planner.empty() ? 1 : 0), "--planner-steps",
+          std::to_string(planner_steps), "at least 1 (0 with --planner)");
   require(flow_steps >= 1, "--flow-steps", std::to_string(flow_steps), "at least 1");
   require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");
   require(shortest >= 2 && shortest <= longest && longest <= 600, "--longest",
           std::to_string(longest), "from --shortest (at least 2) to 600");
   require(rollout_frames >= 2 && rollout_frames <= 300, "--rollout-frames",
           std::to_string(rollout_frames), "2 to 300");
+  require(tempo >= 0 && tempo <= 1, "--tempo", std::to_string(tempo), "0 to 1");
   require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
 }
 

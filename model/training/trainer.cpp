@@ -12,6 +12,7 @@
 #include "model/flow/checkpoint.h"
 #include "model/training/adam.h"
 #include "model/training/curves.h"
+#include "model/training/fit_variety.h"
 #include "model/training/losses.h"
 #include "model/training/model_card.h"
 #include "model/training/normalise.h"
@@ -58,7 +59,8 @@ class Run {
     planner_steps_ = model_->has_planner() ? options.planner_steps : 0;
     flow_steps_ = model_->config().flow_steps > 0 ? options.flow_steps : 0;
     NormaliseAudio(train_, &model_);
-    if (model_->has_planner()) NormalisePoses(PoseBatches(), &model_);
+    if (model_->has_planner() && options.planner.empty()) NormalisePoses(PoseBatches(), &model_);
+    if (!options.planner.empty()) TakePlanner();
     model_->to(device_);
     planner_adam_ = std::make_unique<Adam>(*model_, "planner.");
     flow_adam_ = std::make_unique<Adam>(*model_, "flow.");
@@ -109,15 +111,27 @@ class Run {
                                          .drop_key = keys ? 0.1 : 1.0,
                                          .drop_audio = 0.15,
                                          .partial_key = keys ? 0.1 : 0.0,
+                                         .tempo = flow_stage() ? 0.0 : options_.tempo,
                                          .hold_history = 0.05};
     return train_.Draw(windows, model_->config().history_frames, frames, variation, random)
         .To(device_);
+  }
+
+  // Of another run's checkpoint the planner alone: its flow may have another shape.
+  void TakePlanner() {
+    if (!model_->has_planner())
+      throw InvalidArgument("--planner", "preset " + options_.preset + " has no planner");
+    const Safetensors base = ReadSafetensors(options_.planner);
+    ImportTensors(base, "planner.", model_->planner().get());
+    base_ = {{"hash", base.metadata.at("hash")},
+             {"card", nlohmann::json::parse(base.metadata.at("card"))}};
   }
 
   void TrainStep() {
     Random random(options_.seed, static_cast<uint32_t>(step_ + 1));
     torch::manual_seed(options_.seed + static_cast<uint64_t>(step_) * 1000003);
     model_->train();
+    if (flow_stage() && model_->has_planner()) model_->planner()->eval();
     // Short transitions are common in use and cheap: half of the draws are quadratic towards the
     // short end.
     const double u = random.Uniform();
@@ -142,7 +156,7 @@ class Run {
     for (auto& parameter : FrozenParameters()) parameter.set_requires_grad(false);
     flow_adam_->ZeroGrad();
     encoder_adam_->ZeroGrad();
-    Descend(LikelihoodLoss(model_, batch, model_->Begin(batch.transition)));
+    Descend(LikelihoodLoss(model_, batch, model_->BeginNear(batch.transition, batch.truth)));
     if (model_->config().key_loss) {
       // Longer than gamma too: a flow that was only ever unrolled over 30 frames may drift off
       // beyond them.
@@ -156,7 +170,8 @@ class Run {
       const MotionBatch sampled =
           train_.Draw(windows, model_->config().history_frames, frames, variation, random)
               .To(device_);
-      Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),
+      Descend(RolloutLoss(model_, kinematics_, sampled,
+                          model_->BeginNear(sampled.transition, sampled.truth),
                           model_->config().temperature));
     }
     const double rate = StageRate(options_.flow_rate, step_ - planner_steps_, flow_steps_);
@@ -205,9 +220,11 @@ class Run {
       Random random(options_.seed + 7, static_cast<uint32_t>(i + 1));
       batches.push_back(Draw(&random, options_.rollout_frames + (i % 3) * 20));
     }
+    if (model_->variety())
+      FitVariety(train_, options_.batch, options_.longest, options_.seed, device_, &model_);
     NormaliseFeatures(batches, &model_);
     const MotionBatch& last = batches.back();
-    const TransitionContext context = model_->Begin(last.transition);
+    const TransitionContext context = model_->BeginNear(last.transition, last.truth);
     const torch::Tensor features = model_->RelativeFeatures(last.features, last.truth, context);
     model_->InitialiseActNorm(Dequantise(model_, features), last.audio, last.has_audio, context);
   }
@@ -278,8 +295,9 @@ class Run {
   void Finish() {
     const std::vector<ValidationRow> rows =
         Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
-    const nlohmann::json card =
+    nlohmann::json card =
         ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows);
+    if (!base_.is_null()) card["planner_from"] = base_;
     const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
     std::printf("%s\n", card.dump(2).c_str());
     std::printf("checkpoint %s, content hash %s\n",
@@ -287,6 +305,7 @@ class Run {
   }
 
   TrainOptions options_;
+  nlohmann::json base_;  // whose planner this run started from: its hash and card
   ClipStore train_, validation_;
   TorchKinematics kinematics_;
   torch::Device device_;

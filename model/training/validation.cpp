@@ -25,11 +25,11 @@ std::vector<ValidationRow> Validate(FlowModel& model, const ClipStore& clips,
     row.interpolation_m = distance(Interpolate(batch.transition));
     if (model->has_planner()) row.planner_m = distance(context.reference);
     if (with_flow) {
-      const torch::Tensor truth = model->RelativeFeatures(batch.features, batch.truth, context);
-      row.likelihood = -model->LogLikelihood(truth, batch.audio, batch.has_audio, context)
-                            .mean()
-                            .item<double>() /
-                       model->feature_width();
+      const TransitionContext near = model->BeginNear(batch.transition, batch.truth);
+      const torch::Tensor truth = model->RelativeFeatures(batch.features, batch.truth, near);
+      row.likelihood =
+          -model->LogLikelihood(truth, batch.audio, batch.has_audio, near).mean().item<double>() /
+          model->feature_width();
       std::vector<float> values(static_cast<size_t>(truth.size(0)) * frames * truth.size(2));
       random.FillNormal(values);
       const torch::Tensor noise =

@@ -4,6 +4,7 @@
 #include "model/core/error.h"
 #include "model/flow/flow_model.h"
 #include "model/flow/torch_kinematics.h"
+#include "model/motion/mirror.h"
 
 namespace choreo {
 namespace {
@@ -145,6 +146,20 @@ TEST_P(FlowTest, MusicKeyAndTimeLeftChangeTheDance) {
   other.target_mask = torch::zeros_like(transition.target_mask);
   EXPECT_GT(differs(dance(other, audio, 1)), 1e-6);
   EXPECT_EQ(differs(dance(transition, audio, 1)), 0);
+}
+
+TEST_P(FlowTest, AMirroredTransitionHasTheMirroredPlan) {
+  if (!GetParam().planned) return;  // no plan
+  torch::NoGradGuard no_grad;
+  const TransitionTensors transition = RandomTransition(2, 12);
+  const std::vector<int> of = MirrorPairs(Skeleton::Smpl24());
+  const Tensor pairs = torch::tensor(std::vector<int64_t>(of.begin(), of.end()));
+  const TrajectoryTensors plan = model_->Begin(transition).reference;
+  const TrajectoryTensors other = model_->Begin(MirrorTransition(transition, pairs)).reference;
+  const Tensor flip = torch::tensor({-1.0F, 1.0F, 1.0F});
+  EXPECT_TRUE(torch::allclose(plan.position * flip, other.position, 1e-4, 1e-5));
+  EXPECT_TRUE(torch::allclose(plan.rotation.index_select(2, pairs) * torch::outer(flip, flip),
+                              other.rotation, 1e-4, 1e-4));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, FlowTest,

@@ -66,7 +66,7 @@ TEST(LabTest, MisuseIsCodeTwo) {
        {std::string(), std::string("swim"), std::string("train"), kTrain + "--preset huge"}) {
     EXPECT_EQ(Lab(arguments).code, 2) << arguments;
   }
-  EXPECT_THAT(Lab(kTrain + "--preset huge").said, HasSubstr("--preset: huge not in {"));
+  EXPECT_THAT(Lab(kTrain + "--preset huge").said, HasSubstr("--preset: 'huge' is not one of"));
 }
 
 TEST(LabTest, KnowsTheCommandsThatReproduceThePaper) {
