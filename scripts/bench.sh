@@ -9,4 +9,4 @@ trap 'rm -rf "$folder"' EXIT
   --benchmark_report_aggregates_only=true --benchmark_min_time=0.1 --benchmark_out="$folder/engine.json"
 /usr/bin/python3 "$root/bench/peer_torch.py" "$folder" >"$folder/peer.json"
 /usr/bin/python3 "$root/bench/report.py" "$folder/engine.json" "$folder/peer.json" "$root"
-if [[ -x $1/live_bench ]]; then "$1/live_bench"; fi
+if [[ -x $1/load ]]; then "$1/load"; fi

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
@@ -57,13 +60,39 @@ const std::vector<double>& PrototypeTable() {
   return table;
 }
 
-/// Four running sums in a fixed order: fast, and the same bits whatever the address of the samples.
-double Dot(const double* a, const double* b, size_t size) {
-  double sum[4] = {0, 0, 0, 0};
-  for (size_t i = 0; i < size; i += 4) {
-    for (size_t lane = 0; lane < 4; ++lane) sum[lane] += a[i + lane] * b[i + lane];
+constexpr size_t kLanes = 16;
+
+/// Running sums in a fixed order: the same bits whatever the address of the samples, and on
+/// machines with wider vectors.
+[[gnu::always_inline]] inline double SumOfProducts(const double* a, const double* b, size_t size) {
+  double sum[kLanes] = {};
+  size_t i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    for (size_t lane = 0; lane < kLanes; ++lane) sum[lane] += a[i + lane] * b[i + lane];
   }
-  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+  for (size_t lane = 0; i < size; ++i, ++lane) sum[lane] += a[i] * b[i];
+  for (size_t half = kLanes / 2; half > 0; half /= 2) {
+    for (size_t lane = 0; lane < half; ++lane) sum[lane] += sum[lane + half];
+  }
+  return sum[0];
+}
+
+double DotBaseline(const double* a, const double* b, size_t size) {
+  return SumOfProducts(a, b, size);
+}
+#if defined(__x86_64__)
+// Without fused multiply-add, which would round otherwise.
+[[gnu::target("avx2")]] double DotAvx2(const double* a, const double* b, size_t size) {
+  return SumOfProducts(a, b, size);
+}
+#endif
+
+double Dot(const double* a, const double* b, size_t size) {
+#if defined(__x86_64__)
+  static const bool wide = __builtin_cpu_supports("avx2") != 0;
+  if (wide) return DotAvx2(a, b, size);
+#endif
+  return DotBaseline(a, b, size);
 }
 
 }  // namespace
@@ -74,7 +103,6 @@ class PolyphaseKernel {
   PolyphaseKernel(int64_t in_per_period, int64_t phases) : phases_(phases) {
     const double ratio = static_cast<double>(phases) / static_cast<double>(in_per_period);
     cutoff_ = kCutoff * std::min(1.0, ratio);
-    // Even, so that the number of taps is a multiple of Dot's four lanes.
     half_length_ = 2 * static_cast<int64_t>(std::ceil(kZeroCrossings / cutoff_ / 2));
     if (phases * taps() <= kMaxKeptCoefficients) {
       kept_.resize(static_cast<size_t>(phases * taps()));
@@ -82,6 +110,18 @@ class PolyphaseKernel {
         Compute(phase, kept_.data() + phase * taps());
       }
     }
+  }
+
+  /// Streams of one ratio share their filter, which may take a third of a MiB.
+  static std::shared_ptr<const PolyphaseKernel> Shared(int64_t in_per_period, int64_t phases) {
+    static std::mutex mutex;
+    static std::map<std::pair<int64_t, int64_t>, std::weak_ptr<const PolyphaseKernel>> filters;
+    const std::lock_guard lock(mutex);
+    std::erase_if(filters, [](const auto& filter) { return filter.second.expired(); });
+    std::weak_ptr<const PolyphaseKernel>& known = filters[{in_per_period, phases}];
+    std::shared_ptr<const PolyphaseKernel> filter = known.lock();
+    if (!filter) known = filter = std::make_shared<PolyphaseKernel>(in_per_period, phases);
+    return filter;
   }
 
   int64_t half_length() const { return half_length_; }
@@ -135,7 +175,7 @@ Resampler::Resampler(double sample_rate, int channels, int64_t first_sample)
     const int64_t divisor = std::gcd(rate, int64_t{kModelSampleRate});
     in_per_period_ = rate / divisor;
     out_per_period_ = kModelSampleRate / divisor;
-    kernel_ = std::make_shared<PolyphaseKernel>(in_per_period_, out_per_period_);
+    kernel_ = PolyphaseKernel::Shared(in_per_period_, out_per_period_);
     const int64_t before =
         kernel_->half_length() - 1;  // samples that output 0 needs before sample 0
     if (first_sample == 0) {

@@ -1,0 +1,256 @@
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "bench/live_dance.h"
+#include "bench/process_usage.h"
+#include "client/cli/local_server.h"
+#include "client/cli/music.h"
+#include "model/core/error.h"
+
+/// How many dances one choreod serves over gRPC, on the machine that also plays all its clients.
+/// The server takes its options from the environment (choreod --help).
+namespace choreo::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string song;
+  double seconds = 8;
+  std::vector<int> streams = {1, 50, 100, 200, 400};
+  std::vector<std::string> tables = {"chunks", "live", "closed", "idle", "minutes"};
+};
+
+double Since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Runs `dance(i)` for i in [0, count) at once; the first error is thrown when all are over.
+void Together(int count, const std::function<void(int)>& dance) {
+  std::vector<std::thread> dancers;
+  std::mutex mutex;
+  std::exception_ptr failed;
+  for (int i = 0; i < count; ++i) {
+    dancers.emplace_back([&, i] {
+      try {
+        dance(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failed) failed = std::current_exception();
+      }
+    });
+  }
+  for (std::thread& dancer : dancers) dancer.join();
+  if (failed) std::rethrow_exception(failed);
+}
+
+// The server under load, and who loads it.
+class Load {
+ public:
+  explicit Load(const Options& options)
+      : options_(options),
+        client_({.addresses = {server_.address()}}),
+        song_(options.song.empty() ? ClickSong(options.seconds, 44100, 1)
+                                   : cli::ReadAudioFor(options.song, options.seconds)) {
+    const client::ServerDescription server = client_.GetServerInfo();
+    std::printf("model %s on %s, %u cores; dances of %g s in real time, a key each 2 s\n",
+                server.models.front().name.c_str(), server.devices.front().c_str(),
+                std::thread::hardware_concurrency(), options.seconds);
+  }
+
+  /// Lateness by the size of the music's chunks, four dances at once.
+  void Chunks() {
+    std::printf(
+        "\n| chunks ms | first frame p50 ms | p99 | frames p50 ms | p95 | p99 | max | "
+        "missed %% |\n|---|---|---|---|---|---|---|---|\n");
+    for (const auto& [shortest, longest] :
+         {std::pair(5.0, 5.0), {20.0, 20.0}, {100.0, 100.0}, {500.0, 500.0}, {5.0, 500.0}}) {
+      Lateness lateness = Live(4, shortest / 1000, longest / 1000);
+      std::printf("| %g to %g ", shortest, longest);
+      PrintLateness(lateness);
+      std::printf("|\n");
+      std::fflush(stdout);
+    }
+  }
+
+  /// Real-time streams at once, music in chunks of 100 ms.
+  void Streams() {
+    std::printf(
+        "\n| streams | first frame p50 ms | p99 | frames p50 ms | p95 | p99 | max | missed "
+        "%% | server's cores | server MiB |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const int streams : options_.streams) {
+      const double cpu = CpuSeconds(server_.process());
+      const Clock::time_point start = Clock::now();
+      Lateness lateness = Live(streams, 0.1, 0.1);
+      const double cores = (CpuSeconds(server_.process()) - cpu) / Since(start);
+      std::printf("| %d ", streams);
+      PrintLateness(lateness);
+      std::printf("| %.2f | %.0f |\n", cores, Mebibytes());
+      std::fflush(stdout);
+    }
+  }
+
+  /// Dances as fast as they come, one behind the other.
+  void Closed() {
+    std::printf(
+        "\n| dances at once, music known ahead | frames/s | frames/s of the server's CPU "
+        "time |\n|---|---|---|\n");
+    for (const int streams : {1, 8, 32}) {
+      const double cpu = CpuSeconds(server_.process());
+      const Clock::time_point start = Clock::now();
+      std::atomic<int64_t> frames = 0;
+      Together(streams, [&](int i) {
+        for (int round = 0; round < 4; ++round) frames += DanceAtOnce(song_, i + 100 * round);
+      });
+      const auto count = static_cast<double>(frames.load());
+      std::printf("| %d | %.0f | %.0f |\n", streams, count / Since(start),
+                  count / (CpuSeconds(server_.process()) - cpu));
+      std::fflush(stdout);
+    }
+  }
+
+  /// Memory of streams that wait for music.
+  void Idle() {
+    constexpr int kStreams = 256;
+    const double before = Mebibytes();
+    std::vector<std::unique_ptr<client::RemoteDance>> dances;
+    for (int i = 0; i < kStreams; ++i) {
+      dances.push_back(client_.StartDance({.seed = 1, .audio = song_.format}));
+      SendKeys(*dances.back(), options_.seconds, 2);
+      dances.back()->SendSamples(std::span(song_.samples).first(4410));
+      while (const std::optional<client::Message> message = dances.back()->Next())
+        if (std::holds_alternative<client::Header>(*message)) break;
+    }
+    std::printf("\n%d idle streams: %.0f KiB each\n", kStreams,
+                (Mebibytes() - before) * 1024 / kStreams);
+  }
+
+  /// The tenth minute of a stream against its first.
+  void Minutes() {
+    constexpr int kMinutes = 10;
+    std::printf("\n| minute | ms of the server's CPU a frame | server MiB |\n|---|---|---|\n");
+    constexpr int64_t kFrames = 1790;  // of a minute: ten and their music are what a song may last
+    const client::Audio song = ClickSong(60 * kMinutes, 22050, 1);
+    const auto dance = client_.StartDance({.seed = 3, .audio = song.format});
+    SendKeys(*dance, 60 * kMinutes, 2);
+    // As a player would, but faster: a minute of music is sent when the minute before was danced.
+    const auto samples = static_cast<size_t>(kFrames) * 22050 / 30;
+    size_t sent = samples + 22050;
+    double cpu = CpuSeconds(server_.process());
+    dance->SendSamples(std::span(song.samples).first(sent));
+    int64_t frames = 0;
+    int minute = 0;
+    while (const std::optional<client::Message> message = dance->Next()) {
+      const auto* block = std::get_if<client::FrameBlock>(&*message);
+      if (block == nullptr) continue;
+      frames += static_cast<int64_t>(block->poses.size());
+      if (frames < (minute + 1) * kFrames || minute >= kMinutes) continue;
+      ++minute;
+      const double now = CpuSeconds(server_.process());
+      if (minute == 1 || minute == kMinutes) {
+        std::printf("| %d | %.3f | %.0f |\n", minute, 1000 * (now - cpu) / kFrames, Mebibytes());
+        std::fflush(stdout);
+      }
+      cpu = now;
+      const auto next = std::span(song.samples).subspan(sent);
+      dance->SendSamples(next.first(std::min(samples, next.size())));
+      sent += std::min(samples, next.size());
+      if (sent == song.samples.size()) dance->EndAudio();
+    }
+  }
+
+ private:
+  Lateness Live(int streams, double shortest_s, double longest_s) {
+    Lateness all;
+    std::mutex mutex;
+    Together(streams, [&](int i) {
+      // Not all in step.
+      std::this_thread::sleep_for(std::chrono::duration<double>(2.0 * i / streams));
+      const Lateness one = DanceLive(client_, song_,
+                                     {.shortest_chunk_s = shortest_s,
+                                      .longest_chunk_s = longest_s,
+                                      .seed = static_cast<uint32_t>(i + 1)});
+      const std::lock_guard lock(mutex);
+      all.Add(one);
+    });
+    return all;
+  }
+
+  int64_t DanceAtOnce(const client::Audio& song, int seed) {
+    const auto dance =
+        client_.StartDance({.seed = static_cast<uint64_t>(seed), .audio = song.format});
+    SendKeys(*dance, options_.seconds, 2);
+    dance->SendSamples(song.samples);
+    dance->EndAudio();
+    int64_t frames = 0;
+    while (const std::optional<client::Message> message = dance->Next())
+      if (const auto* block = std::get_if<client::FrameBlock>(&*message))
+        frames += static_cast<int64_t>(block->poses.size());
+    return frames;
+  }
+
+  static void PrintLateness(Lateness& lateness) {
+    std::printf("| %.1f | %.1f | %.1f | %.1f | %.1f | %.0f | %.2f ",
+                Percentile(lateness.first_ms, 0.5), Percentile(lateness.first_ms, 0.99),
+                Percentile(lateness.all_ms, 0.5), Percentile(lateness.all_ms, 0.95),
+                Percentile(lateness.all_ms, 0.99), Percentile(lateness.all_ms, 1),
+                100.0 * lateness.missed / static_cast<double>(lateness.all_ms.size()));
+  }
+
+  double Mebibytes() const {
+    return static_cast<double>(ResidentBytes(server_.process())) / (1 << 20);
+  }
+
+  Options options_;
+  cli::LocalServer server_;
+  client::Client client_;
+  client::Audio song_;
+};
+
+}  // namespace
+}  // namespace choreo::bench
+
+int main(int argc, char** argv) {
+  using choreo::bench::Load;
+  CLI::App program{"Starts a choreod, loads it over gRPC, and measures when the frames come.",
+                   "load"};
+  choreo::bench::Options options;
+  program.add_option("--song", options.song, "Default: a made-up one, 44.1 kHz.")
+      ->check(CLI::ExistingFile);
+  program.add_option("--seconds", options.seconds, "Length of a dance.")
+      ->check(CLI::Range(2.0, 600.0))
+      ->capture_default_str();
+  program.add_option("--streams", options.streams, "Real-time streams at once.")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  const std::vector<std::pair<std::string, void (Load::*)()>> tables = {
+      {"chunks", &Load::Chunks},
+      {"live", &Load::Streams},
+      {"closed", &Load::Closed},
+      {"idle", &Load::Idle},
+      {"minutes", &Load::Minutes}};
+  std::vector<std::string> names;
+  for (const auto& table : tables) names.push_back(table.first);
+  program.add_option("--tables", options.tables, "What to measure.")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  CLI11_PARSE(program, argc, argv);
+  // Room for all, unless the environment says otherwise; it also chooses checkpoint and workers.
+  for (const char* limit : {"CHOREO_MAX_STREAMS", "CHOREO_SLOTS", "CHOREO_MAX_WAITING"})
+    setenv(limit, "1024", /*overwrite=*/0);
+  try {
+    Load load(options);
+    for (const auto& [name, measure] : tables)
+      if (std::ranges::find(options.tables, name) != options.tables.end()) (load.*measure)();
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "load: " << error.what() << '\n';
+    return 1;
+  }
+}

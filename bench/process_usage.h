@@ -1,0 +1,13 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+
+/// What a process on this machine has used, from /proc. Throws Error(kNotFound) where it is gone.
+namespace choreo::bench {
+
+double CpuSeconds(pid_t process);
+int64_t ResidentBytes(pid_t process);
+
+}  // namespace choreo::bench
