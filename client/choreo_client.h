@@ -134,9 +134,9 @@ struct DanceConfig {
   AudioFormat audio = {};
   std::optional<int64_t> frames =
       {};  ///< the dance ends before this frame; otherwise with the music or the last key
-  /// Times of the music's beats, seconds, ascending: limbs are fastest on them, Beat messages and
-  /// the report tell of them. Empty: the server finds them in a kFile, and knows none in a
-  /// kPcmFloat.
+  /// Times of the music's beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them,
+  /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and knows
+  /// none in a kPcmFloat, which is then danced otherwise.
   std::vector<double> music_beats = {};
 };
 

@@ -112,6 +112,7 @@ class Edit {
     request.config.model = options_.model.name;
     request.config.seed = options_.seed;
     request.config.temperature = options_.temperature;
+    request.config.music_beats = options_.music_beats;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
     SetMusic(options_.audio, options_.model, first, &request);
     return request;

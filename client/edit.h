@@ -26,6 +26,7 @@ struct EditOptions {
   uint64_t seed = 0;                       ///< same seed, same edit
   std::optional<double> temperature = {};  ///< 0 to 2
   Audio audio = {};                        ///< the song from its start, kPcmFloat; or none
+  std::vector<double> music_beats = {};    ///< as DanceConfig::music_beats
 };
 
 /// A key pose set into a dance: the frames between `from` and `to`, both exclusive, change.

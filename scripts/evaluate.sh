@@ -12,7 +12,7 @@ runs=$(realpath -m "${3:-$root/runs}")
 data=$root/build/data
 cd "$root"
 
-# Prepared once: the same recordings and code give the same clips.
+# Prepared once; remove build/data after a change of recordings or of `prepare`.
 [[ -f $data/tang2018/report.json ]] || "$lab" prepare tang2018 "$recordings/tang2018" "$data/tang2018" \
   --terms "none stated, citation asked (Tang et al. 2018); commercial music: internal use only"
 [[ -f $data/dancedb/report.json ]] || "$lab" prepare bvh "$recordings/dancedb" "$data/dancedb" --terms "none stated (Aristidou et al. 2017)"
@@ -43,4 +43,8 @@ row "no key loss" ablation/no_key_loss
 row "frames from the start" ablation/forward_embedding
 row "no keys in training" ablation/no_keys
 full=$runs/ablation/full/checkpoint.safetensors
-if [[ -f $full ]]; then measure tables_ablations "$full" --baseline real interpolation --long-dances 0 --best-of 0; fi
+if [[ -f $full ]]; then
+  measure tables_ablations "$full" --baseline real interpolation --long-dances 0 --best-of 0
+else
+  echo "evaluate.sh: no tables of ablations: $full is not there" >&2
+fi

@@ -10,8 +10,12 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 # The poses that the library would dance through, where it would have them: key I of the base dance.
-"$choreo" dance "$songs/Escape from chaosland/song.ogg" --seconds 12 --seed 1 --out "$scratch/base.npz" --report "$scratch/base.json" >/dev/null 2>&1
+"$choreo" dance "$songs/Escape from chaosland/song.ogg" --seconds 12 --seed 1 --out "$scratch/base.npz" --report "$scratch/base.json" >/dev/null
 mapfile -t times < <(grep '"frame"' "$scratch/base.json" | awk '{printf "%.4f\n", $2 / 30}')
+if ((${#times[@]} < 7)); then
+  echo "gallery.sh: the base dance has ${#times[@]} keys, 7 are wanted" >&2
+  exit 1
+fi
 keys() {  # keys I@SECOND...
   local names=()
   for key in "$@"; do names+=(-k "$scratch/base.npz@${times[${key%@*}]}=${key#*@}"); done
@@ -21,8 +25,8 @@ rows=()
 row() {  # row TITLE SONG SEED KEYS
   local png=$scratch/${#rows[@]}.png
   mapfile -t poses <<<"$4"
-  "$choreo" dance "$songs/$2/song.ogg" --seconds 8.5 --seed "$3" "${poses[@]}" --out "$scratch/dance.npz" --report "$scratch/dance.json" >/dev/null 2>&1
-  "$choreo" render "$scratch/dance.npz" --report "$scratch/dance.json" --frames 18 --columns 18 --title "$1" --out "$png" >/dev/null 2>&1
+  "$choreo" dance "$songs/$2/song.ogg" --seconds 8.5 --seed "$3" "${poses[@]}" --out "$scratch/dance.npz" --report "$scratch/dance.json" >/dev/null
+  "$choreo" render "$scratch/dance.npz" --report "$scratch/dance.json" --frames 18 --columns 18 --title "$1" --out "$png"
   rows+=(-i "$png")
 }
 usual=$(keys 0@0 1@2 2@4 3@6 4@8)

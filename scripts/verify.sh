@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# What is too long for `make test`: a stranger's program that uses the installed client, the container, a build without the service, and
-# the tests under sanitizers.
+# What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, the container, a
+# build without the service, and the tests under sanitizers.
+# CHOREO_RECORDINGS names the folder of recordings that figures are measured on (scripts/evaluate.sh); without it they are left out.
 #   scripts/verify.sh BUILD_DIRECTORY
 set -euo pipefail
 build=$(realpath "$1")
@@ -8,6 +9,14 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$root"
+
+echo "== The figures of docs/results.md"
+if [[ -n ${CHOREO_RECORDINGS:-} ]]; then
+  scripts/evaluate.sh "$build/bin" "$CHOREO_RECORDINGS"
+  git diff --stat -- docs
+else
+  echo "left out: CHOREO_RECORDINGS names no folder of recordings"
+fi
 
 echo "== The installed package serves a stranger"
 cmake --install "$build" --prefix "$scratch/prefix" >/dev/null

@@ -17,6 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
 
 constexpr int kMaxAfterPoses = 60;
+constexpr int kMostBeats = 20 * kMaxAudioSeconds;  // 20 a second of the longest music
 
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
   if (value >= least && value <= most) return value;
@@ -93,6 +94,11 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
   out->allow_inexact_resume = config.allow_inexact_resume();
   if (config.has_continuation())
     out->continuation = ToContinuation(config.continuation(), model, config.allow_inexact_resume());
+  if (config.music_beats_size() > kMostBeats) {
+    throw InvalidArgument("config.music_beats", std::to_string(config.music_beats_size()) +
+                                                    " beats, the limit is " +
+                                                    std::to_string(kMostBeats));
+  }
   out->music_beats.assign(config.music_beats().begin(), config.music_beats().end());
   for (size_t i = 0; i < out->music_beats.size(); ++i) {
     const double beat = out->music_beats[i];

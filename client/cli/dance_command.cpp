@@ -159,9 +159,7 @@ void Run(const DanceOptions& options) {
   config.seed = options.seed.value_or(0);
   config.temperature = options.temperature;
   config.frames = length.frames;
-  const std::vector<double> beats = music.track.Seconds();
-  std::copy_if(beats.begin(), beats.end(), std::back_inserter(config.music_beats),
-               [&](double beat) { return beat < seconds; });
+  config.music_beats = BeatsBefore(music, seconds);
   const client::DanceResult dance =
       Dance(connection.client(), config, keys, AudioFor(music.audio, seconds), model.fps, out);
 

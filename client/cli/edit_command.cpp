@@ -94,7 +94,11 @@ class Session {
     CheckKeys();
     dance_ = ReadDance(options.dance, edit_.model.skeleton);
     frames_ = CountModelFrames(dance_, edit_.model);
-    if (!options.song.empty()) edit_.audio = ReadAudioFor(options.song, Seconds(frames_));
+    if (!options.song.empty()) {
+      const Music music = ReadMusic(options.song, Seconds(frames_));
+      edit_.audio = AudioFor(music.audio, Seconds(frames_));
+      edit_.music_beats = BeatsBefore(music, Seconds(frames_));
+    }
     if (!options.report.empty()) ReadKeys();
   }
 

@@ -24,6 +24,12 @@ Music ReadMusic(const std::filesystem::path& path, double seconds) {
   return music;
 }
 
+std::vector<double> BeatsBefore(const Music& music, double seconds) {
+  std::vector<double> beats = music.track.Seconds();
+  std::erase_if(beats, [seconds](double beat) { return beat >= seconds; });
+  return beats;
+}
+
 client::Audio AudioFor(const DecodedAudio& song, double seconds) {
   const auto samples = static_cast<int64_t>(std::ceil((seconds + kAfterglow) * song.sample_rate));
   const int64_t values = std::min(song.samples(), samples) * song.channels;
@@ -31,10 +37,6 @@ client::Audio AudioFor(const DecodedAudio& song, double seconds) {
   out.format = {client::AudioKind::kPcmFloat, song.sample_rate, song.channels};
   out.samples.assign(song.interleaved.begin(), song.interleaved.begin() + values);
   return out;
-}
-
-client::Audio ReadAudioFor(const std::filesystem::path& path, double seconds) {
-  return AudioFor(DecodeAudioFile(path, seconds + kAfterglow), seconds);
 }
 
 double Seconds(const client::Audio& audio) {

@@ -23,11 +23,11 @@ struct Music {
 Music ReadMusic(const std::filesystem::path& path,
                 double seconds = std::numeric_limits<double>::infinity());
 
+/// Times of the beats before `seconds`, as DanceConfig::music_beats.
+std::vector<double> BeatsBefore(const Music& music, double seconds);
+
 /// What to send for a dance of `seconds`: the song's beginning, as samples.
 client::Audio AudioFor(const DecodedAudio& song, double seconds);
-
-/// The same from a file, of which no more is decoded. Errors as DecodeAudioFile.
-client::Audio ReadAudioFor(const std::filesystem::path& path, double seconds);
 
 /// Of samples.
 double Seconds(const client::Audio& audio);

@@ -82,8 +82,8 @@ void Run(const RenderOptions& options) {
   const SkeletonMotion dance = ReadMotion(options.motion);
   std::vector<double> keys;
   if (!options.report.empty()) keys = KeyTimes(options.report);
-  Interruption::Check();
   if (!options.out.empty()) DrawSheet(options, dance, keys);
+  Interruption::Check();
   if (!options.video.empty()) DrawFilm(options, dance, keys);
 }
 

@@ -66,14 +66,16 @@ void Run(const TransitionOptions& options) {
   request.target = target.pose;
   request.target_mask = target.mask;
   if (!options.song.empty()) {
-    const client::Audio song =
-        ReadAudioFor(options.song, options.at_s + options.frames / model.fps);
+    const double end_s = options.at_s + options.frames / model.fps;
+    const Music music = ReadMusic(options.song, end_s);
+    const client::Audio song = AudioFor(music.audio, end_s);
     if (options.at_s >= Seconds(song)) {
       std::ostringstream message;
       message << options.at_s << " s lies behind the song's end at " << Seconds(song) << " s";
       throw InvalidArgument("--at", message.str());
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
+    request.config.music_beats = BeatsBefore(music, end_s);
   }
   const client::TransitionResult result = connection.client().GenerateTransition(request);
   for (const client::Warning& warning : result.warnings)

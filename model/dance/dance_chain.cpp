@@ -210,7 +210,7 @@ void DanceChain::Start() {
   request.seed = config_.seed;
   request.candidate = config_.candidate;
   request.first_frame = segment_->from;
-  for (const double seconds : music_beats_) request.beats.push_back(seconds * model_.fps);
+  request.beats = BeatsAround(music_beats_, model_.fps, request.first_frame, request.frames);
   request.temperature =
       config_.temperature.value_or(static_cast<float>(model_.default_temperature));
   try {

@@ -27,12 +27,12 @@ struct QualityReport {
   int64_t first_frame = 0;
   int64_t frames = 0;
   std::vector<KeyReport> keys;
-  double mean_log_likelihood = 0;  ///< nats a frame
+  double mean_log_likelihood = 0;  ///< of what the flow proposed, given its plan; nats a frame
   /// Share of the steps (pairs of successive frames) in which either foot skates: its toe joint is
   /// below 5 cm in both frames and moves faster than 0.2 m/s over the floor.
   double skate_ratio = 0;
-  /// Paper F, 4.5.1: of the kinematic beats (local maxima of the mean joint speed), the share with
-  /// a music beat at most two frames away. Absent without music beats, or without kinematic ones.
+  /// Paper F, 4.5.1: of the kinematic beats (KinematicBeats), the share with a music beat at most
+  /// two frames away. Absent without music beats, or without kinematic ones.
   std::optional<double> beat_hit_rate;
   std::optional<double> beat_coverage;  ///< kinematic beats / music beats, over the dance's frames
   double max_key_acceleration = 0;      ///< over all keys, m/s^2
@@ -68,10 +68,10 @@ class QualityMeter {
   int64_t frames_ = 0;
 };
 
-/// Frames of the kinematic beats of a curve of mean joint speeds: the local maxima (a plateau counts
-/// once, at its start) of the curve smoothed by a Gaussian of 1/12 s, as the field's evaluation of
-/// AIST++ has it (Siyao et al. 2022: 5 frames at 60 fps): shaking is not dancing on beats.
-/// `speed[i]` belongs to frame i + 1; `fps` > 0.
+/// Frames of the kinematic beats of a curve of mean joint speeds: the local maxima (a plateau
+/// counts once, at its start) of the curve smoothed by a Gaussian of 1/12 s, as the field's
+/// evaluation of AIST++ has it (Siyao et al. 2022: 5 frames at 60 fps): shaking is not dancing on
+/// beats. `speed[i]` belongs to frame i + 1; `fps` > 0.
 std::vector<int64_t> KinematicBeats(std::span<const float> speed, double fps);
 
 /// Shorthand for whole motions (evaluation). Contacts and likelihood are not judged.

@@ -36,18 +36,6 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
-// Beats in frames from the first one: those of the transition, one before and one behind.
-std::vector<double> BeatsAround(const TransitionRequest& request) {
-  const auto first = static_cast<double>(request.first_frame);
-  auto from = std::ranges::upper_bound(request.beats, first - 1);
-  auto to = std::ranges::lower_bound(request.beats, first + request.frames);
-  if (from != request.beats.begin()) --from;
-  if (to != request.beats.end()) ++to;
-  std::vector<double> beats(from, to);
-  for (double& beat : beats) beat -= first;
-  return beats;
-}
-
 Pose Near(Pose pose, const Pose& previous) {
   for (int joint = 0; joint < pose.rotations.cols(); ++joint) {
     pose.rotations.col(joint) =
@@ -79,6 +67,18 @@ std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> pose
   return history;
 }
 
+std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
+                                int frames) {
+  const auto first = static_cast<double>(first_frame);
+  auto from = std::ranges::upper_bound(seconds, (first - 1) / fps);
+  auto to = std::ranges::lower_bound(seconds, (first + frames) / fps);
+  if (from != seconds.begin()) --from;
+  if (to != seconds.end()) ++to;
+  std::vector<double> beats(from, to);
+  for (double& beat : beats) beat = beat * fps - first;
+  return beats;
+}
+
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
     : model_(&model), world_target_(request.target) {
   const int limit = std::min(model.max_transition_frames, kMaxTransitionFrames);
@@ -107,7 +107,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.history = CanonicalHistory(ground_, history);
   spec_.has_audio = request.has_audio;
   if (request.has_audio) spec_.audio_history = request.audio_history;
-  spec_.beats = BeatsAround(request);
+  spec_.beats = request.beats;
   spec_.seed = request.seed;
   spec_.candidate = request.candidate;
   spec_.first_frame = request.first_frame;

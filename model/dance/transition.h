@@ -32,9 +32,7 @@ struct TransitionRequest {
   bool has_audio = false;
   Eigen::MatrixXf audio_history;  ///< [audio_features, tau] rows of the frames before the first;
                                   ///< unread without audio
-  /// Where the music beats, in absolute frames, ascending; those near the transition count. Empty:
-  /// unknown.
-  std::vector<double> beats;
+  std::vector<double> beats;      ///< as BeatsAround has them; empty: unknown
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute
@@ -141,5 +139,10 @@ Pose RoundToFloat(const Pose& pose);
 std::vector<DanceFrame> RunTransition(StepEngine& engine, const TransitionRequest& request,
                                       const Eigen::MatrixXf& audio_rows,
                                       std::optional<ArrivalResult>* arrival = nullptr);
+
+/// Of the music's beats, in seconds, ascending, those of frames [first_frame, first_frame +
+/// frames), one before and one behind, as TransitionRequest::beats: in frames from the first.
+std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
+                                int frames);
 
 }  // namespace choreo

@@ -190,10 +190,9 @@ void TransitionGroup::Impl::Begin() {
   transition.after = request_.after;
   transition.has_audio = audio_.has_value();
   transition.audio_history = audio_history_;
-  for (const double seconds : request_.music_beats)
-    transition.beats.push_back(seconds * model_.fps);
   transition.seed = request_.seed;
   transition.first_frame = first_frame_;
+  transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, transition.frames);
   transition.temperature =
       request_.temperature.value_or(static_cast<float>(model_.default_temperature));
 

@@ -31,6 +31,17 @@ std::array<double, 4> CubicWeights(double u) {
           0.5 * (u3 - u2)};
 }
 
+// The pose as far behind `b` as `a` is before it.
+Pose OneFurther(const Pose& a, const Pose& b) {
+  Pose further = b;
+  further.root_position += b.root_position - a.root_position;
+  for (Eigen::Index joint = 0; joint < b.rotations.cols(); ++joint) {
+    further.rotations.col(joint) = RotationCompose(
+        b.rotations.col(joint), RotationDifference(a.rotations.col(joint), b.rotations.col(joint)));
+  }
+  return further;
+}
+
 }  // namespace
 
 double PlanTime(std::span<const double> beats, int frames, double t) {
@@ -40,17 +51,19 @@ double PlanTime(std::span<const double> beats, int frames, double t) {
   return t + std::min(1.0, frames / kWholeAccent) * shift;
 }
 
-std::vector<Pose> TimeToBeats(const Pose& before, const std::vector<Pose>& plan,
+std::vector<Pose> TimeToBeats(std::span<const Pose> history, const std::vector<Pose>& plan,
                               std::span<const double> beats) {
   const auto frames = static_cast<int>(plan.size());
-  const auto at = [&](int frame) -> const Pose& {
-    return frame < 0 ? before : plan[static_cast<size_t>(std::min(frame, frames - 1))];
-  };
+  // Two poses in front, and one behind that goes on as the last two go.
+  std::vector<Pose> curve = {history[history.size() > 1 ? history.size() - 2 : 0], history.back()};
+  curve.insert(curve.end(), plan.begin(), plan.end());
+  curve.push_back(OneFurther(curve[curve.size() - 2], curve.back()));
+  const auto at = [&](int frame) -> const Pose& { return curve[static_cast<size_t>(frame + 2)]; };
   std::vector<Pose> timed(plan.size());
-  const Pose* last = &before;
+  const Pose* last = &history.back();
   for (int frame = 0; frame < frames; ++frame) {
     const double time = std::clamp(PlanTime(beats, frames, frame), -1.0, frames - 1.0);
-    const auto from = static_cast<int>(std::floor(time));
+    const int from = std::min(static_cast<int>(std::floor(time)), frames - 2);
     const std::array<double, 4> weights = CubicWeights(time - from);
     const Pose& origin = at(from);
     Pose& pose = timed[static_cast<size_t>(frame)];

@@ -18,9 +18,10 @@ namespace choreo {
 /// time runs evenly.
 double PlanTime(std::span<const double> beats, int frames, double t);
 
-/// Times `plan` to `beats`. `before` is the pose that frame 0 leaves from. In between poses a cubic
-/// (Catmull-Rom, rotations in the tangent space of the nearest pose) keeps what is smooth smooth.
-std::vector<Pose> TimeToBeats(const Pose& before, const std::vector<Pose>& plan,
+/// Times `plan` to `beats`. `history`: the poses before frame 0, oldest first, at least one. In
+/// between poses a cubic (Catmull-Rom, rotations in the tangent space of the nearest pose) keeps
+/// what is smooth smooth.
+std::vector<Pose> TimeToBeats(std::span<const Pose> history, const std::vector<Pose>& plan,
                               std::span<const double> beats);
 
 }  // namespace choreo

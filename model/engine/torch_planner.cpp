@@ -49,10 +49,9 @@ Tensor Mask(const TransitionSpec& spec, int joints) {
   return mask;
 }
 
-// Noise of the plan, times the temperature: [1, waves, components]. Where no key holds a dance it
-// varies more, by the root of the temperature: at what serves keys well it would all but stand. It
-// stands behind the noise of
-// the first frame's own features, so the two are unrelated.
+// Noise of the plan: [1, waves, components], times the temperature. Where no key holds a dance,
+// times its fourth root: at the temperatures that serve keys well it would all but stand. It lies
+// behind the noise of the first frame's own features, so the two are unrelated.
 Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
   const int64_t waves = VarietyImpl::Waves(spec.frames);
   const int64_t components = model->variety()->components();
@@ -60,7 +59,7 @@ Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
   std::vector<float> noise(used + static_cast<size_t>(waves * components));
   FillNormal(spec.seed, spec.candidate, spec.first_frame, noise);
   Tensor variety = torch::empty({1, waves, components});
-  const float scale = spec.target ? spec.temperature : std::sqrt(spec.temperature);
+  const float scale = spec.target ? spec.temperature : std::sqrt(std::sqrt(spec.temperature));
   float* out = variety.data_ptr<float>();
   for (size_t i = used; i < noise.size(); ++i) *out++ = scale * noise[i];
   return variety;

@@ -71,10 +71,10 @@ Table BeatTable::Finish() const {
   table.title = "Steps on beats, " + set_.name;
   table.note =
       "Kinematic beats are maxima of the mean joint speed, smoothed by a Gaussian of 1/12 s; hits "
-      "at "
-      "most two frames off a music beat; chance: the same dances scored on the set's other songs. "
-      "Alignment: minima of speed "
-      "(AIST++). Intervals over songs.";
+      "are at most two frames off a music beat, as it was found in the song's MFCC rows and told "
+      "to "
+      "the model. Chance: the same dances scored on the set's other songs. Alignment: minima of "
+      "speed (AIST++). Intervals over songs.";
   table.label_headings = {"dance"};
   table.columns = {{"dances", 0},   {"hit rate %", 1},        {"chance %", 1},  {"above chance", 1},
                    {"coverage", 2}, {"coverage / real's", 2}, {"alignment", 3}, {"its chance", 3}};

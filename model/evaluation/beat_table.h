@@ -18,8 +18,7 @@ struct BeatFigures {
   double coverage = 0;   ///< B_k / B_m
   double alignment = 0;  ///< BeatAlignmentScore
 };
-BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music,
-                       double fps);
+BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music, double fps);
 
 /// Gathers dances beside a set's songs, scores each on its own song and, for chance, on the set's
 /// other songs from their beginnings: what a dance hits by its own density and tempo.

@@ -19,7 +19,7 @@ TransitionJob NextJob(const ModelInfo& model, const ChainPlan& plan, const Chain
   request.history = plan.history;
   const auto known = std::min<std::ptrdiff_t>(at, model.history_frames);
   request.history.insert(request.history.end(), chain.poses.end() - known, chain.poses.end());
-  request.beats = plan.beats;
+  request.beats = BeatsAround(plan.beats, /*fps=*/1, at, request.frames);
   request.seed = plan.seed;
   request.first_frame = at;
   request.temperature = plan.temperature;

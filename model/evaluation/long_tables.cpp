@@ -174,15 +174,23 @@ Table InfluenceTable(const ClipSet& set, StepEngine& engine, const EvalOptions& 
     });
     TableRow row{{NameOf(times)}, {distance(as_is, dance(other_seed)), distance(hot, hot_seed)}};
     if (music) {
-      row.cells.push_back(
-          distance(as_is, dance([&](LongPlan& plan) {
-                     // The next clip's song, again and again.
-                     const auto& song = set.clips[(plan.clip + 1) % set.clips.size()].audio;
-                     for (Eigen::Index t = 0; t < plan.chain.audio.cols() && song.cols() > 0; ++t)
-                       plan.chain.audio.col(t) = song.col(t % song.cols());
-                     plan.chain.beats =
-                         set.BeatsBetween((plan.clip + 1) % set.clips.size(), 0, plan.chain.frames);
-                   })));
+      row.cells.push_back(distance(as_is, dance([&](LongPlan& plan) {
+                                     // The next clip's song, again and again.
+                                     const size_t other = (plan.clip + 1) % set.clips.size();
+                                     const auto& song = set.clips[other].audio;
+                                     for (Eigen::Index t = 0;
+                                          t < plan.chain.audio.cols() && song.cols() > 0; ++t)
+                                       plan.chain.audio.col(t) = song.col(t % song.cols());
+                                     plan.chain.beats.clear();
+                                     // The first row is of the history's first frame.
+                                     const auto length = static_cast<int>(song.cols());
+                                     for (int from = -engine.model().history_frames;
+                                          length > 0 && from < plan.chain.frames; from += length) {
+                                       for (const double beat : set.BeatsBetween(other, 0, length))
+                                         if (from + beat >= 0 && from + beat < plan.chain.frames)
+                                           plan.chain.beats.push_back(from + beat);
+                                     }
+                                   })));
       row.cells.push_back(distance(as_is, dance([](LongPlan& plan) {
                                      plan.chain.audio.resize(0, 0);
                                      plan.chain.beats.clear();

@@ -15,8 +15,8 @@ namespace choreo {
 std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 
 /// Beat alignment score (Li et al. 2021, AIST++, Section 5): mean over kinematic beats, which are
-/// the *minima* of the mean joint speed there, of exp(-d^2 / 2 sigma^2), d frames to the nearest
-/// music beat, sigma 3 frames. 1 is perfect. 0 without beats of either kind.
+/// the *minima* of the smoothed mean joint speed there, of exp(-d^2 / 2 sigma^2), d frames to the
+/// nearest music beat, sigma 3 frames. 1 is perfect. 0 without beats of either kind.
 double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
                           double fps);
 

@@ -11,24 +11,28 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(PlannerConfig, width, recurrent,
                                                 dropout, variety)
 
 // One list serves both directions, so that a field can't be written and not read.
-#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                       \
-  apply(preset) apply(history_frames) apply(audio_features) apply(flow_steps) apply(hidden)    \
-      apply(recurrent) apply(condition_width) apply(planner) apply(max_transition_frames)      \
-          apply(temperature) apply(fine_temperature) apply(follow) apply(keys) apply(key_loss) \
-              apply(time_embedding) apply(forward_embedding) apply(history_dropout)            \
-                  apply(history_noise)
+#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                    \
+  apply(preset) apply(history_frames) apply(audio_features) apply(flow_steps) apply(hidden) \
+      apply(recurrent) apply(condition_width) apply(planner) apply(max_transition_frames)   \
+          apply(temperature) apply(keys) apply(key_loss) apply(time_embedding)              \
+              apply(forward_embedding) apply(history_dropout) apply(history_noise)
+// What the first checkpoints did not name; there it was what the defaults are.
+#define CHOREO_LATER_FIELDS(apply) apply(fine_temperature) apply(follow)
 
 void to_json(nlohmann::json& json, const FlowConfig& config) {
   json = nlohmann::json::object();
 #define CHOREO_WRITE(field) json[#field] = config.field;
   CHOREO_FLOW_CONFIG_FIELDS(CHOREO_WRITE)
+  CHOREO_LATER_FIELDS(CHOREO_WRITE)
 #undef CHOREO_WRITE
 }
 
 void from_json(const nlohmann::json& json, FlowConfig& config) {
-  // Fields that a checkpoint is older than keep their defaults.
-#define CHOREO_READ(field) config.field = json.value(#field, config.field);
+#define CHOREO_READ(field) json.at(#field).get_to(config.field);
   CHOREO_FLOW_CONFIG_FIELDS(CHOREO_READ)
+#undef CHOREO_READ
+#define CHOREO_READ(field) config.field = json.value(#field, config.field);
+  CHOREO_LATER_FIELDS(CHOREO_READ)
 #undef CHOREO_READ
 }
 

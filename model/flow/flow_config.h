@@ -13,7 +13,7 @@ struct PlannerConfig {
   int layers = 4;
   int heads = 6;
   double dropout = 0;  ///< of what each half of a block adds, in its own training
-  int variety = 0;  ///< principal components of what plans leave open (variety.h); 0: none
+  int variety = 0;     ///< principal components of what plans leave open (variety.h); 0: none
 };
 
 /// Sampling around a plan drops past frames that strayed from it, as training drops frames at

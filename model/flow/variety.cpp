@@ -30,7 +30,7 @@ Tensor HalfWaves(const Tensor& keyed, int64_t waves) {
   return torch::arange(1, waves + 1, keyed.options()).unsqueeze(0) - 0.5 * (1 - keyed);
 }
 
-// Orthonormal over the N frames. [batch, waves, N]
+// Orthonormal over the N frames, the last of which counts half where it is free. [batch, waves, N]
 Tensor Sines(const Tensor& keyed, int64_t waves, int64_t frames) {
   const Tensor t = torch::arange(1, frames + 1, keyed.options()) / static_cast<double>(frames);
   return std::sqrt(2.0 / static_cast<double>(frames)) *
@@ -50,14 +50,13 @@ Tensor Bin(const Tensor& keyed, int64_t waves, int64_t frames) {
 Tensor Activity(const TransitionTensors& transition) {
   const Tensor& history = transition.history_rotation;
   const int64_t steps = history.size(1) - 1, joints = history.size(2);
+  const Tensor asked = transition.target_mask.narrow(1, 0, joints);
   const auto turn = [](const Tensor& a, const Tensor& b) {
     return LogMapBatch(torch::matmul(a.transpose(-1, -2), b)).square().sum(-1).sqrt();
   };
   const Tensor lately = turn(history.narrow(1, 0, steps), history.narrow(1, 1, steps)).mean({1, 2});
-  const Tensor way = (turn(history.select(1, steps), transition.target_rotation) *
-                      transition.target_mask.narrow(1, 0, joints))
-                         .mean(1) /
-                     static_cast<double>(transition.frames);
+  const Tensor way = (turn(history.select(1, steps), transition.target_rotation) * asked).sum(1) /
+                     (asked.sum(1).clamp_min(1) * static_cast<double>(transition.frames));
   return torch::stack({torch::ones_like(way), lately.clamp_min(kLeastActivity).log(),
                        way.clamp_min(kLeastActivity).log()},
                       1);
@@ -80,7 +79,9 @@ Tensor VarietyImpl::Difference(const TrajectoryTensors& plan, const TrajectoryTe
 
 Tensor VarietyImpl::Analyse(const Tensor& difference, const Tensor& keyed) const {
   const int64_t frames = difference.size(1);
-  return torch::matmul(Sines(keyed, Waves(frames), frames), torch::matmul(difference, analysis_));
+  Tensor sines = Sines(keyed, Waves(frames), frames);
+  sines.select(2, frames - 1).mul_(0.5 * (1 + keyed));
+  return torch::matmul(sines, torch::matmul(difference, analysis_));
 }
 
 Tensor VarietyImpl::Synthesise(const Tensor& coefficients, const Tensor& keyed,
@@ -158,7 +159,7 @@ void VarietyImpl::Fit(const std::vector<Sample>& samples) {
     if (sizes[kind].empty()) continue;
     const Tensor x = torch::cat(activities[kind]), y = torch::cat(sizes[kind]).unsqueeze(1);
     // Without a key the way's column is constant: a ridge keeps that solvable.
-    const Tensor normal = torch::matmul(x.t(), x) + 1e-3 * torch::eye(3);
+    const Tensor normal = torch::matmul(x.t(), x) + 1e-3 * torch::eye(3, x.options());
     activity_[static_cast<int64_t>(kind)] =
         torch::linalg_solve(normal, torch::matmul(x.t(), y), true).squeeze(1);
   }

@@ -49,7 +49,7 @@ nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int
                std::to_string(options.longest) +
                " frames at 30 fps. The plan does not hear the music, the flow around it does (if "
                "there is one), and plans are timed to the beats when they are danced. Without keys "
-               "it is calmer than real dancers. "
+               "it is calmer than real dancers. Feet may slide in short transitions. "
                "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
 }
 

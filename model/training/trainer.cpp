@@ -121,10 +121,23 @@ class Run {
   void TakePlanner() {
     if (!model_->has_planner())
       throw InvalidArgument("--planner", "preset " + options_.preset + " has no planner");
-    const Safetensors base = ReadSafetensors(options_.planner);
-    ImportTensors(base, "planner.", model_->planner().get());
-    base_ = {{"hash", base.metadata.at("hash")},
-             {"card", nlohmann::json::parse(base.metadata.at("card"))}};
+    const Checkpoint base = LoadCheckpoint(options_.planner);
+    const PlannerConfig &theirs = base.model->config().planner, &ours = model_->config().planner;
+    if (!(base.model->skeleton() == model_->skeleton()) || theirs.width != ours.width ||
+        theirs.layers != ours.layers || theirs.heads != ours.heads ||
+        theirs.recurrent != ours.recurrent) {
+      throw InvalidArgument("--planner", options_.planner.string() +
+                                             " has a planner of another shape than preset " +
+                                             options_.preset + " on these clips");
+    }
+    Safetensors planner;
+    ExportTensors(*base.model->planner(), "planner.", &planner);
+    ImportTensors(planner, "planner.", model_->planner().get());
+    base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
+  }
+
+  std::string PlannerFrom() const {
+    return base_.is_null() ? "" : base_.at("hash").get<std::string>();
   }
 
   void TrainStep() {
@@ -214,6 +227,7 @@ class Run {
   // The flow's features are standardised on what the finished planner leaves over.
   void StartFlowStage() {
     torch::NoGradGuard no_grad;
+    torch::manual_seed(options_.seed + 13);  // a run that is resumed here has not drawn before
     model_->eval();
     std::vector<MotionBatch> batches;
     for (int i = 0; i < kNormalisationBatches; ++i) {
@@ -260,6 +274,7 @@ class Run {
     state.metadata["seconds"] = std::to_string(seconds_);
     state.metadata["data"] = train_.Hash();
     state.metadata["options"] = options_.Fixed();
+    state.metadata["planner_from"] = PlannerFrom();
     state.metadata["curves"] = curves_.Serialise();
     nlohmann::json losses;
     for (const auto& [name, figure] : losses_.terms) losses[name] = {figure.value, figure.gradient};
@@ -277,6 +292,11 @@ class Run {
       throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
                   "the run was started as\n  " + state.metadata.at("options") + "\nnot as\n  " +
                       options_.Fixed());
+    }
+    if (state.metadata["planner_from"] != PlannerFrom()) {
+      throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
+                  "the run was started from another --planner (hash " +
+                      state.metadata["planner_from"] + ")");
     }
     ImportTensors(state, "model.", model_.get());
     flow_adam_->Import(state);

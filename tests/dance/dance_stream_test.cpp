@@ -90,6 +90,14 @@ TEST(DanceStream, SameSeedSameBitsWhateverElseRuns) {
   EXPECT_FALSE(SameDance(expected, Perform(*alone, dance)));
 }
 
+TEST(DanceStream, TheModelIsToldOfTheBeats) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(13, 4);
+  const Recording timed = Perform(*scheduler, dance);
+  dance.config.music_beats.clear();
+  EXPECT_FALSE(SameDance(timed, Perform(*scheduler, dance)));
+}
+
 TEST(DanceStream, ChunksAndInterleavingOfAudioDoNotMatter) {
   const auto scheduler = FakeScheduler();
   const Dance dance = RandomDance(14, 4);

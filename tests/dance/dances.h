@@ -43,6 +43,8 @@ inline Dance RandomDance(uint32_t seed, double music_seconds = 0) {
   if (music_seconds > 0) {
     dance.config.audio = DanceConfig::Audio{22050, 1, 0};
     dance.samples = Song(22050, music_seconds, 1, seed);
+    for (double beat = 0.5; beat < music_seconds; beat += 0.5)
+      dance.config.music_beats.push_back(beat);
   }
   int64_t frame = 0;
   for (int i = 0; i < 5; ++i) {

@@ -138,6 +138,7 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
       request.sample_rate = 22050;
       request.channels = 1;
       request.samples = dance.samples;
+      request.music_beats = dance.config.music_beats;
       const int64_t from = continuation ? continuation->frame : 0;
       const bool has_key = key < dance.keys.size() && dance.keys[key].frame + 1 == end.frame;
       request.frames = has_key ? static_cast<int>(end.frame - from) : kFreeTransitionFrames;

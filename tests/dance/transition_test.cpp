@@ -144,5 +144,14 @@ TEST(Transition, RefusesRequestsOfTheWrongShape) {
             "after");
 }
 
+TEST(BeatsAround, AreThoseOfTheTransitionAndOneOnEitherSide) {
+  const std::vector<double> seconds = {1, 2, 3, 4, 5};
+  EXPECT_EQ(BeatsAround(seconds, 30, 75, 30), (std::vector<double>{-15, 15, 45}));
+  EXPECT_EQ(BeatsAround(seconds, 30, 60, 1), (std::vector<double>{-30, 0, 30}));
+  EXPECT_EQ(BeatsAround(seconds, 30, 0, 10), (std::vector<double>{30}));
+  EXPECT_EQ(BeatsAround(seconds, 30, 300, 10), (std::vector<double>{-150}));
+  EXPECT_TRUE(BeatsAround({}, 30, 0, 10).empty());
+}
+
 }  // namespace
 }  // namespace choreo

@@ -45,8 +45,11 @@ FlowConfig SmallConfig(Shape shape) {
   if (shape == Shape::kPlannerAndPerceptron || shape == Shape::kEncodedRecurrent) {
     config.condition_width = 20;
   }
-  if (shape == Shape::kPlannerAndPerceptron)
-    config.planner = {.width = 16, .layers = 1, .heads = 2};
+  if (shape == Shape::kPlannerAndPerceptron) {
+    config.planner = {.width = 16, .layers = 1, .heads = 2, .variety = 3};
+    config.fine_temperature = 0.3;
+    config.follow = 0.6;
+  }
   return config;
 }
 

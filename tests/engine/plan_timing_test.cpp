@@ -48,7 +48,7 @@ TEST(PlanTime, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
 
 TEST(TimeToBeats, SpeedPeaksOnTheBeats) {
   const std::vector<Pose> plan = EvenWalk(90);
-  const Pose before = RestPose(Skeleton::Smpl24());
+  const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
   const std::vector<double> beats = EveryFifteen(-8, 110);
   const std::vector<Pose> timed = TimeToBeats(before, plan, beats);
   ASSERT_EQ(timed.size(), plan.size());
@@ -72,7 +72,7 @@ TEST(TimeToBeats, SpeedPeaksOnTheBeats) {
 TEST(TimeToBeats, AnEvenCurveStaysOnItself) {
   const std::vector<Pose> plan = EvenWalk(40);
   const std::vector<Pose> timed =
-      TimeToBeats(RestPose(Skeleton::Smpl24()), plan, EveryFifteen(-8, 60));
+      TimeToBeats(std::vector{RestPose(Skeleton::Smpl24())}, plan, EveryFifteen(-8, 60));
   for (const Pose& pose : timed) {
     // Arm and feet keep step: both are a hundredth and two of the same time.
     EXPECT_NEAR(pose.rotations(2, 16) / 0.01, (pose.root_position.x()) / 0.02, 1e-2);

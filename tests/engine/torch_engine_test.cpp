@@ -5,6 +5,7 @@
 
 #include "model/core/random.h"
 #include "model/engine/engines.h"
+#include "model/engine/torch_planner.h"
 #include "model/engine/torch_tile.h"
 #include "model/flow/checkpoint.h"
 #include "model/motion/contacts.h"
@@ -94,9 +95,15 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
     }
     const TransitionContext context = model_->Begin(transition);
 
-    // Reference poses of the N frames, as the module planned them.
+    // Reference poses of the N frames, as the module planned them; what varies them is the plan's.
     std::vector<Pose> plan;
     if (model_->has_planner()) {
+      const TorchPlanner planner(model_, torch::kCPU);
+      TransitionSpec calm = spec;
+      calm.temperature = 0;
+      const std::vector<Pose> mean = planner.Plan(calm).poses;
+      plan = planner.Plan(spec).poses;
+      double variety = 0;
       Pose before = spec.history.back();
       for (int t = 0; t < spec.frames; ++t) {
         Pose pose = before;
@@ -112,9 +119,13 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
           }
           pose.rotations.col(j) = NearestBranch(LogMap(matrix), before.rotations.col(j));
         }
-        plan.push_back(pose);
+        const auto at = static_cast<size_t>(t);
+        ASSERT_LT((mean[at].root_position - pose.root_position).norm(), 1e-5) << t;
+        ASSERT_LT((mean[at].rotations - pose.rotations).norm(), 1e-5) << t;
+        variety += (plan[at].rotations - pose.rotations).norm();
         before = pose;
       }
+      EXPECT_GT(variety, 0.01);
     }
     const int width = codec.width();
     torch::Tensor features = torch::empty({tau + spec.frames, width});
@@ -155,13 +166,21 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
       const auto result = model_->Step(
           features.narrow(0, t, tau).unsqueeze(0), audio.narrow(0, t, tau + 1).unsqueeze(0),
           has_audio, context.static_condition.select(1, t),
-          spec.temperature * torch::tensor(noise).unsqueeze(0), inverse_weights, &state);
+          model_->config().fine_temperature * spec.temperature * torch::tensor(noise).unsqueeze(0),
+          inverse_weights, &state);
       if (state.numel() > 0) {
         largest_effect_of_state =
             std::max<double>(largest_effect_of_state, state.abs().max().item<float>());
       }
-      const Eigen::VectorXf x =
+      Eigen::VectorXf x =
           Eigen::Map<Eigen::VectorXf>(result.features.contiguous().data_ptr<float>(), width);
+      if (!plan.empty()) {
+        const Eigen::Map<const Eigen::VectorXf> last(features[t + tau - 1].data_ptr<float>(),
+                                                     width);
+        const auto follow = static_cast<float>(model_->config().follow);
+        const Eigen::Index pose = codec.velocity_at();
+        x.head(pose) = last.head(pose) + follow * (x - last).head(pose);
+      }
       const auto expected = codec.Decode(x, plan.empty() ? nullptr : &plan[static_cast<size_t>(t)]);
       const StepOutput& output = one[0].outputs[static_cast<size_t>(t)];
       ASSERT_LT((output.pose.root_position - expected.pose.root_position).norm(), 1e-5) << t;

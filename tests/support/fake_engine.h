@@ -15,8 +15,8 @@ namespace choreo {
 
 /// A dance model without a network, for tests of what stands around one. Each degree of freedom
 /// walks towards the target (or towards its last history value, where there is none or it is
-/// masked), damped, shaken by the counter noise and by the music row. Deterministic; a slot's
-/// output depends on its spec, its rows and its fed-back poses alone. Like a real model it misses
+/// masked), damped, shaken by the counter noise and by the music row, and nods on the beats.
+/// Deterministic; a slot's output depends on its spec, its rows and its fed-back poses alone. Like a real model it misses
 /// its target by a little.
 class FakeEngine : public StepEngine {
  public:
@@ -114,6 +114,8 @@ class FakeEngine : public StepEngine {
     // Music sways the arms and the trunk, not the place of the feet.
     Eigen::VectorXd next = now + slot.velocity;
     for (int d = 3; d < Width(); ++d) next[d] += 0.003 * music * std::sin(0.7 * d + slot.frame);
+    for (const double beat : spec.beats)
+      next[Width() - 1] += 0.01 * std::max(0.0, 1 - std::abs(beat - slot.frame));
 
     slot.pose.root_position = next.head<3>();
     slot.pose.rotations = next.tail(Width() - 3).reshaped(3, model_.skeleton.joints());

@@ -80,6 +80,38 @@ TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
   }
 }
 
+TEST_F(TrainerTest, AResumeBetweenTheStagesAndAnothersPlannerToo) {
+  TrainOptions options = Options("whole", 2);
+  options.preset = "default";
+  options.planner_steps = 2;
+  Train(options);
+  const Checkpoint whole = LoadCheckpoint(options.run / "checkpoint.safetensors");
+  options.run = folder_.path() / "halves";
+  options.stop_after = 2;
+  Train(options);
+  options.stop_after = 0;
+  options.resume = true;
+  Train(options);
+  const Checkpoint halves = LoadCheckpoint(options.run / "checkpoint.safetensors");
+  EXPECT_EQ(halves.hash, whole.hash);
+
+  TrainOptions further = Options("further", 2);
+  further.preset = "default";
+  further.planner_steps = 0;
+  further.planner = options.run / "checkpoint.safetensors";
+  Train(further);
+  const Checkpoint same = LoadCheckpoint(further.run / "checkpoint.safetensors");
+  const auto expected = whole.model->planner()->named_parameters();
+  for (const auto& item : same.model->planner()->named_parameters())
+    EXPECT_TRUE(torch::equal(item.value(), expected[item.key()])) << item.key();
+  EXPECT_THAT(same.card, testing::HasSubstr(whole.hash));
+
+  further.run = folder_.path() / "other shape";
+  further.preset = "recurrent";
+  EXPECT_THAT([&] { Train(further); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("--planner")));
+}
+
 TEST_F(TrainerTest, ABaselineWithoutAFlowIsItsPlan) {
   TrainOptions options = Options("recurrent", 4);
   options.preset = "recurrent";
