@@ -36,6 +36,10 @@ measure() {  # measure NAME MODEL OPTIONS...
 row "Harvey et al. 2020" recurrent
 row "free data" free
 measure tables model/checkpoints/default.safetensors --sheets
+for sheet in docs/images/tables_sheet_*.png; do  # a quarter of the size
+  ffmpeg -v error -y -i "$sheet" -vf "scale=800:-1,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none" "$sheet.small.png"
+  mv "$sheet.small.png" "$sheet"
+done
 
 others=()
 row "no time embedding" ablation/no_time_embedding
