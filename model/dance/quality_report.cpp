@@ -17,6 +17,24 @@ constexpr double kBeatGap = 2;               // frames
 constexpr double kBeatDeviation = 1.0 / 12;  // seconds, of the Gaussian over speeds
 constexpr int64_t kFramesAroundKey = 2;
 
+// `curve` under a Gaussian of that standard deviation, in samples.
+std::vector<double> Smooth(std::span<const float> curve, double deviation) {
+  const auto reach = static_cast<int64_t>(std::ceil(4 * deviation));
+  const auto size = static_cast<int64_t>(curve.size());
+  std::vector<double> smooth(curve.size());
+  for (int64_t i = 0; i < size; ++i) {
+    double sum = 0, weights = 0;
+    for (int64_t k = std::max<int64_t>(0, i - reach); k <= std::min(size - 1, i + reach); ++k) {
+      const double away = static_cast<double>(k - i) / deviation;
+      const double weight = std::exp(-0.5 * away * away);
+      sum += weight * curve[static_cast<size_t>(k)];
+      weights += weight;
+    }
+    smooth[static_cast<size_t>(i)] = sum / weights;
+  }
+  return smooth;
+}
+
 }  // namespace
 
 QualityMeter::QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame)
@@ -99,27 +117,6 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   report.beat_hit_rate = static_cast<double>(hits) / static_cast<double>(kinematic.size());
   return report;
 }
-
-namespace {
-
-std::vector<double> Smooth(std::span<const float> curve, double deviation) {
-  const auto reach = static_cast<int64_t>(std::ceil(4 * deviation));
-  const auto size = static_cast<int64_t>(curve.size());
-  std::vector<double> smooth(curve.size());
-  for (int64_t i = 0; i < size; ++i) {
-    double sum = 0, weights = 0;
-    for (int64_t k = std::max<int64_t>(0, i - reach); k <= std::min(size - 1, i + reach); ++k) {
-      const double away = static_cast<double>(k - i) / deviation;
-      const double weight = std::exp(-0.5 * away * away);
-      sum += weight * curve[static_cast<size_t>(k)];
-      weights += weight;
-    }
-    smooth[static_cast<size_t>(i)] = sum / weights;
-  }
-  return smooth;
-}
-
-}  // namespace
 
 std::vector<int64_t> KinematicBeats(std::span<const float> curve, double fps) {
   const std::vector<double> speed = Smooth(curve, kBeatDeviation * fps);

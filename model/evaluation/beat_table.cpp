@@ -12,20 +12,13 @@ namespace {
 
 constexpr double kGap = 2;  // frames: a beat is a frame, too, as in the paper
 
-std::vector<double> Within(const std::vector<double>& beats, int frames) {
-  std::vector<double> within;
-  std::ranges::copy_if(beats, std::back_inserter(within),
-                       [frames](double beat) { return beat >= 0 && beat < frames; });
-  return within;
-}
-
 }  // namespace
 
 BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music,
                        double fps) {
   BeatFigures figures;
   const std::vector<int64_t> kinematic = KinematicBeats(speeds, fps);
-  const std::vector<double> beats = Within(music, static_cast<int>(speeds.size()) + 1);
+  const std::vector<double> beats = BeatsBetween(music, 0, static_cast<int>(speeds.size()) + 1);
   if (kinematic.empty() || beats.empty()) return figures;
   const auto hits = std::ranges::count_if(kinematic, [&](int64_t frame) {
     return std::ranges::any_of(beats, [&](double beat) {
@@ -71,10 +64,9 @@ Table BeatTable::Finish() const {
   table.title = "Steps on beats, " + set_.name;
   table.note =
       "Kinematic beats are maxima of the mean joint speed, smoothed by a Gaussian of 1/12 s; hits "
-      "are at most two frames off a music beat, as it was found in the song's MFCC rows and told "
-      "to "
-      "the model. Chance: the same dances scored on the set's other songs. Alignment: minima of "
-      "speed (AIST++). Intervals over songs.";
+      "are at most two frames off a music beat, as it was found in the song's MFCC rows and "
+      "told to the model. Chance: the same dances scored on the set's other songs. Alignment: "
+      "minima of speed (AIST++). Intervals over songs.";
   table.label_headings = {"dance"};
   table.columns = {{"dances", 0},   {"hit rate %", 1},        {"chance %", 1},  {"above chance", 1},
                    {"coverage", 2}, {"coverage / real's", 2}, {"alignment", 3}, {"its chance", 3}};

@@ -137,6 +137,24 @@ double Distance(const Skeleton& skeleton, const Chain& a, const Chain& b) {
   return 100 * L2P(TrackJoints(skeleton, a.poses), TrackJoints(skeleton, b.poses));
 }
 
+// The next clip's song in place of its own, again and again. The first row is of the history's
+// first frame, beats count from the dance's.
+void HearNextSong(const ClipSet& set, int history, LongPlan* plan) {
+  const size_t other = (plan->clip + 1) % set.clips.size();
+  const auto& song = set.clips[other].audio;
+  if (song.cols() == 0) return;
+  ChainPlan& chain = plan->chain;
+  for (Eigen::Index t = 0; t < chain.audio.cols(); ++t)
+    chain.audio.col(t) = song.col(t % song.cols());
+  const auto length = static_cast<int>(song.cols());
+  const std::vector<double> beats = set.BeatsBetween(other, 0, length);
+  chain.beats.clear();
+  for (int from = -history; from < chain.frames; from += length) {
+    for (const double beat : beats)
+      if (from + beat >= 0 && from + beat < chain.frames) chain.beats.push_back(from + beat);
+  }
+}
+
 Table InfluenceTable(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
                      ProgressBar* progress) {
   Table table;
@@ -175,21 +193,7 @@ Table InfluenceTable(const ClipSet& set, StepEngine& engine, const EvalOptions& 
     TableRow row{{NameOf(times)}, {distance(as_is, dance(other_seed)), distance(hot, hot_seed)}};
     if (music) {
       row.cells.push_back(distance(as_is, dance([&](LongPlan& plan) {
-                                     // The next clip's song, again and again.
-                                     const size_t other = (plan.clip + 1) % set.clips.size();
-                                     const auto& song = set.clips[other].audio;
-                                     for (Eigen::Index t = 0;
-                                          t < plan.chain.audio.cols() && song.cols() > 0; ++t)
-                                       plan.chain.audio.col(t) = song.col(t % song.cols());
-                                     plan.chain.beats.clear();
-                                     // The first row is of the history's first frame.
-                                     const auto length = static_cast<int>(song.cols());
-                                     for (int from = -engine.model().history_frames;
-                                          length > 0 && from < plan.chain.frames; from += length) {
-                                       for (const double beat : set.BeatsBetween(other, 0, length))
-                                         if (from + beat >= 0 && from + beat < plan.chain.frames)
-                                           plan.chain.beats.push_back(from + beat);
-                                     }
+                                     HearNextSong(set, engine.model().history_frames, &plan);
                                    })));
       row.cells.push_back(distance(as_is, dance([](LongPlan& plan) {
                                      plan.chain.audio.resize(0, 0);

@@ -10,13 +10,17 @@ constexpr int kBeatMargin = 60;  // frames around a transition, whose timing loo
 
 }  // namespace
 
-std::vector<double> ClipSet::BeatsBetween(size_t clip, int start, int frames) const {
+std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames) {
   std::vector<double> within;
-  if (clip >= beats.size()) return within;
-  for (const double beat : beats[clip]) {
+  for (const double beat : beats) {
     if (beat >= start && beat < start + frames) within.push_back(beat - start);
   }
   return within;
+}
+
+std::vector<double> ClipSet::BeatsBetween(size_t clip, int start, int frames) const {
+  return clip < beats.size() ? choreo::BeatsBetween(beats[clip], start, frames)
+                             : std::vector<double>();
 }
 
 std::string GenreOf(const PreparedClip& clip) {

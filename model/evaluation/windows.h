@@ -16,9 +16,12 @@ struct ClipSet {
   /// clips: unknown of the others.
   std::vector<std::vector<double>> beats = {};
 
-  /// The beats of `clip` in [start, start + frames), counted from start.
+  /// choreo::BeatsBetween of the beats of `clip`, none where they are unknown.
   std::vector<double> BeatsBetween(size_t clip, int start, int frames) const;
 };
+
+/// Those of `beats`, in frames, that lie in [start, start + frames), counted from start.
+std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames);
 
 /// What a clip shows: its note "genre" where preparation left one, else its name up to the last
 /// underscore ("DANCE_W_25" -> "DANCE_W", "salsa_03" -> "salsa").

@@ -72,6 +72,16 @@ Tensor BoundedSixD(const Tensor& line, const Tensor& turn) {
   return (sum + (kept - along) * column).flatten(-2);
 }
 
+Tensor MirrorPositions(const Tensor& positions) {
+  return positions * torch::tensor({-1.0F, 1.0F, 1.0F}, positions.options());
+}
+
+// Rotations [..., joints, 3, 3] of the other side's joints, each M R M with M the reflection.
+Tensor MirrorRotations(const Tensor& rotations, const Tensor& pairs) {
+  const Tensor reflection = torch::tensor({-1.0F, 1.0F, 1.0F}, rotations.options());
+  return rotations.index_select(-3, pairs) * torch::outer(reflection, reflection);
+}
+
 }  // namespace
 
 TrajectoryTensors Interpolate(const TransitionTensors& transition, bool as_turning) {
@@ -117,20 +127,6 @@ void PlannerImpl::SetPoseNormalisation(const Tensor& mean, const Tensor& std) {
   pose_mean_.copy_(mean);
   pose_std_.copy_(std);
 }
-
-namespace {
-
-Tensor MirrorPositions(const Tensor& positions) {
-  return positions * torch::tensor({-1.0F, 1.0F, 1.0F}, positions.options());
-}
-
-// Rotations [..., joints, 3, 3] of the other side's joints, each M R M with M the reflection.
-Tensor MirrorRotations(const Tensor& rotations, const Tensor& pairs) {
-  const Tensor reflection = torch::tensor({-1.0F, 1.0F, 1.0F}, rotations.options());
-  return rotations.index_select(-3, pairs) * torch::outer(reflection, reflection);
-}
-
-}  // namespace
 
 TransitionTensors MirrorTransition(const TransitionTensors& transition, const Tensor& pairs) {
   const int64_t joints = transition.target_rotation.size(1);

@@ -1,0 +1,288 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "client/cli/key_file.h"
+#include "client/cli/pose_library.h"
+#include "model/core/npy.h"
+#include "model/formats/motion_file.h"
+#include "model/motion/kinematics.h"
+#include "tests/client/command_fixture.h"
+#include "tests/client/test_music.h"
+
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
+  WriteClicks(folder_ / "song.wav", 10);
+  const Outcome outcome =
+      Choreo("dance " + At("song.wav") + Server() + "--seed 3 --report " + At("report.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("song.npz"));
+  const Motion motion = ReadMotion(folder_ / "song.npz", Body());
+  EXPECT_EQ(motion.fps, 30);
+  EXPECT_EQ(motion.frames.size(), 300U);
+
+  const nlohmann::json report = ReadJson(folder_ / "report.json");
+  std::vector<std::string> members;
+  for (const auto& [member, value] : report.items()) members.push_back(member);
+  EXPECT_THAT(members, testing::UnorderedElementsAre(
+                           "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
+                           "keyframes", "measured_from", "log_likelihood", "beat_hit_rate",
+                           "beat_hit_chance", "skate_ratio", "max_key_acceleration",
+                           "p95_acceleration", "first_frame_latency_s", "real_time_factor"));
+  EXPECT_EQ(report["frames"], 300);
+  EXPECT_EQ(report["seed"], 3);
+  EXPECT_EQ(report["fingerprint"], "fake-1");
+  EXPECT_GT(report["p95_acceleration"].get<double>(), 0);
+  EXPECT_GT(report["max_key_acceleration"].get<double>(), 0);
+  // A beat about every 15 frames, but for the song's ends; four or five frames are near each.
+  EXPECT_GT(report["beat_hit_chance"].get<double>(), 0.2);
+  EXPECT_LE(report["beat_hit_chance"].get<double>(), 5.0 / 15);
+  EXPECT_THAT(outcome.said, HasSubstr("measured in the file"));
+  ASSERT_GE(report["keyframes"].size(), 4U);
+  for (const auto& key : report["keyframes"]) {
+    EXPECT_LE(key["final_error_m"].get<double>(), 0.001);
+    EXPECT_LE(key["final_error_deg"].get<double>(), 0.1);
+    EXPECT_GT(key["raw_error_m"].get<double>(), 0);
+    EXPECT_GT(key["correction_m"].get<double>(), 0);
+    EXPECT_EQ(key["output_frame"], key["frame"]);
+    EXPECT_TRUE(key["on_output_frame"].get<bool>());
+    EXPECT_LE(key["output_error_m"].get<double>(), 0.001);
+    EXPECT_LE(key["output_error_deg"].get<double>(), 0.1);
+    // What the report says is in the file.
+    const std::string id = key["id"];
+    const Pose& pose = cli::FindLibraryPose(id.substr(id.find('-') + 1)).pose;
+    const Pose& danced = motion.frames[key["frame"].get<size_t>()];
+    EXPECT_LT((pose.rotations.rightCols(23) - danced.rotations.rightCols(23)).cwiseAbs().maxCoeff(),
+              0.01)
+        << id;
+  }
+}
+
+TEST_F(CommandTest, SaysWhichKeysFallBetweenTheFramesOfTheFile) {
+  WriteClicks(folder_ / "song.wav", 4);
+  Motion walk{.fps = 30, .frames = std::vector<Pose>(90, RestPose(Body()))};
+  for (size_t i = 0; i < walk.frames.size(); ++i)
+    walk.frames[i].root_position.x() = 0.02 * static_cast<double>(i);
+  WriteMotion(folder_ / "walk.bvh", Body(), walk);
+  // At 24 a second, frame 24 stands at 1 s; 61/30 s lies between frames 48 and 49.
+  const Outcome outcome = Choreo("dance --fps 24 -k " + At("walk.bvh@1,2.033333") + " --report " +
+                                 At("r.json") + Server() + At("song.wav"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("1 between the frames of a file at 24 fps"));
+  const nlohmann::json report = ReadJson(folder_ / "r.json");
+  const Motion motion = ReadMotion(folder_ / "song.npz", Body());
+  EXPECT_EQ(report["output_frames"], motion.frames.size());
+  EXPECT_EQ(report["output_fps"], 24);
+  ASSERT_EQ(report["keyframes"].size(), 2U);
+  EXPECT_TRUE(report["keyframes"][0]["on_output_frame"].get<bool>());
+  EXPECT_LE(report["keyframes"][0]["output_error_m"].get<double>(), 0.001);
+  const nlohmann::json& between = report["keyframes"][1];
+  EXPECT_EQ(between["frame"], 61);
+  EXPECT_EQ(between["output_frame"], 49);
+  EXPECT_FALSE(between["on_output_frame"].get<bool>());
+  const double off = ComparePoses(Body(), motion.frames[49], walk.frames[61]).position_m;
+  EXPECT_NEAR(between["output_error_m"].get<double>(), off, 1e-4);
+  EXPECT_GT(off, 0.002);
+}
+
+TEST_F(CommandTest, DancesThroughTheExampleOfTheReadme) {
+  WriteClicks(folder_ / "song.wav", 7);
+  const Outcome outcome = Choreo("dance -k '" SOURCE_FOLDER "/examples/keys.json'" + Server() +
+                                 At("song.wav") + " --report " + At("r.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(ReadJson(folder_ / "r.json")["keyframes"].size(), 3U);
+}
+
+TEST_F(CommandTest, TheSameSeedWritesTheSameBytes) {
+  WriteClicks(folder_ / "song.wav", 3);
+  const auto dance = [&](const std::string& name) {
+    EXPECT_EQ(Choreo("dance --seed 5 " + At("song.wav") + Server() + "-o " + At(name)).code, 0);
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const std::string first = dance("a.NPZ");
+  EXPECT_FALSE(first.empty());
+  EXPECT_TRUE(first == dance("b.npz"));
+}
+
+TEST_F(CommandTest, DancesNoLongerThanTheSongAndSaysSo) {
+  WriteClicks(folder_ / "song.wav", 3);
+  const Outcome outcome = Choreo("dance --seconds 60 " + At("song.wav") + Server());
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("--seconds 60 is beyond the song, which ends at 3 s"));
+  EXPECT_EQ(ReadMotion(folder_ / "song.npz", Body()).frames.size(), 90U);
+}
+
+TEST_F(CommandTest, WritesWhatCameOfADanceThatIsCutOff) {
+  WriteClicks(folder_ / "song.wav", 8);
+  TestServer breaking(std::make_unique<BreakingEngine>(200));
+  const Outcome outcome =
+      Choreo("dance --server " + breaking.address() + " " + At("song.wav") + " -o " + At("d.bvh"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("the dance was cut off"));
+  EXPECT_THAT(outcome.said, HasSubstr("the device is gone"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "d.bvh"));
+  const size_t frames = ReadMotion(folder_ / "d.partial.bvh", Body()).frames.size();
+  EXPECT_GT(frames, 100U);
+  EXPECT_LT(frames, 240U);
+}
+
+TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
+  WriteClicks(folder_ / "song.wav", 4);
+  const auto write = [&](const std::string& name, const std::string& first,
+                         const std::string& second) {
+    const std::string pose = R"("root_position": [0, 1, 0], "rotations": )" +
+                             nlohmann::json(std::vector(24, std::vector{0.0, 0.1, 0.0})).dump();
+    std::ofstream(folder_ / name) << "{\"keyframes\": [{" << first << ", " << pose << "}, {"
+                                  << second << ", " << pose << "}]}";
+  };
+  const auto refused = [&](const std::string& keys, const std::string& part) {
+    const Outcome outcome = Choreo("dance " + keys + Server() + At("song.wav"));
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(part));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "song.npz"));
+  };
+  // Sent in the order of their times: what the server calls keyframes[1] was written first.
+  write("close.json", R"("id": "late", "frame": 61)", R"("id": "early", "frame": 60)");
+  refused("-k " + At("close.json"), "close.json:keyframes[0]");
+  refused("-k " + At("close.json"), "key \"late\"");
+  write("beyond.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 12)");
+  refused(
+      "-k " + At("beyond.json"),
+      "beyond.json:keyframes[1].time: key \"b\" at 12 s lies behind the dance's end: it lasts 4 s");
+  write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
+  write("two.json", R"("id": "c", "time": 3)", R"("id": "a", "time": 3.5)");
+  refused("-k " + At("one.json") + " -k " + At("two.json"),
+          "two.json:keyframes[1].id: \"a\" stands for");
+  refused("-k " + At(""), "is a folder, not a key file");
+}
+
+TEST_F(CommandTest, ChecksItsOutputsBeforeItDances) {
+  WriteClicks(folder_ / "song.wav", 3);
+  // No server is there: whoever got so far would say so.
+  const auto refused = [&](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = Choreo(arguments + " --deadline 0.3 --server 127.0.0.1:1");
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(part));
+  };
+  const std::string dance = "dance " + At("song.wav");
+  refused(dance + " -o /proc/o.npz", "--out: /proc/o.npz cannot be written");
+  refused(dance + " --report /nonexistent/r.json", "--report: /nonexistent/r.json: no folder");
+  refused(dance + " --report " + At(""), "is a folder");
+  std::ofstream(folder_ / "song.npz") << "mine";
+  refused(dance + " --no-clobber", "song.npz is there already");
+  refused(dance, "127.0.0.1:1");
+  std::ifstream kept(folder_ / "song.npz");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "mine");
+  const std::string transition = "transition --from kick --to groove";
+  refused(transition + " -o /proc/o.npz", "--out: /proc/o.npz");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.npz"));
+  refused(transition + " -o " + At("t.npz"), "127.0.0.1:1");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.npz"));
+  refused(transition + " -o " + std::string(300, 'n') + ".npz", "cannot be written: File name too");
+  const Outcome jpg = Choreo("render " + At("song.wav") + " --out " + At("s.jpg"));
+  EXPECT_EQ(jpg.code, 1);
+  EXPECT_THAT(jpg.said, HasSubstr("s.jpg does not end in .png"));
+}
+
+TEST_F(CommandTest, NoOutputDestroysAnotherOrAnInput) {
+  WriteClicks(folder_ / "song.wav", 3);
+  WriteMotion(folder_ / "d.npz", Body(), {.fps = 30, .frames = {RestPose(Body())}});
+  std::filesystem::create_symlink("d.npz", folder_ / "link.npz");
+  const auto read = [&](const std::string& name) {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const std::string song = read("song.wav"), motion = read("d.npz");
+  const auto refused = [&](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = Choreo(arguments);
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(part));
+    EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
+  };
+  // No server is there: whoever got so far would say so.
+  const std::string server = " --server 127.0.0.1:1 --deadline 0.3 ";
+  const std::string dance = "dance " + At("song.wav") + server;
+  refused(dance + "-o " + At("x.npz") + " --report " + At("./x.npz"),
+          "--report: " + (folder_ / "./x.npz").string() + " is the file that --out is written to");
+  refused(dance + "--report " + At("song.wav"), "song.wav is the file that song is read from");
+  refused(dance + "-k " + At("d.npz@0=1") + " -o " + At("link.npz"),
+          "link.npz is the file that --keyframes is read from");
+  refused(
+      "edit " + At("d.npz") + server + "--loop -o " + At("e.npz") + " --new-report " + At("e.npz"),
+      "--new-report: ");
+  refused("edit " + At("d.npz") + server + "--loop -o " + At("d.npz"),
+          "--out: " + (folder_ / "d.npz").string() + " is the file that dance is read from");
+  const std::string transition = "transition --to groove" + server + "--from ";
+  refused(transition + "kick --candidates 3 -o " + At("t.npz") + " --report " + At("t.3.npz"),
+          "t.3.npz is the file that --report is written to");
+  refused(transition + At("d.npz@0") + " -o " + At("d.npz"),
+          "d.npz is the file that --from is read from");
+  refused("convert " + At("d.npz") + " " + At("link.npz"), "the file that in is read from");
+  refused("analyze " + At("song.wav") + " --features " + At("song.wav"), "song is read from");
+  std::ofstream(folder_ / "s.png") << "mine";
+  refused("render " + At("d.npz") + " --out " + At("s.png") + " --report " + At("s.png"),
+          "s.png is the file that --report is read from");
+  EXPECT_EQ(read("song.wav"), song);
+  EXPECT_EQ(read("d.npz"), motion);
+}
+
+TEST_F(CommandTest, RefusesNumbersThatAreNone) {
+  WriteClicks(folder_ / "song.wav", 3);
+  const auto refused = [&](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = Choreo(arguments + Server());
+    EXPECT_EQ(outcome.code, 2) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(part));
+    EXPECT_THAT(outcome.said, testing::StartsWith("choreo: "));
+    EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
+    EXPECT_LT(outcome.said.size(), 200U) << outcome.said;
+  };
+  refused("dance --seconds 0 " + At("song.wav"), "0 is not a number above 0");
+  refused("dance --seconds nan " + At("song.wav"), "nan is not a number above 0");
+  refused("dance --seed -1 " + At("song.wav"), "-1 is not a whole number from 0");
+  const std::string transition = "transition --from kick --to groove -o " + At("t.npz");
+  refused(transition + " --at -1", "-1 is not a number from 0 to 1e+09");
+  refused(transition + " -n 9999999999999", "is not a whole number from 1 to 1800");
+  refused(transition + " -n 99999999999999999999999", "is not a whole number from 1 to 1800");
+  refused(transition + " --candidates 33", "33 is not a whole number from 1 to 32");
+  refused("dance --fps 0 " + At("song.wav"), "0 is not a number from 1 to 120");
+  const Outcome brief = Choreo("dance --seconds 1e-9 " + At("song.wav") + Server());
+  EXPECT_EQ(brief.code, 1);
+  EXPECT_THAT(brief.said, HasSubstr("--seconds: 1e-09 is less than 2"));
+  const Outcome late = Choreo(transition + " --at 100 --song " + At("song.wav") + Server());
+  EXPECT_EQ(late.code, 1);
+  EXPECT_THAT(late.said, HasSubstr("--at: 100 s lies behind the song's end at 3 s"));
+}
+
+TEST_F(CommandTest, DancesThroughKeyFilesAndMotions) {
+  WriteClicks(folder_ / "song.wav", 6);
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 3.5, "root_position": [0.5, 1.0, 0.5], "rotations": )"
+      << nlohmann::json(std::vector(24, std::vector{0.0, 0.1, 0.0})) << "}]}";
+  Motion walk{.fps = 30, .frames = std::vector<Pose>(60, RestPose(Body()))};
+  walk.frames[45].rotations(2, 16) = -1;
+  WriteMotion(folder_ / "walk.bvh", Body(), walk);
+  const Outcome outcome =
+      Choreo("dance " + At("song.wav") + Server() + "--seconds 5 -k " + At("keys.json") + " -k " +
+             At("walk.bvh@1.5") + " --fps 60 -o " + At("dance.bvh"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion motion = ReadMotion(folder_ / "dance.bvh", Body());
+  EXPECT_NEAR(motion.fps, 60, 1e-3);
+  ASSERT_EQ(motion.frames.size(), 299U);  // up to the last frame of 5 s at 30 fps
+  EXPECT_LT((motion.frames[210].root_position - Eigen::Vector3d(0.5, 1.0, 0.5)).norm(), 0.001);
+  EXPECT_NEAR(motion.frames[90].rotations(2, 16), -1, 0.002);
+}
+
+}  // namespace
+}  // namespace choreo
