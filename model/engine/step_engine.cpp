@@ -12,6 +12,18 @@ void CheckJoints(const Pose& pose, const ModelInfo& model, const std::string& fi
   }
 }
 
+template <typename Matrix>
+void CheckControl(const Matrix& values, bool taken, int frames, const ModelInfo& model,
+                  const std::string& field) {
+  if (values.cols() == 0) return;
+  if (!taken) throw InvalidArgument(field, "the model '" + model.name + "' does not take it");
+  if (values.cols() != frames) {
+    throw InvalidArgument(
+        field, std::to_string(values.cols()) + " frames, must be " + std::to_string(frames));
+  }
+  if (!values.allFinite()) throw InvalidArgument(field, "not finite");
+}
+
 }  // namespace
 
 void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
@@ -41,6 +53,15 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
                                                std::to_string(spec.audio_history.cols()) +
                                                ", must be " + std::to_string(model.audio_features) +
                                                " x " + std::to_string(history));
+  }
+  const Controls& controls = spec.controls;
+  CheckControl(controls.root_path, model.root_path, spec.frames, model, "controls.root_path");
+  CheckControl(controls.velocity_factors, model.velocity_factors, spec.frames, model,
+               "controls.velocity_factors");
+  if (controls.velocity_factors.size() > 0 && controls.velocity_factors.minCoeff() < 0) {
+    throw InvalidArgument(
+        "controls.velocity_factors",
+        std::to_string(controls.velocity_factors.minCoeff()) + " m a frame, must be at least 0");
   }
 }
 

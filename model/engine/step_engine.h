@@ -10,10 +10,17 @@
 
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
+#include "model/motion/velocity_factors.h"
 
 /// What stands between the dance and a network: poses in, poses out, one frame at a time. No torch,
 /// no gRPC.
 namespace choreo {
+
+/// How lively a model's dancers usually are: what multipliers of velocity factors refer to.
+struct VelocityReference {
+  std::string name;
+  std::array<float, kBodyParts> factors = {};  ///< by BodyPart, metres a frame at the model's rate
+};
 
 /// What a loaded model is. Fixed for the life of an engine.
 struct ModelInfo {
@@ -29,12 +36,26 @@ struct ModelInfo {
   double default_temperature = 0.3;
   double fine_temperature = 1;  ///< share of the temperature that a frame's own noise has
   double follow = 1;  ///< share of the way that what leaves the plan goes to the flow's proposal
+  bool root_path = false;         ///< takes Controls::root_path
+  bool velocity_factors = false;  ///< takes Controls::velocity_factors
+  /// The first one, "median", is the default. At least one where velocity factors are taken.
+  std::vector<VelocityReference> velocity_references;
 };
 
 /// The key pose at the end of a transition.
 struct Target {
   Pose pose;  ///< canonical frame
   PoseMask mask;
+};
+
+/// What is asked of a transition beside its key (paper C, Section 3.3). What is left empty, the
+/// model chooses.
+struct Controls {
+  /// [3, frames] or empty: where the root should be in each frame, metres, canonical frame.
+  Eigen::Matrix3Xf root_path;
+  /// [kBodyParts, frames] or empty: how lively each part should be in each frame
+  /// (motion/velocity_factors.h), metres a frame, at least 0.
+  Eigen::Matrix<float, kBodyParts, Eigen::Dynamic> velocity_factors;
 };
 
 /// Everything that a transition is a function of, but the music of its own frames, which arrives
@@ -49,6 +70,7 @@ struct TransitionSpec {
   /// Where the music beats, in frames from frame 0, ascending; the plan is timed to it
   /// (plan_timing.h). Empty: unknown.
   std::vector<double> beats;
+  Controls controls;
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,
@@ -57,7 +79,8 @@ struct TransitionSpec {
 };
 
 /// Throws Error(kInvalidArgument) naming the field unless the spec has the model's shape: frames,
-/// history, joints, mask and music rows.
+/// history, joints, mask, music rows and controls; a control that the model does not take is
+/// refused too.
 void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model);
 
 /// One slot's share of a step.
