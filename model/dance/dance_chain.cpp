@@ -27,10 +27,12 @@ Pose StanceOfFirstKey(const Skeleton& skeleton, const Key& key) {
 /// One transition of the chain.
 class DanceChain::Job : public StepJob {
  public:
-  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, const TransitionRequest& request)
+  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, const TransitionRequest& request,
+      std::vector<DanceWarning> warnings)
       : chain_(std::move(chain)),
         segment_(segment),
         run_(chain_->model_, request),
+        warnings_(std::move(warnings)),
         row_(static_cast<size_t>(chain_->model_.audio_features)) {}
 
   const TransitionSpec& spec() const override { return run_.spec(); }
@@ -53,7 +55,7 @@ class DanceChain::Job : public StepJob {
     {
       std::lock_guard lock(chain_->mutex_);
       const DanceFrame frame = run_.Take(raw);
-      chain_->Emit(segment_, run_, frame);
+      chain_->Emit(segment_, run_, frame, warnings_);
       const std::optional<int64_t> end = chain_->timeline_.End();
       more = run_.done() < run_.frames() && !(end && chain_->next_frame_ >= *end);
     }
@@ -89,6 +91,7 @@ class DanceChain::Job : public StepJob {
   const std::shared_ptr<DanceChain> chain_;
   const Segment segment_;
   TransitionRun run_;
+  std::vector<DanceWarning> warnings_;  // of its controls; told with the first frame
   std::vector<float> row_;
   std::atomic<bool> retired_ = false;
 };
@@ -103,6 +106,7 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
       mailbox_(std::move(sink)),
       timeline_({model_.fps, first_frame_, config.end_frame, config.audio.has_value(),
                  model_.max_transition_frames}),
+      controls_(model_),
       next_frame_(first_frame_),
       meter_(model_.skeleton, model_.fps, first_frame_),
       output_(model_.fps, config.output_fps, first_frame_,
@@ -136,6 +140,17 @@ void DanceChain::Change(const std::function<void(Timeline&)>& change) {
     WakeJob();
   }
   mailbox_.Deliver();
+}
+
+void DanceChain::SetControls(const ControlRequest& request, const std::string& field) {
+  Change([&](Timeline& timeline) {
+    const int64_t from = timeline.ControlFrom(field);
+    controls_.Set(request, from, field);
+    // What lies before the first frame was danced before a resume.
+    if (!request.root_path) return;
+    const int64_t last = request.root_path->frames.back();
+    if (last < from && last >= first_frame_) Post(ControlsTooLate(last, from));
+  });
 }
 
 bool DanceChain::over() const {
@@ -218,7 +233,12 @@ void DanceChain::Start() {
       request.has_audio = true;
       request.audio_history = audio_->History(segment_->from, model_.history_frames);
     }
-    auto job = std::make_shared<Job>(shared_from_this(), *segment_, request);
+    TransitionControls asked =
+        controls_.For(request.first_frame, request.frames, request.history, request.target,
+                      segment_->key ? segment_->key->id : "");
+    request.controls = std::move(asked.controls);
+    auto job =
+        std::make_shared<Job>(shared_from_this(), *segment_, request, std::move(asked.warnings));
     job_ = job.get();
     scheduler_.Submit(std::move(job));
     segment_.reset();
@@ -228,8 +248,10 @@ void DanceChain::Start() {
   }
 }
 
-void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame) {
+void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame,
+                      const std::vector<DanceWarning>& warnings) {
   if (run.done() == 1) {
+    for (const DanceWarning& warning : warnings) Post(warning);
     const std::optional<RequiredSpeed> speed = run.required_speed();
     if (speed && speed->TooFast()) {
       Post(IntervalTooShort(model_.skeleton, segment.key->id, segment.from,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/dance/audio_feed.h"
+#include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/mailbox.h"
@@ -38,6 +39,9 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// is over.
   void Change(const std::function<void(Timeline&)>& change);
 
+  /// The request is valid.
+  void SetControls(const ControlRequest& request, const std::string& field);
+
   /// Tells the sink of an event; only inside a change.
   void Post(const DanceEvent& event);
 
@@ -63,7 +67,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   void PostContinuation();
   void Summarise();
   void Fail(const Error& error);
-  void Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame);
+  void Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame,
+            const std::vector<DanceWarning>& warnings);
 
   Scheduler& scheduler_;
   const ModelInfo& model_;
@@ -77,6 +82,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   mutable std::mutex mutex_;  // of what follows
   Timeline timeline_;
+  ControlTrack controls_;
   // The last tau poses; empty until the first transition of a dance that is given none.
   std::deque<Pose> history_;
   int64_t next_frame_;              // to be emitted

@@ -15,13 +15,13 @@ namespace choreo {
 /// Takes messages one at a time, checks them, and turns them into changes of the chain.
 struct DanceStream::Impl {
   std::shared_ptr<DanceChain> chain;
-  Skeleton skeleton;
-  double model_fps = 0;
+  const ModelInfo* model = nullptr;
   bool has_end_frame = false;
 
   std::mutex messages;  // of what follows, and of the audio's pushing side; before the chain's lock
   int keyframes = 0;
   int removals = 0;
+  int controls = 0;
   bool complete = false;
 
   AudioFeed& Audio(const char* field) {
@@ -37,7 +37,7 @@ struct DanceStream::Impl {
     }
     if (audio.next_sample() == 0) throw InvalidArgument("audio", "ended without a sample");
     // Where the music ends is known before the rows behind its end can be danced.
-    chain->Change([&](Timeline& timeline) { timeline.SetAudioEnd(audio.EndFrame(model_fps)); });
+    chain->Change([&](Timeline& timeline) { timeline.SetAudioEnd(audio.EndFrame(model->fps)); });
     audio.Finish();
     chain->Change([](Timeline&) {});
   }
@@ -59,8 +59,7 @@ DanceStream::DanceStream(Scheduler& scheduler, const DanceConfig& config,
     : impl_(std::make_unique<Impl>()) {
   config.Validate(scheduler.model());
   impl_->chain = std::make_shared<DanceChain>(scheduler, config, std::move(sink));
-  impl_->skeleton = scheduler.model().skeleton;
-  impl_->model_fps = scheduler.model().fps;
+  impl_->model = &scheduler.model();
   impl_->has_end_frame = config.end_frame.has_value();
   impl_->chain->Begin();
 }
@@ -87,8 +86,8 @@ void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pos
                          const PoseMask& mask) {
   std::lock_guard message(impl_->messages);
   const std::string field = "keyframes[" + std::to_string(impl_->keyframes) + "]";
-  ValidatePose(impl_->skeleton, pose, field);
-  ValidateMask(impl_->skeleton, mask, field + ".mask");
+  ValidatePose(impl_->model->skeleton, pose, field);
+  ValidateMask(impl_->model->skeleton, mask, field + ".mask");
   impl_->chain->Change([&](Timeline& timeline) {
     if (auto rejection = timeline.Set(id, when, pose, mask, field)) impl_->chain->Post(*rejection);
   });
@@ -102,6 +101,14 @@ void DanceStream::RemoveKey(const std::string& id) {
     if (auto rejection = timeline.Remove(id, field)) impl_->chain->Post(*rejection);
   });
   ++impl_->removals;
+}
+
+void DanceStream::SetControls(const ControlRequest& request) {
+  std::lock_guard message(impl_->messages);
+  const std::string field = "controls[" + std::to_string(impl_->controls) + "]";
+  request.Validate(*impl_->model, field);
+  impl_->chain->SetControls(request, field);
+  ++impl_->controls;
 }
 
 void DanceStream::GenerateUntil(int64_t frame) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/timeline.h"
@@ -14,15 +15,15 @@
 namespace choreo {
 
 /// A dance in progress: a chain of transitions folded over messages. What is danced is a function
-/// of the config and of the order of SetKey, RemoveKey, GenerateUntil and KeysComplete among
-/// themselves (see Timeline), of the samples, and of where the music ends. It does not depend on
-/// the clock, on how samples are cut into messages, on how audio and key messages interleave, or on
-/// what else the scheduler does.
+/// of the config and of the order of SetKey, RemoveKey, SetControls, GenerateUntil and KeysComplete
+/// among themselves (see Timeline), of the samples, and of where the music ends. It does not depend
+/// on the clock, on how samples are cut into messages, on how audio and key messages interleave, or
+/// on what else the scheduler does.
 ///
 /// Resuming: a new stream with the last continuation, the same config and the same messages again
 /// in the same order (but those that were rejected) goes on bit for bit as the first would have.
-/// Keys before the continuation's frame are answered by a rejection; audio may start at
-/// LatestFirstSample. Frames between that
+/// Keys before the continuation's frame are answered by a rejection, controls hold from where they
+/// held; audio may start at LatestFirstSample. Frames between that
 /// continuation and the point where the first stream broke come again, equal.
 ///
 /// A message that throws leaves the stream as it was; its sender decides whether to end the stream
@@ -51,6 +52,10 @@ class DanceStream {
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
               const PoseMask& mask = {});
   void RemoveKey(const std::string& id);
+  /// See ControlTrack. Holds from the first frame that is not frozen: that of the last
+  /// GenerateUntil, or, in a stream without, the one behind the last key. Errors name
+  /// "controls[i]", i counting the calls; none may come after KeysComplete, which freezes all.
+  void SetControls(const ControlRequest& request);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
   void KeysComplete();

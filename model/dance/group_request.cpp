@@ -46,6 +46,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     if (!target) throw InvalidArgument("after", "needs a target");
     ValidatePose(model.skeleton, *after, "after");
   }
+  controls.Validate(model, "controls");
   if (!has_audio()) {
     if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
     return;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
 #include "model/dance/transition.h"
 
@@ -22,6 +23,7 @@ struct GroupRequest {
   int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
   std::optional<WorldTarget> target;
   std::optional<Pose> after;
+  ControlRequest controls;
 
   /// The music around the transition, whole: samples from `first_sample` (absolute) on. It must
   /// begin no later than LatestFirstSample; beyond its end is silence. Empty samples

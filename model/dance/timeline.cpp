@@ -152,6 +152,11 @@ std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::s
   return std::nullopt;
 }
 
+int64_t Timeline::ControlFrom(const std::string& field) const {
+  CheckOpen(field);
+  return frontier_;
+}
+
 void Timeline::GenerateUntil(int64_t frame) {
   if (frame < granted_ || frame > kMaxDanceFrames) {
     throw InvalidArgument("generate_until.frame",

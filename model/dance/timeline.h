@@ -98,6 +98,10 @@ class Timeline {
   /// Complete.
   std::optional<KeyRejection> Remove(const std::string& id, const std::string& field);
 
+  /// Where a control that is set now holds from: the frontier. Throws Error(kInvalidArgument) after
+  /// Complete, when all is frozen.
+  int64_t ControlFrom(const std::string& field) const;
+
   /// Absolute, exclusive. Throws Error(kInvalidArgument) if it shrinks or is out of range.
   void GenerateUntil(int64_t frame);
 

@@ -116,6 +116,12 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
     spec_.target = Target{Near(ground_.ToLocal(request.target->pose), spec_.history.back()),
                           request.target->mask};
   }
+  spec_.controls.root_path.resize(3, request.controls.root_path.cols());
+  for (Eigen::Index frame = 0; frame < request.controls.root_path.cols(); ++frame) {
+    spec_.controls.root_path.col(frame) =
+        ground_.ToLocal(request.controls.root_path.col(frame)).cast<float>();
+  }
+  spec_.controls.velocity_factors = request.controls.velocity_factors;
   if (request.foot_lock && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
     foot_lock_.emplace(model.skeleton, model.fps, request.frames, spec_.history, spec_.target);
   }

@@ -21,6 +21,13 @@ struct WorldTarget {
   PoseMask mask;
 };
 
+/// What is asked of a transition frame by frame: engine's Controls, in the world.
+struct WorldControls {
+  Eigen::Matrix3Xd root_path;  ///< [3, frames], metres, or empty
+  Eigen::Matrix<float, kBodyParts, Eigen::Dynamic>
+      velocity_factors;  ///< [kBodyParts, frames], metres a frame, or empty
+};
+
 /// One transition as its caller knows it: everything in the world frame, at the model's rate.
 struct TransitionRequest {
   int frames = 0;             ///< N, 1..max; with a target, frame N - 1 is the key's
@@ -33,6 +40,7 @@ struct TransitionRequest {
   Eigen::MatrixXf audio_history;  ///< [audio_features, tau] rows of the frames before the first;
                                   ///< unread without audio
   std::vector<double> beats;      ///< as BeatsAround has them; empty: unknown
+  WorldControls controls;
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute

@@ -185,7 +185,7 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
 void TransitionGroup::Impl::Begin() {
   TransitionRequest transition;
   transition.frames = request_.frames;
-  transition.history = request_.History();
+  transition.history = FillHistory(model_, request_.History());
   transition.target = request_.target;
   transition.after = request_.after;
   transition.has_audio = audio_.has_value();
@@ -195,6 +195,12 @@ void TransitionGroup::Impl::Begin() {
   transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, transition.frames);
   transition.temperature =
       request_.temperature.value_or(static_cast<float>(model_.default_temperature));
+
+  ControlTrack controls(model_);
+  controls.Set(request_.controls, first_frame_, "controls");
+  TransitionControls asked = controls.For(first_frame_, transition.frames, transition.history,
+                                          transition.target, "target");
+  transition.controls = std::move(asked.controls);
 
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
@@ -208,9 +214,11 @@ void TransitionGroup::Impl::Begin() {
   }
   const std::optional<RequiredSpeed> speed = jobs.front()->run().required_speed();
   if (speed && speed->TooFast()) {
-    mailbox_.Post(
-        [warning = IntervalTooShort(model_.skeleton, "target", first_frame_, request_.frames,
-                                    *speed)](GroupSink& sink) { sink.OnWarning(warning); });
+    asked.warnings.push_back(
+        IntervalTooShort(model_.skeleton, "target", first_frame_, request_.frames, *speed));
+  }
+  for (const DanceWarning& warning : asked.warnings) {
+    mailbox_.Post([warning](GroupSink& sink) { sink.OnWarning(warning); });
   }
   {
     std::lock_guard lock(mutex_);

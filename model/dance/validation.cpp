@@ -57,6 +57,21 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
   }
 }
 
+void ValidateFrames(std::span<const int64_t> frames, const std::string& field) {
+  for (size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i] < 0 || frames[i] > kMaxDanceFrames) {
+      throw InvalidArgument(
+          At(field, static_cast<int64_t>(i)),
+          std::to_string(frames[i]) + " is not in [0, " + std::to_string(kMaxDanceFrames) + "]");
+    }
+    if (i > 0 && frames[i] <= frames[i - 1]) {
+      throw InvalidArgument(At(field, static_cast<int64_t>(i)),
+                            std::to_string(frames[i]) + " is not after the frame before it, " +
+                                std::to_string(frames[i - 1]));
+    }
+  }
+}
+
 void ValidateTemperature(float temperature, const std::string& field) {
   // Written so that NaN fails too.
   if (!(temperature >= 0 && temperature <= kMaxTemperature)) {

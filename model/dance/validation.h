@@ -35,6 +35,9 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
 void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
                      const std::string& field);
 
+/// Frames of a control: strictly ascending, within the longest dance.
+void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
+
 void ValidateTemperature(float temperature, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
 /// tau poses, a frame of a dance, and this model's fingerprint: another one throws

@@ -25,4 +25,21 @@ DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& mo
               model.fingerprint + "\": the dance goes on differently"};
 }
 
+DanceWarning PathTooFast(int64_t frame, double m_per_s) {
+  return {DanceWarning::Kind::kPathTooFast, frame,
+          "the root path asks for " + Show(m_per_s) + " m/s; people reach " +
+              Show(RequiredSpeed::kRootLimit)};
+}
+
+DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres) {
+  return {DanceWarning::Kind::kKeyOffPath, frame,
+          "key \"" + id + "\" lies " + Show(metres) + " m off the root path; the key wins"};
+}
+
+DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest) {
+  return {DanceWarning::Kind::kControlsTooLate, last_frame,
+          "the root path ends at frame " + std::to_string(last_frame) + ", and frames before " +
+              std::to_string(earliest) + " are frozen: nothing comes of it"};
+}
+
 }  // namespace choreo

@@ -12,6 +12,9 @@ struct DanceWarning {
   enum class Kind {
     kIntervalTooShort,  ///< the way to the key at `frame` asks for more speed than people have
     kInexactResume,     ///< the continuation was of another fingerprint; `frame` is its own
+    kPathTooFast,       ///< at `frame` the root path asks for more speed than people have
+    kKeyOffPath,        ///< the root path does not lead to the key at `frame`
+    kControlsTooLate,   ///< every frame that a root path speaks of is frozen; `frame` is its last
   };
   Kind kind = Kind::kIntervalTooShort;
   int64_t frame = 0;  ///< model rate, absolute
@@ -23,5 +26,10 @@ DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, i
                               int64_t frames, const RequiredSpeed& speed);
 
 DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& model);
+
+DanceWarning PathTooFast(int64_t frame, double m_per_s);
+DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres);
+/// The path ends before frame `earliest`, the first that is not frozen.
+DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest);
 
 }  // namespace choreo

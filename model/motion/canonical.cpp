@@ -14,9 +14,13 @@ GroundFrame GroundFrame::Of(const Pose& pose) {
 Pose GroundFrame::ToLocal(const Pose& world) const {
   const Eigen::Matrix3d turn = HeadingRotation(-heading);
   Pose local = world;
-  local.root_position = turn * (world.root_position - origin);
+  local.root_position = ToLocal(world.root_position);
   local.rotations.col(0) = LogMap(turn * ExpMap(world.rotations.col(0)));
   return local;
+}
+
+Eigen::Vector3d GroundFrame::ToLocal(const Eigen::Vector3d& world) const {
+  return HeadingRotation(-heading) * (world - origin);
 }
 
 Pose GroundFrame::ToWorld(const Pose& local) const {

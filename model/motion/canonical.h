@@ -17,6 +17,7 @@ struct GroundFrame {
   /// World → this frame. Rotations keep the branch of a continuous motion only up to the root's;
   /// see NearestBranch.
   Pose ToLocal(const Pose& world) const;
+  Eigen::Vector3d ToLocal(const Eigen::Vector3d& world) const;
   /// This frame → world.
   Pose ToWorld(const Pose& local) const;
 };

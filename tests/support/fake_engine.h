@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -10,14 +11,21 @@
 #include "model/core/error.h"
 #include "model/core/random.h"
 #include "model/engine/step_engine.h"
+#include "model/motion/velocity_factors.h"
 
 namespace choreo {
+
+/// Joints by which the fake model tells of velocity factors, by BodyPart.
+inline const std::array<std::string, kBodyParts> kTellingJoints = {
+    "head", "left_hand", "right_hand", "left_foot", "right_foot"};
 
 /// A dance model without a network, for tests of what stands around one. Each degree of freedom
 /// walks towards the target (or towards its last history value, where there is none or it is
 /// masked), damped, shaken by the counter noise and by the music row, and nods on the beats.
-/// Deterministic; a slot's output depends on its spec, its rows and its fed-back poses alone. Like a real model it misses
-/// its target by a little.
+/// Deterministic; a slot's output depends on its spec, its rows and its fed-back poses alone. Like
+/// a real model it misses its target by a little. Controls it obeys to the letter: its root stands
+/// on the path, and the first number of a telling joint's rotation is the velocity factor asked of
+/// the joint's part.
 class FakeEngine : public StepEngine {
  public:
   explicit FakeEngine(int slots = 16, std::string device = "fake:0",
@@ -116,6 +124,7 @@ class FakeEngine : public StepEngine {
     for (int d = 3; d < Width(); ++d) next[d] += 0.003 * music * std::sin(0.7 * d + slot.frame);
     for (const double beat : spec.beats)
       next[Width() - 1] += 0.01 * std::max(0.0, 1 - std::abs(beat - slot.frame));
+    Obey(spec.controls, slot.frame, &next);
 
     slot.pose.root_position = next.head<3>();
     slot.pose.rotations = next.tail(Width() - 3).reshaped(3, model_.skeleton.joints());
@@ -126,9 +135,32 @@ class FakeEngine : public StepEngine {
     ++slot.frame;
   }
 
+  // So that a test can see in the dance what was asked of the model.
+  void Obey(const Controls& controls, int frame, Eigen::VectorXd* next) const {
+    if (controls.root_path.cols() > 0)
+      next->head<3>() = controls.root_path.col(frame).cast<double>();
+    if (controls.velocity_factors.cols() == 0) return;
+    for (int part = 0; part < kBodyParts; ++part) {
+      const auto& joint = kTellingJoints[static_cast<size_t>(part)];
+      (*next)[3 + 3 * model_.skeleton.Find(joint)] = controls.velocity_factors(part, frame);
+    }
+  }
+
   std::string device_;
   std::vector<Slot> slots_;
   std::vector<float> noise_;
+};
+
+/// One that takes controls.
+class ControlledEngine : public FakeEngine {
+ public:
+  explicit ControlledEngine(int slots = 16, const std::string& name = "fake") : FakeEngine(slots) {
+    model_.name = name;
+    model_.fingerprint = name + "-controlled";
+    model_.root_path = model_.velocity_factors = true;
+    model_.velocity_references = {{"median", {0.01F, 0.02F, 0.03F, 0.04F, 0.05F}},
+                                  {"calm", {0.001F, 0.002F, 0.003F, 0.004F, 0.005F}}};
+  }
 };
 
 }  // namespace choreo

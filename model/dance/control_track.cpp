@@ -1,0 +1,127 @@
+#include "model/dance/control_track.h"
+
+#include <algorithm>
+
+#include "model/core/error.h"
+#include "model/dance/path_lead.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kKeyTolerance = 0.05;  // metres that a key may lie off the path unmentioned
+
+bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_heights(); }
+
+}  // namespace
+
+void ControlRequest::Validate(const ModelInfo& model, const std::string& field) const {
+  const std::string refusal = "the model \"" + model.name + "\" does not have this control";
+  if (root_path) {
+    if (!model.root_path) throw InvalidArgument(field + ".root_path", refusal);
+    root_path->Validate(field + ".root_path");
+  }
+  if (velocity_factors) {
+    if (!model.velocity_factors) throw InvalidArgument(field + ".velocity_factors", refusal);
+    velocity_factors->Validate(model, field + ".velocity_factors");
+  }
+}
+
+void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::string& field) {
+  if (requests_ >= kMaxControls) {
+    throw InvalidArgument(field, "is one more than the limit of " + std::to_string(kMaxControls));
+  }
+  const size_t values = values_ + (request.root_path ? request.root_path->frames.size() : 0) +
+                        (request.velocity_factors ? request.velocity_factors->values.size() : 0);
+  if (values > kMaxControlValues) {
+    throw InvalidArgument(field, "brings the dance's controls to " + std::to_string(values) +
+                                     " points and values, the limit is " +
+                                     std::to_string(kMaxControlValues));
+  }
+  ++requests_;
+  values_ = values;
+  if (request.root_path) paths_.push_back({from, PathCurve(*request.root_path)});
+  if (request.velocity_factors) velocities_.push_back({from, *request.velocity_factors});
+}
+
+const PathCurve* ControlTrack::CurveAt(int64_t frame) const {
+  const auto said = std::find_if(paths_.rbegin(), paths_.rend(),
+                                 [frame](const auto& path) { return path.from <= frame; });
+  return said != paths_.rend() && said->control.Covers(frame) ? &said->control : nullptr;
+}
+
+void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pose> history,
+                            const std::optional<WorldTarget>& target, const std::string& key_id,
+                            TransitionControls* out) const {
+  LeadRequest request;
+  request.first_frame = first_frame;
+  request.fps = model_->fps;
+  for (int frame = 0; frame < frames; ++frame) {
+    request.curves.push_back(CurveAt(first_frame + frame));
+  }
+  if (std::ranges::count(request.curves, nullptr) == frames) return;
+  const Eigen::Vector3d start = history.back().root_position;
+  request.start.position = start;
+  if (history.size() > 1) request.start.velocity = start - history.rbegin()[1].root_position;
+  if (target && target->mask.root_position) {
+    request.end.emplace().position = target->pose.root_position;
+  }
+  const Lead floor = LeadPath(request);
+
+  request.axes = {0, 1, 0};
+  for (const PathCurve*& curve : request.curves) {
+    if (!HasHeights(curve)) curve = nullptr;
+  }
+  if (!request.end && request.curves.back() == nullptr) {
+    request.end.emplace().position.y() = model_->skeleton.pelvis_height;
+  }
+  const Lead height = LeadPath(request);
+
+  Eigen::Matrix3Xd& path = out->controls.root_path;
+  path = floor.path + height.path;
+  const int64_t last = first_frame + frames - 1;
+  const double missed = (floor.missed + height.missed).norm();
+  if (missed > kKeyTolerance) out->warnings.push_back(KeyOffPath(key_id, last, missed));
+  double fastest = 0;
+  int where = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    const Eigen::Vector3d before = frame == 0 ? start : Eigen::Vector3d(path.col(frame - 1));
+    const double speed = (path.col(frame) - before).norm() * model_->fps;
+    if (speed <= fastest) continue;
+    fastest = speed;
+    where = frame;
+  }
+  if (fastest > RequiredSpeed::kRootLimit) {
+    out->warnings.push_back(PathTooFast(first_frame + where, fastest));
+  }
+}
+
+void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionControls* out) const {
+  const int64_t end = first_frame + frames;
+  if (velocities_.empty() || velocities_.front().from >= end) return;
+  auto& factors = out->controls.velocity_factors;
+  factors.resize(kBodyParts, frames);
+  VelocityRequest usual;
+  usual.values = {1};
+  for (int part = 0; part < kBodyParts; ++part) {
+    for (int frame = 0; frame < frames; ++frame) {
+      const int64_t at = first_frame + frame;
+      const auto body_part = static_cast<BodyPart>(part);
+      const auto said = std::find_if(
+          velocities_.rbegin(), velocities_.rend(),
+          [&](const auto& one) { return one.from <= at && one.control.Names(body_part); });
+      const VelocityRequest& asked = said == velocities_.rend() ? usual : said->control;
+      factors(part, frame) = asked.At(at, body_part, *model_);
+    }
+  }
+}
+
+TransitionControls ControlTrack::For(int64_t first_frame, int frames, std::span<const Pose> history,
+                                     const std::optional<WorldTarget>& target,
+                                     const std::string& key_id) const {
+  TransitionControls out;
+  FillPath(first_frame, frames, history, target, key_id, &out);
+  FillVelocities(first_frame, frames, &out);
+  return out;
+}
+
+}  // namespace choreo

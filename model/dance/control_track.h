@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/dance/root_path.h"
+#include "model/dance/transition.h"
+#include "model/dance/velocity_request.h"
+#include "model/dance/warning.h"
+
+namespace choreo {
+
+/// Limits of one dance: requests, and the points of all its paths plus the values of all its
+/// velocity factors.
+inline constexpr size_t kMaxControls = 1000;
+inline constexpr size_t kMaxControlValues = 1'000'000;
+
+/// Controls as one message of a client states them.
+struct ControlRequest {
+  std::optional<RootPath> root_path;
+  std::optional<VelocityRequest> velocity_factors;
+
+  /// Throws Error(kInvalidArgument) below `field` for bad values and for a control that the model
+  /// does not take.
+  void Validate(const ModelInfo& model, const std::string& field) const;
+};
+
+/// What is asked of one transition, frame by frame, and where it contradicts itself.
+struct TransitionControls {
+  WorldControls controls;
+  std::vector<DanceWarning> warnings;
+};
+
+/// The controls of one dance: each holds from its frame on until another one of its kind takes over
+/// (velocity factors: part by part). What a transition is asked is a function of what was set for
+/// its frames, its history and its key: nothing else is remembered, so a dance that is resumed and
+/// told the same again is asked the same again. Not thread-safe.
+///
+/// Root path, in frames from its first point to its last: the curve of PathCurve. Where it passes
+/// the dancer by at the transition's start, or the key at its end, it is bent smoothly to them: the
+/// key wins, and a warning tells by how much. From the dancer to a first point further ahead, and
+/// from a last point to the key, a cubic leads; without a key the last point holds. A height that
+/// nobody asks for leads from the dancer's to the key's, or to standing. A transition that the path
+/// has no frame of is left to the model.
+///
+/// Velocity factors: parts, and frames, that nobody speaks of have the model's first reference.
+class ControlTrack {
+ public:
+  /// The model must outlive the track.
+  explicit ControlTrack(const ModelInfo& model) : model_(&model) {}
+
+  /// The request is valid; `from` never shrinks from call to call. Throws Error(kInvalidArgument)
+  /// beyond kMaxControls or kMaxControlValues.
+  void Set(const ControlRequest& request, int64_t from, const std::string& field);
+
+  /// Of the frames [first_frame, first_frame + frames). `history` is the transition's, at least one
+  /// pose; `key_id` is how warnings call the target.
+  TransitionControls For(int64_t first_frame, int frames, std::span<const Pose> history,
+                         const std::optional<WorldTarget>& target, const std::string& key_id) const;
+
+ private:
+  template <typename Control>
+  struct Since {
+    int64_t from;
+    Control control;
+  };
+
+  const PathCurve* CurveAt(int64_t frame) const;
+  void FillPath(int64_t first_frame, int frames, std::span<const Pose> history,
+                const std::optional<WorldTarget>& target, const std::string& key_id,
+                TransitionControls* out) const;
+  void FillVelocities(int64_t first_frame, int frames, TransitionControls* out) const;
+
+  const ModelInfo* model_;
+  std::vector<Since<PathCurve>> paths_;
+  std::vector<Since<VelocityRequest>> velocities_;
+  size_t requests_ = 0;
+  size_t values_ = 0;
+};
+
+}  // namespace choreo

@@ -1,0 +1,107 @@
+#include "model/dance/path_lead.h"
+
+#include <algorithm>
+
+namespace choreo {
+namespace {
+
+constexpr double kDetourSpeed = 1.0;  // m/s, at its fastest
+constexpr double kLeastDetour = 0.5;  // seconds
+
+double Smooth(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+class Leader {
+ public:
+  explicit Leader(const LeadRequest& request)
+      : request_(request),
+        frames_(static_cast<int>(request.curves.size())),
+        here_(Led(request.start)) {
+    lead_.path.setZero(3, frames_);
+  }
+
+  Lead Run() {
+    for (int from = 0, to = 0; from < frames_; from = to) {
+      while (to < frames_ && Curve(to) == Curve(from)) ++to;
+      if (Curve(from) != nullptr) {
+        Follow(from, to);
+      } else {
+        Bridge(from, to);
+      }
+    }
+    if (request_.end && Curve(frames_ - 1) != nullptr) BendToEnd();
+    return std::move(lead_);
+  }
+
+ private:
+  const PathCurve* Curve(int frame) const { return request_.curves[static_cast<size_t>(frame)]; }
+
+  PathPoint Led(const PathPoint& point) const {
+    return {point.position.cwiseProduct(request_.axes), point.velocity.cwiseProduct(request_.axes)};
+  }
+  /// What the curve of `of_frame` says of a frame.
+  PathPoint Asked(int of_frame, int frame) const {
+    return Led(Curve(of_frame)->At(request_.first_frame + frame));
+  }
+
+  double DetourFrames(const Eigen::Vector3d& offset, int available) const {
+    // A smooth step is at its fastest half as fast again as on average.
+    const double seconds = std::max(1.5 * offset.norm() / kDetourSpeed, kLeastDetour);
+    return std::min(seconds * request_.fps, static_cast<double>(available));
+  }
+
+  void Follow(int from, int to) {
+    // A bridge ends on the curve.
+    const bool on_it = from > 0 && Curve(from - 1) == nullptr;
+    const Eigen::Vector3d offset =
+        on_it ? Eigen::Vector3d(0, 0, 0)
+              : Eigen::Vector3d(here_.position - Asked(from, from - 1).position);
+    const double detour = DetourFrames(offset, to - from);
+    for (int frame = from; frame < to; ++frame) {
+      lead_.path.col(frame) =
+          Asked(from, frame).position + (1 - Smooth((frame - from + 1) / detour)) * offset;
+    }
+    here_ = Asked(from, to - 1);
+  }
+
+  void Bridge(int from, int to) {
+    PathPoint goal{here_.position, Eigen::Vector3d::Zero()};
+    double duration = to - from;
+    if (to < frames_) {
+      goal = Asked(to, to);
+      ++duration;
+    } else if (request_.end) {
+      goal = Led(*request_.end);
+    }
+    // A dancer in full run turns before she has swung out far.
+    const double most = 3 * (goal.position - here_.position).norm() / duration;
+    if (here_.velocity.norm() > most) here_.velocity *= most / here_.velocity.norm();
+    PathPoint point;
+    for (int frame = from; frame < to; ++frame) {
+      point = CubicBetween(here_, goal, duration, frame - from + 1);
+      lead_.path.col(frame) = point.position;
+    }
+    here_ = point;
+  }
+
+  void BendToEnd() {
+    lead_.missed = Led(*request_.end).position - lead_.path.col(frames_ - 1);
+    const double detour = DetourFrames(lead_.missed, frames_);
+    for (int frame = 0; frame < frames_; ++frame) {
+      lead_.path.col(frame) += Smooth(1 - (frames_ - 1 - frame) / detour) * lead_.missed;
+    }
+  }
+
+  const LeadRequest& request_;
+  const int frames_;
+  PathPoint here_;  // at the frame before the one to come
+  Lead lead_;
+};
+
+}  // namespace
+
+Lead LeadPath(const LeadRequest& request) { return Leader(request).Run(); }
+
+}  // namespace choreo

@@ -1,0 +1,96 @@
+#include "model/dance/root_path.h"
+
+#include <algorithm>
+
+#include "model/core/error.h"
+#include "model/dance/timeline.h"
+#include "model/dance/validation.h"
+#include "model/motion/pose_limits.h"
+
+namespace choreo {
+namespace {
+
+Eigen::Vector3d NoLongerThan(const Eigen::Vector3d& vector, double limit) {
+  const double length = vector.norm();
+  return length > limit ? Eigen::Vector3d(vector * (limit / length)) : vector;
+}
+
+}  // namespace
+
+void RootPath::Validate(const std::string& field) const {
+  ValidateFrames(frames, field + ".frames");
+  const auto count = static_cast<int64_t>(frames.size());
+  if (points.cols() != count) {
+    throw InvalidArgument(field + ".points", std::to_string(points.cols()) + " points for " +
+                                                 std::to_string(count) + " frames");
+  }
+  if (count < 2) {
+    throw InvalidArgument(field + ".points",
+                          std::to_string(count) + " points, a path needs at least 2");
+  }
+  for (int64_t i = 0; i < count; ++i) {
+    for (const int axis : {0, 1, 2}) {
+      if (axis == 1 && !has_heights) continue;
+      const double value = points(axis, i);
+      // Written so that NaN fails too.
+      if (std::abs(value) <= kMaxPosition) continue;
+      const std::string place = axis == 1 ? ".heights[" + std::to_string(i)
+                                          : ".points[" + std::to_string(2 * i + axis / 2);
+      throw InvalidArgument(field + place + "]",
+                            Show(value) + " m is not within " + Show(kMaxPosition) + " m of 0");
+    }
+  }
+}
+
+PathPoint CubicBetween(const PathPoint& from, const PathPoint& to, double duration, double t) {
+  const double s = t / duration;
+  const Eigen::Vector3d leg = to.position - from.position;
+  const Eigen::Vector3d m0 = from.velocity * duration, m1 = to.velocity * duration;
+  const Eigen::Vector3d c2 = 3 * leg - 2 * m0 - m1, c3 = m0 + m1 - 2 * leg;
+  return {from.position + s * (m0 + s * (c2 + s * c3)),
+          (m0 + s * (2 * c2 + 3 * s * c3)) / duration};
+}
+
+PathCurve::PathCurve(const RootPath& path)
+    : frames_(path.frames), points_(path.frames.size()), has_heights_(path.has_heights) {
+  for (size_t i = 0; i < points_.size(); ++i) {
+    points_[i].position = path.points.col(static_cast<Eigen::Index>(i));
+    if (!has_heights_) points_[i].position.y() = 0;
+  }
+  const auto duration = [this](size_t leg) {
+    return static_cast<double>(frames_[leg + 1] - frames_[leg]);
+  };
+  const auto slope = [&](size_t leg) -> Eigen::Vector3d {
+    return (points_[leg + 1].position - points_[leg].position) / duration(leg);
+  };
+  const size_t end = points_.size() - 1;
+  if (end == 1) {
+    points_[0].velocity = points_[1].velocity = slope(0);
+    return;
+  }
+  for (size_t point = 0; point <= end; ++point) {
+    // The first of the two legs of its parabola; at an end those of the neighbour's.
+    const size_t leg = std::clamp<size_t>(point, 1, end - 1) - 1;
+    const double d0 = duration(leg), d1 = duration(leg + 1);
+    const Eigen::Vector3d bend = (slope(leg + 1) - slope(leg)) / (d0 + d1);
+    const double since = static_cast<double>(frames_[point] - frames_[leg]);
+    const double slower = std::min(slope(point == 0 ? 0 : point - 1).norm(),
+                                   slope(point == end ? end - 1 : point).norm());
+    points_[point].velocity = NoLongerThan(slope(leg) + (2 * since - d0) * bend, 3 * slower);
+  }
+}
+
+PathPoint PathCurve::At(int64_t frame) const {
+  const auto straight = [&](const PathPoint& end, int64_t end_frame) -> PathPoint {
+    return {end.position + static_cast<double>(frame - end_frame) * end.velocity, end.velocity};
+  };
+  if (frame <= first()) return straight(points_.front(), first());
+  if (frame >= last()) return straight(points_.back(), last());
+  const auto after = std::ranges::upper_bound(frames_, frame);
+  const auto leg = static_cast<size_t>(after - frames_.begin()) - 1;
+  return CubicBetween(points_[leg], points_[leg + 1],
+                      static_cast<double>(frames_[leg + 1] - frames_[leg]),
+                      static_cast<double>(frame - frames_[leg]));
+}
+
+}  // namespace choreo

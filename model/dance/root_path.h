@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace choreo {
+
+/// Where the root should be, as a client says it: points in time, world frame, metres. A dense path
+/// has a point in each frame; of a sparse one the smooth curve through its points is meant.
+struct RootPath {
+  std::vector<int64_t> frames;  ///< of each point, absolute, at the model's rate; ascending
+  Eigen::Matrix3Xd points;      ///< [3, points]; y is read with heights alone
+  bool has_heights = false;     ///< whether it says how high the root is (a jump, a squat)
+
+  /// Throws Error(kInvalidArgument) below `field` for fewer than 2 points, frames that do not
+  /// ascend or lie outside a dance, points that are not finite or further than kMaxPosition from
+  /// the origin.
+  void Validate(const std::string& field) const;
+};
+
+/// A place and how it moves on.
+struct PathPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< metres a frame
+};
+
+/// The cubic that leads from `from` to `to` in `duration` frames, `t` frames after its start.
+PathPoint CubicBetween(const PathPoint& from, const PathPoint& to, double duration, double t);
+
+/// The curve through a path's points: cubic in time between two points, its velocity continuous.
+/// At a point its velocity is that of the parabola through it and its neighbours, and at most three
+/// times the slower of the two legs', so that the curve stands still between equal points and does
+/// not swing out far. Moving or turning the points moves and turns the curve. Immutable.
+class PathCurve {
+ public:
+  /// The path must be valid.
+  explicit PathCurve(const RootPath& path);
+
+  int64_t first() const { return frames_.front(); }
+  int64_t last() const { return frames_.back(); }
+  bool Covers(int64_t frame) const { return frame >= first() && frame <= last(); }
+  bool has_heights() const { return has_heights_; }
+  /// Before the first and after the last point it goes straight on. y is 0 without heights.
+  PathPoint At(int64_t frame) const;
+
+ private:
+  std::vector<int64_t> frames_;
+  std::vector<PathPoint> points_;
+  bool has_heights_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,209 @@
+#include "model/dance/control_track.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "model/motion/kinematics.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/fake_engine.h"
+
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+class ControlTrackTest : public testing::Test {
+ protected:
+  static ControlRequest Way(std::vector<int64_t> frames, const std::vector<double>& x,
+                            const std::vector<double>& heights = {}) {
+    RootPath path{std::move(frames), Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(x.size())),
+                  !heights.empty()};
+    for (size_t i = 0; i < x.size(); ++i) {
+      path.points(0, static_cast<Eigen::Index>(i)) = x[i];
+      if (!heights.empty()) path.points(1, static_cast<Eigen::Index>(i)) = heights[i];
+    }
+    return {path, {}};
+  }
+  static ControlRequest Velocity(VelocityRequest velocity) { return {{}, std::move(velocity)}; }
+
+  TransitionControls For(int64_t first_frame, int frames) const {
+    return track_.For(first_frame, frames, {&here_, 1}, target_, "landing");
+  }
+  void AimAt(double x) {
+    target_.emplace().pose = here_;
+    target_->pose.root_position.x() = x;
+  }
+  void ExpectRefused(const ControlRequest& request, const std::string& message) const {
+    ExpectError(ErrorCode::kInvalidArgument, message,
+                [&] { request.Validate(engine_.model(), "controls"); });
+  }
+
+  const ControlledEngine engine_;
+  const double standing_ = engine_.model().skeleton.pelvis_height;
+  ControlTrack track_{engine_.model()};
+  Pose here_ = RestPose(engine_.model().skeleton);
+  std::optional<WorldTarget> target_;
+};
+
+TEST_F(ControlTrackTest, SaysNothingWhereNothingWasSaid) {
+  EXPECT_EQ(For(0, 60).controls.root_path.cols(), 0);
+  track_.Set(Way({100, 200}, {0, 1}), 0, "controls");
+  EXPECT_EQ(For(0, 100).controls.root_path.cols(), 0);
+  EXPECT_EQ(For(201, 60).controls.root_path.cols(), 0);
+  EXPECT_EQ(For(100, 60).controls.root_path.cols(), 60);
+  EXPECT_EQ(For(100, 60).controls.velocity_factors.cols(), 0);
+}
+
+TEST_F(ControlTrackTest, LaterPathsTakeOverFromTheirFrameOn) {
+  track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
+  track_.Set(Way({0, 300}, {1, 1}), 60, "controls");
+  const Eigen::Matrix3Xd path = For(0, 120).controls.root_path;
+  EXPECT_NEAR(path(0, 59), 0.59, 1e-9);
+  EXPECT_NEAR(path(0, 119), 1, 1e-9);
+}
+
+TEST_F(ControlTrackTest, HeightsComeFromThePathOrFromTheDancer) {
+  here_.root_position.y() = 0.5;
+  track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
+  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), standing_, 1e-9);
+  AimAt(0.89);
+  target_->pose.root_position.y() = 0.7;
+  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), 0.7, 1e-9);
+  EXPECT_TRUE(For(0, 90).warnings.empty());
+  track_.Set(Way({0, 50, 100}, {0, 0.5, 1}, {0.5, 1.3, 0.6}), 0, "controls");
+  target_.reset();
+  EXPECT_NEAR(For(0, 90).controls.root_path(1, 50), 1.3, 1e-9);
+}
+
+TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
+  track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
+  AimAt(1.09);
+  const TransitionControls asked = For(0, 90);
+  EXPECT_NEAR(asked.controls.root_path(0, 89), 1.09, 1e-9);
+  ASSERT_EQ(asked.warnings.size(), 1u);
+  EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
+  EXPECT_EQ(asked.warnings[0].frame, 89);
+  EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.2 m off the root path"));
+  AimAt(0.92);  // within 5 cm
+  EXPECT_TRUE(For(0, 90).warnings.empty());
+  EXPECT_NEAR(For(0, 90).controls.root_path(0, 89), 0.92, 1e-9);
+  // A key that asks nothing of where the dancer is contradicts no path.
+  AimAt(5);
+  target_->mask.root_position = false;
+  EXPECT_TRUE(For(0, 90).warnings.empty());
+  EXPECT_NEAR(For(0, 90).controls.root_path(0, 89), 0.89, 1e-9);
+}
+
+TEST_F(ControlTrackTest, APathThatNobodyCanWalkIsSaidToBeTooFast) {
+  track_.Set(Way({0, 30}, {0, 4.5}), 0, "controls");
+  EXPECT_TRUE(For(0, 31).warnings.empty());
+  track_.Set(Way({0, 30}, {0, 6}), 0, "controls");
+  const TransitionControls asked = For(0, 31);
+  ASSERT_EQ(asked.warnings.size(), 1u);
+  EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kPathTooFast);
+  EXPECT_THAT(asked.warnings[0].message, HasSubstr("m/s; people reach 5"));
+}
+
+TEST_F(ControlTrackTest, MultipliesTheReferences) {
+  VelocityRequest arms;
+  arms.parts = {BodyPart::kLeftArm, BodyPart::kRightArm};
+  arms.values = {2, 0.5F};
+  track_.Set(Velocity(arms), 0, "controls");
+  // The fake model's median is 0.01 to 0.05 m a frame.
+  const Eigen::Matrix<float, kBodyParts, Eigen::Dynamic> factors =
+      For(0, 10).controls.velocity_factors;
+  ASSERT_EQ(factors.cols(), 10);
+  EXPECT_THAT(std::vector<float>(factors.col(9).begin(), factors.col(9).end()),
+              testing::Pointwise(testing::FloatEq(), {0.01F, 0.04F, 0.015F, 0.04F, 0.05F}));
+  VelocityRequest calm;
+  calm.values = {3};
+  calm.reference = "calm";
+  track_.Set(Velocity(calm), 5, "controls");
+  EXPECT_FLOAT_EQ(For(0, 10).controls.velocity_factors(1, 4), 0.04F);
+  EXPECT_FLOAT_EQ(For(0, 10).controls.velocity_factors(1, 5), 0.006F);
+}
+
+TEST_F(ControlTrackTest, InterpolatesBetweenFramesAndReplacesPartByPart) {
+  VelocityRequest rising;
+  rising.frames = {10, 20};
+  rising.parts = {BodyPart::kTrunk, BodyPart::kLeftLeg};
+  rising.values = {0.1F, 0.2F, 0.3F, 0.2F};
+  rising.absolute = true;
+  track_.Set(Velocity(rising), 0, "controls");
+  VelocityRequest leg;
+  leg.parts = {BodyPart::kLeftLeg};
+  leg.values = {0};
+  leg.absolute = true;
+  track_.Set(Velocity(leg), 15, "controls");
+  const auto factors = For(0, 40).controls.velocity_factors;
+  EXPECT_FLOAT_EQ(factors(0, 0), 0.1F);
+  EXPECT_FLOAT_EQ(factors(0, 15), 0.2F);
+  EXPECT_FLOAT_EQ(factors(0, 39), 0.3F);
+  EXPECT_FLOAT_EQ(factors(3, 14), 0.2F);
+  EXPECT_FLOAT_EQ(factors(3, 15), 0);
+}
+
+TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {
+  VelocityRequest request;
+  request.values = {-0.5F};
+  ExpectRefused(Velocity(request), "controls.velocity_factors.factors[0]: -0.5 is not in [0, 10]");
+  request.values = {11};
+  ExpectRefused(Velocity(request), "controls.velocity_factors.factors[0]: 11 is not in [0, 10]");
+  request.values = {std::numeric_limits<float>::quiet_NaN()};
+  ExpectRefused(Velocity(request), "controls.velocity_factors.factors[0]: nan is not in");
+  request.absolute = true;
+  request.values = {0.6F};
+  ExpectRefused(Velocity(request),
+                "controls.velocity_factors.speeds[0]: 0.6 m a frame is not in [0, 0.5]");
+  request.values = {};
+  ExpectRefused(Velocity(request), "controls.velocity_factors.speeds: 0 values, not 1");
+  request = {};
+  request.frames = {0, 30, 20};
+  request.values = {1, 1, 1};
+  ExpectRefused(Velocity(request),
+                "controls.velocity_factors.frames[2]: 20 is not after the frame before it, 30");
+  request.frames = {0, 30};
+  request.parts = {BodyPart::kTrunk, BodyPart::kLeftArm};
+  ExpectRefused(Velocity(request),
+                "controls.velocity_factors.factors: 3 values, not 4, 2 rows of 2");
+  request = {};
+  request.values = {1, 1};
+  request.parts = {BodyPart::kTrunk, BodyPart::kTrunk};
+  ExpectRefused(Velocity(request), "controls.velocity_factors.parts[1]: trunk is there twice");
+  request = {};
+  request.values = {1};
+  request.reference = "frantic";
+  ExpectRefused(Velocity(request),
+                "controls.velocity_factors.reference: \"frantic\" is none of the model's, median, "
+                "calm");
+}
+
+TEST_F(ControlTrackTest, RefusesWhatTheModelDoesNotTake) {
+  const FakeEngine plain;
+  const auto refused = [&](const ControlRequest& request, const std::string& message) {
+    ExpectError(ErrorCode::kInvalidArgument, message,
+                [&] { request.Validate(plain.model(), "controls"); });
+  };
+  refused(Way({0, 9}, {0, 1}), "controls.root_path: the model \"fake\" does not have this control");
+  VelocityRequest request;
+  request.values = {1};
+  refused(Velocity(request),
+          "controls.velocity_factors: the model \"fake\" does not have this control");
+}
+
+TEST_F(ControlTrackTest, KeepsNoMoreThanItsLimits) {
+  for (size_t i = 0; i < kMaxControls; ++i) track_.Set(Way({0, 1}, {0, 0}), 0, "controls");
+  ExpectError(ErrorCode::kInvalidArgument, "controls[7]: is one more than the limit of 1000", [&] {
+    track_.Set(Way({0, 1}, {0, 0}), 0, "controls[7]");
+  });
+  ControlTrack other(engine_.model());
+  VelocityRequest huge;
+  huge.values.assign(kMaxControlValues + 1, 1);
+  ExpectError(ErrorCode::kInvalidArgument, "1000001 points and values, the limit is 1000000",
+              [&] { other.Set(Velocity(huge), 0, "controls"); });
+}
+
+}  // namespace
+}  // namespace choreo

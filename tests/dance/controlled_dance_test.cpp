@@ -1,0 +1,271 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "model/dance/transition_group.h"
+#include "tests/dance/dances.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+std::unique_ptr<Scheduler> ControlledScheduler() {
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  engines.push_back(std::make_unique<ControlledEngine>());
+  return std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{64, 64});
+}
+
+/// Over the floor from x0 to x1, metres, at an angle of 45 degrees.
+ControlRequest Way(int64_t from, int64_t to, double x0, double x1) {
+  ControlRequest request;
+  request.root_path.emplace().frames = {from, to};
+  request.root_path->points.resize(3, 2);
+  request.root_path->points << x0, x1, 0, 0, x0, x1;
+  return request;
+}
+
+ControlRequest Factor(BodyPart part, float factor) {
+  ControlRequest request;
+  request.velocity_factors.emplace().parts = {part};
+  request.velocity_factors->values = {factor};
+  return request;
+}
+
+/// What the fake model says that it was asked of the left arm.
+double LeftArm(const Pose& pose) {
+  return pose.rotations(0, Skeleton::Smpl24().Find(kTellingJoints[1]));
+}
+
+class ControlledDanceTest : public testing::Test {
+ protected:
+  Recording Perform(const std::function<void(DanceStream&)>& messages, int64_t frames = 300) {
+    config_.end_frame = frames;
+    auto sink = std::make_shared<Recorder>();
+    DanceStream stream(*scheduler_, config_, sink);
+    messages(stream);
+    stream.HalfClose();
+    return sink->WaitForEnd();
+  }
+
+  static Pose KeyAt(double x, double z) {
+    Pose pose = RestPose(Skeleton::Smpl24());
+    pose.root_position.x() = x;
+    pose.root_position.z() = z;
+    return pose;
+  }
+
+  const std::unique_ptr<Scheduler> scheduler_ = ControlledScheduler();
+  DanceConfig config_;
+};
+
+TEST_F(ControlledDanceTest, FollowsAPathOverManyTransitions) {
+  const Recording dance = Perform([](DanceStream& s) { s.SetControls(Way(0, 299, 0, 2)); });
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  EXPECT_GE(dance.continuations.size(), 5u);
+  for (int frame = 20; frame < 300; ++frame) {
+    EXPECT_NEAR(dance.poses[static_cast<size_t>(frame)].root_position.x(), 2.0 * frame / 299, 1e-5);
+    EXPECT_NEAR(dance.poses[static_cast<size_t>(frame)].root_position.z(), 2.0 * frame / 299, 1e-5);
+  }
+  EXPECT_TRUE(dance.warnings.empty());
+}
+
+TEST_F(ControlledDanceTest, ControlsHoldFromTheFirstFrameThatIsNotFrozen) {
+  const Recording dance = Perform([](DanceStream& s) {
+    s.SetControls(Factor(BodyPart::kLeftArm, 2));
+    s.GenerateUntil(100);
+    s.SetControls(Factor(BodyPart::kLeftArm, 3));
+    s.SetControls(Factor(BodyPart::kRightArm, 1));
+    s.GenerateUntil(200);
+    s.SetControls(Factor(BodyPart::kLeftArm, 4));
+  });
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  EXPECT_NEAR(LeftArm(dance.poses[99]), 0.04, 1e-6);
+  EXPECT_NEAR(LeftArm(dance.poses[100]), 0.06, 1e-6);
+  EXPECT_NEAR(LeftArm(dance.poses[199]), 0.06, 1e-6);
+  EXPECT_NEAR(LeftArm(dance.poses[200]), 0.08, 1e-6);
+  EXPECT_NEAR(LeftArm(dance.poses[299]), 0.08, 1e-6);
+}
+
+TEST_F(ControlledDanceTest, WithoutGenerateUntilTheyHoldBehindTheLastKey) {
+  const Recording dance = Perform([](DanceStream& s) {
+    s.SetKey("a", AtFrame{80}, KeyAt(0, 0));
+    s.SetControls(Factor(BodyPart::kLeftArm, 5));
+  });
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  EXPECT_LT(LeftArm(dance.poses[80]), 0.02);
+  EXPECT_NEAR(LeftArm(dance.poses[81]), 0.1, 1e-6);
+}
+
+TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
+  const Recording dance = Perform([](DanceStream& s) {
+    s.SetControls(Way(0, 299, 0, 2));
+    s.SetKey("beside", AtFrame{150}, KeyAt(1.5, 1));
+    s.SetKey("on", AtFrame{240}, KeyAt(2.0 * 240 / 299, 2.0 * 240 / 299));
+  });
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  ASSERT_EQ(dance.reached.size(), 2u);
+  for (const KeyReached& key : dance.reached) EXPECT_LT(key.arrival.final_error_m, 1e-3);
+  ASSERT_EQ(dance.warnings.size(), 1u);
+  EXPECT_EQ(dance.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
+  EXPECT_THAT(dance.warnings[0].message, HasSubstr("key \"beside\" lies 0.49"));
+  // No jump on the way there and back.
+  for (size_t i = 1; i < dance.poses.size(); ++i) {
+    EXPECT_LT((dance.poses[i].root_position - dance.poses[i - 1].root_position).norm(), 0.05) << i;
+  }
+}
+
+TEST_F(ControlledDanceTest, DoesNotDependOnWhenMessagesCome) {
+  const auto messages = [](DanceStream& s, const std::function<void()>& between) {
+    s.SetControls(Way(0, 200, 0, 1));
+    between();
+    s.GenerateUntil(70);
+    between();
+    s.SetControls(Way(50, 250, 0.5, -1));
+    between();
+    s.SetControls(Factor(BodyPart::kTrunk, 0.5F));
+    s.GenerateUntil(200);
+    between();
+    s.SetKey("end", AtFrame{280}, KeyAt(-1, 0));
+  };
+  const Recording at_once = Perform([&](DanceStream& s) { messages(s, [] {}); });
+  const Recording slowly = Perform([&](DanceStream& s) {
+    messages(s, [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
+  });
+  ASSERT_TRUE(at_once.summary && slowly.summary);
+  EXPECT_TRUE(SameDance(at_once, slowly));
+}
+
+TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
+  const auto messages = [](DanceStream& s) {
+    s.SetControls(Way(20, 200, 0, 1));
+    s.SetControls(Factor(BodyPart::kLeftArm, 1.5F));
+    s.GenerateUntil(70);
+    s.SetControls(Way(50, 250, 0.5, -1));
+    s.SetKey("a", AtFrame{130}, KeyAt(0.2, 0));
+    s.GenerateUntil(140);
+    s.SetControls(Factor(BodyPart::kLeftLeg, 0));
+    s.SetControls(Way(10, 60, 0, 0));  // too late
+    s.GenerateUntil(200);
+  };
+  const Recording whole = Perform(messages);
+  ASSERT_TRUE(whole.summary) << whole.error->what();
+  ASSERT_GE(whole.continuations.size(), 4u);
+  ASSERT_EQ(whole.warnings.size(), 2u);  // that, and the key off the path
+  for (const Continuation& continuation : whole.continuations) {
+    config_.continuation = continuation;
+    const Recording rest = Perform(messages);
+    ASSERT_TRUE(rest.summary) << rest.error->what();
+    if (continuation.frame == 300) continue;
+    EXPECT_TRUE(SameDance(whole, rest)) << "from frame " << continuation.frame;
+    // What was said of frames that are danced is not said again.
+    EXPECT_EQ(rest.warnings.size(), continuation.frame <= 60    ? 2u
+                                    : continuation.frame <= 130 ? 1u
+                                                                : 0u);
+  }
+}
+
+TEST_F(ControlledDanceTest, APathThatIsOverBeforeItCanHoldIsToldOf) {
+  const Recording dance = Perform([](DanceStream& s) {
+    s.GenerateUntil(100);
+    s.SetControls(Way(10, 90, 0, 1));
+  });
+  ASSERT_EQ(dance.warnings.size(), 1u);
+  EXPECT_EQ(dance.warnings[0].kind, DanceWarning::Kind::kControlsTooLate);
+  EXPECT_THAT(dance.warnings[0].message, HasSubstr("ends at frame 90, and frames before 100"));
+}
+
+TEST_F(ControlledDanceTest, BadControlsLeaveTheDanceAsItIs) {
+  const Recording dance = Perform([](DanceStream& s) {
+    s.SetControls(Factor(BodyPart::kLeftArm, 2));
+    ExpectError(ErrorCode::kInvalidArgument, "controls[1].velocity_factors.factors[0]: -1",
+                [&] { s.SetControls(Factor(BodyPart::kLeftArm, -1)); });
+    s.KeysComplete();
+    ExpectError(ErrorCode::kInvalidArgument, "controls[1]: comes after keyframes_complete",
+                [&] { s.SetControls(Factor(BodyPart::kLeftArm, 1)); });
+  });
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  EXPECT_NEAR(LeftArm(dance.poses.back()), 0.04, 1e-6);
+}
+
+TEST_F(ControlledDanceTest, MovingTheSceneMovesTheDance) {
+  const double heading = 1.2;
+  const Eigen::Vector3d shift(4, 0, -3);
+  std::mt19937 random(4);
+  const std::vector<Pose> history = MotionTo(RandomPose(random), 10, random);
+  ControlRequest path = Way(10, 250, 0, 2);
+  const auto messages = [&](DanceStream& s) { s.SetControls(path); };
+  config_.history = history;
+  const Recording here = Perform(messages);
+  for (Pose& pose : config_.history) pose = Placed(pose, heading, shift);
+  path.root_path->points = (HeadingRotation(heading) * path.root_path->points).colwise() + shift;
+  const Recording there = Perform(messages);
+  ASSERT_TRUE(here.summary && there.summary);
+  for (size_t i = 0; i < here.poses.size(); ++i) {
+    EXPECT_LT(
+        (Placed(here.poses[i], heading, shift).root_position - there.poses[i].root_position).norm(),
+        1e-4);
+  }
+}
+
+/// Keeps what a group says.
+class GroupRecorder : public GroupSink {
+ public:
+  void OnFrames(int, int64_t, std::span<const Pose> poses,
+                std::span<const std::array<float, 4>>) override {
+    std::lock_guard lock(mutex_);
+    recording_.poses.insert(recording_.poses.end(), poses.begin(), poses.end());
+  }
+  void OnWarning(const DanceWarning& warning) override {
+    std::lock_guard lock(mutex_);
+    recording_.warnings.push_back(warning);
+  }
+  void OnDone(std::span<const CandidateReport> ranked) override {
+    std::lock_guard lock(mutex_);
+    recording_.summary = ranked.front().quality;
+    done_.notify_all();
+  }
+  void OnError(const Error& error) override {
+    std::lock_guard lock(mutex_);
+    recording_.error = error;
+    done_.notify_all();
+  }
+  Recording Wait() {
+    std::unique_lock lock(mutex_);
+    done_.wait_for(lock, std::chrono::minutes(1), [&] { return recording_.ended(); });
+    return recording_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable done_;
+  Recording recording_;
+};
+
+TEST_F(ControlledDanceTest, ASingleTransitionIsThatOfTheStream) {
+  const ControlRequest path = Way(0, 200, 0, 1);
+  const Pose key = KeyAt(0.9, 0.2);
+  const Recording dance = Perform(
+      [&](DanceStream& s) {
+        s.SetControls(path);
+        s.SetKey("target", AtFrame{89}, key);
+      },
+      90);
+  GroupRequest request;
+  request.frames = 90;
+  request.target = WorldTarget{key, {}};
+  request.controls = path;
+  auto sink = std::make_shared<GroupRecorder>();
+  const TransitionGroup group(*scheduler_, request, sink);
+  const Recording transition = sink->Wait();
+  ASSERT_TRUE(dance.summary && transition.summary);
+  ASSERT_EQ(transition.poses.size(), dance.poses.size());
+  for (size_t i = 0; i < dance.poses.size(); ++i) {
+    EXPECT_TRUE(SameBits(dance.poses[i], transition.poses[i])) << i;
+  }
+  ASSERT_EQ(transition.warnings.size(), 1u);
+  EXPECT_EQ(transition.warnings[0].message, dance.warnings.at(0).message);
+}
+
+}  // namespace
+}  // namespace choreo
