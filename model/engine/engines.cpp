@@ -16,6 +16,7 @@
 #include "model/engine/flow_engine.h"
 #include "model/engine/packed_flow.h"
 #include "model/engine/packed_kernels.h"
+#include "model/engine/packed_planner.h"
 #include "model/engine/packed_tile.h"
 #include "model/engine/torch_planner.h"
 #include "model/engine/torch_tile.h"
@@ -78,6 +79,12 @@ struct Loaded {
 };
 
 Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind kind) {
+  const c10::InferenceMode inference;
+  // Exact float32 everywhere: bits before speed.
+  at::globalContext().setAllowTF32CuBLAS(false);
+  at::globalContext().setAllowTF32CuDNN(false);
+  at::globalContext().setDeterministicCuDNN(true);
+
   const Safetensors content = ReadSafetensors(path);
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
   FlowModel model = checkpoint.model;
@@ -96,8 +103,13 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
     }
     const PackedKernels& fastest = VerifiedKernels();
     loaded.packed = std::make_shared<PackedFlow>(content, config, model->feature_width(), fastest);
-    model->ForgetFlow();
-    kernels = std::string("packed ") + fastest.name + ", plans by " + kernels;
+    if (PackedPlanner::Serves(config)) {
+      kernels = std::string("packed ") + fastest.name;
+      loaded.planner = std::make_shared<PackedPlanner>(content, config, model->skeleton(), fastest);
+    } else {
+      model->ForgetFlow();
+      kernels = std::string("packed ") + fastest.name + ", plans by " + kernels;
+    }
   } else {
     model->to(there);
     loaded.torch = std::make_shared<TorchWeights>();
@@ -111,7 +123,7 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
     }
     kernels += ", tile " + std::to_string(loaded.torch_rows);
   }
-  loaded.planner = std::make_shared<TorchPlanner>(model, there);
+  if (!loaded.planner) loaded.planner = std::make_shared<TorchPlanner>(model, there);
   loaded.info = {.name = config.preset,
                  .fingerprint = config.preset + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION +
                                 ", " + BuildIdentity() + "/" + kernels,
@@ -124,7 +136,8 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
                  .max_transition_frames = config.max_transition_frames,
                  .default_temperature = config.temperature,
                  .fine_temperature = config.fine_temperature,
-                 .follow = config.follow};
+                 .follow = config.follow,
+                 .velocity_references = {}};
   return loaded;
 }
 
@@ -153,12 +166,6 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
   if (slots < 1 || slots > 4096) {
     throw InvalidArgument("slots", std::to_string(slots) + " is not in [1, 4096]");
   }
-  const c10::InferenceMode inference;
-  // Exact float32 everywhere: bits before speed.
-  at::globalContext().setAllowTF32CuBLAS(false);
-  at::globalContext().setAllowTF32CuDNN(false);
-  at::globalContext().setDeterministicCuDNN(true);
-
   std::map<Device, Loaded> loaded;
   std::vector<std::unique_ptr<StepEngine>> engines;
   for (const Device& device : devices) {
@@ -174,6 +181,11 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
 std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
                                        const Device& device, int slots, EngineKind kind) {
   return std::move(MakeEngines(checkpoint, {&device, 1}, slots, kind).front());
+}
+
+std::shared_ptr<const TransitionPlanner> MakeTransitionPlanner(
+    const std::filesystem::path& checkpoint, const Device& device, EngineKind kind) {
+  return Load(checkpoint, device, kind).planner;
 }
 
 }  // namespace choreo

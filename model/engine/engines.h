@@ -9,6 +9,7 @@
 
 #include "model/engine/devices.h"
 #include "model/engine/step_engine.h"
+#include "model/engine/transition_planner.h"
 
 /// Makes the engines that run the flow model (model/flow). This header is free of torch.
 ///
@@ -17,7 +18,7 @@
 /// row are taken.
 namespace choreo {
 
-/// What steps the flow. The plan at admission is LibTorch's in any case.
+/// What plans transitions and steps the flow.
 enum class EngineKind {
   kAuto,    ///< the faster one: packed on the CPU, else torch
   kTorch,   ///< LibTorch, on any of its devices; the reference that others are held to
@@ -44,5 +45,10 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
 std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
                                        const Device& device, int slots,
                                        EngineKind kind = EngineKind::kAuto);
+
+/// What such an engine plans with, by itself. The same errors.
+std::shared_ptr<const TransitionPlanner> MakeTransitionPlanner(
+    const std::filesystem::path& checkpoint, const Device& device,
+    EngineKind kind = EngineKind::kAuto);
 
 }  // namespace choreo

@@ -5,47 +5,15 @@
 #include <string>
 
 #include "model/core/error.h"
+#include "model/engine/packed_tensors.h"
 
 namespace choreo {
 namespace {
 
 using Matrix = RowMajorMatrix;
 
-class Tensors {
- public:
-  explicit Tensors(const Safetensors& content) : content_(content) {}
-
-  Eigen::Map<const Matrix> Get(const std::string& name, long rows, long columns) const {
-    const std::vector<float>& data = Find(name, {rows, columns}).data;
-    return {data.data(), rows, columns};
-  }
-  Eigen::Map<const Eigen::VectorXf> Get(const std::string& name, long size) const {
-    return {Find(name, {size}).data.data(), size};
-  }
-
- private:
-  const NamedTensor& Find(const std::string& name, const std::vector<int64_t>& shape) const {
-    const auto found = content_.tensors.find(name);
-    if (found == content_.tensors.end()) {
-      throw InvalidArgument(name, "the file has no such tensor");
-    }
-    if (found->second.shape != shape) {
-      throw InvalidArgument(name, "its shape does not fit the configuration");
-    }
-    return found->second;
-  }
-  const Safetensors& content_;
-};
-
-// LibTorch's linear layers hold [out, in].
-PackedLinear Linear(const PackedKernels& kernels, const Tensors& tensors, const std::string& name,
-                    long in, long out) {
-  return {kernels, tensors.Get(name + ".weight", out, in).transpose(),
-          tensors.Get(name + ".bias", out)};
-}
-
 // Rows of [in] and [hidden] on top of each other, biases summed: one product a layer.
-PackedLinear LstmLayer(const PackedKernels& kernels, const Tensors& tensors,
+PackedLinear LstmLayer(const PackedKernels& kernels, const PackedTensors& tensors,
                        const std::string& name, const std::string& layer, long in, long hidden) {
   Matrix weight(in + hidden, 4 * hidden);
   weight << tensors.Get(name + ".weight_ih_" + layer, 4 * hidden, in).transpose(),
@@ -56,8 +24,8 @@ PackedLinear LstmLayer(const PackedKernels& kernels, const Tensors& tensors,
 }
 
 // Inverse of y = (x + bias) exp(log_scale) W^T.
-PackedLinear Unmix(const PackedKernels& kernels, const Tensors& tensors, const std::string& name,
-                   long width) {
+PackedLinear Unmix(const PackedKernels& kernels, const PackedTensors& tensors,
+                   const std::string& name, long width) {
   const auto square = [&](const char* part) -> Eigen::MatrixXd {
     return tensors.Get(name + part, width, width).cast<double>();
   };
@@ -101,7 +69,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
       encoded(config.condition_width > 0),
       live(tau * width + (tau + 1) * audio_features + 1),
       condition(encoded ? config.condition_width : live) {
-  const Tensors tensors(content);
+  const PackedTensors tensors(content);
   feature_mean = tensors.Get("feature_mean", width);
   feature_std = tensors.Get("feature_std", width);
   feature_scale = feature_std.cwiseInverse();
@@ -118,14 +86,13 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
     encoding_bias_ =
         tensors.Get("encode_past.bias", condition) + tensors.Get("encode_audio.bias", condition);
     encode_live = PackedLinear(kernels, weight, Eigen::VectorXf::Zero(condition));
-    encode = Linear(kernels, tensors, "encode", condition, condition);
+    encode = tensors.Linear(kernels, "encode", condition, condition);
   } else {
-    const auto found = content.tensors.find("flow.steps.0." + first_weight);
-    if (found == content.tensors.end() || found->second.shape.size() != 2 ||
-        found->second.shape[1] < low() + live) {
+    const long columns = tensors.Columns("flow.steps.0." + first_weight);
+    if (columns < low() + live) {
       throw InvalidArgument("flow.steps.0." + first_weight, "is missing, or has too few columns");
     }
-    static_width = static_cast<int>(found->second.shape[1]) - low() - live;
+    static_width = static_cast<int>(columns) - low() - live;
   }
 
   double log_det_sum = 0;
@@ -147,11 +114,11 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
       coupling.second = LstmLayer(kernels, tensors, network + "lstm", "l1", hidden, hidden);
     } else {
       bias = tensors.Get(network + "first.bias", first_width());
-      coupling.second = Linear(kernels, tensors, network + "second", hidden, hidden);
+      coupling.second = tensors.Linear(kernels, network + "second", hidden, hidden);
     }
     coupling.first = PackedLinear(kernels, parts.live_and_low, bias);
     if (!encoded) hoisted_.emplace_back(kernels, parts.fixed, bias);
-    coupling.last = Linear(kernels, tensors, network + "last", hidden, 2 * high());
+    coupling.last = tensors.Linear(kernels, network + "last", hidden, 2 * high());
     coupling.unmix = Unmix(kernels, tensors, name, width);
     log_det_sum += tensors.Get(name + "norm_log_scale", width).cast<double>().sum() +
                    tensors.Get(name + "log_diagonal", width).cast<double>().sum();

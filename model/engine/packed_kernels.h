@@ -15,7 +15,7 @@ struct PackedProduct {
   const float* b = nullptr;
   long depth = 0, panels = 0;
   const float* init = nullptr;  ///< [rows, panels * panel]; may be `c`
-  long init_stride = 0;         ///< 0: one row for all (a bias)
+  long init_stride = 0;         ///< 0: one row for all (a bias); -1: diagonals have one value
   float* c = nullptr;
   long c_stride = 0;
   long rows = 0;
@@ -45,6 +45,14 @@ struct PackedKernels {
   /// out = (x bent softly towards bound + 1 beyond the bound) * scale + mean
   void (*bend)(const float* x, const float* mean, const float* scale, long width, float bound,
                float* out);
+  /// A distribution of a row of logits, in place.
+  void (*softmax)(float* x, long count);
+  /// out = (x - its mean) / its standard deviation * gain + bias, all [width]
+  void (*layer_norm)(const float* x, const float* gain, const float* bias, long width, float* out);
+  /// x = x times the normal distribution's share below x
+  void (*gelu)(float* x, long count);
+  /// x = log(1 + exp(x))
+  void (*softplus)(float* x, long count);
 };
 
 /// What this machine can run, fastest first; never empty.

@@ -94,76 +94,7 @@ void Multiply(const PackedProduct& p) {
   }
 }
 
-// From here on scalars: compilers make vectors of these loops. Selections are written as minima and
-// maxima are computed, a < b ? a : b.
-
-inline float Clamp(float x, float least, float most) {
-  const float above = x < least ? least : x;
-  return above > most ? most : above;
-}
-
-// exp(x) to 2 ulp; x is kept within [-87, 87].
-inline float Exp(float x) {
-  const float bounded = Clamp(x, -87.0F, 87.0F);
-  constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: what is added to it is rounded to a whole
-  const float rounded = bounded * 1.44269504F + kRounder;
-  const float n = rounded - kRounder;
-  const float r = (bounded - n * 0.693359375F) + n * 2.12194440e-4F;
-  const float series =
-      1.0F +
-      r * (1.0F +
-           r * (0.5F + r * (1.6666665e-1F +
-                            r * (4.1665796e-2F +
-                                 r * (8.3334519e-3F + r * (1.3981999e-3F + r * 1.9875691e-4F))))));
-  return series * __builtin_bit_cast(float, (__builtin_bit_cast(int, rounded) << 23) + (127 << 23));
-}
-
-inline float Sigmoid(float x) { return 1.0F / (1.0F + Exp(-x)); }
-inline float Tanh(float x) { return 1.0F - 2.0F / (1.0F + Exp(2.0F * x)); }
-
-void Silu(float* __restrict x, long count) {
-  for (long i = 0; i < count; ++i) x[i] *= Sigmoid(x[i]);
-}
-
-void Lstm(const float* __restrict gates, float* __restrict hidden, float* __restrict cell,
-          long width) {
-  for (long i = 0; i < width; ++i) {
-    const float next =
-        Sigmoid(gates[width + i]) * cell[i] + Sigmoid(gates[i]) * Tanh(gates[2 * width + i]);
-    cell[i] = next;
-    hidden[i] = Sigmoid(gates[3 * width + i]) * Tanh(next);
-  }
-}
-
-double Coupling(const PackedCoupling& coupling) {
-  const float* __restrict ab = coupling.ab;
-  float* __restrict high = coupling.high;
-  double product = 1;
-  for (long i = 0; i < coupling.width; ++i) {
-    const float delta =
-        coupling.delta_floor +
-        (1.0F - coupling.delta_floor) * Sigmoid(ab[coupling.width + i] + coupling.delta_bias);
-    high[i] = (high[i] - (1.0F - delta) * ab[i]) / delta;
-    product *= delta;
-  }
-  return product;
-}
-
-void Standardise(const float* __restrict x, const float* __restrict mean,
-                 const float* __restrict scale, long width, long repeats, float bound,
-                 float* __restrict out) {
-  for (long repeat = 0; repeat < repeats; ++repeat, x += width, out += width) {
-    for (long i = 0; i < width; ++i) out[i] = Clamp((x[i] - mean[i]) * scale[i], -bound, bound);
-  }
-}
-
-void Bend(const float* __restrict x, const float* __restrict mean, const float* __restrict scale,
-          long width, float bound, float* __restrict out) {
-  for (long i = 0; i < width; ++i) {
-    const float inside = Clamp(x[i], -bound, bound);
-    out[i] = (inside + Tanh(x[i] - inside)) * scale[i] + mean[i];
-  }
-}
+#include "model/engine/packed_rows_of_one_cpu.h"
 
 }  // namespace
 
@@ -174,6 +105,10 @@ const PackedKernels CHOREO_KERNELS = {.name = CHOREO_KERNELS_NAME,
                                       .lstm = Lstm,
                                       .coupling = Coupling,
                                       .standardise = Standardise,
-                                      .bend = Bend};
+                                      .bend = Bend,
+                                      .softmax = Softmax,
+                                      .layer_norm = LayerNorm,
+                                      .gelu = Gelu,
+                                      .softplus = Softplus};
 
 }  // namespace choreo

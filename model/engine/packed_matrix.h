@@ -27,6 +27,41 @@ class LargePages {
   std::unique_ptr<float, Free> data_;
 };
 
+/// Rows of floats that keep their memory: what is no larger than what was there before allocates
+/// nothing.
+class RowBuffer {
+ public:
+  /// Afterwards nothing in it has a meaning.
+  void Resize(long rows, long width) {
+    stride_ = width;
+    if (rows * width <= size_) return;
+    size_ = rows * width;
+    pages_ = LargePages(static_cast<size_t>(size_));
+  }
+  long stride() const { return stride_; }
+  float* Row(long row) { return pages_.data() + row * stride_; }
+  const float* Row(long row) const { return pages_.data() + row * stride_; }
+  /// `count` floats of a row from `first` on.
+  Eigen::Map<Eigen::RowVectorXf> Part(long row, long first, long count) {
+    return {Row(row) + first, count};
+  }
+  Eigen::Map<const Eigen::RowVectorXf> Part(long row, long first, long count) const {
+    return {Row(row) + first, count};
+  }
+  template <int kCount>
+  Eigen::Map<Eigen::Matrix<float, 1, kCount>> Part(long row, long first) {
+    return Eigen::Map<Eigen::Matrix<float, 1, kCount>>(Row(row) + first);
+  }
+  template <int kCount>
+  Eigen::Map<const Eigen::Matrix<float, 1, kCount>> Part(long row, long first) const {
+    return Eigen::Map<const Eigen::Matrix<float, 1, kCount>>(Row(row) + first);
+  }
+
+ private:
+  LargePages pages_;
+  long size_ = 0, stride_ = 0;
+};
+
 /// A linear map x W + bias, laid out for PackedKernels::multiply. Read only: engines share it.
 class PackedLinear {
  public:
@@ -43,6 +78,8 @@ class PackedLinear {
   void Run(const float* x, long x_stride, float* y, long y_stride, long rows) const {
     Multiply(x, x_stride, bias_.data(), 0, y, y_stride, rows);
   }
+  /// y += bias + x W
+  void Accumulate(const float* x, long x_stride, float* y, long y_stride, long rows) const;
   /// y += x W, without the bias
   void Add(const float* x, long x_stride, float* y, long y_stride, long rows) const {
     Multiply(x, x_stride, y, y_stride, y, y_stride, rows);

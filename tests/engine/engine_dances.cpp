@@ -24,6 +24,8 @@ std::string ShapeName(Shape shape) {
   switch (shape) {
     case Shape::kPlannerAndPerceptron:
       return "Planner";
+    case Shape::kPlannerOnCondition:
+      return "PlannerOnCondition";
     case Shape::kPerceptronOnCondition:
       return "Perceptron";
     case Shape::kRecurrent:
@@ -45,7 +47,7 @@ FlowConfig SmallConfig(Shape shape) {
   if (shape == Shape::kPlannerAndPerceptron || shape == Shape::kEncodedRecurrent) {
     config.condition_width = 20;
   }
-  if (shape == Shape::kPlannerAndPerceptron) {
+  if (shape == Shape::kPlannerAndPerceptron || shape == Shape::kPlannerOnCondition) {
     config.planner = {.width = 16, .layers = 1, .heads = 2, .variety = 3};
     config.fine_temperature = 0.3;
     config.follow = 0.6;

@@ -17,6 +17,7 @@ namespace choreo {
 /// Every combination of parts that the flow has.
 enum class Shape {
   kPlannerAndPerceptron,  ///< as preset `default`
+  kPlannerOnCondition,
   kPerceptronOnCondition,
   kRecurrent,         ///< as preset `paper`
   kEncodedRecurrent,  ///< as preset `ablation`
