@@ -31,6 +31,8 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
   }
 }
 
+bool AreAsked(const Controls& controls) { return controls.root_path || controls.velocity_factors; }
+
 v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   v1::GenerateTransitionRequest out;
   DanceConfig config = request.config;
@@ -59,9 +61,7 @@ v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   }
   for (const Pose& pose : request.after) *out.add_after() = ToProto(pose);
   out.set_candidates(static_cast<uint32_t>(request.candidates));
-  if (request.controls.root_path || request.controls.velocity_factors) {
-    *out.mutable_controls() = ToProto(request.controls);
-  }
+  if (AreAsked(config.controls)) *out.mutable_controls() = ToProto(config.controls);
   return out;
 }
 
@@ -214,8 +214,10 @@ bool Client::IsServing() const {
 }
 
 std::unique_ptr<RemoteDance> Client::StartDance(const DanceConfig& config) const {
-  return std::unique_ptr<RemoteDance>(
+  std::unique_ptr<RemoteDance> dance(
       new RemoteDance(std::make_unique<RemoteDance::Impl>(impl_->replicas, config)));
+  if (AreAsked(config.controls)) dance->SendControls(config.controls);
+  return dance;
 }
 
 DanceResult Client::Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,

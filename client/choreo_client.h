@@ -15,6 +15,7 @@
 #include "model/core/error.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
+#include "model/motion/velocity_factors.h"
 
 /// The client of a choreod, in plain C++: no protobuf or gRPC type appears here.
 ///
@@ -57,7 +58,14 @@ struct ModelDescription {
   int history_frames = 0;  ///< frames of the past that it looks at
   double default_temperature = 0;
   std::vector<std::string> controls = {};  ///< "root_path", "velocity_factors"
-  double audio_lead_s = 0;                 ///< music that a transition wants before its first frame
+  /// How lively its dancers usually are: what multipliers refer to; the first is the default.
+  struct VelocityReference {
+    std::string name = {};
+    std::vector<double> speeds = {};  ///< metres a frame, in the order of kBodyPartNames
+  };
+  std::vector<VelocityReference> velocity_references = {};
+  bool hears_music = true;        ///< false: it refuses audio
+  double audio_lead_s = 0;        ///< music that a transition wants before its first frame
   int latency_frames = 0;         ///< how far the music must be ahead of the frame that is made
   int max_transition_frames = 0;  ///< of one transition; the server's own limit is in it already
 };
@@ -120,6 +128,28 @@ struct Continuation {
   std::string bytes = {};  ///< the whole, serialised
 };
 
+/// Wishes beside key poses and music, for models that know them (ModelDescription::controls).
+struct Controls {
+  /// Where the root goes: points in time, at least 2, metres, in the world; frames are the model's.
+  /// One in each frame, or few, which a smooth curve leads through. Keys win over it.
+  struct RootPath {
+    std::vector<int64_t> frames = {};          ///< ascending
+    std::vector<Eigen::Vector2d> points = {};  ///< (x, z) at each
+    std::vector<double> heights = {};          ///< of the root, at each; empty: as the model likes
+  };
+  /// How lively parts of the body are. Either factors or speeds.
+  struct VelocityFactors {
+    std::vector<int64_t> frames = {};  ///< of each row, ascending; empty: one row, for always
+    std::vector<std::string> parts =
+        {};                            ///< of each column, of kBodyPartNames; empty: one, for all
+    std::vector<double> factors = {};  ///< [rows, columns] multipliers of the reference, 0 to 10
+    std::vector<double> speeds = {};   ///< [rows, columns] metres a frame, 0 to 0.5
+    std::string reference = {};        ///< empty: the model's first
+  };
+  std::optional<RootPath> root_path = {};
+  std::optional<VelocityFactors> velocity_factors = {};
+};
+
 /// What a dance is made with.
 struct DanceConfig {
   std::string model = {};  ///< empty: the server's first
@@ -138,23 +168,7 @@ struct DanceConfig {
   /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and knows
   /// none in a kPcmFloat, which is then danced otherwise.
   std::vector<double> music_beats = {};
-};
-
-/// Wishes beside key poses and music, for models that know them.
-struct Controls {
-  /// Where the root goes: a smooth curve through (x, z) at these frames.
-  struct RootPath {
-    std::vector<int64_t> frames = {};
-    std::vector<Eigen::Vector2d> points = {};
-  };
-  /// Multipliers of a reference's speed at these frames, 0.1 to 10.
-  struct VelocityFactors {
-    std::vector<int64_t> frames = {};
-    std::vector<double> factors = {};
-    std::string reference = {};  ///< empty: the model's median profile
-  };
-  std::optional<RootPath> root_path = {};
-  std::optional<VelocityFactors> velocity_factors = {};
+  Controls controls = {};  ///< from the first frame on
 };
 
 /// What the frames mean. The first answer.
@@ -254,6 +268,9 @@ class RemoteDance {
   void EndAudio();
   void SendKey(const KeyPose& key);
   void RemoveKey(const std::string& id);
+  /// Each replaces the earlier one of its kind (velocity factors: of the parts named) from the
+  /// first frame that is not frozen: that of the last GenerateUntil or, without, the one behind the
+  /// last key. Not after CompleteKeys.
   void SendControls(const Controls& controls);
   /// Frames before `frame` are final; later keys may still change.
   void GenerateUntil(int64_t frame);
@@ -296,7 +313,6 @@ struct TransitionRequest {
       0;  ///< number of its first sample, counted from the start of the music
   std::vector<Pose> after = {};  ///< frames to lead into, at most 60
   int candidates = 1;            ///< 1 to 32
-  Controls controls = {};
 };
 
 struct TransitionCandidate {

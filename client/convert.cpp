@@ -64,23 +64,42 @@ v1::Keyframe ToProto(const KeyPose& key) {
   return out;
 }
 
+namespace {
+
+v1::RootPath ToProto(const Controls::RootPath& path) {
+  v1::RootPath out;
+  out.mutable_frames()->Add(path.frames.begin(), path.frames.end());
+  for (const Eigen::Vector2d& point : path.points) {
+    for (const double value : point) out.add_points(static_cast<float>(value));
+  }
+  for (const double height : path.heights) out.add_heights(static_cast<float>(height));
+  return out;
+}
+
+v1::VelocityFactors ToProto(const Controls::VelocityFactors& velocity) {
+  v1::VelocityFactors out;
+  out.mutable_frames()->Add(velocity.frames.begin(), velocity.frames.end());
+  for (const double factor : velocity.factors) out.add_factors(static_cast<float>(factor));
+  for (const double speed : velocity.speeds) out.add_speeds(static_cast<float>(speed));
+  out.set_reference(velocity.reference);
+  for (const std::string& name : velocity.parts) {
+    const std::optional<BodyPart> part = FindBodyPart(name);
+    if (!part) {
+      throw InvalidArgument("velocity_factors.parts",
+                            '"' + name + "\" is none of " + BodyPartNames());
+    }
+    out.add_parts(static_cast<v1::BodyPart>(v1::BODY_PART_TRUNK + static_cast<int>(*part)));
+  }
+  return out;
+}
+
+}  // namespace
+
 v1::Controls ToProto(const Controls& controls) {
   v1::Controls out;
-  if (controls.root_path) {
-    for (const int64_t frame : controls.root_path->frames)
-      out.mutable_root_path()->add_frames(frame);
-    for (const Eigen::Vector2d& point : controls.root_path->points) {
-      out.mutable_root_path()->add_points(static_cast<float>(point.x()));
-      out.mutable_root_path()->add_points(static_cast<float>(point.y()));
-    }
-  }
+  if (controls.root_path) *out.mutable_root_path() = ToProto(*controls.root_path);
   if (controls.velocity_factors) {
-    auto* factors = out.mutable_velocity_factors();
-    for (const int64_t frame : controls.velocity_factors->frames) factors->add_frames(frame);
-    for (const double factor : controls.velocity_factors->factors) {
-      factors->add_factors(static_cast<float>(factor));
-    }
-    factors->set_reference(controls.velocity_factors->reference);
+    *out.mutable_velocity_factors() = ToProto(*controls.velocity_factors);
   }
   return out;
 }
@@ -222,6 +241,12 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
       if (control == v1::CONTROL_ROOT_PATH) added.controls.emplace_back("root_path");
       if (control == v1::CONTROL_VELOCITY_FACTORS) added.controls.emplace_back("velocity_factors");
     }
+    for (const v1::VelocityReference& reference : model.velocity_references()) {
+      if (reference.speeds_size() != kBodyParts) throw Broken("a velocity reference of odd length");
+      added.velocity_references.push_back(
+          {reference.name(), {reference.speeds().begin(), reference.speeds().end()}});
+    }
+    added.hears_music = !model.deaf();
     added.audio_lead_s = model.audio_lead_s();
     added.latency_frames = model.latency_frames();
     // Servers before 0.2 do not tell their models' limits.

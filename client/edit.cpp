@@ -113,6 +113,7 @@ class Edit {
     request.config.seed = options_.seed;
     request.config.temperature = options_.temperature;
     request.config.music_beats = options_.music_beats;
+    request.config.controls = options_.controls;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
     SetMusic(options_.audio, options_.model, first, &request);
     return request;
@@ -163,7 +164,7 @@ void CheckKeyEdit(int64_t frame, int64_t from, int64_t to, int64_t frames) {
 
 void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
               TransitionRequest* request) {
-  if (song.format.kind == AudioKind::kNone) return;
+  if (song.format.kind == AudioKind::kNone || !model.hears_music) return;
   if (song.format.kind == AudioKind::kFile) {
     throw InvalidArgument("audio", "is a file; only samples can be cut");
   }

@@ -27,6 +27,7 @@ struct EditOptions {
   std::optional<double> temperature = {};  ///< 0 to 2
   Audio audio = {};                        ///< the song from its start, kPcmFloat; or none
   std::vector<double> music_beats = {};    ///< as DanceConfig::music_beats
+  Controls controls = {};                  ///< of the new frames
 };
 
 /// A key pose set into a dance: the frames between `from` and `to`, both exclusive, change.
@@ -49,8 +50,8 @@ struct EditedDance {
 };
 
 /// Gives a transition as much of a song as its frames hear, of which `first` is the first: a
-/// message has a limit, a song has none. `song`: as EditOptions::audio. Throws
-/// Error(kInvalidArgument) whose field is "audio".
+/// message has a limit, a song has none. A model that hears no music gets none. `song`: as
+/// EditOptions::audio. Throws Error(kInvalidArgument) whose field is "audio".
 void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
               TransitionRequest* request);
 

@@ -9,6 +9,7 @@
 #include "model/core/error.h"
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
+#include "server/read_controls.h"
 #include "server/read_pose.h"
 
 namespace choreo {
@@ -229,7 +230,7 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   }
   ValidateHistory(model.skeleton, after, "after");
   if (!after.empty()) request.after = after.front();
-  if (message.has_controls()) CheckControls(message.controls(), model, "controls");
+  if (message.has_controls()) request.controls = ToControls(message.controls(), "controls");
 
   if (message.config().has_audio_format()) {
     const v1::AudioFormat& format = message.config().audio_format();
@@ -275,16 +276,6 @@ std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& fo
     }
   }
   return samples;
-}
-
-void CheckControls(const v1::Controls& controls, const ModelInfo& model, const std::string& field) {
-  const std::string message = "the model \"" + model.name + "\" does not have this control";
-  if (controls.has_root_path()) {
-    throw Error(ErrorCode::kUnimplemented, field + ".root_path", message);
-  }
-  if (controls.has_velocity_factors()) {
-    throw Error(ErrorCode::kUnimplemented, field + ".velocity_factors", message);
-  }
 }
 
 }  // namespace choreo

@@ -33,7 +33,4 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const 
 std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,
                              const std::string& field);
 
-/// Throws Error(kUnimplemented) naming the first control: no model has any yet.
-void CheckControls(const v1::Controls& controls, const ModelInfo& model, const std::string& field);
-
 }  // namespace choreo

@@ -12,6 +12,7 @@
 #include "model/dance/dance_stream.h"
 #include "server/call_session.h"
 #include "server/music_file.h"
+#include "server/read_controls.h"
 #include "server/read_pose.h"
 #include "server/read_request.h"
 #include "server/write_response.h"
@@ -108,7 +109,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
       case Request::kRemoveKeyframe:
         return stream->RemoveKey(request.remove_keyframe().id());
       case Request::kControls:
-        return CheckControls(request.controls(), scheduler_->model(), "controls");
+        return TakeControls(*stream, request.controls());
       case Request::kGenerateUntil:
         return stream->GenerateUntil(request.generate_until().frame());
       case Request::kKeyframesComplete:
@@ -180,6 +181,11 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     ++keyframes_;
   }
 
+  void TakeControls(DanceStream& stream, const v1::Controls& controls) {
+    stream.SetControls(ToControls(controls, "controls[" + std::to_string(controls_) + ']'));
+    ++controls_;
+  }
+
   // Those in [from, to) seconds: just danced.
   void SendBeats(double from, double to) {
     for (; next_beat_ < beats_.size() && beats_[next_beat_] < to; ++next_beat_) {
@@ -203,6 +209,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
 
   // Of the messages.
   int keyframes_ = 0;
+  int controls_ = 0;
   MusicFile file_;
   bool file_decoded_ = false;
 

@@ -17,6 +17,22 @@ void FillErrors(const ArrivalResult& arrival, v1::KeyframeErrors* out) {
   out->set_correction_m(arrival.correction_m);
 }
 
+v1::WarningCode ToCode(DanceWarning::Kind kind) {
+  switch (kind) {
+    case DanceWarning::Kind::kIntervalTooShort:
+      return v1::WARNING_CODE_INTERVAL_TOO_SHORT;
+    case DanceWarning::Kind::kInexactResume:
+      return v1::WARNING_CODE_INEXACT_RESUME;
+    case DanceWarning::Kind::kPathTooFast:
+      return v1::WARNING_CODE_PATH_TOO_FAST;
+    case DanceWarning::Kind::kKeyOffPath:
+      return v1::WARNING_CODE_KEY_OFF_PATH;
+    case DanceWarning::Kind::kControlsTooLate:
+      return v1::WARNING_CODE_CONTROLS_TOO_LATE;
+  }
+  return v1::WARNING_CODE_UNSPECIFIED;
+}
+
 }  // namespace
 
 void FromSkeleton(const Skeleton& skeleton, v1::Skeleton* out) {
@@ -108,9 +124,7 @@ void FromEvent(const DanceEvent& event, double fps, v1::Event* out) {
     rejected->set_reason(rejection->reason);
   } else if (const auto* warning = std::get_if<DanceWarning>(&event)) {
     out->set_frame(warning->frame);
-    out->mutable_warning()->set_code(warning->kind == DanceWarning::Kind::kIntervalTooShort
-                                         ? v1::WARNING_CODE_INTERVAL_TOO_SHORT
-                                         : v1::WARNING_CODE_INEXACT_RESUME);
+    out->mutable_warning()->set_code(ToCode(warning->kind));
     out->mutable_warning()->set_message(warning->message);
   }
   out->set_time(static_cast<double>(out->frame()) / fps);
@@ -126,6 +140,15 @@ void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
   out->set_history_frames(model.history_frames);
   out->set_default_temperature(model.default_temperature);
   out->set_max_transition_frames(std::min(model.max_transition_frames, kMaxTransitionFrames));
+  if (model.root_path) out->add_controls(v1::CONTROL_ROOT_PATH);
+  if (model.velocity_factors) out->add_controls(v1::CONTROL_VELOCITY_FACTORS);
+  for (const VelocityReference& reference : model.velocity_references) {
+    v1::VelocityReference* added = out->add_velocity_references();
+    added->set_name(reference.name);
+    added->mutable_speeds()->Add(reference.factors.begin(), reference.factors.end());
+  }
+  out->set_deaf(!HearsMusic(model));
+  if (out->deaf()) return;
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;
   out->set_audio_lead_s(static_cast<double>(kSomeFrame) / model.fps -

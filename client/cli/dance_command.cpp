@@ -8,6 +8,7 @@
 #include "client/cli/choreography.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
+#include "client/cli/control_options.h"
 #include "client/cli/dance_keys.h"
 #include "client/cli/interruption.h"
 #include "client/cli/key_file.h"
@@ -30,6 +31,7 @@ struct DanceOptions {
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   double fps = 0;
+  ControlOptions controls;
   std::string model;
   std::string out;
   std::string report;
@@ -37,14 +39,14 @@ struct DanceOptions {
 };
 
 std::filesystem::path OutputPath(const DanceOptions& options) {
-  const std::filesystem::path path =
-      options.out.empty() ? std::filesystem::path(options.song).replace_extension(".npz")
-                          : std::filesystem::path(options.out);
+  std::filesystem::path path = options.out;
+  if (path.empty()) path = std::filesystem::path(options.song).replace_extension(".npz");
+  if (path == ".npz") path = "dance.npz";
   // Better now than after the dance.
   RequireMotionFile(path);
   if (options.no_clobber && std::filesystem::exists(path))
     throw InvalidArgument("--no-clobber", path.string() + " is there already");
-  std::vector<NamedFile> inputs = {{"song", options.song}};
+  std::vector<NamedFile> inputs = {{"song", options.song}, {"--path", options.controls.path}};
   for (const std::string& keys : options.keys) inputs.push_back({"--keyframes", FileOf(keys)});
   RequireOutputs({{"--out", path}, {"--report", options.report}}, inputs);
   return path;
@@ -54,6 +56,18 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
 std::filesystem::path PartialPath(const std::filesystem::path& out) {
   std::filesystem::path path = out;
   return path.replace_filename(out.stem().string() + ".partial" + out.extension().string());
+}
+
+/// Without a song: as long as the path and the keys need.
+double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& controls,
+                           const client::ModelDescription& model) {
+  if (options.seconds) return *options.seconds;
+  int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
+  for (const std::string& source : options.keys) {
+    for (const client::KeyPose& key : ReadKeys(source, model.skeleton))
+      last = std::max(last, FrameOf(key, model.fps));
+  }
+  return static_cast<double>(last + 1) / model.fps;
 }
 
 double ChooseSeconds(const DanceOptions& options, const Music& music) {
@@ -68,15 +82,19 @@ double ChooseSeconds(const DanceOptions& options, const Music& music) {
   return std::min(*options.seconds, song);
 }
 
-DanceKeys ChooseKeys(const DanceOptions& options, const Music& music, double seconds,
+DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& music, double seconds,
                      const DanceLength& length, const Skeleton& skeleton) {
   if (!options.keys.empty()) return ReadDanceKeys(options.keys, length, skeleton);
   DanceKeys keys;
-  keys.poses = ComposeKeys(
-      {.seconds = seconds, .beats = music.track.Seconds(), .seed = options.seed.value_or(0)},
-      PoseLibrary(skeleton));
-  for (size_t i = 0; i < keys.poses.size(); ++i)
+  keys.poses = ComposeKeys({.seconds = seconds,
+                            .beats = music ? music->track.Seconds() : std::vector<double>(),
+                            .seed = options.seed.value_or(0)},
+                           PoseLibrary(skeleton));
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
+    // Where the dancer is then, the path says.
+    if (!options.controls.path.empty()) keys.poses[i].mask.root_position = false;
+  }
   return keys;
 }
 
@@ -115,7 +133,7 @@ class Display {
 /// Dances. What came of a dance that was cut off, or interrupted, is written, too.
 client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
                           const DanceKeys& keys, const client::Audio& audio, double model_fps,
-                          const std::filesystem::path& out) {
+                          const DanceOptions& options, const std::filesystem::path& out) {
   client::DanceResult dance;
   Display display(*config.frames, model_fps);
   const Interruption interruption;
@@ -137,19 +155,28 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
               << partial.string() << '\n';
       std::cerr << message.str();
     }
-    throw InTermsOf(keys, error);
+    throw InTermsOf(keys, options.controls.InTermsOf(error));
   }
   return dance;
 }
 
 void Run(const DanceOptions& options) {
   const std::filesystem::path out = OutputPath(options);
-  const Music music =
-      ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()));
-  const double seconds = ChooseSeconds(options, music);
+  std::optional<Music> music;
+  if (!options.song.empty()) {
+    music =
+        ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()));
+  }
 
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
+  const client::Controls controls = options.controls.Read(model.fps);
+  const double seconds =
+      music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
+  if (music && !model.hears_music) {
+    std::cerr << "note: the model \"" << model.name
+              << "\" hears no music; the song gives the dance its length and its beats\n";
+  }
   const DanceLength length{std::llround(seconds * model.fps), model.fps};
   const DanceKeys keys = ChooseKeys(options, music, seconds, length, model.skeleton);
 
@@ -159,9 +186,12 @@ void Run(const DanceOptions& options) {
   config.seed = options.seed.value_or(0);
   config.temperature = options.temperature;
   config.frames = length.frames;
-  config.music_beats = BeatsBefore(music, seconds);
+  config.controls = controls;
+  if (music) config.music_beats = BeatsBefore(*music, seconds);
+  const client::Audio audio =
+      music && model.hears_music ? AudioFor(music->audio, seconds) : client::Audio{};
   const client::DanceResult dance =
-      Dance(connection.client(), config, keys, AudioFor(music.audio, seconds), model.fps, out);
+      Dance(connection.client(), config, keys, audio, model.fps, options, out);
 
   WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
@@ -180,8 +210,9 @@ void AddDanceCommand(CLI::App& program) {
                              "Dance to a song, through key poses, and write the motion.\n"
                              "Alone, as in `choreo dance song.ogg`, it takes key poses of the "
                              "library that ships, on beats of the music.");
-  command->add_option("song", options->song, "WAV, FLAC, Ogg or MP3 file.")
-      ->required()
+  command
+      ->add_option("song", options->song,
+                   "WAV, FLAC, Ogg or MP3 file. Without one the dance is silent.")
       ->check(CLI::ExistingFile);
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses: a JSON key file, or poses of a motion file, as in "
@@ -191,7 +222,7 @@ void AddDanceCommand(CLI::App& program) {
   command
       ->add_option("-s,--seconds", options->seconds,
                    "Length of the dance, which ends with the song at the latest; default: the "
-                   "song's.")
+                   "song's, or else up to the last key pose and point of the path.")
       ->check(AboveZero());
   AddSeed(*command, options->seed, "Same seed, same dance. Default: 0.");
   command->add_option("--temperature", options->temperature,
@@ -200,18 +231,25 @@ void AddDanceCommand(CLI::App& program) {
       ->add_option("--fps", options->fps,
                    "Frames a second that are written, 1 to 120; default: the model's.")
       ->check(NumberFrom(1, 120));
+  options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model,
                       "Model of the server to dance with; default: its first.");
   command->add_option("-o,--out", options->out,
-                      "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song. A file "
-                      "that is there is replaced.");
+                      "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song, or "
+                      "dance.npz. A file that is there is replaced.");
   command->add_option("--report", options->report, "JSON file to write the report to.");
   command->add_flag("--no-clobber", options->no_clobber, "Replace no motion file that is there.");
   command->add_flag(
       "--allow-inexact-resume", options->server.allow_inexact_resume,
       "If the server is lost and only one of another model or build is left, go on with that.");
   options->server.AddTo(*command);
-  command->callback([options] { Run(*options); });
+  command->callback([options] {
+    if (options->song.empty() && !options->seconds && options->keys.empty() &&
+        options->controls.path.empty()) {
+      throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");
+    }
+    Run(*options);
+  });
 }
 
 }  // namespace choreo::cli

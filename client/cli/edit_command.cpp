@@ -8,6 +8,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
+#include "client/cli/control_options.h"
 #include "client/cli/key_file.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
@@ -37,6 +38,7 @@ struct EditOptions {
   std::string new_report;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  ControlOptions controls;
   std::string model;
   std::string out;
 };
@@ -53,8 +55,10 @@ void CheckOptions(const EditOptions& options) {
                                       " keys; each --key needs one");
   }
   RequireMotionFile(options.out);
-  std::vector<NamedFile> inputs = {
-      {"dance", options.dance}, {"--report", options.report}, {"--song", options.song}};
+  std::vector<NamedFile> inputs = {{"dance", options.dance},
+                                   {"--report", options.report},
+                                   {"--song", options.song},
+                                   {"--path", options.controls.path}};
   for (const std::string& key : options.keys) inputs.push_back({"--key", FileOf(key)});
   RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
   if (options.report.empty() && !options.new_report.empty()) {
@@ -89,6 +93,7 @@ class Session {
     edit_.model = connection.model(options.model);
     edit_.seed = options.seed.value_or(0);
     edit_.temperature = options.temperature;
+    edit_.controls = options.controls.Read(edit_.model.fps);
     longest_ = edit_.model.max_transition_frames - 1;
     if (options.around_s) CheckAround(*options.around_s);
     CheckKeys();
@@ -237,8 +242,13 @@ void Run(const EditOptions& options) {
   CheckOptions(options);
   const Connection connection(options.server);
   Session session(options, connection);
-  for (size_t i = 0; i < options.keys.size(); ++i) session.SetKey(options.keys[i], options.at_s[i]);
-  if (options.loop) session.CloseLoop();
+  try {
+    for (size_t i = 0; i < options.keys.size(); ++i)
+      session.SetKey(options.keys[i], options.at_s[i]);
+    if (options.loop) session.CloseLoop();
+  } catch (const Error& error) {
+    throw options.controls.InTermsOf(error);
+  }
   session.Write();
 }
 
@@ -278,6 +288,7 @@ void AddEditCommand(CLI::App& program) {
   AddSeed(*command, options->seed, "Same seed, same edit. Default: 0.");
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
+  options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
       ->required();

@@ -18,6 +18,15 @@ struct InfoOptions {
   bool poses = false;
 };
 
+/// {"name": "median", "trunk": 0.012, ...}: metres a frame.
+nlohmann::ordered_json ToJson(const client::ModelDescription::VelocityReference& reference) {
+  nlohmann::ordered_json json;
+  json["name"] = reference.name;
+  for (size_t part = 0; part < reference.speeds.size(); ++part)
+    json[std::string(kBodyPartNames[part])] = reference.speeds[part];
+  return json;
+}
+
 nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   nlohmann::ordered_json json;
   json["name"] = model.name;
@@ -27,6 +36,10 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   json["default_temperature"] = model.default_temperature;
   json["latency_frames"] = model.latency_frames;
   json["controls"] = model.controls;
+  json["hears_music"] = model.hears_music;
+  json["velocity_references"] = nlohmann::ordered_json::array();
+  for (const auto& reference : model.velocity_references)
+    json["velocity_references"].push_back(ToJson(reference));
   json["skeleton"] = {{"name", model.skeleton.name}, {"joints", model.skeleton.joint_names}};
   json["licence"] = model.licence;
   // The card is JSON of the model's own; shown as text if a server sends anything else.
@@ -68,6 +81,21 @@ void PrintCard(const std::string& card) {
   }
 }
 
+void PrintControls(const client::ModelDescription& model) {
+  if (!model.hears_music) std::printf("  hears no music\n");
+  for (const std::string& control : model.controls)
+    std::printf("  control: %s\n", control == "root_path"          ? "root path (--path)"
+                                   : control == "velocity_factors" ? "velocity factors (--velocity)"
+                                                                   : control.c_str());
+  for (const auto& reference : model.velocity_references) {
+    std::printf("  velocity reference %s, cm a frame:", reference.name.c_str());
+    for (size_t part = 0; part < reference.speeds.size(); ++part)
+      std::printf("%s %s %.2f", part == 0 ? "" : ",", kBodyPartNames[part].data(),
+                  100 * reference.speeds[part]);
+    std::printf("\n");
+  }
+}
+
 void PrintServer(const client::ServerDescription& server, bool as_json) {
   if (as_json) {
     nlohmann::ordered_json json;
@@ -97,6 +125,7 @@ void PrintServer(const client::ServerDescription& server, bool as_json) {
         model.name.c_str(), model.skeleton.name.c_str(), model.fps, model.history_frames,
         model.latency_frames, model.default_temperature, model.fingerprint.c_str(),
         model.licence.c_str());
+    PrintControls(model);
     PrintCard(model.card);
   }
 }

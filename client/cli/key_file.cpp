@@ -2,13 +2,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
-#include "model/core/json_depth.h"
+#include "client/cli/json_fields.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
@@ -21,27 +19,13 @@ namespace {
 using client::KeyPose;
 using nlohmann::json;
 
-std::string Shown(const json& value) {
-  std::string text = value.dump();
-  if (text.size() > 40) text = text.substr(0, 37) + "...";
-  return text;
-}
-
-/// Behind the end of any dance, and far from where numbers of frames end.
-constexpr double kMaxSeconds = 1e9;
-
-double Number(const json& value, const std::string& field) {
-  if (!value.is_number()) throw InvalidArgument(field, Shown(value) + " is not a number");
-  return value.get<double>();
-}
-
 Eigen::Vector3d Vector(const json& value, const std::string& field) {
   if (!value.is_array() || value.size() != 3) {
     throw InvalidArgument(field, Shown(value) + " is not a list of 3 numbers");
   }
   Eigen::Vector3d out;
   for (int i = 0; i < 3; ++i) {
-    out[i] = Number(value[static_cast<size_t>(i)], field + "[" + std::to_string(i) + "]");
+    out[i] = JsonNumber(value[static_cast<size_t>(i)], field + "[" + std::to_string(i) + "]");
   }
   return out;
 }
@@ -93,11 +77,11 @@ std::vector<double> Flatten(const json& value, const std::string& field) {
   for (size_t i = 0; i < value.size(); ++i) {
     const json& inner = value[i];
     if (!inner.is_array()) {
-      out.push_back(Number(inner, field + at(i)));
+      out.push_back(JsonNumber(inner, field + at(i)));
       continue;
     }
     for (size_t j = 0; j < inner.size(); ++j)
-      out.push_back(Number(inner[j], field + at(i) + at(j)));
+      out.push_back(JsonNumber(inner[j], field + at(i) + at(j)));
   }
   return out;
 }
@@ -177,18 +161,11 @@ KeyPose ParsePose(const json& value, const std::string& field, const Skeleton& s
 
 KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& skeleton,
                  size_t number) {
-  if (!value.is_object()) throw InvalidArgument(field, Shown(value) + " is not an object");
-  static const std::set<std::string> kMembers = {
-      "id",     "time",       "frame",      "root_position", "rotations",
-      "joints", "smpl_poses", "smpl_trans", "poses",         "trans"};
-  for (const auto& [member, ignored] : value.items()) {
-    if (!kMembers.contains(member)) {
-      throw InvalidArgument(
-          field + "." + member,
-          "is not known; a key has id, time or frame, root_position, rotations, joints; or "
-          "smpl_poses, smpl_trans; or poses, trans");
-    }
-  }
+  CheckMembers(value, field,
+               {"id", "time", "frame", "root_position", "rotations", "joints", "smpl_poses",
+                "smpl_trans", "poses", "trans"},
+               "a key has id, time or frame, root_position, rotations, joints; or smpl_poses, "
+               "smpl_trans; or poses, trans");
   KeyPose key = ParsePose(value, field, skeleton);
   key.id = "key" + std::to_string(number);
   if (value.contains("id")) {
@@ -197,37 +174,12 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
     }
     key.id = value["id"].get<std::string>();
   }
-  if (value.contains("time") == value.contains("frame")) {
-    throw InvalidArgument(field + ".time", value.contains("time")
-                                               ? "stands beside frame; only one may be there"
-                                               : "is missing, and so is frame");
-  }
-  if (value.contains("time")) {
-    key.time_s = Number(value["time"], field + ".time");
-    if (!(key.time_s >= 0))
-      throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is before 0");
-    if (key.time_s > kMaxSeconds)
-      throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is beyond 1e9 s");
-  } else {
-    if (!IsFrameNumber(value["frame"])) {
-      throw InvalidArgument(field + ".frame", Shown(value["frame"]) +
-                                                  " is not a whole number from 0 to " +
-                                                  std::to_string(kMaxFrameNumber));
-    }
-    key.frame = value["frame"].get<int64_t>();
-  }
+  const Moment moment = ParseMoment(value, field);
+  key.time_s = moment.time_s;
+  key.frame = moment.frame;
   if (value.contains("joints"))
     key.mask.joints = Joints(value["joints"], field + ".joints", skeleton);
   return key;
-}
-
-std::string ReadText(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) {
-    throw InvalidArgument(path.string(), "is a folder, not a key file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 double ParseSeconds(std::string_view text, const std::string& source) {
@@ -270,18 +222,7 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
 
 std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                   const Skeleton& skeleton) {
-  CheckJsonDepth(text, name);
-  json root;
-  try {
-    root = json::parse(text);
-  } catch (const json::exception& error) {  // numbers too large for any, too
-    throw InvalidArgument(name, "is not JSON: " + std::string(error.what()));
-  }
-  if (!root.is_object() || !root.contains("keyframes") || !root["keyframes"].is_array()) {
-    throw InvalidArgument(name, "has no list \"keyframes\"");
-  }
-  const json& list = root["keyframes"];
-  if (list.empty()) throw InvalidArgument(name + ":keyframes", "is empty");
+  const json list = ParseList(text, name, "keyframes");
   std::vector<KeyPose> keys;
   std::set<std::string> ids;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -309,7 +250,7 @@ std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleto
     throw InvalidArgument(source,
                           "is a motion: say which poses of it, as in " + source + "@1.2,3.4");
   }
-  return ParseKeyFile(ReadText(source), source, skeleton);
+  return ParseKeyFile(ReadText(source, "key file"), source, skeleton);
 }
 
 }  // namespace choreo::cli

@@ -11,14 +11,6 @@
 /// Key poses as people write them down.
 namespace choreo::cli {
 
-/// The largest number of a frame in a file: behind the end of any dance.
-inline constexpr uint64_t kMaxFrameNumber = 1'000'000'000;
-/// Whether a value in JSON is one: whole, from 0 on.
-template <typename Json>
-bool IsFrameNumber(const Json& value) {
-  return value.is_number_unsigned() && value.template get<uint64_t>() <= kMaxFrameNumber;
-}
-
 /// A key file, JSON:
 ///
 ///     {"keyframes": [{"id": "a", "time": 2.0, "root_position": [x, y, z], "rotations": [[x, y, z],

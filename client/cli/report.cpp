@@ -6,7 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "client/cli/key_file.h"
+#include "client/cli/json_fields.h"
 #include "model/core/json_depth.h"
 
 namespace choreo::cli {

@@ -6,6 +6,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
+#include "client/cli/control_options.h"
 #include "client/cli/key_file.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
@@ -30,6 +31,7 @@ struct TransitionOptions {
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::string model;
+  ControlOptions controls;
   std::string out;
   std::string report;
 };
@@ -42,14 +44,25 @@ std::filesystem::path CandidatePath(const std::filesystem::path& out, size_t ran
                                out.extension().string());
 }
 
+client::TransitionResult Generate(const client::Client& client,
+                                  const client::TransitionRequest& request,
+                                  const ControlOptions& controls) {
+  try {
+    return client.GenerateTransition(request);
+  } catch (const Error& error) {
+    throw controls.InTermsOf(error);
+  }
+}
+
 void Run(const TransitionOptions& options) {
   RequireMotionFile(options.out);
   std::vector<NamedFile> outputs = {{"--report", options.report}};
   for (size_t rank = 0; rank < static_cast<size_t>(options.candidates); ++rank)
     outputs.push_back({"--out", CandidatePath(options.out, rank)});
-  RequireOutputs(
-      outputs,
-      {{"--from", FileOf(options.from)}, {"--to", FileOf(options.to)}, {"--song", options.song}});
+  RequireOutputs(outputs, {{"--from", FileOf(options.from)},
+                           {"--to", FileOf(options.to)},
+                           {"--song", options.song},
+                           {"--path", options.controls.path}});
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
 
@@ -57,6 +70,7 @@ void Run(const TransitionOptions& options) {
   request.config.model = options.model;
   request.config.seed = options.seed.value_or(0);
   request.config.temperature = options.temperature;
+  request.config.controls = options.controls.Read(model.fps);
   request.config.first_frame = std::llround(options.at_s * model.fps);
   request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
@@ -77,7 +91,7 @@ void Run(const TransitionOptions& options) {
     client::SetMusic(song, model, request.config.first_frame, &request);
     request.config.music_beats = BeatsBefore(music, end_s);
   }
-  const client::TransitionResult result = connection.client().GenerateTransition(request);
+  const client::TransitionResult result = Generate(connection.client(), request, options.controls);
   for (const client::Warning& warning : result.warnings)
     std::cerr << "warning: " << warning.message << '\n';
 
@@ -117,6 +131,7 @@ void AddTransitionCommand(CLI::App& program) {
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0.");
   command->add_option("--temperature", options->temperature,
                       "Variety, 0 (calm) to 2; default: the model's.");
+  options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
       ->required();

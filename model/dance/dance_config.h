@@ -50,6 +50,9 @@ struct DanceConfig {
 /// begin without changing a bit.
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model);
 
+/// Whether the model takes music.
+bool HearsMusic(const ModelInfo& model);
+
 /// Throws Error(kUnimplemented) if the model hears no music, Error(kInvalidArgument) for a format
 /// out of range, Error(kOutOfRange) unless 0 <= first_sample <= LatestFirstSample. `field` is the
 /// path of the audio.

@@ -39,7 +39,7 @@ struct ModelInfo {
   bool root_path = false;         ///< takes Controls::root_path
   bool velocity_factors = false;  ///< takes Controls::velocity_factors
   /// The first one, "median", is the default. At least one where velocity factors are taken.
-  std::vector<VelocityReference> velocity_references;
+  std::vector<VelocityReference> velocity_references = {};
 };
 
 /// The key pose at the end of a transition.

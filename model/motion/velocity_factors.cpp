@@ -47,6 +47,14 @@ std::optional<Membership> FindMembership(std::string_view name) {
 
 }  // namespace
 
+std::string BodyPartNames() {
+  std::string names;
+  for (const std::string_view name : kBodyPartNames) {
+    names.append(names.empty() ? "" : ", ").append(name);
+  }
+  return names;
+}
+
 std::optional<BodyPart> FindBodyPart(std::string_view name) {
   const auto found = std::ranges::find(kBodyPartNames, name);
   if (found == kBodyPartNames.end()) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "model/motion/skeleton.h"
@@ -16,6 +17,9 @@ inline constexpr int kBodyParts = 5;
 /// "trunk", "left_arm", "right_arm", "left_leg", "right_leg", in the order of BodyPart.
 inline constexpr std::array<std::string_view, kBodyParts> kBodyPartNames = {
     "trunk", "left_arm", "right_arm", "left_leg", "right_leg"};
+
+/// All of them, for messages: "trunk, left_arm, ...".
+std::string BodyPartNames();
 
 /// The part of that name, or none.
 std::optional<BodyPart> FindBodyPart(std::string_view name);

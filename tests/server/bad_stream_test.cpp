@@ -96,16 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                       },
                       grpc::StatusCode::NOT_FOUND,
                       "remove_keyframes[1].id",
-                      {"\"k\""}},
-        BadStreamCase{"Control",
-                      [](const Key&) {
-                        v1::StreamDanceRequest controls;
-                        controls.mutable_controls()->mutable_velocity_factors();
-                        return Requests{ConfigRequest(), controls};
-                      },
-                      grpc::StatusCode::UNIMPLEMENTED,
-                      "controls.velocity_factors",
-                      {"fake"}}),
+                      {"\"k\""}}),
     NameOf);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -203,9 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
                              v1::AUDIO_ENCODING_FILE);
                          r.mutable_audio()->set_data("this is no music");
                        },
-                       kInvalid, "audio", ""},
-        BadRequestCase{"Control", [](R& r) { r.mutable_controls()->mutable_root_path(); },
-                       grpc::StatusCode::UNIMPLEMENTED, "controls.root_path", "fake"}),
+                       kInvalid, "audio", ""}),
     [](const auto& suite) { return std::string(suite.param.name); });
 
 }  // namespace

@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "model/formats/motion_file.h"
+#include "tests/client/command_fixture.h"
+#include "tests/client/test_music.h"
+
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+/// One that hears no music.
+class DeafEngine final : public ControlledEngine {
+ public:
+  DeafEngine() { model_.audio_features = 0; }
+};
+
+class ControlledCommandTest : public CommandTest {
+ protected:
+  void Write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  void ExpectRefused(const std::string& arguments, const std::string& message) const {
+    const Outcome outcome = Choreo("dance" + Walker() + "-o " + At("x.npz") + " " + arguments);
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "x.npz"));
+  }
+  std::string Walker() const { return " --server " + walker_.address() + " "; }
+  Motion Read(const std::string& name) const { return ReadMotion(folder_ / name, Body()); }
+
+  const TestServer walker_{std::make_unique<ControlledEngine>()};
+};
+
+constexpr const char* kPath = R"({"title": "a bow", "points": [
+  {"time": 0, "x": 0, "z": 0}, {"frame": 60, "x": 1, "z": 0}, {"time": 4, "x": 1, "z": 2}]})";
+
+TEST_F(ControlledCommandTest, DancesAlongAPathWithoutASong) {
+  Write("path.json", kPath);
+  const Outcome outcome = Choreo("dance" + Walker() + "--path " + At("path.json") +
+                                 " --velocity left_arm=1.5 -o " + At("d.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion motion = Read("d.npz");
+  ASSERT_EQ(motion.frames.size(), 121U);
+  EXPECT_LT((motion.frames[60].root_position - Eigen::Vector3d(1, 0, 0))
+                .cwiseProduct(Eigen::Vector3d(1, 0, 1))
+                .norm(),
+            1e-3);
+  EXPECT_LT((motion.frames[120].root_position - Eigen::Vector3d(1, 0, 2))
+                .cwiseProduct(Eigen::Vector3d(1, 0, 1))
+                .norm(),
+            1e-3);
+  // Key poses of the library are danced on the way, every two seconds.
+  EXPECT_THAT(outcome.said, HasSubstr("key poses"));
+}
+
+TEST_F(ControlledCommandTest, AsksWhatItIsToldOfEachPart) {
+  WriteClicks(folder_ / "song.wav", 4);
+  const auto left_hand = [&](const std::string& options) {
+    const Outcome outcome =
+        Choreo("dance" + Walker() + At("song.wav") + " " + options + " -o " + At("d.npz"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return Read("d.npz").frames[30].rotations(0, Body().Find(kTellingJoints[1]));
+  };
+  EXPECT_NEAR(left_hand("--velocity left_arm=1.5"), 0.03, 1e-5);
+  EXPECT_NEAR(left_hand("--velocity all=0.5 --velocity arms=3"), 0.06, 1e-5);
+  EXPECT_NEAR(left_hand("--velocity legs=0"), 0.02, 1e-5);
+  EXPECT_NEAR(left_hand("--velocity arms=2 --velocity-reference calm"), 0.004, 1e-5);
+}
+
+TEST_F(ControlledCommandTest, ATransitionGoesAlongAPathToo) {
+  Write("path.json", R"({"points": [{"time": 0, "x": 0, "z": 0, "y": 0.9},
+                                    {"time": 1, "x": 0.5, "z": 0.5, "y": 0.4},
+                                    {"time": 2, "x": 0, "z": 0, "y": 0.9}]})");
+  const Outcome outcome =
+      Choreo("transition" + Walker() + "--from contrapposto --to kick -n 60 --path " +
+             At("path.json") + " -o " + At("t.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_NEAR(Read("t.npz").frames[30].root_position.y(), 0.4, 0.01);
+}
+
+TEST_F(ControlledCommandTest, InfoShowsControlsAndReferences) {
+  const Outcome outcome = Choreo("info" + Walker());
+  EXPECT_THAT(outcome.said, HasSubstr("control: root path (--path)"));
+  EXPECT_THAT(outcome.said, HasSubstr("control: velocity factors (--velocity)"));
+  EXPECT_THAT(outcome.said, HasSubstr("velocity reference median, cm a frame: trunk 1.00, left_arm "
+                                      "2.00, right_arm 3.00, left_leg 4.00, right_leg 5.00"));
+  const Outcome json = Choreo("info --json" + Walker());
+  const auto model = nlohmann::json::parse(json.said)["models"][0];
+  EXPECT_EQ(model["velocity_references"][1]["name"], "calm");
+  EXPECT_EQ(model["hears_music"], true);
+}
+
+TEST_F(ControlledCommandTest, ADeafModelDancesToTheBeatsOfASongThatItDoesNotHear) {
+  const TestServer deaf(std::make_unique<DeafEngine>());
+  WriteClicks(folder_ / "song.wav", 6);
+  const Outcome outcome =
+      Choreo("dance --server " + deaf.address() + " " + At("song.wav") + " -o " + At("d.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("the model \"fake\" hears no music"));
+  EXPECT_EQ(Read("d.npz").frames.size(), 180U);
+}
+
+TEST_F(ControlledCommandTest, BadPathsAreRefused) {
+  const auto refused = [&](const std::string& points, const std::string& message) {
+    Write("path.json", R"({"points": )" + points + "}");
+    ExpectRefused("--path " + At("path.json"), "path.json:" + message);
+  };
+  refused("[]", "points: is empty");
+  refused(R"([{"time": 0, "x": 0, "z": 0}])", "points: has 1 point, a path needs at least 2");
+  refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 0.01, "x": 1, "z": 0}])",
+          "points[1].time: is frame 0, not after that of the point before it, 0");
+  refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 1}])", "points[1].z: is missing");
+  refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": "far", "z": 0}])",
+          "points[1].x: \"far\" is not a number");
+  refused(R"([{"time": 0, "x": 0, "z": 0}, {"x": 1, "z": 0}])",
+          "points[1].time: is missing, and so is frame");
+  refused(R"([{"time": -1, "x": 0, "z": 0}, {"time": 1, "x": 1, "z": 0}])",
+          "points[0].time: -1 s is before 0");
+  refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 1, "z": 0, "y": 1}])",
+          "points[1].y: must be in all points or in none");
+  refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 1, "z": 0, "speed": 1}])",
+          "points[1].speed: is not known; a point has time or frame, x, z and perhaps y");
+  // What only the server knows to be wrong is told in terms of the file, too.
+  refused(
+      R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 0, "z": 0}, {"time": 2, "x": 0, "z": 20000}])",
+      "points[2]: 20000 m is not within 10000 m of 0");
+  Write("path.json", "{\"points\": [NaN]}");
+  ExpectRefused("--path " + At("path.json"), "path.json: is not JSON");
+  ExpectRefused("--path " + At("none.json"), "none.json: cannot be opened");
+}
+
+TEST_F(ControlledCommandTest, APathOfTenHoursIsRefused) {
+  Write("path.json",
+        R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 36000, "x": 1, "z": 0}]})");
+  ExpectRefused("--seconds 10 --path " + At("path.json"),
+                "path.json:points[1]: 1080000 is not in [0, 108000]");
+}
+
+TEST_F(ControlledCommandTest, BadVelocitiesAreRefused) {
+  const std::string dance = "--seconds 4 ";
+  ExpectRefused(dance + "--velocity tail=1",
+                "--velocity: \"tail\" is none of all, arms, legs, trunk, left_arm");
+  ExpectRefused(dance + "--velocity trunk=-1",
+                "--velocity: \"trunk=-1\": \"-1\" is not a number from 0 to 10");
+  ExpectRefused(dance + "--velocity trunk=nan", "\"nan\" is not a number from 0 to 10");
+  ExpectRefused(dance + "--velocity trunk=11", "\"11\" is not a number from 0 to 10");
+  ExpectRefused(dance + "--velocity trunk", "--velocity: \"trunk\": \"\" is not a number");
+  ExpectRefused(dance + "--velocity-reference calm",
+                "--velocity-reference: there is no --velocity");
+  ExpectRefused(dance + "--velocity all=1 --velocity-reference wild",
+                "--velocity-reference: \"wild\" is none of the model's, median, calm");
+  const Outcome outcome = Choreo("dance" + Walker() + "--velocity all=1");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.said, HasSubstr("A song, or else --keyframes, --path or --seconds"));
+}
+
+TEST_F(ControlledCommandTest, AModelWithoutThemRefusesThem) {
+  Write("path.json", kPath);
+  Outcome outcome = Choreo("dance" + Server() + "--path " + At("path.json") + " -o " + At("x.npz"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--path: the model \"fake\" does not have this control"));
+  outcome = Choreo("transition" + Server() + "--from kick --to groove --velocity all=2 -o " +
+                   At("x.npz"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--velocity: the model \"fake\" does not have this control"));
+}
+
+}  // namespace
+}  // namespace choreo
