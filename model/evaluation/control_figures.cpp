@@ -1,0 +1,71 @@
+#include "model/evaluation/control_figures.h"
+
+#include <algorithm>
+#include <string>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+void CheckFrames(size_t danced, size_t other) {
+  if (danced == 0) throw InvalidArgument("danced", "has no frames");
+  if (danced != other) {
+    throw InvalidArgument("danced",
+                          std::to_string(danced) + " frames against " + std::to_string(other));
+  }
+}
+
+}  // namespace
+
+double RootRelativeDistance(const JointTrack& danced, const JointTrack& real) {
+  CheckFrames(danced.size(), real.size());
+  double sum = 0;
+  for (size_t i = 0; i < danced.size(); ++i) {
+    if (danced[i].cols() != real[i].cols()) {
+      throw InvalidArgument("danced", std::to_string(danced[i].cols()) + " joints against " +
+                                          std::to_string(real[i].cols()));
+    }
+    // The root's column is zero in both.
+    const Eigen::Matrix3Xd here = danced[i].colwise() - danced[i].col(0);
+    const Eigen::Matrix3Xd there = real[i].colwise() - real[i].col(0);
+    sum += (here - there).norm();
+  }
+  return sum / static_cast<double>(danced.size());
+}
+
+Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> TrackVelocityFactors(
+    const BodyPartWeights& weights, const JointTrack& track) {
+  if (track.size() < 2) throw InvalidArgument("track", "has no step from frame to frame");
+  Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> factors(kBodyParts, track.size() - 1);
+  for (size_t i = 1; i < track.size(); ++i) {
+    const auto of_step = VelocityFactors(weights, track[i - 1], track[i]);
+    factors.col(static_cast<Eigen::Index>(i) - 1) =
+        Eigen::Map<const Eigen::Matrix<double, kBodyParts, 1>>(of_step.data());
+  }
+  return factors;
+}
+
+double VelocityDeviation(const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& danced,
+                         const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& asked) {
+  CheckFrames(static_cast<size_t>(danced.cols()), static_cast<size_t>(asked.cols()));
+  return (danced - asked).cwiseAbs().mean();
+}
+
+double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked) {
+  CheckFrames(danced.size(), static_cast<size_t>(asked.cols()));
+  double sum = 0;
+  for (size_t i = 0; i < danced.size(); ++i) {
+    sum += (danced[i].col(0) - asked.col(static_cast<Eigen::Index>(i))).norm();
+  }
+  return sum / static_cast<double>(danced.size());
+}
+
+double ShareBelow(std::span<const double> deviations, double tolerance) {
+  if (deviations.empty()) throw InvalidArgument("deviations", "there are none");
+  const auto below = std::ranges::count_if(
+      deviations, [tolerance](double deviation) { return deviation < tolerance; });
+  return static_cast<double>(below) / static_cast<double>(deviations.size());
+}
+
+}  // namespace choreo

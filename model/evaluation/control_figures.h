@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "model/evaluation/joint_track.h"
+#include "model/motion/velocity_factors.h"
+
+/// How well a transition does what it was asked: the three figures of paper C, Section 4.3, Eq.
+/// 12-16. Each comes as one number a transition; LRP is then averaged over transitions, AVF and ART
+/// are the share of transitions below a tolerance (ShareBelow). All throw Error(kInvalidArgument)
+/// for no frames, or where the frames of the two do not match. Pure, thread-safe.
+namespace choreo {
+
+inline constexpr double kVelocityTolerance = 0.01;  ///< delta_v: 1 cm a frame
+inline constexpr double kRootTolerance = 0.07;      ///< delta_r: 7 cm
+
+/// LRP of one transition, Eq. 12: the L2 distance of the root-relative positions of all joints but
+/// the root at once, mean over frames; metres (the paper: cm). Root-relative: less the root's
+/// position, axes the world's.
+double RootRelativeDistance(const JointTrack& danced, const JointTrack& real);
+
+/// Velocity factors of each step of a track, metres a frame: [kBodyParts, frames - 1]. Begin the
+/// track with the frame before the transition.
+Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> TrackVelocityFactors(
+    const BodyPartWeights& weights, const JointTrack& track);
+
+/// g_v of one transition, Eq. 14: the absolute difference of danced and asked velocity factors,
+/// mean over frames and parts; metres a frame. Both [kBodyParts, frames].
+double VelocityDeviation(const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& danced,
+                         const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& asked);
+
+/// g_r of one transition, Eq. 16: the distance of the root from where it was asked to be, mean over
+/// frames, metres. `asked` is [3, frames]. Joint 0 is the root.
+double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked);
+
+/// AVF (Eq. 13, of VelocityDeviation with kVelocityTolerance) and ART (Eq. 15, of RootDeviation
+/// with kRootTolerance): the share of deviations below the tolerance, 0 to 1.
+double ShareBelow(std::span<const double> deviations, double tolerance);
+
+}  // namespace choreo

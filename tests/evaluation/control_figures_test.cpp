@@ -1,0 +1,134 @@
+#include "model/evaluation/control_figures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "model/evaluation/repetition.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+JointTrack Standing(size_t frames) { return {frames, JointPositions(Body(), RestPose(Body()))}; }
+
+TEST(ControlFigures, RootRelativeDistanceIsTheNormOverAllJoints) {
+  const JointTrack real = Standing(4);
+  JointTrack danced = real;
+  // Two joints, in half of the frames: 3-4-5.
+  for (const size_t frame : {0, 2}) {
+    danced[frame].col(Body().Find("head")).x() += 0.3;
+    danced[frame].col(Body().Find("left_hand")).z() -= 0.4;
+  }
+  EXPECT_NEAR(RootRelativeDistance(danced, real), 0.25, 1e-12);
+  // Where the dancer is does not count.
+  for (Eigen::Matrix3Xd& frame : danced) frame.colwise() += Eigen::Vector3d(1, 0, 2);
+  EXPECT_NEAR(RootRelativeDistance(danced, real), 0.25, 1e-12);
+}
+
+TEST(ControlFigures, VelocityDeviationIsTheMeanOverPartsAndFrames) {
+  const BodyPartWeights weights = WeighBodyParts(Body());
+  JointTrack track = Standing(5);
+  // The left hand has 4 of its arm's 11 shares: 11 mm a step make a factor of 4 mm a frame.
+  for (size_t frame = 0; frame < track.size(); ++frame)
+    track[frame].col(Body().Find("left_hand")).y() += 0.011 * static_cast<double>(frame);
+  const auto danced = TrackVelocityFactors(weights, track);
+  ASSERT_EQ(danced.cols(), 4);
+  EXPECT_NEAR(danced(static_cast<int>(BodyPart::kLeftArm), 3), 0.004, 1e-12);
+  Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> asked(kBodyParts, 4);
+  asked.setZero();
+  EXPECT_NEAR(VelocityDeviation(danced, asked), 0.004 / kBodyParts, 1e-12);
+  asked = danced;
+  asked(2, 1) += 0.01;
+  EXPECT_NEAR(VelocityDeviation(danced, asked), 0.01 / 20, 1e-12);
+}
+
+TEST(ControlFigures, RootDeviationIsTheMeanDistance) {
+  JointTrack danced = Standing(3);
+  Eigen::Matrix3Xd asked(3, 3);
+  for (int frame = 0; frame < 3; ++frame) asked.col(frame) = danced[0].col(0);
+  EXPECT_EQ(RootDeviation(danced, asked), 0);
+  asked.col(1) += Eigen::Vector3d(0.03, 0, 0.04);
+  asked.col(2).y() -= 0.1;
+  EXPECT_NEAR(RootDeviation(danced, asked), 0.05, 1e-12);
+}
+
+TEST(ControlFigures, TheShareBelowATolerance) {
+  EXPECT_EQ(ShareBelow(std::vector{0.02, 0.0699, 0.07, 0.2}, kRootTolerance), 0.5);
+  EXPECT_EQ(ShareBelow(std::vector{0.009}, kVelocityTolerance), 1);
+}
+
+TEST(ControlFigures, RefuseWhatCannotBeCompared) {
+  const JointTrack three = Standing(3), four = Standing(4);
+  const auto refused = [](const std::string& message, const std::function<void()>& call) {
+    ExpectError(ErrorCode::kInvalidArgument, message, call);
+  };
+  refused("3 frames against 4", [&] { RootRelativeDistance(three, four); });
+  refused("3 frames against 4", [&] { RootDeviation(three, Eigen::Matrix3Xd::Zero(3, 4)); });
+  refused("has no frames", [] { RootRelativeDistance({}, {}); });
+  refused("no step", [&] { TrackVelocityFactors(WeighBodyParts(Body()), Standing(1)); });
+  refused("there are none", [] { ShareBelow({}, 1); });
+}
+
+/// Both arms swing, `turns` times a second at first and `sweep` a second faster each second, while
+/// the dancer walks a circle.
+std::vector<Pose> Swinging(int frames, double turns, double sweep) {
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double time = frame / 30.0;
+    const double swing =
+        std::sin(2 * std::numbers::pi * (turns * time + 0.5 * sweep * time * time));
+    Pose pose = RestPose(Body());
+    pose.rotations.col(Body().left_shoulder) = Eigen::Vector3d(0, 0, 0.9 * swing);
+    pose.rotations.col(Body().right_shoulder) = Eigen::Vector3d(0.7 * swing, 0, 0.8);
+    pose.rotations.col(0) = Eigen::Vector3d(0, 0.5 * time, 0);
+    pose.root_position += Eigen::Vector3d(std::sin(0.5 * time), 0, std::cos(0.5 * time));
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+TEST(RepetitionTest, FindsWhatRepeatsWhereverItIsDanced) {
+  const Repetition repetition = MeasureRepetition(Body(), Swinging(240, 1, 0), 30);
+  EXPECT_EQ(repetition.frozen, 0);
+  // All but the first second, of 226 windows.
+  EXPECT_NEAR(repetition.repeated, 196.0 / 226, 1e-12);
+}
+
+TEST(RepetitionTest, FindsNothingInWhatNeverComesAgain) {
+  // One way, slowly.
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 150; ++frame) {
+    Pose pose = RestPose(Body());
+    for (const int joint : {Body().left_shoulder, Body().right_shoulder, Body().left_hip})
+      pose.rotations(2, joint) = frame / 100.0;
+    poses.push_back(pose);
+  }
+  const Repetition repetition = MeasureRepetition(Body(), poses, 30);
+  EXPECT_EQ(repetition.repeated, 0);
+  EXPECT_EQ(repetition.frozen, 0);
+}
+
+TEST(RepetitionTest, AnEndingThatFreezesIsFrozenNotRepeated) {
+  std::vector<Pose> poses = Swinging(120, 0.3, 0.2);
+  poses.resize(180, poses.back());
+  const Repetition whole = MeasureRepetition(Body(), poses, 30);
+  const Repetition ending = MeasureRepetition(Body(), poses, 30, 120);
+  EXPECT_EQ(ending.frozen, 1);
+  EXPECT_EQ(ending.repeated, 0);
+  EXPECT_GT(whole.frozen, 0.2);
+  EXPECT_LT(whole.frozen, 0.4);
+}
+
+TEST(RepetitionTest, RefusesWhatIsTooShort) {
+  ExpectError(ErrorCode::kInvalidArgument, "no window of 15 frames begins at frame 0 of 14",
+              [] { MeasureRepetition(Body(), Swinging(14, 1, 0), 30); });
+}
+
+}  // namespace
+}  // namespace choreo
