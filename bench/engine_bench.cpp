@@ -155,12 +155,15 @@ void ReadMemory(benchmark::State& state) {
 }
 
 void Register(Models* models) {
+  const bool bf16 = Bf16KernelsHere() != nullptr;
+  std::vector<std::string> kinds = {"packed", "torch"};
+  if (bf16) kinds.push_back("packed-bf16");
   for (const std::string model : {"default", "paper"}) {
     const auto add = [&](const std::string& name, auto run) {
       benchmark::RegisterBenchmark((model + "/" + name).c_str(), run)
           ->Unit(benchmark::kMillisecond);
     };
-    for (const std::string kind : {"packed", "torch"}) {
+    for (const std::string& kind : kinds) {
       for (const int streams : {1, 8, 32, 64}) {
         add(kind + "/" + std::to_string(streams),
             [=](benchmark::State& state) { Frames(state, models->Engine(model, kind), streams); });
@@ -174,6 +177,11 @@ void Register(Models* models) {
     }
     add("admission",
         [=](benchmark::State& state) { Admissions(state, models->Engine(model, "packed")); });
+    if (bf16) {
+      add("admission-bf16", [=](benchmark::State& state) {
+        Admissions(state, models->Engine(model, "packed-bf16"));
+      });
+    }
   }
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }

@@ -39,8 +39,8 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
   Safetensors model = ReadSafetensors(checkpoint);
   const auto config = nlohmann::json::parse(model.metadata.at("config")).get<FlowConfig>();
   const auto width = static_cast<int>(model.tensors.at("feature_mean").data.size());
-  const auto flow =
-      std::make_shared<PackedFlow>(model, config, width, *PackedKernelsHere().front());
+  const auto flow = std::make_shared<PackedFlow>(model, config, width, *PackedKernelsHere().front(),
+                                                 *PackedKernelsHere().front());
   PackedTile tile(flow, kRows);
   Random random(11);
   Safetensors probe;

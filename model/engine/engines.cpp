@@ -64,6 +64,16 @@ const PackedKernels& VerifiedKernels() {
   throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
 }
 
+// For the networks' products: `exact`, or those of bfloat16.
+const PackedKernels& ProductKernels(EngineKind kind, const PackedKernels& exact) {
+  if (kind != EngineKind::kPackedBf16) return exact;
+  const PackedKernels* bf16 = Bf16KernelsHere();
+  if (bf16 == nullptr || bf16->panel != exact.panel || !RowsAreIndependent(*bf16)) {
+    throw InvalidArgument("engine", "packed-bf16 needs a CPU with AVX512-BF16, which this is not");
+  }
+  return *bf16;
+}
+
 // What the engines of one device share.
 struct Loaded {
   ModelInfo info;
@@ -93,7 +103,7 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
   Loaded loaded;
   std::string kernels = TorchKernels(there);
   // A baseline without a flow has nothing to pack.
-  if (kind == EngineKind::kPacked ||
+  if (kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16 ||
       (kind == EngineKind::kAuto && there.is_cpu() && config.flow_steps > 0)) {
     if (!there.is_cpu()) {
       throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
@@ -101,14 +111,18 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
     if (config.flow_steps == 0) {
       throw InvalidArgument("engine", "packed computes a flow, and " + path.string() + " has none");
     }
-    const PackedKernels& fastest = VerifiedKernels();
-    loaded.packed = std::make_shared<PackedFlow>(content, config, model->feature_width(), fastest);
+    const PackedKernels& exact = VerifiedKernels();
+    const PackedKernels& products = ProductKernels(kind, exact);
+    const std::string name = std::string("packed ") + products.name;
+    loaded.packed =
+        std::make_shared<PackedFlow>(content, config, model->feature_width(), exact, products);
     if (PackedPlanner::Serves(config)) {
-      kernels = std::string("packed ") + fastest.name;
-      loaded.planner = std::make_shared<PackedPlanner>(content, config, model->skeleton(), fastest);
+      kernels = name;
+      loaded.planner =
+          std::make_shared<PackedPlanner>(content, config, model->skeleton(), exact, products);
     } else {
       model->ForgetFlow();
-      kernels = std::string("packed ") + fastest.name + ", plans by " + kernels;
+      kernels = name + ", plans by " + kernels;
     }
   } else {
     model->to(there);
@@ -147,7 +161,9 @@ EngineKind ParseEngineKind(std::string_view text) {
   if (text == "auto") return EngineKind::kAuto;
   if (text == "torch") return EngineKind::kTorch;
   if (text == "packed") return EngineKind::kPacked;
-  throw InvalidArgument("engine", "'" + std::string(text) + "' is not one of auto, torch, packed");
+  if (text == "packed-bf16") return EngineKind::kPackedBf16;
+  throw InvalidArgument(
+      "engine", "'" + std::string(text) + "' is not one of auto, torch, packed, packed-bf16");
 }
 
 AvailableDevices TorchDevices() {

@@ -20,12 +20,14 @@ namespace choreo {
 
 /// What plans transitions and steps the flow.
 enum class EngineKind {
-  kAuto,    ///< the faster one: packed on the CPU, else torch
-  kTorch,   ///< LibTorch, on any of its devices; the reference that others are held to
-  kPacked,  ///< own kernels on packed weights, on the CPU alone
+  kAuto,        ///< the faster one: packed on the CPU, else torch
+  kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to
+  kPacked,      ///< own kernels on packed weights, on the CPU alone
+  kPackedBf16,  ///< the same with products of bfloat16, where the CPU has instructions for them
 };
 
-/// Reads `auto | torch | packed`. Throws Error(kInvalidArgument, "engine") for another name.
+/// Reads `auto | torch | packed | packed-bf16`. Throws Error(kInvalidArgument, "engine") for
+/// another name.
 EngineKind ParseEngineKind(std::string_view text);
 
 /// What LibTorch can use here.
@@ -38,7 +40,7 @@ void SetTorchThreads(int threads);
 /// Loads a checkpoint once and makes an engine on each device, with `slots` slots each; engines of
 /// one device share its weights. Throws as LoadCheckpoint does (model/flow/checkpoint.h), and
 /// Error(kInvalidArgument) unless slots is in [1, 4096], and for kPacked on another device than the
-/// CPU.
+/// CPU, or kPackedBf16 on one without AVX512-BF16.
 std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& checkpoint,
                                                      std::span<const Device> devices, int slots,
                                                      EngineKind kind = EngineKind::kAuto);

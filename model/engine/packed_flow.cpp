@@ -57,7 +57,7 @@ FirstLayer Split(const Eigen::Map<const Matrix>& weight, long low, long live) {
 }  // namespace
 
 PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int features,
-                       const PackedKernels& with)
+                       const PackedKernels& with, const PackedKernels& products)
     : kernels(with),
       width(features),
       tau(config.history_frames),
@@ -83,10 +83,10 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
     Matrix weight(live, condition);
     weight << tensors.Get("encode_past.weight", condition, past).transpose(),
         tensors.Get("encode_audio.weight", condition, audio).transpose();
-    encoding_bias_ =
-        tensors.Get("encode_past.bias", condition) + tensors.Get("encode_audio.bias", condition);
-    encode_live = PackedLinear(kernels, weight, Eigen::VectorXf::Zero(condition));
-    encode = tensors.Linear(kernels, "encode", condition, condition);
+    encode_live = PackedLinear(
+        products, weight,
+        tensors.Get("encode_past.bias", condition) + tensors.Get("encode_audio.bias", condition));
+    encode = tensors.Linear(products, "encode", condition, condition);
   } else {
     const long columns = tensors.Columns("flow.steps.0." + first_weight);
     if (columns < low() + live) {
@@ -111,14 +111,14 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
       parts.live_and_low = weight;
       bias = tensors.Get(network + "lstm.bias_ih_l0", first_width()) +
              tensors.Get(network + "lstm.bias_hh_l0", first_width());
-      coupling.second = LstmLayer(kernels, tensors, network + "lstm", "l1", hidden, hidden);
+      coupling.second = LstmLayer(products, tensors, network + "lstm", "l1", hidden, hidden);
     } else {
       bias = tensors.Get(network + "first.bias", first_width());
-      coupling.second = tensors.Linear(kernels, network + "second", hidden, hidden);
+      coupling.second = tensors.Linear(products, network + "second", hidden, hidden);
     }
-    coupling.first = PackedLinear(kernels, parts.live_and_low, bias);
-    if (!encoded) hoisted_.emplace_back(kernels, parts.fixed, bias);
-    coupling.last = tensors.Linear(kernels, network + "last", hidden, 2 * high());
+    coupling.first = PackedLinear(products, parts.live_and_low, bias);
+    if (!encoded) hoisted_.emplace_back(products, parts.fixed, bias);
+    coupling.last = tensors.Linear(products, network + "last", hidden, 2 * high());
     coupling.unmix = Unmix(kernels, tensors, name, width);
     log_det_sum += tensors.Get(name + "norm_log_scale", width).cast<double>().sum() +
                    tensors.Get(name + "log_diagonal", width).cast<double>().sum();
@@ -128,14 +128,6 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
 
 void PackedFlow::Hoist(const float* static_condition, long rows, float* hoisted) const {
   const long stride = hoisted_width();
-  if (encoded) {
-    for (long row = 0; row < rows; ++row) {
-      for (long i = 0; i < condition; ++i) {
-        hoisted[row * stride + i] = static_condition[row * static_width + i] + encoding_bias_[i];
-      }
-    }
-    return;
-  }
   for (const PackedLinear& fixed : hoisted_) {
     fixed.Run(static_condition, static_width, hoisted, stride, rows);
     hoisted += fixed.padded();

@@ -26,9 +26,10 @@ struct PackedFlow {
   };
 
   /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
-  /// configuration. `width`: of the features.
+  /// configuration. `width`: of the features. `products`: for the networks' products, `kernels` or
+  /// less exact ones of the same panel; what leads straight from noise to features is `kernels`'.
   PackedFlow(const Safetensors& content, const FlowConfig& config, int width,
-             const PackedKernels& kernels);
+             const PackedKernels& kernels, const PackedKernels& products);
 
   int low() const { return width / 2; }
   int high() const { return width - low(); }
@@ -36,17 +37,15 @@ struct PackedFlow {
   int state_width() const { return recurrent ? flow_steps * 4 * hidden : 0; }
   /// Outputs of a coupling's first layer.
   int first_width() const { return recurrent ? 4 * hidden : hidden; }
-  /// Width of Hoist's rows: the encoding's first layer, or every coupling's.
-  long hoisted_width() const {
-    return encoded ? encode_live.padded() : flow_steps * couplings.front().first.padded();
-  }
+  /// Width of Hoist's rows: every coupling's first layer.
+  long hoisted_width() const { return flow_steps * couplings.front().first.padded(); }
   /// Root position and rotations; velocities and contacts stand behind them.
   int pose_width() const { return width - 3 - 4; }
   int input_width() const { return condition + low() + (recurrent ? hidden : 0); }
 
   /// static_condition [rows, static_width] -> hoisted [rows, hoisted_width()]: what every frame's
-  /// first product starts from, biases included.
-  /// Allocates nothing.
+  /// first products start from, biases included. Not where the condition is encoded: there it is
+  /// what is added to `encode_live`. Allocates nothing.
   void Hoist(const float* static_condition, long rows, float* hoisted) const;
 
   const PackedKernels& kernels;
@@ -64,7 +63,6 @@ struct PackedFlow {
   std::vector<Coupling> couplings;
 
  private:
-  Eigen::VectorXf encoding_bias_;      // encoded: of past and music
   std::vector<PackedLinear> hoisted_;  // raw: each coupling's static columns
 };
 

@@ -4,7 +4,11 @@
 
 /// The loops in which the packed engine spends its time, compiled once for each instruction set.
 /// Every element of a product is one sum over the depth, from first to last, so a row's bits depend
-/// neither on how many rows are multiplied with it nor on its place. All float32.
+/// neither on how many rows are multiplied with it nor on its place.
+///
+/// All float32; but where PackedKernels::pair is, elements of `a` and `b` are pairs of bfloat16
+/// that lie behind one another in the depth, and the depth is half of what it was. Sums are
+/// float32.
 namespace choreo {
 
 /// c [rows, panels * panel] = init + a b. Columns of `b` lie in panels of PackedKernels::panel,
@@ -32,6 +36,9 @@ struct PackedCoupling {
 struct PackedKernels {
   const char* name;  ///< "avx512"
   long panel;        ///< columns
+  /// out [count / 2, rounded up] = x in pairs of bfloat16, an odd one with a zero. Null: products
+  /// take floats as they are.
+  void (*pair)(const float* x, long count, float* out);
   void (*multiply)(const PackedProduct& product);
   /// x = silu(x)
   void (*silu)(float* x, long count);
@@ -55,11 +62,10 @@ struct PackedKernels {
   void (*softplus)(float* x, long count);
 };
 
-/// What this machine can run, fastest first; never empty.
+/// What this machine can run in float32, fastest first; never empty.
 std::span<const PackedKernels* const> PackedKernelsHere();
-
-/// Multiplies random rows in every place of batches of several sizes; true if their bits never
-/// differ. Takes about a millisecond.
-bool RowsAreIndependent(const PackedKernels& kernels);
+/// The fastest of these with products of bfloat16, and the same panel; null where the machine has
+/// no instructions for them.
+const PackedKernels* Bf16KernelsHere();
 
 }  // namespace choreo

@@ -5,6 +5,11 @@
 //   CHOREO_KERNELS_NAME   what it is called
 //   CHOREO_VECTOR_BYTES   of one register
 //   CHOREO_MOST_ROWS      of which two registers each are summed at once
+//   CHOREO_BF16           1: products of pairs of bfloat16, AVX512-BF16's
+#if CHOREO_BF16
+#include <immintrin.h>
+#endif
+
 #include "model/engine/packed_kernels.h"
 
 namespace choreo {
@@ -19,6 +24,32 @@ constexpr long kAhead = 512;  // floats that are asked for before they are neede
 
 // Aligned as floats are: rows begin anywhere.
 typedef float Vector __attribute__((vector_size(kVectorBytes), aligned(4), may_alias));
+
+#if CHOREO_BF16
+// An element of a product is two numbers.
+inline Vector MultiplyAdd(Vector sum, float x, Vector weight) {
+  const __m512i pair = _mm512_set1_epi32(__builtin_bit_cast(int, x));
+  return _mm512_dpbf16_ps(sum, __builtin_bit_cast(__m512bh, pair),
+                          __builtin_bit_cast(__m512bh, weight));
+}
+
+// To the nearest bfloat16, of two equally near ones the even.
+inline unsigned Round(float x) {
+  const unsigned bits = __builtin_bit_cast(unsigned, x);
+  return (bits + 0x7FFFU + ((bits >> 16) & 1U)) >> 16;
+}
+
+void Pair(const float* __restrict x, long count, float* __restrict out) {
+  for (long i = 0; i < count / 2; ++i) {
+    out[i] = __builtin_bit_cast(float, Round(x[2 * i]) | Round(x[2 * i + 1]) << 16);
+  }
+  if (count % 2 == 1) out[count / 2] = __builtin_bit_cast(float, Round(x[count - 1]));
+}
+#else
+inline Vector MultiplyAdd(Vector sum, float x, Vector weight) { return sum + x * weight; }
+
+constexpr void (*Pair)(const float*, long, float*) = nullptr;
+#endif
 
 template <int kRows, int kPanels>
 void Block(const PackedProduct& p, long row, long panel) {
@@ -46,7 +77,7 @@ void Block(const PackedProduct& p, long row, long panel) {
     for (int r = 0; r < kRows; ++r) {
       const float x = a[r * p.a_stride + k];
 #pragma GCC unroll 8
-      for (int v = 0; v < kVectors; ++v) sum[r][v] += x * weight[v];
+      for (int v = 0; v < kVectors; ++v) sum[r][v] = MultiplyAdd(sum[r][v], x, weight[v]);
     }
   }
   float* c = p.c + row * p.c_stride + panel * kPanel;
@@ -100,6 +131,7 @@ void Multiply(const PackedProduct& p) {
 
 const PackedKernels CHOREO_KERNELS = {.name = CHOREO_KERNELS_NAME,
                                       .panel = kPanel,
+                                      .pair = Pair,
                                       .multiply = Multiply,
                                       .silu = Silu,
                                       .lstm = Lstm,

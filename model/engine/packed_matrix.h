@@ -62,7 +62,8 @@ class RowBuffer {
   long size_ = 0, stride_ = 0;
 };
 
-/// A linear map x W + bias, laid out for PackedKernels::multiply. Read only: engines share it.
+/// A linear map x W + bias in the precision of its kernels, laid out for PackedKernels::multiply.
+/// Read only: engines share it.
 class PackedLinear {
  public:
   PackedLinear() = default;
@@ -89,9 +90,16 @@ class PackedLinear {
   void Multiply(const float* x, long x_stride, const float* init, long init_stride, float* y,
                 long y_stride, long rows) const;
 
+  /// Of the products' elements: floats, or pairs.
+  long elements() const { return kernels_->pair != nullptr ? (depth_ + 1) / 2 : depth_; }
+
   const PackedKernels* kernels_ = nullptr;
   long depth_ = 0, columns_ = 0, panels_ = 0;
   LargePages weight_, bias_;
 };
+
+/// Multiplies random rows in every place of batches of several sizes; true if their bits never
+/// differ. Takes about a millisecond.
+bool RowsAreIndependent(const PackedKernels& kernels);
 
 }  // namespace choreo

@@ -72,7 +72,8 @@ struct PackedPlanner::Scratch {
 };
 
 PackedPlanner::PackedPlanner(const Safetensors& content, const FlowConfig& config,
-                             const Skeleton& skeleton, const PackedKernels& kernels)
+                             const Skeleton& skeleton, const PackedKernels& kernels,
+                             const PackedKernels& products)
     : config_(config),
       joints_(skeleton.joints()),
       pairs_(MirrorPairs(skeleton)),
@@ -80,7 +81,7 @@ PackedPlanner::PackedPlanner(const Safetensors& content, const FlowConfig& confi
   const PackedTensors tensors(content);
   feature_width_ = static_cast<int>(content.tensors.at("feature_mean").data.size());
   const int key = 3 + 6 * joints_ + joints_ + 1, hidden = config.planner.width;
-  if (hidden > 0) transformer_.emplace(tensors, joints_, config, kernels);
+  if (hidden > 0) transformer_.emplace(tensors, joints_, config, kernels, products);
   if (hidden > 0 && config.planner.variety > 0)
     variety_.emplace(tensors, joints_, config.planner.variety);
   counts_ = TimeEmbeddings(0, config.max_transition_frames, feature_width_);

@@ -19,9 +19,9 @@ class PackedPlanner : public TransitionPlanner {
  public:
   static bool Serves(const FlowConfig& config) { return !config.planner.recurrent; }
 
-  /// Throws as PackedTensors does.
+  /// Throws as PackedTensors does. `products` as PackedTransformer has it.
   PackedPlanner(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
-                const PackedKernels& kernels);
+                const PackedKernels& kernels, const PackedKernels& products);
   TransitionPlan Plan(const TransitionSpec& spec) const override;
 
  private:

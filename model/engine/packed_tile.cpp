@@ -42,9 +42,10 @@ PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
 void PackedTile::Begin(int slot_index, std::vector<float> static_condition) {
   Slot& slot = slots_[static_cast<size_t>(slot_index)];
   slot.static_condition = std::move(static_condition);
+  slot.state.assign(static_cast<size_t>(flow_->state_width()), 0.0F);
+  if (flow_->encoded) return;
   const long frames = static_cast<long>(slot.static_condition.size()) / flow_->static_width;
   slot.hoisted.resize(static_cast<size_t>(std::min(kAhead, frames) * flow_->hoisted_width()));
-  slot.state.assign(static_cast<size_t>(flow_->state_width()), 0.0F);
   Hoist(&slot, 0);
 }
 
@@ -63,7 +64,7 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
   for (long i = 0; i < count; ++i) {
     const FlowRow& row = rows[static_cast<size_t>(i)];
     Slot& slot = slots_[static_cast<size_t>(row.slot)];
-    if (row.frame >= slot.hoisted_from + kAhead) Hoist(&slot, row.frame);
+    if (!flow.encoded && row.frame >= slot.hoisted_from + kAhead) Hoist(&slot, row.frame);
     float* live = flow.encoded ? live_.Row(i) : input_.Row(i);
     flow.kernels.standardise(row.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
                              flow.width, flow.tau, kFeatureClamp, live);
@@ -75,13 +76,16 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
       std::fill(live + past, live + flow.live, 0.0F);
     }
     live[flow.live - 1] = row.has_audio ? 1.0F : 0.0F;
-    if (flow.encoded) {
-      std::copy_n(slot.hoisted.data() + (row.frame - slot.hoisted_from) * flow.hoisted_width(),
-                  flow.hoisted_width(), encoding_.Row(i));
-    }
   }
   if (!flow.encoded) return;
-  flow.encode_live.Add(live_.Row(0), live_.stride, encoding_.Row(0), encoding_.stride, count);
+  flow.encode_live.Run(live_.Row(0), live_.stride, encoding_.Row(0), encoding_.stride, count);
+  for (long i = 0; i < count; ++i) {
+    const FlowRow& row = rows[static_cast<size_t>(i)];
+    const Slot& slot = slots_[static_cast<size_t>(row.slot)];
+    Eigen::Map<Eigen::VectorXf>(encoding_.Row(i), flow.condition) +=
+        Eigen::Map<const Eigen::VectorXf>(
+            slot.static_condition.data() + row.frame * flow.static_width, flow.static_width);
+  }
   flow.kernels.silu(encoding_.Row(0), count * encoding_.stride);
   // live_ has done its part, and is wider.
   flow.encode.Run(encoding_.Row(0), encoding_.stride, live_.Row(0), live_.stride, count);

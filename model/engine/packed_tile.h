@@ -24,11 +24,12 @@ class PackedTile : public FlowTile {
 
  private:
   static constexpr int kRows = 64;
-  static constexpr long kAhead = 64;
+  static constexpr long kAhead = 16;
 
   struct Slot {
     std::vector<float> static_condition;  // [N, static_width]
-    std::vector<float> hoisted;           // [kAhead, hoisted_width], of frames from `hoisted_from`
+    std::vector<float>
+        hoisted;  // [kAhead, hoisted_width], of frames from `hoisted_from`; encoded: none
     long hoisted_from = 0;
     std::vector<float> state;  // [flow_steps, h0 h1 c0 c1, hidden]
   };

@@ -17,7 +17,8 @@ constexpr float kVelocityScale = 8;
 }  // namespace
 
 PackedTransformer::PackedTransformer(const PackedTensors& tensors, int joints,
-                                     const FlowConfig& config, const PackedKernels& kernels)
+                                     const FlowConfig& config, const PackedKernels& kernels,
+                                     const PackedKernels& products)
     : pose_mean(tensors.Get("planner.pose_mean", 3 + 6 * joints)),
       pose_std(tensors.Get("planner.pose_std", 3 + 6 * joints)),
       kernels_(kernels),
@@ -35,8 +36,8 @@ PackedTransformer::PackedTransformer(const PackedTensors& tensors, int joints,
   const long kinds = 3 * pose + joints + 1, counts = kinds + 2;
   const RowMajorMatrix token =
       tensors.Get("planner.embed.weight", width_, counts + 2 * kEmbeddingWidth).transpose();
-  embed_ = {kernels, token.topRows(2 * pose), Eigen::VectorXf::Zero(width_)};
-  embed_fixed_ = {kernels, token.middleRows(2 * pose, pose + joints + 1),
+  embed_ = {products, token.topRows(2 * pose), Eigen::VectorXf::Zero(width_)};
+  embed_fixed_ = {products, token.middleRows(2 * pose, pose + joints + 1),
                   tensors.Get("planner.embed.bias", width_)};
   is_key_ = token.row(kinds + 1);
   since_ =
@@ -58,10 +59,10 @@ PackedTransformer::PackedTransformer(const PackedTensors& tensors, int joints,
     const float scale = 1 / std::sqrt(static_cast<float>(head_width));
     qkv.leftCols(width_) *= scale;
     qkv_bias.head(width_) *= scale;
-    block.qkv = {kernels, qkv, qkv_bias};
-    block.out = tensors.Linear(kernels, name + "out", width_, width_);
-    block.up = tensors.Linear(kernels, name + "up", width_, 2 * width_);
-    block.down = tensors.Linear(kernels, name + "down", 2 * width_, width_);
+    block.qkv = {products, qkv, qkv_bias};
+    block.out = tensors.Linear(products, name + "out", width_, width_);
+    block.up = tensors.Linear(products, name + "up", width_, 2 * width_);
+    block.down = tensors.Linear(products, name + "down", 2 * width_, width_);
     const auto table = tensors.Get(name + "distance_bias", 2 * kMaxDistance + 1, heads_);
     block.distance_bias.resize(heads_, 2 * most_ + kernels.panel);
     for (long at = 0; at < block.distance_bias.cols(); ++at) {

@@ -27,9 +27,10 @@ class PackedTransformer {
     RowBuffer input, fixed_input, fixed, x, normal, wide, mixed, scores, keys, values;
   };
 
-  /// Throws as PackedTensors does.
+  /// Throws as PackedTensors does. `products`: for the layers' products, `kernels` or less exact
+  /// ones of the same panel.
   PackedTransformer(const PackedTensors& tensors, int joints, const FlowConfig& config,
-                    const PackedKernels& kernels);
+                    const PackedKernels& kernels, const PackedKernels& products);
 
   int width() const { return width_; }
   /// Floats of a pose: root position, then 6D rotations.

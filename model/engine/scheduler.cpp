@@ -13,6 +13,9 @@ Scheduler::Scheduler(std::vector<std::unique_ptr<StepEngine>> engines, Options o
   if (options.max_batch < 1) {
     throw InvalidArgument("max_batch", std::to_string(options.max_batch) + " is below 1");
   }
+  if (options.max_admissions < 1) {
+    throw InvalidArgument("max_admissions", std::to_string(options.max_admissions) + " is below 1");
+  }
   impl_->options = options;
   const std::string fingerprint = engines[0]->model().fingerprint;
   for (size_t i = 0; i < engines.size(); ++i) {

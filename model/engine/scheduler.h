@@ -32,8 +32,8 @@ class StepJob {
 
   /// Once, last: after the final frame (nullptr), after cancellation (kCancelled), or when
   /// something failed. The job's slot is free by then, and the first job submitted from inside
-  /// OnDone inherits it: that one goes before all that wait, is never refused for want of room, and
-  /// steps with the next batch. (A job that ends while it waits has no slot to leave.)
+  /// OnDone inherits it: that one goes before all that wait and is never refused for want of room.
+  /// (A job that ends while it waits has no slot to leave.)
   virtual void OnDone(const Error* failure) noexcept = 0;
 
   /// When this job's next frame is due on its listener's clock, seconds; earliest goes first when
@@ -46,14 +46,18 @@ class StepJob {
 };
 
 /// Feeds engines: one worker thread per engine; ready jobs step together; earliest deadline first;
-/// no added delay. A job goes to the engine with most free slots, or waits, in order of submission,
-/// until some slot is free. Admission is bounded: Submit never blocks. Thread-safe. A job is held
-/// from Submit until its OnDone has returned.
+/// no added delay. Admission takes as long as many steps, so there are few between two steps: a
+/// crowd that comes at once, or whose transitions end at once, does not stop those who dance. A job
+/// goes to the engine with most free slots, or waits, in order of submission, until some slot is
+/// free. Admission is bounded: Submit never blocks. Thread-safe. A job is held from Submit until
+/// its OnDone has returned.
 class Scheduler {
  public:
   struct Options {
     int max_waiting = 64;  ///< jobs beyond the engines' slots that may wait for one, >= 0
     int max_batch = 64;    ///< most slots of one engine stepped at once, >= 1
+    /// Most jobs that one engine admits between two steps, >= 1, earliest deadlines first.
+    int max_admissions = 1;
   };
   struct Stats {
     int active = 0;   ///< jobs that hold a slot

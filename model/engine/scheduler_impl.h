@@ -30,7 +30,7 @@ struct Scheduler::Impl {
     // Of the worker's thread alone:
     int slot = -1;        ///< of the engine, once admitted
     bool asleep = false;  ///< NextInput said no, and no Wake has come since
-    double deadline = 0;  ///< asked for only in crowded rounds
+    double deadline = 0;  ///< asked for where not all can go at once
   };
 
   /// One engine and the thread that alone touches it.
@@ -46,7 +46,7 @@ struct Scheduler::Impl {
 
     // Of the worker's thread alone. Capacities are reserved at the start: a round allocates
     // nothing.
-    std::vector<Entry*> arrivals;                    ///< what was in `inbox`
+    std::vector<Entry*> arrivals;                    ///< have a slot, not yet admitted
     std::vector<std::shared_ptr<StepJob>> suspects;  ///< woken while they wait: cancelled?
     std::vector<Entry*> active;                      ///< admitted to the engine
     std::vector<Entry*> ready;                       ///< of `active`, those not asleep
@@ -81,17 +81,17 @@ struct Scheduler::Impl {
   bool BeginRound(Worker* worker, bool* stopped);
   void EndEverything(Worker* worker);
   void EndCancelledSuspects(Worker* worker);
+  void AdmitArrivals(Worker* worker);
   void GatherBatch(Worker* worker);
   void StepBatch(Worker* worker);
 
-  Entry* Admit(Worker* worker, Entry* entry);
-  Entry* Leave(Worker* worker, Entry* entry, const Error* failure);
+  bool Admit(Worker* worker, Entry* entry);
+  void Leave(Worker* worker, Entry* entry, const Error* failure);
   void EndWaiting(std::unique_ptr<Entry> entry, const Error& failure);
 
-  /// Ends a job and fills its slot with the next, and that one's, should it be unfit.
-  void Settle(Worker* worker, Entry* entry, const Error* failure) {
-    Entry* next = Leave(worker, entry, failure);
-    while (next != nullptr) next = Admit(worker, next);
+  /// Earliest deadline first, then in order of submission.
+  static bool GoesFirst(const Entry* a, const Entry* b) {
+    return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
   }
 
   // The caller of these holds the mutex.

@@ -21,6 +21,11 @@ Error CurrentError() {
   }
 }
 
+double DeadlineOf(const StepJob& job) {
+  const double deadline = job.NextDeadline();
+  return std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline;
+}
+
 }  // namespace
 
 thread_local Scheduler::Impl::Worker* Scheduler::Impl::current = nullptr;
@@ -37,10 +42,7 @@ void Scheduler::Impl::Run(Worker* worker) {
       continue;
     }
     EndCancelledSuspects(worker);
-    for (Entry* arrival : worker->arrivals) {
-      for (Entry* next = arrival; next != nullptr;) next = Admit(worker, next);
-    }
-    worker->arrivals.clear();
+    AdmitArrivals(worker);
     GatherBatch(worker);
     if (!worker->batch.empty()) StepBatch(worker);
   }
@@ -51,7 +53,8 @@ void Scheduler::Impl::Run(Worker* worker) {
 bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
   std::unique_lock lock(mutex);
   for (;;) {
-    worker->arrivals.swap(worker->inbox);
+    worker->arrivals.insert(worker->arrivals.end(), worker->inbox.begin(), worker->inbox.end());
+    worker->inbox.clear();
     bool any_awake = false;
     for (Entry* entry : worker->active) {
       if (std::exchange(entry->woken, false)) entry->asleep = false;
@@ -75,9 +78,12 @@ bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
 
 void Scheduler::Impl::EndEverything(Worker* worker) {
   const Error stopping(ErrorCode::kUnavailable, "", "the scheduler is stopped");
-  while (!worker->active.empty()) Settle(worker, worker->active.back(), &stopping);
-  for (Entry* arrival : worker->arrivals) Settle(worker, arrival, &stopping);
-  worker->arrivals.clear();
+  while (!worker->active.empty()) Leave(worker, worker->active.back(), &stopping);
+  while (!worker->arrivals.empty()) {
+    Entry* arrival = worker->arrivals.back();
+    worker->arrivals.pop_back();
+    Leave(worker, arrival, &stopping);
+  }
   for (;;) {
     std::unique_ptr<Entry> entry;
     {
@@ -108,6 +114,16 @@ void Scheduler::Impl::EndCancelledSuspects(Worker* worker) {
   worker->suspects.clear();
 }
 
+void Scheduler::Impl::AdmitArrivals(Worker* worker) {
+  for (int admitted = 0; admitted < options.max_admissions && !worker->arrivals.empty();) {
+    for (Entry* entry : worker->arrivals) entry->deadline = DeadlineOf(*entry->job);
+    const auto first = std::ranges::min_element(worker->arrivals, GoesFirst);
+    Entry* entry = *first;
+    worker->arrivals.erase(first);
+    if (Admit(worker, entry)) ++admitted;
+  }
+}
+
 void Scheduler::Impl::GatherBatch(Worker* worker) {
   const auto limit = static_cast<size_t>(options.max_batch);
   worker->ready.clear();
@@ -115,20 +131,15 @@ void Scheduler::Impl::GatherBatch(Worker* worker) {
     Entry* entry = worker->active[i];
     if (entry->job->Cancelled()) {
       const Error cancelled(ErrorCode::kCancelled, "", "cancelled");
-      Settle(worker, entry, &cancelled);  // another stands at i now, or none
+      Leave(worker, entry, &cancelled);  // another stands at i now, or none
       continue;
     }
     if (!entry->asleep) worker->ready.push_back(entry);
     ++i;
   }
   if (worker->ready.size() > limit) {
-    for (Entry* entry : worker->ready) {
-      const double deadline = entry->job->NextDeadline();
-      entry->deadline = std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline;
-    }
-    std::sort(worker->ready.begin(), worker->ready.end(), [](const Entry* a, const Entry* b) {
-      return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
-    });
+    for (Entry* entry : worker->ready) entry->deadline = DeadlineOf(*entry->job);
+    std::ranges::sort(worker->ready, GoesFirst);
   }
   worker->batch.clear();
   worker->inputs.clear();
@@ -139,7 +150,7 @@ void Scheduler::Impl::GatherBatch(Worker* worker) {
       entry->asleep = !entry->job->NextInput(&input);
     } catch (...) {
       const Error failure = CurrentError();
-      Settle(worker, entry, &failure);
+      Leave(worker, entry, &failure);
       continue;
     }
     if (entry->asleep) continue;
@@ -156,7 +167,7 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
   } catch (...) {
     // Some of them may have advanced and some not: none can go on.
     const Error failure = CurrentError();
-    for (Entry* entry : worker->batch) Settle(worker, entry, &failure);
+    for (Entry* entry : worker->batch) Leave(worker, entry, &failure);
     return;
   }
   steps.fetch_add(1, std::memory_order_relaxed);
@@ -164,33 +175,32 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
   for (size_t i = 0; i < size; ++i) {
     Entry* entry = worker->batch[i];
     try {
-      if (!entry->job->OnFrame(worker->outputs[i])) Settle(worker, entry, nullptr);
+      if (!entry->job->OnFrame(worker->outputs[i])) Leave(worker, entry, nullptr);
     } catch (...) {
       const Error failure = CurrentError();
-      Settle(worker, entry, &failure);
+      Leave(worker, entry, &failure);
     }
   }
 }
 
 // ---- One job's way ------------------------------------------------------------------------------
 
-// Starts a job in the place that it was given. Returns the job that takes its place instead, should
-// it be cancelled or refused.
-Scheduler::Impl::Entry* Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
+// Starts a job in the place that it was given; false if it is cancelled or refused, and has left.
+bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
   try {
     if (entry->job->Cancelled()) throw Error(ErrorCode::kCancelled, "", "cancelled");
     entry->slot = worker->engine->Admit(entry->job->spec());
     worker->active.push_back(entry);
-    return nullptr;
+    return true;
   } catch (...) {
     const Error failure = CurrentError();
-    return Leave(worker, entry, &failure);
+    Leave(worker, entry, &failure);
+    return false;
   }
 }
 
-// Frees a job's slot, tells the job, and returns who has the place now: the job's heir, else the
-// longest waiting, else none (nullptr).
-Scheduler::Impl::Entry* Scheduler::Impl::Leave(Worker* worker, Entry* entry, const Error* failure) {
+// Frees a job's slot, tells the job, and gives its place to its heir, else to the longest waiting.
+void Scheduler::Impl::Leave(Worker* worker, Entry* entry, const Error* failure) {
   if (entry->slot >= 0) {
     worker->engine->Release(entry->slot);
     std::erase(worker->active, entry);
@@ -207,15 +217,17 @@ Scheduler::Impl::Entry* Scheduler::Impl::Leave(Worker* worker, Entry* entry, con
 
   std::lock_guard lock(mutex);
   CountOut();
-  if (Entry* heir = std::exchange(worker->heir, nullptr); heir != nullptr) return heir;
-  if (waiting.empty() || phase == Phase::kStopped) {
-    --worker->taken;
-    return nullptr;
+  Entry* next = std::exchange(worker->heir, nullptr);
+  if (next == nullptr && !waiting.empty() && phase != Phase::kStopped) {
+    next = waiting.front();
+    waiting.pop_front();
+    next->worker = worker;
   }
-  Entry* next = waiting.front();
-  waiting.pop_front();
-  next->worker = worker;
-  return next;
+  if (next == nullptr) {
+    --worker->taken;
+  } else {
+    worker->arrivals.push_back(next);
+  }
 }
 
 void Scheduler::Impl::EndWaiting(std::unique_ptr<Entry> entry, const Error& failure) {

@@ -203,7 +203,7 @@ void AddEvalCommand(CLI::App& app) {
                       "NAME=CHECKPOINT: a row for another model, danced just as the first");
   command->add_option("--engine", arguments->engine, "auto | torch | packed")
       ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "torch", "packed"}));
+      ->check(CLI::IsMember({"auto", "torch", "packed", "packed-bf16"}));
   command->add_option("--json", arguments->json,
                       "Also write the figures here, and plots beside it");
   command

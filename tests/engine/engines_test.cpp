@@ -210,6 +210,7 @@ TEST(EngineSetUpTest, KindsHaveNames) {
   EXPECT_EQ(ParseEngineKind("auto"), EngineKind::kAuto);
   EXPECT_EQ(ParseEngineKind("torch"), EngineKind::kTorch);
   EXPECT_EQ(ParseEngineKind("packed"), EngineKind::kPacked);
+  EXPECT_EQ(ParseEngineKind("packed-bf16"), EngineKind::kPackedBf16);
   EXPECT_THROW(ParseEngineKind("fast"), Error);
 }
 

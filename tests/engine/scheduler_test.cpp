@@ -32,6 +32,7 @@ class SchedulerTest : public ::testing::Test {
   void Start(int slots, Scheduler::Options options = {}, uint64_t poison = 0) {
     std::vector<std::unique_ptr<StepEngine>> engines;
     engines.push_back(std::make_unique<GatedEngine>(slots, &gate_, poison));
+    options.max_admissions = admissions_;
     scheduler_ = std::make_unique<Scheduler>(std::move(engines), options);
   }
   // Its seed names it in gate_.steps().
@@ -60,6 +61,7 @@ class SchedulerTest : public ::testing::Test {
     return job;
   }
 
+  int admissions_ = 64;  // all at once, which is easier to follow
   Gate gate_;
   std::unique_ptr<Scheduler> scheduler_;  // goes before the gate
 };
@@ -107,6 +109,55 @@ TEST_F(SchedulerTest, TakesTheEarliestDeadlinesWhenNotAllFit) {
   for (const auto& job : jobs) ASSERT_TRUE(job->WaitDone());
   EXPECT_THAT(gate_.steps(),
               ElementsAre(ElementsAre(99), ElementsAre(2, 5), ElementsAre(4, 1), ElementsAre(3)));
+}
+
+// A crowd comes at once and is admitted one by one, the earliest deadline first: who dances misses
+// no step.
+TEST_F(SchedulerTest, ACrowdIsAdmittedOneByOneBetweenSteps) {
+  admissions_ = 1;
+  Start(6);
+  gate_.Close();
+  auto dancing = SubmitJob(1, 6);
+  ASSERT_TRUE(gate_.WaitSteps(1));
+  std::vector<std::shared_ptr<FakeJob>> crowd;
+  const double deadlines[] = {5, 3, 4};
+  for (uint64_t i = 0; i < 3; ++i) {
+    crowd.push_back(Job(i + 2, 2));
+    crowd.back()->deadline = deadlines[i];
+    scheduler_->Submit(crowd.back());
+  }
+  gate_.Open();
+  for (const auto& job : crowd) ASSERT_TRUE(job->WaitDone());
+  ASSERT_TRUE(dancing->WaitDone());
+  EXPECT_THAT(
+      gate_.steps(),
+      ElementsAre(ElementsAre(1), UnorderedElementsAre(1, 3), UnorderedElementsAre(1, 3, 4),
+                  UnorderedElementsAre(1, 4, 2), UnorderedElementsAre(1, 2), ElementsAre(1)));
+}
+
+// So are the transitions that follow on others which end together.
+TEST_F(SchedulerTest, ChainsThatEndTogetherGoOnOneByOne) {
+  admissions_ = 1;
+  Start(6);
+  gate_.Close();
+  auto dancing = SubmitJob(1, 7);
+  ASSERT_TRUE(gate_.WaitSteps(1));
+  std::vector<std::shared_ptr<FakeJob>> first, next;
+  for (uint64_t i = 0; i < 2; ++i) {
+    first.push_back(Job(i + 2, i == 0 ? 2 : 1));
+    next.push_back(Job(i + 12, 2));
+    first.back()->when_done = [this, follower = next.back()](const Error*) {
+      scheduler_->Submit(follower);
+    };
+    scheduler_->Submit(first.back());
+  }
+  gate_.Open();
+  for (const auto& job : next) ASSERT_TRUE(job->WaitDone());
+  ASSERT_TRUE(dancing->WaitDone());
+  EXPECT_THAT(gate_.steps(),
+              ElementsAre(ElementsAre(1), UnorderedElementsAre(1, 2), UnorderedElementsAre(1, 2, 3),
+                          UnorderedElementsAre(1, 12), UnorderedElementsAre(1, 12, 13),
+                          UnorderedElementsAre(1, 13), ElementsAre(1)));
 }
 
 TEST_F(SchedulerTest, EqualDeadlinesGoInOrderOfSubmission) {
