@@ -61,8 +61,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
   app.add_option(
          "--engine", config.engine,
          "What computes: torch (LibTorch, on any device), packed (our own kernels, on the "
-         "CPU), packed-bf16 (the same in half the precision, on CPUs with AVX512-BF16), or auto: "
-         "packed on the CPU, else torch. Replicas that take over each other's dances must agree.")
+         "CPU), packed-bf16 (the same with products of bfloat16, on CPUs with AVX512-BF16), or "
+         "auto, the fastest of them here. Replicas that take over each other's dances must agree.")
       ->envname("CHOREO_ENGINE")
       ->capture_default_str();
   app.add_option("--slots", config.slots,
@@ -124,7 +124,8 @@ void ServerConfig::Validate() const {
   CheckAddress(listen);
   for (const auto& path : checkpoints) CheckFile("--checkpoint", path);
   if (std::find(kEngines.begin(), kEngines.end(), engine) == kEngines.end()) {
-    throw InvalidArgument("--engine", '"' + engine + "\" is none of auto, torch, packed, packed-bf16");
+    throw InvalidArgument("--engine",
+                          '"' + engine + "\" is none of auto, torch, packed, packed-bf16");
   }
   CheckRange("--slots", slots, 1, 4096);
   CheckRange("--max-waiting", max_waiting, 0, 65536);

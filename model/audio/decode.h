@@ -61,8 +61,8 @@ struct DecodedAudio {
   double seconds() const { return static_cast<double>(samples()) / sample_rate; }
 };
 
-/// All of a sound file at once (ten minutes of it may be 3.7 GB), or its first `seconds`, rounded up
-/// to whole pieces: what lies behind them is not read. Errors as AudioReader.
+/// All of a sound file at once (ten minutes of it may be 3.7 GB), or its first `seconds`, rounded
+/// up to whole pieces: what lies behind them is not read. Errors as AudioReader.
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
                              double seconds = std::numeric_limits<double>::infinity());
 

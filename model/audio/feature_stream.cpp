@@ -15,7 +15,7 @@ constexpr int64_t kHalfWindow = kFftSize / 2;
 
 /// Frames of interleaved samples handled at a time, so that a long push needs no more memory than a
 /// short one.
-constexpr size_t kBlock = 8192;
+constexpr size_t kBlock = 1024;
 
 int64_t CeilDivide(int64_t value, int64_t by) { return (value + by - 1) / by; }
 
@@ -26,14 +26,13 @@ FeatureStream::FeatureStream(double sample_rate, int channels, int64_t first_sam
       channels_(channels),
       first_sample_(first_sample),
       resampler_(sample_rate, channels, first_sample),
-      mono_start_(resampler_.first_output()),
-      window_(kFftSize, 0.0f) {
+      mono_start_(resampler_.first_output()) {
   if (mono_start_ == 0) {
     mono_.assign(kHalfWindow, 0.0f);
     mono_start_ = -kHalfWindow;
   }
   first_row_ = CeilDivide(mono_start_ + kHalfWindow, kFeatureHop);
-  silence_ = ComputeRow();
+  silence_ = RowOf(std::vector<float>(kFftSize));
 }
 
 void FeatureStream::Push(std::span<const float> interleaved) {
@@ -66,6 +65,7 @@ void FeatureStream::Finish() {
   // Silence as far as the last window that holds any audio; the rows behind it are all the same.
   mono_.insert(mono_.end(), kFftSize + kFeatureHop, 0.0f);
   ComputeRows();
+  mono_ = {};
 }
 
 void FeatureStream::ComputeRows() {
@@ -74,8 +74,7 @@ void FeatureStream::ComputeRows() {
   for (;;) {
     start = (first_row_ + static_cast<int64_t>(rows_.size())) * kFeatureHop - kHalfWindow;
     if (start + kFftSize > end) break;
-    std::copy_n(mono_.begin() + (start - mono_start_), kFftSize, window_.begin());
-    rows_.push_back(ComputeRow());
+    rows_.push_back(RowOf(std::span(mono_).subspan(static_cast<size_t>(start - mono_start_))));
   }
   const int64_t done = std::min(start, end) - mono_start_;
   if (done > 0) {
@@ -84,9 +83,11 @@ void FeatureStream::ComputeRows() {
   }
 }
 
-FeatureStream::RowValues FeatureStream::ComputeRow() {
+FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples) {
+  // Its work space is several times what a stream itself holds.
+  thread_local MelSpectrum spectrum;
   std::array<double, kMelBands> db{};
-  const auto power = spectrum_.Power(window_);
+  const auto power = spectrum.Power(samples);
   std::transform(power.begin(), power.end(), db.begin(), PowerToDb);
   RowValues row{};
   MfccOfMelDb(db, row);

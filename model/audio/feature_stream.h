@@ -67,18 +67,16 @@ class FeatureStream {
   using RowValues = std::array<float, kMfccCount>;
 
   void ComputeRows();
-  RowValues ComputeRow();  // of window_
+  static RowValues RowOf(std::span<const float> samples);  // the first kFftSize
 
   double sample_rate_;
   int channels_;
   int64_t first_sample_;
   Resampler resampler_;
-  MelSpectrum spectrum_;
   int64_t pushed_ = 0;
   bool finished_ = false;
   std::vector<float> mono_;  // at 22 050 Hz; what future rows still need
   int64_t mono_start_ = 0;   // absolute index of mono_[0]
-  std::vector<float> window_;
   int64_t first_row_ = 0;
   std::deque<RowValues> rows_;  // a deque, so that rows stay where they are
   RowValues silence_{};

@@ -24,7 +24,8 @@ class MelSpectrum {
  public:
   MelSpectrum();
 
-  /// `samples`: kFftSize of them. The result is valid until the next call.
+  /// `samples`: kFftSize of them, or more, which are not looked at. The result is valid until the
+  /// next call.
   std::span<const double, kMelBands> Power(std::span<const float> samples);
 
  private:

@@ -32,7 +32,7 @@ constexpr int kTableSteps = 4096;
 constexpr int64_t kMaxKeptCoefficients = int64_t{1} << 18;
 
 /// Input samples taken in at a time, so that a long push needs no more memory than a short one.
-constexpr size_t kBlock = 8192;
+constexpr size_t kBlock = 512;
 
 double BesselI0(double x) {
   double term = 1, sum = 1;
@@ -178,6 +178,7 @@ Resampler::Resampler(double sample_rate, int channels, int64_t first_sample)
     kernel_ = PolyphaseKernel::Shared(in_per_period_, out_per_period_);
     const int64_t before =
         kernel_->half_length() - 1;  // samples that output 0 needs before sample 0
+    input_.reserve(static_cast<size_t>(kernel_->taps()) + kBlock);
     if (first_sample == 0) {
       input_.assign(static_cast<size_t>(before), 0.0);
       input_start_ = -before;

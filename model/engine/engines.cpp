@@ -64,14 +64,16 @@ const PackedKernels& VerifiedKernels() {
   throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
 }
 
-// For the networks' products: `exact`, or those of bfloat16.
+// For the networks' products: `exact`, or those of bfloat16, whose dances have the same figures
+// (docs/decisions.md, 32).
 const PackedKernels& ProductKernels(EngineKind kind, const PackedKernels& exact) {
-  if (kind != EngineKind::kPackedBf16) return exact;
+  if (kind == EngineKind::kPacked) return exact;
   const PackedKernels* bf16 = Bf16KernelsHere();
-  if (bf16 == nullptr || bf16->panel != exact.panel || !RowsAreIndependent(*bf16)) {
+  if (bf16 != nullptr && bf16->panel == exact.panel && RowsAreIndependent(*bf16)) return *bf16;
+  if (kind == EngineKind::kPackedBf16) {
     throw InvalidArgument("engine", "packed-bf16 needs a CPU with AVX512-BF16, which this is not");
   }
-  return *bf16;
+  return exact;
 }
 
 // What the engines of one device share.

@@ -22,7 +22,7 @@ namespace choreo {
 enum class EngineKind {
   kAuto,        ///< the faster one: packed on the CPU, else torch
   kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to
-  kPacked,      ///< own kernels on packed weights, on the CPU alone
+  kPacked,      ///< own kernels on packed weights, on the CPU alone, float32
   kPackedBf16,  ///< the same with products of bfloat16, where the CPU has instructions for them
 };
 

@@ -43,7 +43,7 @@ int FlowEngine::Admit(const TransitionSpec& spec) {
   tile_->Begin(slot, std::move(plan.static_condition));
   if (!spec.beats.empty() && !plan.poses.empty())
     plan.poses = TimeToBeats(spec.history, plan.poses, spec.beats);
-  free->window.Begin(spec, std::move(plan.poses));
+  free->window.Begin(spec, plan.poses);
   free->taken = true;
   return slot;
 }

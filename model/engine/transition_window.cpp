@@ -21,7 +21,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model)
       contacts_(model.skeleton),
       proposed_(static_cast<size_t>(codec_.width())) {}
 
-void TransitionWindow::Begin(const TransitionSpec& spec, std::vector<Pose> plan) {
+void TransitionWindow::Begin(const TransitionSpec& spec, std::span<const Pose> plan) {
   frames_ = spec.frames;
   frame_ = 0;
   seed_ = spec.seed;
@@ -29,7 +29,12 @@ void TransitionWindow::Begin(const TransitionSpec& spec, std::vector<Pose> plan)
   first_frame_ = spec.first_frame;
   temperature_ = spec.temperature;
   has_audio_ = spec.has_audio;
-  plan_ = std::move(plan);
+  plan_.resize(plan.size() * static_cast<size_t>(3 + 3 * skeleton_.joints()));
+  float* out = plan_.data();
+  for (const Pose& pose : plan) {
+    for (const double value : pose.root_position) *out++ = static_cast<float>(value);
+    for (const double value : pose.rotations.reshaped()) *out++ = static_cast<float>(value);
+  }
 
   std::vector<JointPlacement> placements;
   for (const Pose& pose : spec.history) placements.push_back(ForwardKinematics(skeleton_, pose));
@@ -54,6 +59,15 @@ void TransitionWindow::Begin(const TransitionSpec& spec, std::vector<Pose> plan)
   if (has_audio_) {
     Eigen::Map<Eigen::MatrixXf>(audio_.data(), audio_features_, tau_) = spec.audio_history;
   }
+}
+
+const Pose* TransitionWindow::Reference(int frame) {
+  if (plan_.empty()) return nullptr;
+  const int joints = skeleton_.joints();
+  const float* at = plan_.data() + static_cast<ptrdiff_t>(frame) * (3 + 3 * joints);
+  reference_.root_position = Eigen::Map<const Eigen::Vector3f>(at).cast<double>();
+  reference_.rotations = Eigen::Map<const Eigen::Matrix3Xf>(at + 3, 3, joints).cast<double>();
+  return &reference_;
 }
 
 void TransitionWindow::Check(const StepInput& input) const {

@@ -25,7 +25,7 @@ class TransitionWindow {
 
   /// Starts a transition. `plan`: [frames] reference poses, or empty where features are absolute.
   /// The spec is valid (ValidateSpec).
-  void Begin(const TransitionSpec& spec, std::vector<Pose> plan);
+  void Begin(const TransitionSpec& spec, std::span<const Pose> plan);
 
   /// Throws Error(kInvalidArgument) unless `input` is what the next frame needs.
   void Check(const StepInput& input) const;
@@ -44,9 +44,8 @@ class TransitionWindow {
   void Finish(std::span<const float> features, StepOutput* output);
 
  private:
-  const Pose* Reference(int frame) const {
-    return plan_.empty() ? nullptr : &plan_[static_cast<size_t>(frame)];
-  }
+  /// Valid until the next call; null where features are absolute.
+  const Pose* Reference(int frame);
   Eigen::Map<Eigen::VectorXf> PastRow(int row) {
     return {past_.data() + static_cast<std::ptrdiff_t>(row) * codec_.width(), codec_.width()};
   }
@@ -65,8 +64,9 @@ class TransitionWindow {
   int64_t first_frame_ = 0;
   float temperature_ = 0;
   bool has_audio_ = false;
-  std::vector<Pose> plan_;
-  Pose last_;  // emitted before `frame_`
+  std::vector<float> plan_;  // [frames, 3 + 3 joints], or empty: a third of the poses' own memory
+  Pose reference_;           // of the plan
+  Pose last_;                // emitted before `frame_`
   JointPlacement last_placement_;
   ContactDetector contacts_;
 
