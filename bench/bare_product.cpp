@@ -1,6 +1,8 @@
 #include "bench/bare_product.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <dnnl.hpp>
 #include <unordered_map>
 #include <utility>
@@ -20,21 +22,26 @@ struct BareProducts::Impl {
   std::vector<Product> products;
 };
 
-BareProducts::BareProducts(const std::vector<Shape>& shapes, int rows)
+BareProducts::BareProducts(const std::vector<Shape>& shapes, int most_rows, bool bf16)
     : impl_(std::make_unique<Impl>()) {
   using Tag = dnnl::memory::format_tag;
-  constexpr auto kFloat = dnnl::memory::data_type::f32;
+  using Type = dnnl::memory::data_type;
+  const Type type = bf16 ? Type::bf16 : Type::f32;
+  // The same everywhere, as one float or two bfloat16: what they are costs nothing.
+  const auto value = std::bit_cast<float>(0x3c003c00U);
   for (const Shape& shape : shapes) {
-    const dnnl::memory::desc a({rows, shape.depth}, kFloat, Tag::ab);
-    const dnnl::memory::desc b({shape.depth, shape.columns}, kFloat, Tag::any);
-    const dnnl::memory::desc c({rows, shape.columns}, kFloat, Tag::ab);
+    const int rows = shape.rows > 0 ? shape.rows : most_rows;
+    const dnnl::memory::desc a({rows, shape.depth}, type, Tag::ab);
+    const dnnl::memory::desc b({shape.depth, shape.columns}, type, Tag::any);
+    const dnnl::memory::desc c({rows, shape.columns}, Type::f32, Tag::ab);
     const dnnl::matmul::primitive_desc chosen(dnnl::matmul::desc(a, b, c), impl_->engine);
-    LargePages pages(chosen.weights_desc().get_size() / sizeof(float));
+    const size_t floats = (chosen.weights_desc().get_size() + sizeof(float) - 1) / sizeof(float);
+    LargePages pages(floats);
     float* at = pages.data();
-    for (size_t i = 0; i < chosen.weights_desc().get_size() / sizeof(float); ++i) {
-      at[i] = 1e-3F * static_cast<float>(i % 200);
-    }
-    bytes_ += static_cast<double>(sizeof(float)) * shape.depth * shape.columns;
+    std::fill(at, at + floats, value);
+    const double products = 1.0 * shape.depth * shape.columns;
+    bytes_ += (bf16 ? 2 : 4) * products;
+    operations_ += 2 * products * rows;
     impl_->products.push_back(
         {dnnl::matmul(chosen),
          std::move(pages),
@@ -42,8 +49,8 @@ BareProducts::BareProducts(const std::vector<Shape>& shapes, int rows)
           {DNNL_ARG_WEIGHTS, dnnl::memory(chosen.weights_desc(), impl_->engine, at)},
           {DNNL_ARG_DST, dnnl::memory(chosen.dst_desc(), impl_->engine)}}});
     auto& source = impl_->products.back().arguments.at(DNNL_ARG_SRC);
-    auto* values = static_cast<float*>(source.get_data_handle());
-    std::fill(values, values + static_cast<long>(rows) * shape.depth, 0.5F);
+    auto* values = static_cast<char*>(source.get_data_handle());
+    std::memset(values, 0, chosen.src_desc().get_size());
   }
 }
 

@@ -133,11 +133,37 @@ std::vector<BareProducts::Shape> Shapes(const std::string& model, int width) {
   return shapes;
 }
 
-void Bare(benchmark::State& state, const std::vector<BareProducts::Shape>& shapes, int rows) {
-  BareProducts products(shapes, rows);
+/// The packed planner's products for a transition of kFrames and its mirror image, and those of its
+/// attention.
+std::vector<BareProducts::Shape> PlanShapes(const FlowConfig& config, int joints) {
+  const int time = config.history_frames + kFrames, rows = 2 * time, pose = 3 + 6 * joints;
+  const int width = config.planner.width, heads = config.planner.heads;
+  std::vector<BareProducts::Shape> shapes = {{2 * pose, width, rows}};
+  for (int layer = 0; layer < config.planner.layers; ++layer) {
+    // Behind the last layer's keys and values, the history's rows are of no use.
+    const int used = layer + 1 < config.planner.layers ? time : kFrames;
+    shapes.push_back({width, 3 * width, rows});
+    for (int i = 0; i < 2 * heads; ++i) {
+      shapes.push_back({width / heads, time, used});
+      shapes.push_back({time, width / heads, used});
+    }
+    shapes.push_back({width, width, 2 * used});
+    shapes.push_back({width, 2 * width, 2 * used});
+    shapes.push_back({2 * width, width, 2 * used});
+  }
+  shapes.push_back({width, pose, 2 * kFrames});
+  shapes.push_back({width, config.condition_width, kFrames});
+  return shapes;
+}
+
+void Bare(benchmark::State& state, const std::vector<BareProducts::Shape>& shapes, int rows,
+          int items, bool bf16) {
+  BareProducts products(shapes, rows, bf16);
   for (auto _ : state) products.Run();
-  state.SetItemsProcessed(state.iterations() * rows);
+  state.SetItemsProcessed(state.iterations() * items);
   state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(products.bytes()));
+  state.counters["flops"] =
+      benchmark::Counter(products.operations(), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void ReadMemory(benchmark::State& state) {
@@ -169,19 +195,23 @@ void Register(Models* models) {
             [=](benchmark::State& state) { Frames(state, models->Engine(model, kind), streams); });
       }
     }
-    for (const int rows : {1, 8, 32, 64}) {
-      add("bare/" + std::to_string(rows), [=](benchmark::State& state) {
-        const int joints = Skeleton::Smpl24().joints();
-        Bare(state, Shapes(model, 3 + 3 * joints + 3 + 4), rows);
+    const int joints = Skeleton::Smpl24().joints();
+    for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
+      const std::string bare = half ? "bare-bf16" : "bare", kind = half ? "packed-bf16" : "packed";
+      for (const int rows : {1, 8, 32, 64}) {
+        add(bare + "/" + std::to_string(rows), [=](benchmark::State& state) {
+          Bare(state, Shapes(model, 3 + 3 * joints + 3 + 4), rows, rows, half);
+        });
+      }
+      add("admission/" + kind,
+          [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind)); });
+      if (model != "default") continue;
+      add("admission/" + bare, [=](benchmark::State& state) {
+        Bare(state, PlanShapes(FlowConfig::Preset("default"), joints), 1, 1, half);
       });
     }
-    add("admission",
-        [=](benchmark::State& state) { Admissions(state, models->Engine(model, "packed")); });
-    if (bf16) {
-      add("admission-bf16", [=](benchmark::State& state) {
-        Admissions(state, models->Engine(model, "packed-bf16"));
-      });
-    }
+    add("admission/torch",
+        [=](benchmark::State& state) { Admissions(state, models->Engine(model, "torch")); });
   }
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }

@@ -4,7 +4,8 @@
     peer_torch.py FOLDER      what `engine_bench --probes FOLDER` wrote
 
 For each model it steps the probe's inputs, fails unless the features equal the engine's, and then
-measures frames a second of one thread by its CPU time. Prints JSON.
+measures frames a second of one thread by its CPU time, in float32 and with networks of bfloat16.
+Prints JSON.
 """
 import json
 import math
@@ -38,8 +39,9 @@ def read_safetensors(path):
 class Coupling(torch.nn.Module):
     """The network [a, b] = f(z_lo, condition) of one step, and that step's inverse."""
 
-    def __init__(self, tensors, config, width):
+    def __init__(self, tensors, config, width, precision):
         super().__init__()
+        self.precision = precision
         self.low = width // 2
         get = lambda name: tensors[name]
         weight = get("permutation") @ (torch.tril(get("lower"), -1) + torch.eye(width)) @ (
@@ -58,17 +60,18 @@ class Coupling(torch.nn.Module):
         self.last = torch.nn.Linear(*reversed(network["last.weight"].shape))
         self.load_state_dict(network)
         self.recurrent = config["recurrent"]
+        self.to(precision)
 
     def inverse(self, z, condition, state):
         low, high = z[:, :self.low], z[:, self.low:]
-        x = torch.cat([low, condition], 1)
+        x = torch.cat([low, condition], 1).to(self.precision)
         if self.recurrent:
             x, state = self.lstm(x.unsqueeze(1), state)
             x = x.squeeze(1)
         else:
             silu = torch.nn.functional.silu
             x = silu(self.second(silu(self.first(x))))
-        a, b = self.last(x).chunk(2, 1)
+        a, b = self.last(x).float().chunk(2, 1)
         delta = 0.05 + 0.95 * torch.sigmoid(b + 2)
         high = (high - (1 - delta) * a) / delta
         z = torch.cat([low, high], 1) @ self.unmix * (-self.log_scale).exp() - self.bias
@@ -76,7 +79,9 @@ class Coupling(torch.nn.Module):
 
 
 class Flow:
-    def __init__(self, path):
+    """`precision`: of the networks; what leads straight from noise to features is float32."""
+
+    def __init__(self, path, precision=torch.float32):
         self.tensors, metadata = read_safetensors(path)
         self.config = json.loads(metadata["config"])
         self.width = len(self.tensors["feature_mean"])
@@ -84,10 +89,13 @@ class Flow:
         for k in range(self.config["flow_steps"]):
             prefix = f"flow.steps.{k}."
             self.steps.append(Coupling({name[len(prefix):]: value for name, value in self.tensors.items()
-                                        if name.startswith(prefix)}, self.config, self.width))
+                                        if name.startswith(prefix)}, self.config, self.width, precision))
+        self.precision = precision
+        self.layers = {name: (self.tensors[name + ".weight"].to(precision), self.tensors[name + ".bias"].to(precision))
+                       for name in ("encode_past", "encode_audio", "encode") if name + ".weight" in self.tensors}
 
     def linear(self, name, x):
-        return torch.nn.functional.linear(x, self.tensors[name + ".weight"], self.tensors[name + ".bias"])
+        return torch.nn.functional.linear(x.to(self.precision), *self.layers[name]).float()
 
     def condition(self, past, audio, static):
         if self.config["condition_width"] == 0:
@@ -148,8 +156,11 @@ def main(folder):
             difference = largest_difference(flow, probe)
             if not difference < TOLERANCE:
                 sys.exit(f"peer_torch.py: {model}: differs from the engine by {difference:.2g}, more than {TOLERANCE:g}")
+            half = Flow(Path(folder) / f"{model}.safetensors", torch.bfloat16)
             report[model] = {"largest_difference": difference,
-                             "frames_a_second": {n: frames_a_second(flow, probe, n) for n in BATCHES}}
+                             "largest_difference_bf16": largest_difference(half, probe),
+                             "frames_a_second": {n: frames_a_second(flow, probe, n) for n in BATCHES},
+                             "frames_a_second_bf16": {n: frames_a_second(half, probe, n) for n in BATCHES}}
     print(json.dumps(report, indent=1))
 
 

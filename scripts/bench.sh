@@ -8,5 +8,8 @@ trap 'rm -rf "$folder"' EXIT
 "$1/engine_bench" --probes "$folder" --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
   --benchmark_report_aggregates_only=true --benchmark_min_time=0.1 --benchmark_out="$folder/engine.json"
 /usr/bin/python3 "$root/bench/peer_torch.py" "$folder" >"$folder/peer.json"
-/usr/bin/python3 "$root/bench/report.py" "$folder/engine.json" "$folder/peer.json" "$root"
-if [[ -x $1/load ]]; then "$1/load"; fi
+if [[ -x $1/load ]]; then
+  "$1/load" | tee "$folder/load.md"
+  CHOREO_CHECKPOINT=$folder/paper.safetensors "$1/load" --tables closed --seconds 4 | tee "$folder/paper.md"
+fi
+/usr/bin/python3 "$root/bench/report.py" "$folder" "$root"

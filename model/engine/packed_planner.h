@@ -5,6 +5,7 @@
 
 #include "model/engine/packed_transformer.h"
 #include "model/engine/packed_variety.h"
+#include "model/engine/plan_bender.h"
 #include "model/engine/transition_planner.h"
 #include "model/motion/skeleton.h"
 
@@ -26,16 +27,12 @@ class PackedPlanner : public TransitionPlanner {
 
  private:
   struct Scratch;
-  void Interpolate(const TransitionSpec& spec, Scratch* s) const;
-  void Mirror(int rows, Scratch* s) const;
-  void Bend(int frames, Scratch* s) const;
   void WritePoses(const TransitionSpec& spec, Scratch* s, std::vector<Pose>* poses) const;
   void WriteCondition(const TransitionSpec& spec, Scratch* s, std::vector<float>* condition) const;
 
   FlowConfig config_;
   int joints_, feature_width_;
-  std::vector<int> pairs_;  // MirrorPairs
-  const PackedKernels& kernels_;
+  PlanBender bender_;
   std::optional<PackedTransformer> transformer_;
   std::optional<PackedVariety> variety_;
   RowMajorMatrix counts_;  // [frames, feature_width_] embeddings; encoded: behind encode_static
