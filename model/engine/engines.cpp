@@ -140,8 +140,8 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
     kernels += ", tile " + std::to_string(loaded.torch_rows);
   }
   if (!loaded.planner) loaded.planner = std::make_shared<TorchPlanner>(model, there);
-  loaded.info = {.name = config.preset,
-                 .fingerprint = config.preset + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION +
+  loaded.info = {.name = config.name,
+                 .fingerprint = config.name + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION +
                                 ", " + BuildIdentity() + "/" + kernels,
                  .licence = LicenceOf(checkpoint.card),
                  .card = checkpoint.card,
@@ -151,6 +151,7 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
                  .audio_features = config.audio_features,
                  .max_transition_frames = config.max_transition_frames,
                  .default_temperature = config.temperature,
+                 .hears_music = config.hears_music,
                  .fine_temperature = config.fine_temperature,
                  .follow = config.follow,
                  .velocity_references = {}};

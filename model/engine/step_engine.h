@@ -34,6 +34,7 @@ struct ModelInfo {
   int audio_features = 40;  ///< MFCC rows' width
   int max_transition_frames = 1800;
   double default_temperature = 0.3;
+  bool hears_music = true;      ///< false: learnt without; music changes when it dances, not what
   double fine_temperature = 1;  ///< share of the temperature that a frame's own noise has
   double follow = 1;  ///< share of the way that what leaves the plan goes to the flow's proposal
   bool root_path = false;         ///< takes Controls::root_path

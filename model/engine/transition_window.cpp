@@ -13,6 +13,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model)
       fps_(model.fps),
       tau_(model.history_frames),
       audio_features_(model.audio_features),
+      hears_music_(model.hears_music),
       fine_temperature_(static_cast<float>(model.fine_temperature)),
       follow_(static_cast<float>(model.follow)),
       codec_(model.skeleton),
@@ -28,7 +29,7 @@ void TransitionWindow::Begin(const TransitionSpec& spec, std::span<const Pose> p
   candidate_ = spec.candidate;
   first_frame_ = spec.first_frame;
   temperature_ = spec.temperature;
-  has_audio_ = spec.has_audio;
+  has_audio_ = spec.has_audio && hears_music_;
   plan_.resize(plan.size() * static_cast<size_t>(3 + 3 * skeleton_.joints()));
   float* out = plan_.data();
   for (const Pose& pose : plan) {

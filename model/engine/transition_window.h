@@ -53,6 +53,7 @@ class TransitionWindow {
   Skeleton skeleton_;
   double fps_;
   int tau_, audio_features_;
+  bool hears_music_;
   float fine_temperature_, follow_;
   PoseCodec codec_;
   std::vector<float> past_, audio_;

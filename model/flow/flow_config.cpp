@@ -11,16 +11,17 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(PlannerConfig, width, recurrent,
                                                 dropout, variety)
 
 // One list serves both directions, so that a field can't be written and not read.
-#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                    \
-  apply(preset) apply(history_frames) apply(audio_features) apply(flow_steps) apply(hidden) \
-      apply(recurrent) apply(condition_width) apply(planner) apply(max_transition_frames)   \
-          apply(temperature) apply(keys) apply(key_loss) apply(time_embedding)              \
-              apply(forward_embedding) apply(history_dropout) apply(history_noise)
+#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                       \
+  apply(history_frames) apply(audio_features) apply(flow_steps) apply(hidden) apply(recurrent) \
+      apply(condition_width) apply(planner) apply(max_transition_frames) apply(temperature)    \
+          apply(keys) apply(key_loss) apply(time_embedding) apply(forward_embedding)           \
+              apply(history_dropout) apply(history_noise)
 // What the first checkpoints did not name; there it was what the defaults are.
-#define CHOREO_LATER_FIELDS(apply) apply(fine_temperature) apply(follow)
+#define CHOREO_LATER_FIELDS(apply) apply(hears_music) apply(fine_temperature) apply(follow)
 
 void to_json(nlohmann::json& json, const FlowConfig& config) {
   json = nlohmann::json::object();
+  json["name"] = config.name;
 #define CHOREO_WRITE(field) json[#field] = config.field;
   CHOREO_FLOW_CONFIG_FIELDS(CHOREO_WRITE)
   CHOREO_LATER_FIELDS(CHOREO_WRITE)
@@ -28,6 +29,8 @@ void to_json(nlohmann::json& json, const FlowConfig& config) {
 }
 
 void from_json(const nlohmann::json& json, FlowConfig& config) {
+  // The first checkpoints were named after their presets.
+  json.at(json.contains("name") ? "name" : "preset").get_to(config.name);
 #define CHOREO_READ(field) json.at(#field).get_to(config.field);
   CHOREO_FLOW_CONFIG_FIELDS(CHOREO_READ)
 #undef CHOREO_READ
@@ -38,7 +41,7 @@ void from_json(const nlohmann::json& json, FlowConfig& config) {
 
 FlowConfig FlowConfig::Preset(const std::string& name) {
   FlowConfig config;
-  config.preset = name;
+  config.name = name;
   if (name == "paper") return config;
   if (name == "default") {
     config.flow_steps = 4;

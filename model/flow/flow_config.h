@@ -25,9 +25,10 @@ inline constexpr float kStrayed = 1.5F;
 /// Shape and training-time switches of the flow model (paper F, Section 3.2). Stored in every
 /// checkpoint.
 struct FlowConfig {
-  std::string preset = "default";
-  int history_frames = 10;  ///< tau
-  int audio_features = 40;  ///< MFCCs a row
+  std::string name = "default";  ///< as servers list the model; a preset's is its own
+  int history_frames = 10;       ///< tau
+  int audio_features = 40;       ///< MFCCs a row
+  bool hears_music = true;  ///< false: no training clip had music, which is then not listened to
   int flow_steps = 16;      ///< K; 0: no flow, the plan is what is danced
   int hidden = 512;         ///< width of each coupling's network
   bool recurrent = true;    ///< coupling network: 2-layer LSTM (the paper's) or 2-layer perceptron

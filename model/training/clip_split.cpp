@@ -32,6 +32,8 @@ bool Belongs(const std::optional<std::string>& part, Split split) {
       return part && *part == "validation";
     case Split::kTest:
       return part && *part == "test";
+    case Split::kTrainAndValidation:
+      return Belongs(part, Split::kTrain) || Belongs(part, Split::kValidation);
   }
   return false;
 }

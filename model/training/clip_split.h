@@ -9,7 +9,7 @@ namespace choreo {
 
 /// Which clips a run sees, from a splits file {set: {"train": [...], "validation": [...], "test":
 /// [...]}}. Clips that it does not name belong to training.
-enum class Split { kTrain, kValidation, kTest };
+enum class Split { kTrain, kValidation, kTest, kTrainAndValidation };
 
 /// Reads every clip of `folders` that belongs to `split`, sorted by folder and name. Throws Error
 /// where the file is missing, nothing is left, or

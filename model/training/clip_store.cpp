@@ -56,6 +56,11 @@ ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
                      const std::filesystem::path& splits_file, Split split)
     : clips_(LoadClips(folders, splits_file, split)), skeleton_(clips_.front().skeleton) {}
 
+bool ClipStore::HasMusic() const {
+  return std::ranges::any_of(clips_,
+                             [](const PreparedClip& clip) { return clip.audio.cols() > 0; });
+}
+
 std::string ClipStore::Hash() const {
   XXH64_hash_t hash = 0;
   for (const auto& clip : clips_) {

@@ -48,6 +48,7 @@ class ClipStore {
 
   const std::vector<PreparedClip>& clips() const { return clips_; }
   const Skeleton& skeleton() const { return skeleton_; }
+  bool HasMusic() const;
   /// XXH3 of every clip's name and motion: which data made a checkpoint.
   std::string Hash() const;
 

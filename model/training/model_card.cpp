@@ -43,7 +43,7 @@ nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int
           {"licence", licence},
           {"command", options.Command()},
           {"steps", {{"planner", planner_steps}, {"flow", flow_steps}}},
-          {"validation", figures},
+          {options.with_validation ? "training_clips" : "validation", figures},
           {"limits",
            "Trained on transitions of " + std::to_string(options.shortest) + " to " +
                std::to_string(options.longest) +

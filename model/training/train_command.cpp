@@ -26,10 +26,14 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
             return std::string();
           },
           ""));
+  command->add_option("--name", options->name,
+                      "What servers call the model; default: the preset's name");
   command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
       ->required();
   command->add_option("--splits", options->splits, "Which clip trains, validates, tests (JSON)")
       ->required();
+  command->add_flag("--with-validation", options->with_validation,
+                    "Train on the validation clips too, once everything is chosen");
   command->add_option("--planner", options->planner,
                       "Checkpoint whose planner the first stage goes on from (same preset)");
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")

@@ -11,6 +11,7 @@ std::string TrainOptions::Command() const {
   command << "choreo-lab train";
   for (const auto& folder : data) command << " --data " << folder.filename().string();
   command << " --splits " << splits.filename().string() << ' ' << Fixed();
+  if (!name.empty()) command << " --name " << name;
   return command.str();
 }
 
@@ -21,17 +22,18 @@ std::string TrainOptions::Fixed() const {
        << " --flow-rate " << flow_rate << " --shortest " << shortest << " --longest " << longest
        << " --rollout-frames " << rollout_frames << " --tempo " << tempo << " --seed " << seed
        << (planner.empty() ? "" : " --planner " + planner.filename().string())
-       << (no_keys ? " --no-keys" : "") << (no_key_loss ? " --no-key-loss" : "")
-       << (no_time_embedding ? " --no-time-embedding" : "")
+       << (with_validation ? " --with-validation" : "") << (no_keys ? " --no-keys" : "")
+       << (no_key_loss ? " --no-key-loss" : "") << (no_time_embedding ? " --no-time-embedding" : "")
        << (forward_embedding ? " --forward-embedding" : "");
   return text.str();
 }
 
 void TrainOptions::Validate() const {
-  const auto require = [](bool good, const char* name, const std::string& value,
+  const auto require = [](bool good, const char* option, const std::string& value,
                           const char* limit) {
-    if (!good) throw InvalidArgument(name, value + ", but it must be " + limit);
+    if (!good) throw InvalidArgument(option, value + ", but it must be " + limit);
   };
+  require(name.size() <= 64, "--name", name, "at most 64 bytes");
   require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
   require(planner_steps >= (planner.empty() ? 1 : 0), "--planner-steps",
           std::to_string(planner_steps), "at least 1 (0 with --planner)");

@@ -11,12 +11,14 @@ namespace choreo {
 /// same checkpoint on one machine.
 struct TrainOptions {
   std::string preset = "default";
+  std::string name;                         ///< as servers list the model; empty: the preset's
   std::vector<std::filesystem::path> data;  ///< folders of prepared clips
   std::filesystem::path splits;             ///< JSON, see ClipStore
   std::filesystem::path planner;  ///< checkpoint whose planner the first stage starts from; empty:
                                   ///< from scratch
   std::filesystem::path run;      ///< folder for state, curves and the finished checkpoint
   std::string device = "cpu";     ///< "cpu" or "cuda:N"
+  bool with_validation = false;   ///< train on validation clips too: a last run, once all is chosen
   bool resume = false;            ///< go on from the run's state if there is one
   int64_t planner_steps = 6000;   ///< first stage (presets with a planner)
   int64_t flow_steps = 4000;      ///< second stage: the flow, the planner frozen
@@ -34,7 +36,7 @@ struct TrainOptions {
 
   /// What a stranger types to train the same: folders by their names alone.
   std::string Command() const;
-  /// What must not change when a run is resumed: all of Command() but where things lie.
+  /// What must not change when a run is resumed: all of Command() but names and places.
   std::string Fixed() const;
   /// Throws Error(kInvalidArgument) naming the option.
   void Validate() const;

@@ -35,12 +35,14 @@ double StageRate(double peak, int64_t step, int64_t steps) {
   return peak * warm * (kLastRate + (1 - kLastRate) * 0.5 * (1 + std::cos(M_PI * progress)));
 }
 
-FlowConfig ConfigOf(const TrainOptions& options) {
+FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
   FlowConfig config = FlowConfig::Preset(options.preset);
+  if (!options.name.empty()) config.name = options.name;
   config.keys = !options.no_keys;
   config.key_loss = !options.no_key_loss && config.keys;
   config.time_embedding = !options.no_time_embedding;
   config.forward_embedding = options.forward_embedding;
+  config.hears_music = clips.HasMusic();
   return config;
 }
 
@@ -50,12 +52,13 @@ class Run {
  public:
   explicit Run(const TrainOptions& options)
       : options_(options),
-        train_(options.data, options.splits, Split::kTrain),
+        train_(options.data, options.splits,
+               options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
         validation_(options.data, options.splits, Split::kValidation),
         kinematics_(train_.skeleton()),
         device_(options.device) {
     torch::manual_seed(options.seed);
-    model_ = FlowModel(ConfigOf(options), train_.skeleton());
+    model_ = FlowModel(ConfigOf(options, train_), train_.skeleton());
     planner_steps_ = model_->has_planner() ? options.planner_steps : 0;
     flow_steps_ = model_->config().flow_steps > 0 ? options.flow_steps : 0;
     NormaliseAudio(train_, &model_);

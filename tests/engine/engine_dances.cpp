@@ -38,7 +38,7 @@ std::string ShapeName(Shape shape) {
 
 FlowConfig SmallConfig(Shape shape) {
   FlowConfig config;
-  config.preset = "random-weights-of-a-test";
+  config.name = "random-weights-of-a-test";
   config.flow_steps = 2;
   config.hidden = 24;
   config.max_transition_frames = 200;

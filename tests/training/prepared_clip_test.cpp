@@ -89,6 +89,8 @@ TEST(LoadClips, FollowsTheSplitsAndTrainsOnWhatTheyDoNotName) {
               ElementsAre("train_0", "train_1", "train_2", "train_3", "train_4"));
   EXPECT_THAT(load(Split::kValidation), ElementsAre("held_out"));
   EXPECT_THAT(load(Split::kTest), ElementsAre("last"));
+  EXPECT_THAT(load(Split::kTrainAndValidation),
+              ElementsAre("held_out", "train_0", "train_1", "train_2", "train_3", "train_4"));
 }
 
 }  // namespace

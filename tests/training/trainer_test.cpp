@@ -56,6 +56,24 @@ TEST_F(TrainerTest, TheSameRunMakesTheSameCheckpointAndLeavesItsCurves) {
   }
 }
 
+TEST_F(TrainerTest, ACheckpointHasItsNameAndKnowsWhetherItHeardMusic) {
+  TrainOptions options = Options("mine", 2);
+  options.name = "mine";
+  Train(options);
+  const auto config = [&](const std::string& run) {
+    return LoadCheckpoint(folder_.path() / run / "checkpoint.safetensors").model->config();
+  };
+  EXPECT_EQ(config("mine").name, "mine");
+  EXPECT_TRUE(config("mine").hears_music);
+
+  for (const char* with_music : {"train_0.clip", "train_1.clip"}) {
+    ASSERT_TRUE(std::filesystem::remove(folder_.path() / with_music));
+  }
+  Train(Options("deaf", 2));
+  EXPECT_EQ(config("deaf").name, "ablation");
+  EXPECT_FALSE(config("deaf").hears_music);
+}
+
 TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
   Train(Options("whole", 4));
   // Killed after the report of step 2: what is left is its state. The learning rate must be that of
