@@ -18,6 +18,7 @@ import numpy
 import torch
 
 TOLERANCE = 1e-4
+STRAYED = 1.5  # standard deviations: model/flow/flow_config.h
 BATCHES = (1, 8, 32, 64)
 REPETITIONS = 5
 LEAST_SECONDS = 0.4  # of a repetition
@@ -106,7 +107,11 @@ class Flow:
 
     def step(self, past, audio, has_audio, static, noise, states):
         t = self.tensors
-        past = ((past - t["feature_mean"]) / t["feature_std"]).clamp(-6, 6).flatten(1)
+        past = ((past - t["feature_mean"]) / t["feature_std"]).clamp(-6, 6)
+        if self.config["planner"]["width"] > 0:  # frames that strayed from their plan are dropped
+            most = STRAYED * (1 + noise.square().mean(1).sqrt()).view(-1, 1, 1)
+            past = past * (past[:, :, :self.width - 7].abs().amax(2, keepdim=True) < most)
+        past = past.flatten(1)
         audio = ((audio - t["audio_mean"]) / t["audio_std"]).clamp(-6, 6) * has_audio.view(-1, 1, 1)
         condition = self.condition(past, torch.cat([audio.flatten(1), has_audio.view(-1, 1)], 1), static)
         z = noise
