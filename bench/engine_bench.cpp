@@ -239,7 +239,9 @@ int main(int argc, char** argv) {
   } else if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 2;
   }
-  benchmark::AddCustomContext("kernels", PackedKernelsHere().front()->name);
+  std::string kernels = PackedKernelsHere().front()->name;
+  if (Bf16KernelsHere() != nullptr) kernels += std::string(", ") + Bf16KernelsHere()->name;
+  benchmark::AddCustomContext("kernels", kernels);
   benchmark::AddCustomContext("blas", DetectBlas().name);
   Register(&models);
   benchmark::RunSpecifiedBenchmarks();

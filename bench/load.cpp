@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
   std::string song;
   double seconds = 8;
-  std::vector<int> streams = {1, 50, 100, 200, 400};
+  std::vector<int> streams = {1, 50, 100, 200, 250, 300};
   std::vector<std::string> tables = {"idle", "chunks", "live", "closed", "minutes"};
 };
 

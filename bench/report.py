@@ -129,6 +129,9 @@ def bars(figures):
     if "load/paper/closed/32" in figures:
         rows.append(("`paper` through gRPC ÷ engine alone, 32 streams, by CPU time",
                      figures["load/paper/closed/32"] / figures[f"paper/{packed}/32"], 0.9, 0.97, ""))
+    if "load/closed/32" in figures:
+        rows.append(("`default` through gRPC, with its music from samples on ÷ engine alone, 32 streams, by CPU time",
+                     figures["load/closed/32"] / figures[f"default/{packed}/32"], 0.9, 0.97, ""))
     if live:
         rows.append((f"`default`: streams of the sizes tried with p99 lateness under {LIVE_LATENESS} ms", within, 200, 500, ""))
     if "load/live/50/first p99 ms" in figures:

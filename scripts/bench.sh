@@ -10,6 +10,7 @@ trap 'rm -rf "$folder"' EXIT
 /usr/bin/python3 "$root/bench/peer_torch.py" "$folder" >"$folder/peer.json"
 if [[ -x $1/load ]]; then
   "$1/load" | tee "$folder/load.md"
-  CHOREO_CHECKPOINT=$folder/paper.safetensors "$1/load" --tables closed --seconds 4 | tee "$folder/paper.md"
+  # One worker, as the engine alone is: two would share what memory gives.
+  CHOREO_WORKERS=1 CHOREO_CHECKPOINT=$folder/paper.safetensors "$1/load" --tables closed --seconds 4 | tee "$folder/paper.md"
 fi
 /usr/bin/python3 "$root/bench/report.py" "$folder" "$root"

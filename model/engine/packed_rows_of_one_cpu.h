@@ -72,11 +72,16 @@ void Bend(const float* __restrict x, const float* __restrict mean, const float* 
   }
 }
 
-// Sums and maxima of a row are taken lane by lane, and over the lanes at the end.
+// Sums and maxima of a row are taken lane by lane, and over the lanes at the end, by halves.
 inline float SumOfLanes(const Vector& lanes) {
-  float sum = 0;
-  for (int i = 0; i < kLanes; ++i) sum += lanes[i];
-  return sum;
+  float part[kLanes];
+  __builtin_memcpy(part, &lanes, sizeof part);
+#pragma GCC unroll 4
+  for (long half = kLanes / 2; half > 0; half /= 2) {
+#pragma GCC unroll 8
+    for (long i = 0; i < half; ++i) part[i] += part[i + half];
+  }
+  return part[0];
 }
 
 float Sum(const float* x, long count) {
@@ -109,17 +114,36 @@ float Largest(const float* x, long count) {
       most[lane] = most[lane] > x[i + lane] ? most[lane] : x[i + lane];
     }
   }
+#pragma GCC unroll 4
+  for (long half = kLanes / 2; half > 0; half /= 2) {
+#pragma GCC unroll 8
+    for (long lane = 0; lane < half; ++lane) {
+      most[lane] = most[lane] > most[lane + half] ? most[lane] : most[lane + half];
+    }
+  }
   float largest = most[0];
-  for (long lane = 1; lane < kLanes; ++lane) largest = largest > most[lane] ? largest : most[lane];
   for (; i < count; ++i) largest = largest > x[i] ? largest : x[i];
   return largest;
 }
 
+// x = exp(x - by), a register's worth.
+inline void ExpLanes(float* x, float by) {
+  for (long lane = 0; lane < kLanes; ++lane) x[lane] = Exp(x[lane] - by);
+}
+
 void Softmax(float* x, long count) {
   const float largest = Largest(x, count);
-  for (long i = 0; i < count; ++i) x[i] = Exp(x[i] - largest);
+  long i = 0;
+  for (; i + kLanes <= count; i += kLanes) ExpLanes(x + i, largest);
+  if (i < count) {  // one by one, the rest would take as long as all before it
+    float rest[kLanes];
+    for (long lane = 0; lane < kLanes; ++lane)
+      rest[lane] = i + lane < count ? x[i + lane] : largest;
+    ExpLanes(rest, largest);
+    for (long lane = 0; i + lane < count; ++lane) x[i + lane] = rest[lane];
+  }
   const float scale = 1.0F / Sum(x, count);
-  for (long i = 0; i < count; ++i) x[i] *= scale;
+  for (long at = 0; at < count; ++at) x[at] *= scale;
 }
 
 void LayerNorm(const float* __restrict x, const float* __restrict gain,
