@@ -471,6 +471,8 @@ TEST_F(SchedulerTest, RefusesUselessOptionsAndMixedEngines) {
             ErrorCode::kInvalidArgument);
   EXPECT_EQ(CodeOf([&] { Scheduler(make(fake()), {.max_batch = 0}); }),
             ErrorCode::kInvalidArgument);
+  EXPECT_EQ(CodeOf([&] { Scheduler(make(fake()), {.max_admissions = 0}); }),
+            ErrorCode::kInvalidArgument);
   EXPECT_EQ(CodeOf([&] { Scheduler(make(fake(), std::make_unique<OtherModel>()), {}); }),
             ErrorCode::kInvalidArgument);
   EXPECT_EQ(CodeOf([&] { Scheduler(make(fake(0)), {}); }), ErrorCode::kInvalidArgument);

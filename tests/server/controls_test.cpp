@@ -202,7 +202,7 @@ TEST_F(ControlsServerTest, AModelWithoutThemRefusesThemByName) {
 TEST_F(ControlsServerTest, NoneComesAfterKeyframesComplete) {
   v1::StreamDanceRequest config, complete;
   *config.mutable_config() = Config();
-  config.mutable_config()->set_frames(120);
+  config.mutable_config()->set_frames(9000);  // not danced before that comes
   complete.mutable_keyframes_complete();
   const Answer answer = Dance({config, complete, Asking(Factors({1}))});
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
