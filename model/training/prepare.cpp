@@ -16,6 +16,7 @@
 #include "model/motion/resample.h"
 #include "model/training/aist_recordings.h"
 #include "model/training/jolts.h"
+#include "model/training/lafan1_recordings.h"
 #include "model/training/prepared_clip.h"
 
 namespace choreo {
@@ -201,6 +202,7 @@ int Prepare(const PrepareOptions& options) {
   const std::vector<RecordingSource> sources = ListRecordings(options);
   std::filesystem::create_directories(options.output);
   if (options.layout == "aist") WriteAistSplits(options);
+  if (options.layout == "lafan1") WriteLafan1Splits(options);
   std::vector<json> reports(sources.size());
   std::atomic<size_t> next = 0;
   {

@@ -17,7 +17,7 @@ namespace choreo {
 /// Raw recordings → prepared clips (prepared_clip.h): the corrections that each layout needs, 30
 /// fps, rotations fitted to SMPL's skeleton or the data's own, contacts, and the rows of the music.
 struct PrepareOptions {
-  std::string layout;            ///< "tang2018" | "bvh" | "amass" | "aist"
+  std::string layout;            ///< "tang2018" | "bvh" | "amass" | "aist" | "lafan1"
   std::filesystem::path input;   ///< folder
   std::filesystem::path output;  ///< folder, created
   /// Clips whose name starts with .first run at .second fps, whatever their file says (cmu_dance's
@@ -51,6 +51,10 @@ struct Recording {
   bool expects_music = false;   ///< warn where there is none
 };
 
+/// The value of the first prefix that a clip's name starts with.
+double ForClip(const std::vector<std::pair<std::string, double>>& values, const std::string& name,
+               double otherwise);
+
 /// What a layout offers: clip names and how to read each.
 struct RecordingSource {
   std::string name;
@@ -59,9 +63,9 @@ struct RecordingSource {
 std::vector<RecordingSource> ListRecordings(const PrepareOptions& options);
 
 /// Prepares every clip, showing progress; prints one line a clip and the means, writes
-/// OUT/report.json, for "aist" OUT/splits.json, too. A clip that can't be read is named with its
-/// reason and skipped. Returns the number of prepared clips. Throws Error where the input has
-/// nothing of the layout, or a native skeleton is asked of a layout that has none.
+/// OUT/report.json, for "aist" and "lafan1" OUT/splits.json, too. A clip that can't be read is
+/// named with its reason and skipped. Returns the number of prepared clips. Throws Error where the
+/// input has nothing of the layout, or a native skeleton is asked of a layout that has none.
 int Prepare(const PrepareOptions& options);
 
 }  // namespace choreo

@@ -6,10 +6,10 @@
 #include "model/core/error.h"
 #include "model/core/npy.h"
 #include "model/formats/amass_npz.h"
-#include "model/formats/bvh.h"
-#include "model/motion/fit.h"
 #include "model/motion/tang2018_skeleton.h"
 #include "model/training/aist_recordings.h"
+#include "model/training/bvh_recording.h"
+#include "model/training/lafan1_recordings.h"
 #include "model/training/prepare.h"
 
 /// The layouts that `choreo-lab prepare` knows, each turned into Recordings.
@@ -23,14 +23,6 @@ constexpr double kTangFps = 25;
 constexpr double kTangMetresPerUnit = 0.01;
 constexpr double kTangCutoffHz = 8;        // interpolated frames and jitter; dance steps stay below
 constexpr double kTangTimeScale = 1.0125;  // waltz and rumba lock to their music here
-
-double Override(const std::vector<std::pair<std::string, double>>& values, const std::string& name,
-                double otherwise) {
-  for (const auto& [prefix, value] : values) {
-    if (name.rfind(prefix, 0) == 0) return value;
-  }
-  return otherwise;
-}
 
 fs::path FirstExisting(const std::vector<fs::path>& candidates) {
   for (const auto& path : candidates) {
@@ -64,7 +56,7 @@ Recording Tang(const std::string& name, const PrepareOptions& options) {
   recording.expects_music = true;
   recording.cutoff_hz = kTangCutoffHz;
   const bool locked = name.rfind("DANCE_W", 0) == 0 || name.rfind("DANCE_R", 0) == 0;
-  recording.time_scale = Override(options.time_scales, name, locked ? kTangTimeScale : 1.0);
+  recording.time_scale = ForClip(options.time_scales, name, locked ? kTangTimeScale : 1.0);
   return recording;
 }
 
@@ -115,23 +107,6 @@ Recording ReadTangFolder(const fs::path& folder, const PrepareOptions& options) 
   return recording;
 }
 
-Recording ReadBvhRecording(const fs::path& path, const std::string& name,
-                           const PrepareOptions& options) {
-  Recording recording;
-  recording.name = name;
-  const BvhFile bvh = ReadBvh(path);
-  recording.positions = BvhToPositions(bvh, 1.0);
-  recording.positions.fps = Override(options.frame_rates, name, bvh.fps());
-  recording.mapping = BvhSource(recording.positions);
-  // Units are not stated anywhere in a BVH: the dancer's legs tell centimetres from inches.
-  const BoneNormaliser normaliser(recording.skeleton, recording.mapping,
-                                  recording.positions.joint_names);
-  const double scale = normaliser.Measure(recording.positions).scale;
-  for (auto& frame : recording.positions.frames) frame *= scale;
-  recording.time_scale = Override(options.time_scales, name, 1.0);
-  return recording;
-}
-
 Recording ReadAmassRecording(const fs::path& path, const std::string& name) {
   Recording recording;
   recording.name = name;
@@ -166,6 +141,14 @@ std::vector<RecordingSource> OnNativeSkeleton(const std::vector<RecordingSource>
 
 }  // namespace
 
+double ForClip(const std::vector<std::pair<std::string, double>>& values, const std::string& name,
+               double otherwise) {
+  for (const auto& [prefix, value] : values) {
+    if (name.rfind(prefix, 0) == 0) return value;
+  }
+  return otherwise;
+}
+
 std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
   if (options.native_skeleton && options.layout != "tang2018") {
     throw InvalidArgument("--native-skeleton",
@@ -175,6 +158,7 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
     throw Error(ErrorCode::kNotFound, options.input.string(), "no such folder");
   }
   if (options.layout == "aist") return ListAistRecordings(options);
+  if (options.layout == "lafan1") return ListLafan1Recordings(options);
   std::vector<RecordingSource> sources;
   for (const auto& entry : fs::recursive_directory_iterator(options.input)) {
     const fs::path path = entry.path();
