@@ -246,7 +246,7 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
       added.velocity_references.push_back(
           {reference.name(), {reference.speeds().begin(), reference.speeds().end()}});
     }
-    added.hears_music = !model.deaf();
+    added.takes_music = !model.takes_no_music();
     added.audio_lead_s = model.audio_lead_s();
     added.latency_frames = model.latency_frames();
     // Servers before 0.2 do not tell their models' limits.

@@ -164,7 +164,7 @@ void CheckKeyEdit(int64_t frame, int64_t from, int64_t to, int64_t frames) {
 
 void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
               TransitionRequest* request) {
-  if (song.format.kind == AudioKind::kNone || !model.hears_music) return;
+  if (song.format.kind == AudioKind::kNone || !model.takes_music) return;
   if (song.format.kind == AudioKind::kFile) {
     throw InvalidArgument("audio", "is a file; only samples can be cut");
   }

@@ -50,7 +50,7 @@ struct EditedDance {
 };
 
 /// Gives a transition as much of a song as its frames hear, of which `first` is the first: a
-/// message has a limit, a song has none. A model that hears no music gets none. `song`: as
+/// message has a limit, a song has none. A model that takes no music gets none. `song`: as
 /// EditOptions::audio. Throws Error(kInvalidArgument) whose field is "audio".
 void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
               TransitionRequest* request);

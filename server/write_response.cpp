@@ -147,8 +147,8 @@ void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
     added->set_name(reference.name);
     added->mutable_speeds()->Add(reference.factors.begin(), reference.factors.end());
   }
-  out->set_deaf(!HearsMusic(model));
-  if (out->deaf()) return;
+  out->set_takes_no_music(!TakesMusic(model));
+  if (out->takes_no_music()) return;
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;
   out->set_audio_lead_s(static_cast<double>(kSomeFrame) / model.fps -

@@ -173,9 +173,9 @@ void Run(const DanceOptions& options) {
   const client::Controls controls = options.controls.Read(model.fps);
   const double seconds =
       music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
-  if (music && !model.hears_music) {
+  if (music && !model.takes_music) {
     std::cerr << "note: the model \"" << model.name
-              << "\" hears no music; the song gives the dance its length and its beats\n";
+              << "\" takes no music; the song gives the dance its length and its beats\n";
   }
   const DanceLength length{std::llround(seconds * model.fps), model.fps};
   const DanceKeys keys = ChooseKeys(options, music, seconds, length, model.skeleton);
@@ -189,7 +189,7 @@ void Run(const DanceOptions& options) {
   config.controls = controls;
   if (music) config.music_beats = BeatsBefore(*music, seconds);
   const client::Audio audio =
-      music && model.hears_music ? AudioFor(music->audio, seconds) : client::Audio{};
+      music && model.takes_music ? AudioFor(music->audio, seconds) : client::Audio{};
   const client::DanceResult dance =
       Dance(connection.client(), config, keys, audio, model.fps, options, out);
 

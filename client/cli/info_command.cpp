@@ -36,7 +36,7 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   json["default_temperature"] = model.default_temperature;
   json["latency_frames"] = model.latency_frames;
   json["controls"] = model.controls;
-  json["hears_music"] = model.hears_music;
+  json["takes_music"] = model.takes_music;
   json["velocity_references"] = nlohmann::ordered_json::array();
   for (const auto& reference : model.velocity_references)
     json["velocity_references"].push_back(ToJson(reference));
@@ -82,7 +82,7 @@ void PrintCard(const std::string& card) {
 }
 
 void PrintControls(const client::ModelDescription& model) {
-  if (!model.hears_music) std::printf("  hears no music\n");
+  if (!model.takes_music) std::printf("  takes no music\n");
   for (const std::string& control : model.controls)
     std::printf("  control: %s\n", control == "root_path"          ? "root path (--path)"
                                    : control == "velocity_factors" ? "velocity factors (--velocity)"

@@ -43,14 +43,14 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
                                        sample_rate);
 }
 
-bool HearsMusic(const ModelInfo& model) {
+bool TakesMusic(const ModelInfo& model) {
   // Rows come at 30 a second (FeatureStream).
   return model.audio_features == kMfccCount && model.fps == 30;
 }
 
 void ValidateAudioStart(const ModelInfo& model, double sample_rate, int channels,
                         int64_t first_sample, int64_t first_frame, const std::string& field) {
-  if (!HearsMusic(model)) {
+  if (!TakesMusic(model)) {
     throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
   }
   CheckAudioFormat(sample_rate, channels, field);

@@ -51,9 +51,9 @@ struct DanceConfig {
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model);
 
 /// Whether the model takes music.
-bool HearsMusic(const ModelInfo& model);
+bool TakesMusic(const ModelInfo& model);
 
-/// Throws Error(kUnimplemented) if the model hears no music, Error(kInvalidArgument) for a format
+/// Throws Error(kUnimplemented) if the model takes no music, Error(kInvalidArgument) for a format
 /// out of range, Error(kOutOfRange) unless 0 <= first_sample <= LatestFirstSample. `field` is the
 /// path of the audio.
 void ValidateAudioStart(const ModelInfo& model, double sample_rate, int channels,

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-/// One that hears no music.
+/// One that takes no music.
 class DeafEngine final : public ControlledEngine {
  public:
   DeafEngine() { model_.audio_features = 0; }
@@ -93,7 +93,7 @@ TEST_F(ControlledCommandTest, InfoShowsControlsAndReferences) {
   const Outcome json = Choreo("info --json" + Walker());
   const auto model = nlohmann::json::parse(json.said)["models"][0];
   EXPECT_EQ(model["velocity_references"][1]["name"], "calm");
-  EXPECT_EQ(model["hears_music"], true);
+  EXPECT_EQ(model["takes_music"], true);
 }
 
 TEST_F(ControlledCommandTest, ADeafModelDancesToTheBeatsOfASongThatItDoesNotHear) {
@@ -102,7 +102,7 @@ TEST_F(ControlledCommandTest, ADeafModelDancesToTheBeatsOfASongThatItDoesNotHear
   const Outcome outcome =
       Choreo("dance --server " + deaf.address() + " " + At("song.wav") + " -o " + At("d.npz"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("the model \"fake\" hears no music"));
+  EXPECT_THAT(outcome.said, HasSubstr("the model \"fake\" takes no music"));
   EXPECT_EQ(Read("d.npz").frames.size(), 180U);
 }
 

@@ -146,7 +146,7 @@ TEST(ControlsTest, AreDescribedByTheServer) {
   ASSERT_EQ(model.velocity_references.size(), 2U);
   EXPECT_EQ(model.velocity_references[1].name, "calm");
   EXPECT_NEAR(model.velocity_references[1].speeds.at(4), 0.005, 1e-9);
-  EXPECT_TRUE(model.hears_music);
+  EXPECT_TRUE(model.takes_music);
 }
 
 TEST(ControlsTest, OfNoBodyPartAreRefusedBeforeTheyAreSent) {
