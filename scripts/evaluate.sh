@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Measures the checkpoint that ships on test clips and writes docs/tables.md, its plots and its sheets.
+# Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets.
 #   scripts/evaluate.sh BIN_DIRECTORY RECORDINGS [RUNS]
 # RECORDINGS holds tang2018/, dancedb/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as `train --run` leaves
-# them: recurrent/ (Harvey et al. 2020), free/ (trained on freely usable data), ablation/full, no_key_loss, no_time_embedding,
-# forward_embedding, no_keys. Rows of those that are not there are left out, and named.
+# them: recurrent/ (Harvey et al. 2020), ablation/full, no_key_loss, no_time_embedding, forward_embedding, no_keys. Rows of those that are
+# not there are left out, and named.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 lab=$(realpath "$1")/choreo-lab
@@ -34,7 +34,7 @@ measure() {  # measure NAME MODEL OPTIONS...
 }
 
 row "Harvey et al. 2020" recurrent
-row "free data" free
+others+=(--other "free data=model/checkpoints/free.safetensors")
 measure tables model/checkpoints/default.safetensors --sheets
 for sheet in docs/images/tables_sheet_*.png; do  # a quarter of the size
   ffmpeg -v error -y -i "$sheet" -vf "scale=800:-1,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none" "$sheet.small.png"
