@@ -1,0 +1,55 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "model/engine/engines.h"
+#include "tests/engine/engine_dances.h"
+
+// What every checkpoint in model/checkpoints is, whatever network is in it.
+namespace choreo {
+namespace {
+
+constexpr std::uintmax_t kLargest = 16'000'000;  // bytes
+
+std::map<std::string, std::filesystem::path> Shipped() {
+  std::map<std::string, std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints")) {
+    if (entry.path().extension() == ".safetensors") files[entry.path().stem()] = entry.path();
+  }
+  return files;
+}
+
+TEST(ShippedCheckpoints, AreSmallBearTheirNamesAndCardsAndDance) {
+  const auto files = Shipped();
+  ASSERT_TRUE(files.contains("default") && files.contains("free"));
+  for (const auto& [name, path] : files) {
+    SCOPED_TRACE(name);
+    EXPECT_LE(std::filesystem::file_size(path), kLargest);
+    const auto engine = MakeEngine(path, {}, 1);
+    EXPECT_EQ(engine->model().name, name);
+    const auto card = nlohmann::json::parse(engine->model().card);
+    EXPECT_THAT(card.at("command").get<std::string>(), testing::HasSubstr("--seed"));
+    EXPECT_NE(card.at("data").at("hash"), "");
+    for (const StepOutput& frame : DanceAlone(engine.get(), RandomSpec(engine->model(), 3, 30))) {
+      EXPECT_TRUE(frame.pose.rotations.allFinite() && frame.pose.root_position.allFinite());
+    }
+  }
+}
+
+TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {
+  const auto engine = MakeEngine(Shipped().at("free"), {}, 1);
+  const auto card = nlohmann::json::parse(engine->model().card);
+  const auto& terms = card.at("data").at("clips_by_terms");
+  ASSERT_EQ(terms.size(), 1U);
+  EXPECT_THAT(terms.begin().key(), testing::HasSubstr("free for research and commercial use"));
+  EXPECT_EQ(card.at("planner_from").at("card").at("data"), card.at("data"));
+  EXPECT_FALSE(engine->model().hears_music);
+}
+
+}  // namespace
+}  // namespace choreo
