@@ -15,6 +15,12 @@ mkdir -p "$out"
   --title "24 s of \"Escape from chaosland\"; key poses are framed"
 "$choreo" render "$out/dance.npz" --report "$out/report.json" --video "$out/dance.mp4" --song "$song" --size 960x540
 
+# The same song, led along a path, the left arm livelier than the rest.
+"$choreo" dance "$song" --model controllers --seconds 10 --path "$(dirname "$0")/../examples/path.json" --velocity left_arm=1.5 \
+  --out "$out/controlled.npz" --report "$out/controlled.json"
+"$choreo" render "$out/controlled.npz" --report "$out/controlled.json" --out "$out/controlled.png" \
+  --title "10 s along a path, the left arm 1.5 times as lively"
+
 keys=$(grep -c '"id"' "$out/report.json")
 if [[ $keys -lt 4 ]]; then
   echo "demo.sh: only $keys key poses were danced through, at least 4 are wanted" >&2
@@ -22,6 +28,6 @@ if [[ $keys -lt 4 ]]; then
 fi
 echo
 echo "A dance through $keys key poses:"
-for file in dance.mp4 dance.npz dance.glb dance.bvh sheet.png report.json; do
+for file in dance.mp4 dance.npz dance.glb dance.bvh sheet.png report.json controlled.npz controlled.png; do
   printf '  %-11s %8d bytes  %s\n' "$file" "$(stat -c %s "$out/$file")" "$(realpath "$out/$file")"
 done

@@ -51,7 +51,7 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
   app.add_option("--checkpoint", config.checkpoints,
                  "Model to serve, a .safetensors file; give several for several models, the "
-                 "default first. Without it, the model that ships.")
+                 "default first. Without it, the models that ship.")
       ->envname("CHOREO_CHECKPOINT");
   app.add_option("--device", config.device,
                  "Where to compute: auto (a GPU if this build and machine have one), cpu, or "
@@ -180,17 +180,20 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
   return {.config = std::nullopt, .exit_code = kMisused};
 }
 
-std::filesystem::path ShippedCheckpoint() {
+std::vector<std::filesystem::path> ShippedCheckpoints() {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  const std::array candidates = {
-      program / "../share/choreo/checkpoints/default.safetensors",
-      std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors"};
-  for (const auto& path : candidates) {
-    if (std::filesystem::is_regular_file(path)) return path.lexically_normal();
-  }
   std::string looked;
-  for (const auto& path : candidates) looked += "\n  " + path.lexically_normal().string();
-  throw Error(ErrorCode::kNotFound, "--checkpoint", "none given, and none found at" + looked);
+  for (const auto& folder : {program / "../share/choreo/checkpoints",
+                             std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints"}) {
+    std::vector<std::filesystem::path> found;
+    for (const char* name : {"default.safetensors", "controllers.safetensors"}) {
+      const std::filesystem::path path = (folder / name).lexically_normal();
+      if (std::filesystem::is_regular_file(path)) found.push_back(path);
+    }
+    if (!found.empty()) return found;
+    looked += "\n  " + folder.lexically_normal().string();
+  }
+  throw Error(ErrorCode::kNotFound, "--checkpoint", "none given, and none found in" + looked);
 }
 
 }  // namespace choreo

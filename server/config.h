@@ -45,8 +45,8 @@ struct CommandLine {
 /// environment variable (CHOREO_LISTEN, ...).
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 
-/// The checkpoint that ships: installed beside the program, or in the source tree that it was
-/// built in. Throws Error(kNotFound) naming where it looked.
-std::filesystem::path ShippedCheckpoint();
+/// The checkpoints that ship, the default first: installed beside the program, or in the source
+/// tree that it was built in. Throws Error(kNotFound) naming where it looked.
+std::vector<std::filesystem::path> ShippedCheckpoints();
 
 }  // namespace choreo

@@ -30,7 +30,7 @@ sigset_t BlockStopSignals() {
 std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
   const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
   std::vector<std::filesystem::path> checkpoints = config.checkpoints;
-  if (checkpoints.empty()) checkpoints.push_back(ShippedCheckpoint());
+  if (checkpoints.empty()) checkpoints = ShippedCheckpoints();
   // One small network does not keep several cores busy: each gets a worker, with its share of the
   // slots.
   std::vector<Device> workers = devices;

@@ -10,9 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "model/controllers/checkpoint.h"
 #include "model/core/error.h"
 #include "model/core/threads.h"
 #include "model/engine/build_identity.h"
+#include "model/engine/controllers_engine.h"
 #include "model/engine/flow_engine.h"
 #include "model/engine/packed_flow.h"
 #include "model/engine/packed_kernels.h"
@@ -76,19 +78,58 @@ const PackedKernels& ProductKernels(EngineKind kind, const PackedKernels& exact)
   return exact;
 }
 
+std::string Fingerprint(const std::string& preset, const std::string& hash,
+                        const std::string& kernels) {
+  return preset + "/" + hash + "/choreo " CHOREO_VERSION + ", " + BuildIdentity() + "/" + kernels;
+}
+
 // What the engines of one device share.
 struct Loaded {
   ModelInfo info;
+  ControllersModel controllers{nullptr};  // this alone, or a flow:
   std::shared_ptr<const TransitionPlanner> planner;
   std::shared_ptr<TorchWeights> torch;  // either this
   int torch_rows = 0;
   std::shared_ptr<const PackedFlow> packed;  // or this
 
+  std::unique_ptr<StepEngine> Engine(const Device& device, int slots) const {
+    if (!controllers.is_empty())
+      return std::make_unique<ControllersEngine>(info, slots, controllers);
+    return std::make_unique<FlowEngine>(info, device.name(), slots, planner, Tile(slots));
+  }
+
+ private:
   std::unique_ptr<FlowTile> Tile(int slots) const {
     if (packed) return std::make_unique<PackedTile>(packed, slots);
     return std::make_unique<TorchTile>(torch, torch_rows, slots);
   }
 };
+
+// It has one engine, which is small: whatever steps the flow elsewhere, this runs on the CPU.
+Loaded LoadControllers(const Safetensors& content, const std::filesystem::path& path) {
+  const ControllersCheckpoint checkpoint = ParseControllers(content, path.string());
+  const ControllersConfig& config = checkpoint.model->config();
+  VelocityReference median{.name = "median"};
+  std::ranges::copy(checkpoint.median_factors, median.factors.begin());
+  Loaded loaded;
+  loaded.controllers = checkpoint.model;
+  loaded.info = {.name = config.preset,
+                 .fingerprint = Fingerprint(config.preset, checkpoint.hash,
+                                            TorchKernels(torch::Device(torch::kCPU))),
+                 .licence = LicenceOf(checkpoint.card),
+                 .card = checkpoint.card,
+                 .skeleton = checkpoint.model->skeleton(),
+                 .fps = 30,
+                 .history_frames = config.history_frames,
+                 .audio_features = 0,  // it hears no music
+                 .max_transition_frames = config.max_transition_frames,
+                 .default_temperature = 0,
+                 .hears_music = false,
+                 .root_path = true,
+                 .velocity_factors = config.velocity_factors,
+                 .velocity_references = {median}};
+  return loaded;
+}
 
 Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind kind) {
   const c10::InferenceMode inference;
@@ -98,6 +139,7 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
   at::globalContext().setDeterministicCuDNN(true);
 
   const Safetensors content = ReadSafetensors(path);
+  if (HoldsControllers(content)) return LoadControllers(content, path);
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
   FlowModel model = checkpoint.model;
   const FlowConfig& config = model->config();
@@ -141,8 +183,7 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
   }
   if (!loaded.planner) loaded.planner = std::make_shared<TorchPlanner>(model, there);
   loaded.info = {.name = config.name,
-                 .fingerprint = config.name + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION +
-                                ", " + BuildIdentity() + "/" + kernels,
+                 .fingerprint = Fingerprint(config.name, checkpoint.hash, kernels),
                  .licence = LicenceOf(checkpoint.card),
                  .card = checkpoint.card,
                  .skeleton = model->skeleton(),
@@ -190,9 +231,7 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
   for (const Device& device : devices) {
     const auto [here, is_new] = loaded.try_emplace(device);
     if (is_new) here->second = Load(path, device, kind);
-    const Loaded& shared = here->second;
-    engines.push_back(std::make_unique<FlowEngine>(shared.info, device.name(), slots,
-                                                   shared.planner, shared.Tile(slots)));
+    engines.push_back(here->second.Engine(device, slots));
   }
   return engines;
 }

@@ -11,7 +11,8 @@
 #include "model/engine/step_engine.h"
 #include "model/engine/transition_planner.h"
 
-/// Makes the engines that run the flow model (model/flow). This header is free of torch.
+/// Makes the engines that run the flow model (model/flow) and the controllers network
+/// (model/controllers); the checkpoint says which. This header is free of torch.
 ///
 /// A row's bits depend neither on its slot nor on who steps with it. That is verified when engines
 /// are made, with random rows in every place; where it doesn't hold, slower kernels or tiles of one

@@ -9,6 +9,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/engine/engines.h"
+#include "model/evaluation/control_tables.h"
 #include "model/evaluation/encoder_table.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/evaluation/long_tables.h"
@@ -150,13 +151,16 @@ void Evaluate(Arguments arguments) {
   int64_t frames = 0;
   for (const ClipSet& set : sets) {
     frames += CountTransitionFrames(set, contest.methods, options) +
-              CountLongFrames(set, engine.model(), options);
+              CountLongFrames(set, engine.model(), options) +
+              CountControlFrames(set, contest.methods, options);
     if (encoder) frames += CountEncodedFrames(set, contest.methods, options);
   }
   std::vector<Table> tables;
   ProgressBar progress("evaluating", frames);
   for (const ClipSet& set : sets) {
     for (Table& table : EvaluateTransitions(set, contest.methods, options, &progress))
+      tables.push_back(std::move(table));
+    for (Table& table : EvaluateControls(set, contest.methods, options, &progress))
       tables.push_back(std::move(table));
     for (Table& table : EvaluateLongDances(set, engine, options, &progress))
       tables.push_back(std::move(table));

@@ -62,7 +62,7 @@ TransitionJob JobOf(const ModelInfo& model, const ClipSet& set, const EvalWindow
   job.request.beats =
       set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
   for (double& beat : job.request.beats) beat -= kBeatMargin;
-  if (clip.audio.cols() > 0) {
+  if (clip.audio.cols() > 0 && model.audio_features > 0) {
     job.request.has_audio = true;
     job.request.audio_history =
         clip.audio.middleCols(window.start - model.history_frames, model.history_frames);

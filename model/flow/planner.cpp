@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/flow/recurrent_planner.h"
+#include "model/flow/time_block.h"
 #include "model/flow/torch_kinematics.h"
 
 namespace choreo {
@@ -15,7 +16,6 @@ using torch::indexing::Slice;
 
 namespace {
 
-constexpr int64_t kMaxDistance = 96;     // frames; farther apart counts as this far
 constexpr int64_t kEmbeddingWidth = 32;  // of each of the two frame counts
 constexpr double kRampFrames = 6;        // frames over which the residual grows from a fixed end
 constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's spread counts as one
@@ -164,22 +164,6 @@ PlannerImpl::Plan PlannerImpl::Balanced(const TransitionTensors& transition, con
 
 namespace {
 
-// Pre-norm transformer block with a learnt bias for every clipped distance in time.
-class PlannerBlockImpl : public torch::nn::Module {
- public:
-  PlannerBlockImpl(int width, int heads, double dropout);
-  // x [batch, time, width]; distance [time, time] indices into the bias table.
-  Tensor forward(const Tensor& x, const Tensor& distance);
-
- private:
-  int heads_;
-  double dropout_;
-  torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
-  torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr};
-  Tensor distance_bias_;  // [2 * kMaxDistance + 1, heads]
-};
-TORCH_MODULE(PlannerBlock);
-
 // Interpolation plus a smooth residual from a transformer over history, gap and key.
 class TransformerPlanner : public PlannerImpl {
  public:
@@ -193,37 +177,6 @@ class TransformerPlanner : public PlannerImpl {
   torch::nn::ModuleList blocks_;
 };
 
-PlannerBlockImpl::PlannerBlockImpl(int width, int heads, double dropout)
-    : heads_(heads), dropout_(dropout) {
-  using torch::nn::LayerNormOptions;
-  attention_norm_ =
-      register_module("attention_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
-  mlp_norm_ = register_module("mlp_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
-  qkv_ = register_module("qkv", torch::nn::Linear(width, 3 * width));
-  out_ = register_module("out", torch::nn::Linear(width, width));
-  up_ = register_module("up", torch::nn::Linear(width, 2 * width));
-  down_ = register_module("down", torch::nn::Linear(2 * width, width));
-  distance_bias_ = register_parameter("distance_bias", torch::zeros({2 * kMaxDistance + 1, heads}));
-}
-
-Tensor PlannerBlockImpl::forward(const Tensor& x, const Tensor& distance) {
-  const int64_t batch = x.size(0), time = x.size(1), width = x.size(2);
-  const Tensor qkv = qkv_(attention_norm_(x))
-                         .view({batch, time, 3, heads_, width / heads_})
-                         .permute({2, 0, 3, 1, 4});  // [3, batch, heads, time, head width]
-  const Tensor bias = distance_bias_.index_select(0, distance.flatten())
-                          .view({time, time, heads_})
-                          .permute({2, 0, 1});
-  const double scale = 1 / std::sqrt(static_cast<double>(width / heads_));
-  const Tensor attention =
-      torch::softmax(torch::matmul(qkv[0] * scale, qkv[1].transpose(-1, -2)) + bias, -1);
-  const Tensor mixed =
-      torch::matmul(attention, qkv[2]).transpose(1, 2).reshape({batch, time, width});
-  const auto drop = [this](const Tensor& y) { return torch::dropout(y, dropout_, is_training()); };
-  const Tensor attended = x + drop(out_(mixed));
-  return attended + drop(down_(torch::gelu(up_(mlp_norm_(attended)))));
-}
-
 TransformerPlanner::TransformerPlanner(int joints, const PlannerConfig& config)
     : PlannerImpl(joints), width_(config.width) {
   // Token: the pose, its step, the step that leaves the history (root 3, rotations 6 a joint,
@@ -232,7 +185,7 @@ TransformerPlanner::TransformerPlanner(int joints, const PlannerConfig& config)
   embed_ = register_module("embed", torch::nn::Linear(features, width_));
   blocks_ = register_module("blocks", torch::nn::ModuleList());
   for (int i = 0; i < config.layers; ++i)
-    blocks_->push_back(PlannerBlock(width_, config.heads, config.dropout));
+    blocks_->push_back(TimeBlock(width_, config.heads, config.dropout));
   norm_ = register_module("norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({width_})));
   head_ = register_module("head", torch::nn::Linear(width_, 3 + 6 * joints));
   torch::nn::init::zeros_(head_->weight);
@@ -269,12 +222,9 @@ PlannerImpl::Plan TransformerPlanner::forward(const TransitionTensors& transitio
        TimeEmbedding(left, kEmbeddingWidth).expand({batch, time, kEmbeddingWidth}) * present},
       -1);
 
-  const Tensor steps =
-      torch::arange(time, torch::TensorOptions().dtype(torch::kLong).device(options.device()));
-  const Tensor distance =
-      (steps.unsqueeze(0) - steps.unsqueeze(1)).clamp(-kMaxDistance, kMaxDistance) + kMaxDistance;
+  const Tensor distance = TimeDistances(time, options.device());
   Tensor x = embed_(tokens);
-  for (const auto& block : *blocks_) x = block->as<PlannerBlock>()->forward(x, distance);
+  for (const auto& block : *blocks_) x = block->as<TimeBlock>()->forward(x, distance);
   const Tensor hidden = norm_(x).narrow(1, history, frames);
 
   // The residual grows from zero behind the history and, for what the key fixes, shrinks to zero at

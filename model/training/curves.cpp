@@ -13,6 +13,7 @@ namespace choreo {
 namespace {
 
 constexpr std::string_view kGradientSuffix = "_gradient";
+constexpr std::string_view kRatio = "_ratio_";  // in the names of figures that are compared
 
 std::string Format(double value) {
   char text[32];
@@ -22,20 +23,16 @@ std::string Format(double value) {
 
 }  // namespace
 
-void Curves::Append(const LossRow& losses, double seconds, const std::vector<ValidationRow>& rows) {
+void Curves::Append(const LossRow& losses, double seconds, const NamedFigures& figures) {
   std::string header = "step,seconds";
   std::string line = std::to_string(losses.step) + "," + Format(seconds);
   for (const auto& [name, figure] : losses.terms) {
     header += "," + name + "," + name + std::string(kGradientSuffix);
     line += "," + Format(figure.value) + "," + Format(figure.gradient);
   }
-  for (const ValidationRow& row : rows) {
-    const std::string n = std::to_string(row.frames);
-    header += ",planner_ratio_" + n + ",flow_ratio_" + n + ",val_nll_" + n + ",mean_key_m_" + n;
-    for (const double value : {row.planner_m / row.interpolation_m,
-                               row.flow_m / row.interpolation_m, row.likelihood, row.key_error_m}) {
-      line += "," + Format(value);
-    }
+  for (const auto& [name, value] : figures) {
+    header += "," + name;
+    line += "," + Format(value);
   }
   header_ = header;
   lines_.push_back(line);
@@ -92,18 +89,16 @@ void Curves::Write(const std::filesystem::path& folder) const {
     }
     if (!figure.series.empty()) DrawPlot(figure, folder / file_name);
   };
-  std::vector<std::string> values, gradients;
+  std::vector<std::string> values, gradients, ratios;
   for (const std::string& name : names) {
+    if (name.find(kRatio) != std::string::npos) ratios.push_back(name);
     if (!name.ends_with(kGradientSuffix)) continue;
     gradients.push_back(name);
     values.push_back(name.substr(0, name.size() - kGradientSuffix.size()));
   }
   plot("Training losses", "loss", values, "curves.png");
   plot("Gradient of each weighted term", "norm", gradients, "gradients.png");
-  plot("Validation, ratio to interpolation", "L2P ratio",
-       {"planner_ratio_10", "planner_ratio_30", "planner_ratio_60", "planner_ratio_90",
-        "flow_ratio_10", "flow_ratio_30", "flow_ratio_60", "flow_ratio_90"},
-       "validation.png");
+  plot("Validation, ratio to interpolation", "ratio", ratios, "validation.png");
 }
 
 }  // namespace choreo

@@ -11,7 +11,7 @@ namespace choreo {
 /// A run's history: one line a report, as CSV and as a plot.
 class Curves {
  public:
-  void Append(const LossRow& losses, double seconds, const std::vector<ValidationRow>& rows);
+  void Append(const LossRow& losses, double seconds, const NamedFigures& figures);
   /// Writes curves.csv, curves.png, gradients.png and validation.png into `folder`.
   void Write(const std::filesystem::path& folder) const;
   /// The CSV text, kept inside a run's state; and back.

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace choreo {
 
@@ -18,8 +20,11 @@ struct LossRow {
   std::map<std::string, LossFigure> terms;
 };
 
-/// What a run reports of itself on validation windows: fixed windows, no arrival, one roll-out at
-/// the served temperature.
+/// What else a run reports, in the order of its columns.
+using NamedFigures = std::vector<std::pair<std::string, double>>;
+
+/// What a run of the flow reports of itself on validation windows: fixed windows, no arrival, one
+/// roll-out at the served temperature.
 struct ValidationRow {
   int frames = 0;              ///< N
   double interpolation_m = 0;  ///< L2P of interpolation

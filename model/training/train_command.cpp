@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "model/controllers/controllers_config.h"
 #include "model/core/error.h"
 #include "model/flow/flow_config.h"
+#include "model/training/control_trainer.h"
 #include "model/training/trainer.h"
 
 namespace choreo {
@@ -13,11 +15,14 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
   command
-      ->add_option("--preset", options->preset,
-                   "default | paper | ablation | recurrent (the baseline of Harvey et al.)")
+      ->add_option(
+          "--preset", options->preset,
+          "default | paper | ablation | recurrent (the baseline of Harvey et al.) | controllers | "
+          "controllers-paper")
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& name) {
+            if (ControllersConfig::IsPreset(name)) return std::string();
             try {
               FlowConfig::Preset(name);
             } catch (const Error& error) {
@@ -78,9 +83,19 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
                     "Ablation: no time embedding");
   command->add_flag("--forward-embedding", options->forward_embedding,
                     "Ablation: count frames from the start, not frames left");
+  command->add_flag("--one-lstm", options->one_lstm, "Ablation of controllers");
+  command->add_flag("--condition-fc", options->condition_fc,
+                    "Ablation of controllers: fully connected instead of transformers");
+  command->add_flag("--one-decoder", options->one_decoder, "Ablation of controllers");
+  command->add_flag("--no-velocity-factors", options->no_velocity_factors,
+                    "Ablation of controllers");
   command->callback([options, read_device] {
     options->device = read_device(options->device);
-    Train(*options);
+    if (ControllersConfig::IsPreset(options->preset)) {
+      TrainControllers(*options);
+    } else {
+      Train(*options);
+    }
   });
 }
 

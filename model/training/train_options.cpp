@@ -24,7 +24,9 @@ std::string TrainOptions::Fixed() const {
        << (planner.empty() ? "" : " --planner " + planner.filename().string())
        << (with_validation ? " --with-validation" : "") << (no_keys ? " --no-keys" : "")
        << (no_key_loss ? " --no-key-loss" : "") << (no_time_embedding ? " --no-time-embedding" : "")
-       << (forward_embedding ? " --forward-embedding" : "");
+       << (forward_embedding ? " --forward-embedding" : "") << (one_lstm ? " --one-lstm" : "")
+       << (condition_fc ? " --condition-fc" : "") << (one_decoder ? " --one-decoder" : "")
+       << (no_velocity_factors ? " --no-velocity-factors" : "");
   return text.str();
 }
 

@@ -33,6 +33,8 @@ struct TrainOptions {
   uint64_t seed = 1;
   /// Ablations (paper F, Table 1).
   bool no_keys = false, no_key_loss = false, no_time_embedding = false, forward_embedding = false;
+  /// Ablations (paper C, Tables 2-4; `no_key_loss` is in both).
+  bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
 
   /// What a stranger types to train the same: folders by their names alone.
   std::string Command() const;

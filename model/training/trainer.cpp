@@ -2,38 +2,28 @@
 
 #include <torch/torch.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "model/core/error.h"
-#include "model/core/progress.h"
 #include "model/flow/checkpoint.h"
 #include "model/training/adam.h"
-#include "model/training/curves.h"
 #include "model/training/fit_variety.h"
 #include "model/training/losses.h"
 #include "model/training/model_card.h"
 #include "model/training/normalise.h"
+#include "model/training/training_run.h"
 #include "model/training/validation.h"
 
 namespace choreo {
 namespace {
 
-constexpr int64_t kWarmUpSteps = 200;
-constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end of a stage
 constexpr double kMaxGradientNorm = 1.0;
 constexpr int kNormalisationBatches = 24;
 constexpr int kValidationWindows = 64;
 constexpr int kTypicalFrames = 60;  // a batch of windows this long has `batch` of them
-
-double StageRate(double peak, int64_t step, int64_t steps) {
-  const double warm = std::min(1.0, static_cast<double>(step + 1) / kWarmUpSteps);
-  const double progress =
-      static_cast<double>(step) / static_cast<double>(std::max<int64_t>(1, steps));
-  return peak * warm * (kLastRate + (1 - kLastRate) * 0.5 * (1 + std::cos(M_PI * progress)));
-}
 
 FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
   FlowConfig config = FlowConfig::Preset(options.preset);
@@ -46,15 +36,25 @@ FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
   return config;
 }
 
-// One run in progress. Each step draws from a generator of its own, so a resumed run goes on
-// exactly as an undisturbed one.
-class Run {
+NamedFigures FiguresOf(const std::vector<ValidationRow>& rows) {
+  NamedFigures figures;
+  for (const ValidationRow& row : rows) {
+    const std::string n = std::to_string(row.frames);
+    figures.insert(figures.end(), {{"planner_ratio_" + n, row.planner_m / row.interpolation_m},
+                                   {"flow_ratio_" + n, row.flow_m / row.interpolation_m},
+                                   {"val_nll_" + n, row.likelihood},
+                                   {"mean_key_m_" + n, row.key_error_m}});
+  }
+  return figures;
+}
+
+class FlowRun : public TrainingRun {
  public:
-  explicit Run(const TrainOptions& options)
-      : options_(options),
-        train_(options.data, options.splits,
-               options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
-        validation_(options.data, options.splits, Split::kValidation),
+  FlowRun(const TrainOptions& options, ClipStore train, ClipStore validation)
+      : TrainingRun(options, train.Hash()),
+        options_(options),
+        train_(std::move(train)),
+        validation_(std::move(validation)),
         kinematics_(train_.skeleton()),
         device_(options.device) {
     torch::manual_seed(options.seed);
@@ -68,43 +68,82 @@ class Run {
     planner_adam_ = std::make_unique<Adam>(*model_, "planner.");
     flow_adam_ = std::make_unique<Adam>(*model_, "flow.");
     encoder_adam_ = std::make_unique<Adam>(*model_, "encode");
-    for (const std::string& name : LossTermNames()) losses_.terms[name];
-    std::filesystem::create_directories(options.run);
-    if (!std::filesystem::exists(StatePath())) return;
-    if (!options.resume) {
-      throw Error(
-          ErrorCode::kFailedPrecondition, "--run",
-          options.run.string() + " holds a run already: --resume it or name another folder");
-    }
-    Load();
+    NameLosses(LossTermNames());
+    Open();
   }
 
-  void Go() {
-    const int64_t total = planner_steps_ + flow_steps_;
-    ProgressBar progress("train " + options_.preset, total - step_);
-    const auto start = std::chrono::steady_clock::now();
-    const double seconds_before = seconds_;
-    for (; step_ < total; ++step_) {
-      if (step_ == planner_steps_) StartFlowStage();
-      TrainStep();
-      seconds_ = seconds_before +
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      progress.Advance();
-      const bool stop = step_ + 1 == options_.stop_after;
-      if ((step_ + 1) % options_.report_every == 0 || step_ + 1 == total) {
-        Report();
-      } else if (stop) {
-        Save();
-      }
-      if (stop) return;
+ protected:
+  int64_t total_steps() const override { return planner_steps_ + flow_steps_; }
+
+  NamedFigures Validate() override {
+    return FiguresOf(
+        choreo::Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, flow_stage()));
+  }
+
+  void TrainStep() override {
+    if (step() == planner_steps_) StartFlowStage();
+    Random random(options_.seed, static_cast<uint32_t>(step() + 1));
+    torch::manual_seed(options_.seed + static_cast<uint64_t>(step()) * 1000003);
+    model_->train();
+    if (flow_stage() && model_->has_planner()) model_->planner()->eval();
+    // Short transitions are common in use and cheap: half of the draws are quadratic towards the
+    // short end.
+    const double u = random.Uniform();
+    const double place = random.Uniform() < 0.5 ? u * u : u;
+    const int frames =
+        options_.shortest + static_cast<int>(place * (options_.longest - options_.shortest + 1));
+    const MotionBatch batch = Draw(&random, frames);
+    if (flow_stage()) {
+      FlowStep(batch, &random);
+      return;
     }
+    planner_adam_->ZeroGrad();
+    Descend(
+        PlannerLoss(kinematics_, batch, model_->planner()->forward(batch.transition).trajectory),
+        model_->planner()->parameters());
+    planner_adam_->Step(StageRate(options_.planner_rate, step(), planner_steps_), kMaxGradientNorm);
+  }
+
+  void Export(Safetensors* state) const override {
+    ExportTensors(*model_, "model.", state);
+    planner_adam_->Export(state);
+    // Three optimisers share the step count's key; the flow's two always agree.
+    const std::string planner_count = state->metadata["adam.steps"];
+    encoder_adam_->Export(state);
+    flow_adam_->Export(state);
+    state->metadata["adam.planner_steps"] = planner_count;
+    state->metadata["planner_from"] = PlannerFrom();
+  }
+
+  void Import(const Safetensors& content) override {
+    Safetensors state = content;
+    if (state.metadata["planner_from"] != PlannerFrom()) {
+      throw Error(ErrorCode::kFailedPrecondition, options_.run.string(),
+                  "the run was started from another --planner (hash " +
+                      state.metadata["planner_from"] + ")");
+    }
+    ImportTensors(state, "model.", model_.get());
+    flow_adam_->Import(state);
+    encoder_adam_->Import(state);
+    state.metadata["adam.steps"] = state.metadata.at("adam.planner_steps");
+    planner_adam_->Import(state);
+  }
+
+  void Finish() override {
     if (flow_steps_ == 0) StartFlowStage();
-    Finish();
+    const std::vector<ValidationRow> rows =
+        choreo::Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
+    nlohmann::json card =
+        ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows);
+    if (!base_.is_null()) card["planner_from"] = base_;
+    const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
+    std::printf("%s\n", card.dump(2).c_str());
+    std::printf("checkpoint %s, content hash %s\n",
+                (options_.run / "checkpoint.safetensors").string().c_str(), hash.c_str());
   }
 
  private:
-  bool flow_stage() const { return step_ >= planner_steps_; }
-  std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
+  bool flow_stage() const { return step() >= planner_steps_; }
 
   MotionBatch Draw(Random* random, int frames) const {
     const int windows =
@@ -143,36 +182,14 @@ class Run {
     return base_.is_null() ? "" : base_.at("hash").get<std::string>();
   }
 
-  void TrainStep() {
-    Random random(options_.seed, static_cast<uint32_t>(step_ + 1));
-    torch::manual_seed(options_.seed + static_cast<uint64_t>(step_) * 1000003);
-    model_->train();
-    if (flow_stage() && model_->has_planner()) model_->planner()->eval();
-    // Short transitions are common in use and cheap: half of the draws are quadratic towards the
-    // short end.
-    const double u = random.Uniform();
-    const double place = random.Uniform() < 0.5 ? u * u : u;
-    const int frames =
-        options_.shortest + static_cast<int>(place * (options_.longest - options_.shortest + 1));
-    const MotionBatch batch = Draw(&random, frames);
-    losses_.step = step_ + 1;
-    if (flow_stage()) {
-      FlowStep(batch, &random);
-      return;
-    }
-    planner_adam_->ZeroGrad();
-    Descend(
-        PlannerLoss(kinematics_, batch, model_->planner()->forward(batch.transition).trajectory));
-    planner_adam_->Step(StageRate(options_.planner_rate, step_, planner_steps_), kMaxGradientNorm);
-  }
-
   // The planner is frozen here: its trajectory and hidden state are inputs, not something to be
   // moved by the flow.
   void FlowStep(const MotionBatch& batch, Random* random) {
     for (auto& parameter : FrozenParameters()) parameter.set_requires_grad(false);
     flow_adam_->ZeroGrad();
     encoder_adam_->ZeroGrad();
-    Descend(LikelihoodLoss(model_, batch, model_->BeginNear(batch.transition, batch.truth)));
+    Descend(LikelihoodLoss(model_, batch, model_->BeginNear(batch.transition, batch.truth)),
+            FreeParameters());
     if (model_->config().key_loss) {
       // Longer than gamma too: a flow that was only ever unrolled over 30 frames may drift off
       // beyond them.
@@ -188,43 +205,23 @@ class Run {
               .To(device_);
       Descend(RolloutLoss(model_, kinematics_, sampled,
                           model_->BeginNear(sampled.transition, sampled.truth),
-                          model_->config().temperature));
+                          model_->config().temperature),
+              FreeParameters());
     }
-    const double rate = StageRate(options_.flow_rate, step_ - planner_steps_, flow_steps_);
+    const double rate = StageRate(options_.flow_rate, step() - planner_steps_, flow_steps_);
     flow_adam_->Step(rate, kMaxGradientNorm);
     encoder_adam_->Step(rate, kMaxGradientNorm);
-  }
-
-  // Adds the gradient of the weighted sum; before a report, also each term's own, so that one that
-  // vanishes or takes over is seen.
-  void Descend(const LossTerms& terms) {
-    const bool report = (step_ + 1) % options_.report_every == 0;
-    torch::Tensor sum = torch::zeros({}, device_);
-    for (const LossTerm& term : terms) {
-      LossFigure& figure = losses_.terms[term.name];
-      const double value = term.value.item<double>();
-      figure.value = figure.value == 0 ? value : 0.98 * figure.value + 0.02 * value;
-      if (report) figure.gradient = GradientNorm(term.weight * term.value);
-      sum = sum + term.weight * term.value;
-    }
-    sum.backward();
   }
 
   std::vector<torch::Tensor> FrozenParameters() const {
     return model_->has_planner() ? model_->planner()->parameters() : std::vector<torch::Tensor>{};
   }
-  double GradientNorm(const torch::Tensor& loss) const {
+  std::vector<torch::Tensor> FreeParameters() const {
     std::vector<torch::Tensor> parameters;
     for (const auto& parameter : model_->parameters()) {
       if (parameter.requires_grad()) parameters.push_back(parameter);
     }
-    double square = 0;
-    for (const auto& gradient :
-         torch::autograd::grad({loss}, parameters, /*grad_outputs=*/{}, /*retain_graph=*/true,
-                               /*create_graph=*/false, /*allow_unused=*/true)) {
-      if (gradient.defined()) square += gradient.square().sum().item<double>();
-    }
-    return std::sqrt(square);
+    return parameters;
   }
 
   // The flow's features are standardised on what the finished planner leaves over.
@@ -256,77 +253,6 @@ class Run {
     return batches;
   }
 
-  void Report() {
-    const std::vector<ValidationRow> rows =
-        Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, flow_stage());
-    curves_.Append(losses_, seconds_, rows);
-    curves_.Write(options_.run);
-    Save();
-  }
-
-  void Save() {
-    Safetensors state;
-    ExportTensors(*model_, "model.", &state);
-    planner_adam_->Export(&state);
-    // Three optimisers share the step count's key; the flow's two always agree.
-    const std::string planner_count = state.metadata["adam.steps"];
-    encoder_adam_->Export(&state);
-    flow_adam_->Export(&state);
-    state.metadata["adam.planner_steps"] = planner_count;
-    state.metadata["step"] = std::to_string(step_ + 1);
-    state.metadata["seconds"] = std::to_string(seconds_);
-    state.metadata["data"] = train_.Hash();
-    state.metadata["options"] = options_.Fixed();
-    state.metadata["planner_from"] = PlannerFrom();
-    state.metadata["curves"] = curves_.Serialise();
-    nlohmann::json losses;
-    for (const auto& [name, figure] : losses_.terms) losses[name] = {figure.value, figure.gradient};
-    state.metadata["losses"] = losses.dump();
-    WriteSafetensors(StatePath(), state);
-  }
-
-  void Load() {
-    Safetensors state = ReadSafetensors(StatePath());
-    if (state.metadata.at("data") != train_.Hash()) {
-      throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
-                  "the run was started on other data (hash " + state.metadata.at("data") + ")");
-    }
-    if (state.metadata.at("options") != options_.Fixed()) {
-      throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
-                  "the run was started as\n  " + state.metadata.at("options") + "\nnot as\n  " +
-                      options_.Fixed());
-    }
-    if (state.metadata["planner_from"] != PlannerFrom()) {
-      throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
-                  "the run was started from another --planner (hash " +
-                      state.metadata["planner_from"] + ")");
-    }
-    ImportTensors(state, "model.", model_.get());
-    flow_adam_->Import(state);
-    encoder_adam_->Import(state);
-    state.metadata["adam.steps"] = state.metadata.at("adam.planner_steps");
-    planner_adam_->Import(state);
-    step_ = std::stoll(state.metadata.at("step"));
-    seconds_ = std::stod(state.metadata.at("seconds"));
-    curves_.Restore(state.metadata.at("curves"));
-    const auto losses = nlohmann::json::parse(state.metadata.at("losses"));
-    for (const auto& [name, figure] : losses.items()) {
-      losses_.terms[name] = {figure.at(0), figure.at(1)};
-    }
-  }
-
-  void Finish() {
-    const std::vector<ValidationRow> rows =
-        Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
-    nlohmann::json card =
-        ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows);
-    if (!base_.is_null()) card["planner_from"] = base_;
-    const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
-    std::printf("%s\n", card.dump(2).c_str());
-    std::printf("checkpoint %s, content hash %s\n",
-                (options_.run / "checkpoint.safetensors").string().c_str(), hash.c_str());
-  }
-
   TrainOptions options_;
   nlohmann::json base_;  // whose planner this run started from: its hash and card
   ClipStore train_, validation_;
@@ -335,18 +261,17 @@ class Run {
   FlowModel model_{nullptr};
   std::unique_ptr<Adam> planner_adam_, flow_adam_, encoder_adam_;
   int64_t planner_steps_ = 0, flow_steps_ = 0;
-  int64_t step_ = 0;
-  double seconds_ = 0;
-  LossRow losses_;
-  Curves curves_;
 };
 
 }  // namespace
 
 void Train(const TrainOptions& options) {
   options.Validate();
-  Run run(options);
-  run.Go();
+  FlowRun(options,
+          ClipStore(options.data, options.splits,
+                    options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
+          ClipStore(options.data, options.splits, Split::kValidation))
+      .Go();
 }
 
 }  // namespace choreo

@@ -28,7 +28,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
   static const std::vector<std::pair<std::string, std::set<std::string>>> rooms = [] {
     const std::string core = "model/core", audio = "model/audio", motion = "model/motion",
                       body = "model/body", formats = "model/formats", draw = "model/draw",
-                      flow = "model/flow", engine = "model/engine", dance = "model/dance";
+                      flow = "model/flow", controllers = "model/controllers",
+                      engine = "model/engine", dance = "model/dance";
     return std::vector<std::pair<std::string, std::set<std::string>>>{
         {core, {}},
         {audio, {core}},
@@ -37,9 +38,10 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {formats, {core, motion, body}},
         {draw, {core, motion, body}},
         {flow, {core, motion}},
-        {engine, {core, motion, flow}},
+        {controllers, {core, motion, flow}},
+        {engine, {core, motion, flow, controllers}},
         {dance, {core, audio, motion, engine}},
-        {"model/training", {core, audio, motion, formats, draw, flow}},
+        {"model/training", {core, audio, motion, formats, draw, flow, controllers}},
         {"model/evaluation", {core, audio, motion, draw, engine, dance, "model/training"}},
         {"model/lab", {core, engine, "model/training", "model/evaluation"}},
         {"server", {core, audio, motion, engine, dance, "choreo", "google"}},
@@ -95,7 +97,7 @@ TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
 
 // LibTorch's headers take most of a build.
 TEST(Architecture, FewTranslationUnitsIncludeTorch) {
-  constexpr size_t kMost = 17;
+  constexpr size_t kMost = 27;  // two networks, their training and engines
   std::vector<std::string> units;
   for (const std::string& file : House().files()) {
     if (!file.ends_with(".cpp")) continue;

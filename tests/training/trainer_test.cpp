@@ -7,6 +7,7 @@
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
 #include "model/training/adam.h"
+#include "model/training/control_trainer.h"
 #include "model/training/losses.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
@@ -128,6 +129,52 @@ TEST_F(TrainerTest, AResumeBetweenTheStagesAndAnothersPlannerToo) {
   further.preset = "recurrent";
   EXPECT_THAT([&] { Train(further); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("--planner")));
+}
+
+TEST_F(TrainerTest, ControllersResumeInEitherStageAsIfUndisturbed) {
+  TrainOptions options = Options("controllers", 3);
+  options.preset = "controllers";
+  options.planner_steps = 2;
+  options.batch = 4;
+  TrainControllers(options);
+  const auto hash = [](const TrainOptions& run) {
+    return ReadSafetensors(run.run / "checkpoint.safetensors").metadata.at("hash");
+  };
+  const std::string whole = hash(options);
+  options.run = folder_.path() / "parts";
+  for (const int64_t stop : {1, 3, 0}) {
+    options.stop_after = stop;
+    TrainControllers(options);
+    options.resume = true;
+  }
+  EXPECT_EQ(hash(options), whole);
+  options.one_lstm = true;
+  EXPECT_THAT([&] { TrainControllers(options); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("--one-lstm")));
+}
+
+TEST_F(TrainerTest, ControllersDanceAroundAnothersPlanAsItIs) {
+  TrainOptions flow = Options("flow", 1);
+  flow.preset = "default";
+  flow.planner_steps = 1;
+  Train(flow);
+  TrainOptions options = Options("around", 1);
+  options.preset = "controllers";
+  options.planner_steps = 1;
+  options.batch = 4;
+  options.planner = flow.run / "checkpoint.safetensors";
+  TrainControllers(options);
+  const Safetensors theirs = ReadSafetensors(options.planner);
+  const Safetensors ours = ReadSafetensors(options.run / "checkpoint.safetensors");
+  int shared = 0;
+  for (const auto& [name, tensor] : theirs.tensors) {
+    if (!name.starts_with("planner.")) continue;
+    ASSERT_TRUE(ours.tensors.contains(name)) << name;
+    EXPECT_EQ(ours.tensors.at(name).data, tensor.data) << name;
+    ++shared;
+  }
+  EXPECT_GT(shared, 5);
+  EXPECT_THAT(ours.metadata.at("card"), testing::HasSubstr(theirs.metadata.at("hash")));
 }
 
 TEST_F(TrainerTest, ABaselineWithoutAFlowIsItsPlan) {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include "model/flow/planner.h"
+
+/// Motion as the controllers network sees it: paper C's p^r, o^r, p^b and c (Section 3.1) in
+/// batches, canonical frame, metres.
+namespace choreo {
+
+/// T consecutive frames.
+struct FrameTensors {
+  torch::Tensor root;      ///< [batch, T, 3]
+  torch::Tensor facing;    ///< [batch, T, 2] sine and cosine of the heading
+  torch::Tensor joints;    ///< [batch, T, joints - 1, 3] from the root, turned to face +Z
+  torch::Tensor contacts;  ///< [batch, T, 4] in [0, 1]
+
+  int64_t size() const { return root.size(1); }
+  FrameTensors Narrow(int64_t first, int64_t count) const;
+  FrameTensors Detach() const;
+};
+FrameTensors Join(const FrameTensors& a, const FrameTensors& b);
+
+/// What is known of a batch of equally long transitions before their first frame.
+struct ControlledTransition {
+  int64_t frames = 0;           ///< N
+  FrameTensors history;         ///< tau frames; the last one stands above the origin and faces +Z
+  torch::Tensor target_joints;  ///< [batch, joints - 1, 3]
+  torch::Tensor target_turn;    ///< [batch] heading of the target, the way round that it is reached
+  torch::Tensor has_target;     ///< [batch, 1] in {0, 1}
+  torch::Tensor path;           ///< [batch, N, 3] where the root should be
+  torch::Tensor factors;        ///< [batch, N, 5] velocity factors, metres a frame
+  TransitionTensors poses;      ///< history and target as a planner of the flow sees them
+};
+
+/// Vectors [..., 3] turned about +Y by headings [..., 2] (sine, cosine; broadcast), or back.
+torch::Tensor Turn(const torch::Tensor& vectors, const torch::Tensor& facing);
+torch::Tensor TurnBack(const torch::Tensor& vectors, const torch::Tensor& facing);
+/// Sine and cosine of a + b, of a - b.
+torch::Tensor AddHeadings(const torch::Tensor& a, const torch::Tensor& b);
+torch::Tensor SubtractHeadings(const torch::Tensor& a, const torch::Tensor& b);
+torch::Tensor HeadingOf(const torch::Tensor& angle);  ///< [...] -> [..., 2]
+
+/// [batch, T, joints, 3]: the root first, then the other joints from it, axes the scene's.
+torch::Tensor RelativePositions(const FrameTensors& frames);
+/// Differences of RelativePositions from frame to frame, [batch, T - 1, joints, 3].
+torch::Tensor Steps(const FrameTensors& frames);
+/// Paper C's Eq. 1 of those differences: [..., joints, 3] and shares [5, joints] -> [..., 5].
+torch::Tensor FactorsOf(const torch::Tensor& steps, const torch::Tensor& shares);
+
+}  // namespace choreo

@@ -1,0 +1,402 @@
+#include "model/controllers/controllers_model.h"
+
+#include <torch/torch.h>
+
+#include <algorithm>
+
+#include "model/flow/planner.h"
+#include "model/flow/time_block.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo {
+
+using torch::Tensor;
+
+namespace {
+
+constexpr int64_t kEmbedding = 32;     // of each count of frames
+constexpr double kRampFrames = 6;      // over which the residual grows from a fixed end
+constexpr double kStep = 0.02;         // metres a frame that count as one
+constexpr double kPlace = 0.1;         // metres beside the path that count as one
+constexpr double kHeight = 0.2;        // metres of height that count as one
+constexpr double kTurnStep = 0.05;     // radians a frame that count as one
+constexpr double kPlanSmoothness = 1;  // frames
+constexpr int64_t kContacts = 4;
+
+torch::nn::Sequential Connected(int64_t in, std::initializer_list<int64_t> hidden, int64_t out,
+                                bool activated) {
+  torch::nn::Sequential layers;
+  for (const int64_t width : hidden) {
+    layers->push_back(torch::nn::Linear(in, width));
+    layers->push_back(torch::nn::PReLU());
+    in = width;
+  }
+  layers->push_back(torch::nn::Linear(in, out));
+  if (activated) {
+    layers->push_back(torch::nn::PReLU());
+  } else {
+    // A decoder starts by adding nothing.
+    auto last = layers[layers->size() - 1]->as<torch::nn::Linear>();
+    torch::nn::init::zeros_(last->weight);
+    torch::nn::init::zeros_(last->bias);
+  }
+  return layers;
+}
+
+// Low-pass along [batch, N, features].
+Tensor SmoothInTime(const Tensor& x) {
+  const Tensor at = torch::arange(x.size(1), x.options());
+  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / kPlanSmoothness;
+  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
+}
+
+// Windows of `size` frames around each of N, [batch, N, size, features]: `before` holds the frames
+// ahead of the first; behind the last one, it stays.
+Tensor Windows(const Tensor& before, const Tensor& given, int64_t size) {
+  const int64_t half = size / 2;
+  const Tensor last = given.narrow(1, given.size(1) - 1, 1);
+  const Tensor all = torch::cat({before.narrow(1, before.size(1) - half, half), given,
+                                 last.expand({last.size(0), half, last.size(2)})},
+                                1);
+  return all.unfold(1, size, 1).transpose(-1, -2);
+}
+
+}  // namespace
+
+ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
+  ControlledGiven part = *this;
+  for (Tensor* tensor : {&part.path, &part.ahead, &part.ramp, &part.joints, &part.turn, &part.root,
+                         &part.path_window, &part.factor_window, &part.path_memory,
+                         &part.factor_memory, &part.code}) {
+    if (tensor->defined()) *tensor = tensor->narrow(1, first, count);
+  }
+  return part;
+}
+
+ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
+                                           const Skeleton& skeleton)
+    : config_(config), skeleton_(skeleton), others_(skeleton.joints() - 1), kinematics_(skeleton) {
+  joint_mean_ = register_buffer("joint_mean", torch::zeros({others_, 3}));
+  joint_std_ = register_buffer("joint_std", torch::ones({others_, 3}));
+  factor_std_ = register_buffer("factor_std", torch::ones({kBodyParts}));
+  const BodyPartWeights weights = WeighBodyParts(skeleton);
+  shares_ = torch::empty({kBodyParts, skeleton.joints()});
+  for (int part = 0; part < kBodyParts; ++part) {
+    for (int j = 0; j < skeleton.joints(); ++j)
+      shares_[part][j] = static_cast<float>(weights(part, j));
+  }
+
+  if (config.planner_width > 0) {
+    planner_ =
+        register_module("planner", MakePlanner(skeleton.joints(), {.width = config.planner_width,
+                                                                   .layers = config.planner_layers,
+                                                                   .heads = config.planner_heads}));
+    for (torch::Tensor& parameter : planner_->parameters()) parameter.set_requires_grad(false);
+  }
+  const int64_t pose = 3 * others_;
+  if (config.plan_width > 0) {
+    // Pose, its step, the step that leaves the history; root step, height, way to the end, turn to
+    // the target; factors; is-history, is-target; two counts of frames.
+    const int64_t token = 3 * pose + 3 + 1 + 3 + 2 + kBodyParts + 2 + 2 * kEmbedding;
+    plan_embed_ = register_module("plan_embed", torch::nn::Linear(token, config.plan_width));
+    plan_blocks_ = register_module("plan_blocks", torch::nn::ModuleList());
+    for (int i = 0; i < config.plan_layers; ++i)
+      plan_blocks_->push_back(TimeBlock(config.plan_width, config.plan_heads, config.plan_dropout));
+    plan_norm_ = register_module(
+        "plan_norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({config.plan_width})));
+    plan_head_ = register_module("plan_head", torch::nn::Linear(config.plan_width, pose + 2 + 3));
+    torch::nn::init::zeros_(plan_head_->weight);
+    torch::nn::init::zeros_(plan_head_->bias);
+  }
+
+  path_controller_ = register_module("path_controller", MakeWindowController(3, config));
+  int64_t live = 2 * config.encoding + config.controller;
+  if (config.velocity_factors) {
+    factor_controller_ =
+        register_module("factor_controller", MakeWindowController(kBodyParts, config));
+    live += config.controller;
+  }
+  const auto encoder = [&](const char* name, int64_t features) {
+    return register_module(
+        name, Connected(features, {config.encoder_hidden}, config.encoding, /*activated=*/true));
+  };
+  state_encoder_ = encoder("state_encoder", pose + 1 + 3 + 2 + kContacts);
+  velocity_encoder_ = encoder("velocity_encoder", pose + 3 + 1);
+  target_controller_ = encoder("target_controller", pose + 2 + 3 + 1);
+  const auto lstm = [&](const char* name, int64_t in) {
+    return register_module(
+        name, torch::nn::LSTM(torch::nn::LSTMOptions(in, config.lstm).batch_first(true)));
+  };
+  const int64_t into = (config.two_lstms ? config.lstm : live) + config.encoding;
+  if (config.two_lstms) first_ = lstm("first_lstm", live);
+  second_ = lstm("second_lstm", into);
+  // AP and RP: the frame's place on the path and how far the transition is.
+  position_code_ =
+      register_module("position_code", torch::nn::Linear(3 + 1 + 1 + kEmbedding, into));
+  if (config.plan_width > 0)
+    plan_code_ = register_module("plan_code", torch::nn::Linear(config.plan_width, into));
+  const int64_t wide = config.decoder_hidden, state = 2 * pose + kContacts, root = 3 + 2 + 3;
+  state_decoder_ = register_module(
+      "state_decoder", Connected(config.lstm, {wide, wide / 2},
+                                 state + (config.root_decoder ? 0 : root), /*activated=*/false));
+  if (config.root_decoder)
+    root_decoder_ = register_module(
+        "root_decoder", Connected(config.lstm, {wide, wide / 2}, root, /*activated=*/false));
+}
+
+void ControllersModelImpl::SetNormalisation(const Tensor& joint_mean, const Tensor& joint_std,
+                                            const Tensor& factor_std) {
+  torch::NoGradGuard no_grad;
+  joint_mean_.copy_(joint_mean);
+  joint_std_.copy_(joint_std);
+  factor_std_.copy_(factor_std);
+}
+
+std::vector<Tensor> ControllersModelImpl::Free() const {
+  std::vector<Tensor> free;
+  for (const Tensor& parameter : parameters()) {
+    if (parameter.requires_grad()) free.push_back(parameter);
+  }
+  return free;
+}
+
+std::pair<Tensor, Tensor> ControllersModelImpl::Reference(const ControlledTransition& transition) {
+  const int64_t batch = transition.path.size(0), frames = transition.frames;
+  if (planner_) {
+    const torch::NoGradGuard no_grad;
+    planner_->eval();
+    const Tensor rotation = planner_->forward(transition.poses).trajectory.rotation;
+    const Tensor positions = kinematics_.Positions(
+        torch::zeros({batch * frames, 3}, rotation.options()), rotation.flatten(0, 1));
+    // Where the root's z axis points, as motion/rotation.h's Heading.
+    const Tensor ahead = rotation.select(2, 0).select(-1, 2).index_select(
+        -1, torch::tensor({0, 2}, rotation.options().dtype(torch::kLong)));
+    const Tensor facing = ahead / (ahead.square().sum(-1, true) + 1e-12).sqrt();
+    return {TurnBack(positions.narrow(1, 1, others_).unflatten(0, {batch, frames}),
+                     facing.unsqueeze(2)),
+            facing};
+  }
+  const Tensor u = torch::arange(1, frames + 1, transition.path.options()).view({1, frames}) /
+                   static_cast<double>(frames) * transition.has_target;  // [batch, N]
+  const Tensor last = transition.history.joints.narrow(1, transition.history.size() - 1, 1);
+  const Tensor way = transition.target_joints.unsqueeze(1) - last;
+  return {last + u.view({batch, frames, 1, 1}) * way,
+          HeadingOf(u * transition.target_turn.unsqueeze(1))};
+}
+
+Tensor ControllersModelImpl::Unit(const Tensor& joints) const {
+  return ((joints - joint_mean_) / joint_std_).flatten(-2);
+}
+
+Tensor ControllersModelImpl::PlanTokens(const ControlledTransition& transition,
+                                        const Tensor& reference, const Tensor& ahead) const {
+  const FrameTensors& history = transition.history;
+  const int64_t batch = reference.size(0), frames = transition.frames, tau = history.size(),
+                time = tau + frames;
+  const auto options = reference.options();
+  const Tensor poses = Unit(torch::cat({history.joints, reference}, 1));
+  const Tensor steps =
+      (history.joints.narrow(1, 1, tau - 1) - history.joints.narrow(1, 0, tau - 1)).flatten(-2) /
+      kStep;
+  const int64_t width = poses.size(2);
+  const Tensor stepped = torch::cat({torch::zeros({batch, 1, width}, options), steps,
+                                     torch::zeros({batch, frames, width}, options)},
+                                    1);
+  const Tensor leaving = steps.narrow(1, tau - 2, 1).expand_as(poses);
+  const Tensor root = torch::cat({history.root, transition.path}, 1);
+  const Tensor facing = torch::cat({history.facing, ahead}, 1);
+  const Tensor before = torch::cat({root.narrow(1, 0, 1), root.narrow(1, 0, time - 1)}, 1);
+  const Tensor has = transition.has_target.unsqueeze(1);  // [batch, 1, 1]
+  const Tensor end = root.narrow(1, time - 1, 1);
+  const Tensor past = FactorsOf(Steps(history), shares_) / factor_std_;
+  const Tensor given = transition.factors / factor_std_;
+  const Tensor factors =
+      torch::cat({past.narrow(1, 0, 1), past, given}, 1) * (config_.velocity_factors ? 1.0 : 0.0);
+  const Tensor is_history = torch::zeros({1, time, 1}, options);
+  is_history.narrow(1, 0, tau).fill_(1);
+  const Tensor is_target = torch::zeros({1, time, 1}, options);
+  is_target.narrow(1, time - 1, 1).fill_(1);
+  const Tensor since = torch::arange(-tau, frames, options).view({1, time});
+  const Tensor left = (frames - 1) - since;
+  const auto all = [&](const Tensor& x) { return x.expand({batch, time, x.size(-1)}); };
+  return torch::cat({poses, stepped, leaving, TurnBack(root - before, facing) / kStep,
+                     (root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
+                     TurnBack(end - root, facing) * has,
+                     SubtractHeadings(HeadingOf(transition.target_turn).unsqueeze(1), facing) * has,
+                     factors, all(is_history), is_target * has,
+                     all(TimeEmbedding(since, kEmbedding)), TimeEmbedding(left, kEmbedding) * has},
+                    -1);
+}
+
+ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transition, bool whole) {
+  const FrameTensors& history = transition.history;
+  const int64_t batch = transition.path.size(0), frames = transition.frames;
+  const auto options = transition.path.options();
+  const Tensor count = torch::arange(frames, options).view({1, frames, 1});
+  const Tensor u = (count + 1) / static_cast<double>(frames);
+  const Tensor has = transition.has_target.unsqueeze(1);  // [batch, 1, 1]
+  const auto [reference, ahead] = Reference(transition);
+
+  ControlledGiven given;
+  given.path = transition.path;
+  given.end = transition.path.narrow(1, frames - 1, 1);
+  given.has_target = has;
+  given.target_joints = transition.target_joints.unsqueeze(1);
+  given.target_facing = HeadingOf(transition.target_turn).unsqueeze(1);
+  given.ahead = ahead;
+  const Tensor from_start = ((count + 1) / kRampFrames).clamp_max(1);
+  const Tensor to_target = ((frames - 1 - count) / kRampFrames).clamp_max(1);
+  given.ramp = from_start * (1 - has + has * to_target);
+
+  const Tensor left = TimeEmbedding((frames - 1 - count).squeeze(-1), kEmbedding);
+  if (whole) {
+    const Tensor place =
+        torch::cat({TurnBack(given.path - given.end, given.ahead) * has,
+                    (given.path.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
+                    u.expand({batch, frames, 1}), left * has},
+                   -1);
+    given.code = position_code_(place);
+  }
+  if (config_.plan_width > 0) {
+    Tensor x = plan_embed_(PlanTokens(transition, reference, given.ahead));
+    const Tensor distance = TimeDistances(x.size(1), options.device());
+    for (const auto& block : *plan_blocks_) x = block->as<TimeBlock>()->forward(x, distance);
+    const Tensor hidden = plan_norm_(x).narrow(1, history.size(), frames);
+    const Tensor residual = SmoothInTime(plan_head_(hidden));
+    const int64_t pose = 3 * others_;
+    given.joints = reference + given.ramp.unsqueeze(-1) * joint_std_ *
+                                   residual.narrow(2, 0, pose).unflatten(2, {others_, 3});
+    given.turn = residual.narrow(2, pose, 2);
+    given.root = kPlace * residual.narrow(2, pose + 2, 3);
+    if (whole) given.code = given.code + plan_code_(hidden);
+  } else {
+    given.joints = reference;
+    given.turn = torch::zeros({batch, frames, 2}, options);
+    given.root = torch::zeros({batch, frames, 3}, options);
+  }
+  if (!whole) return given;
+
+  const auto encode = [&](const WindowController& controller, const Tensor& windows) {
+    return controller->Encode(windows.flatten(0, 1)).unflatten(0, {batch, frames});
+  };
+  given.path_window =
+      TurnBack(Windows(history.root, transition.path, config_.window) - given.path.unsqueeze(2),
+               given.ahead.unsqueeze(2)) /
+      kPlace;
+  given.path_memory = encode(path_controller_, given.path_window);
+  if (config_.velocity_factors) {
+    given.factor_window =
+        Windows(FactorsOf(Steps(history), shares_), transition.factors, config_.window) /
+        factor_std_;
+    given.factor_memory = encode(factor_controller_, given.factor_window);
+  }
+  return given;
+}
+
+FrameTensors ControllersModelImpl::Compose(const ControlledGiven& given, const Tensor& joints,
+                                           const Tensor& turn, const Tensor& root) const {
+  // The heading's distance from `ahead` as a vector: (0, 1) is none.
+  const Tensor none = torch::tensor({0.0F, 1.0F}, turn.options());
+  const Tensor away = none + given.ramp * turn;
+  const Tensor unit = away / (away.square().sum(-1, true) + 1e-6).sqrt();
+  return {given.path + given.ramp * Turn(root, given.ahead), AddHeadings(given.ahead, unit), joints,
+          torch::zeros({joints.size(0), joints.size(1), kContacts}, joints.options())};
+}
+
+FrameTensors ControllersModelImpl::Planned(const ControlledGiven& given) const {
+  return Compose(given, given.joints, given.turn, given.root);
+}
+
+ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
+                                            const FrameTensors& walked, ControllersState* state) {
+  const int64_t batch = given.path.size(0), frames = given.path.size(1);
+  const int64_t half = config_.window / 2;
+  const FrameTensors now = walked.Narrow(half, frames), before = walked.Narrow(half - 1, frames);
+
+  // The mixture segments: past as it was walked, future as it is given.
+  const auto decode = [&](const WindowController& controller, const Tensor& memory,
+                          const Tensor& past, const Tensor& window) {
+    const Tensor mixture =
+        torch::cat({past, window.narrow(2, half, config_.window - half)}, 2).flatten(0, 1);
+    return controller->Decode(memory.flatten(0, 1), mixture).unflatten(0, {batch, frames});
+  };
+  const Tensor roots =
+      walked.root.narrow(1, 1, frames + half - 1).unfold(1, half, 1).transpose(-1, -2);
+  std::vector<Tensor> live = {
+      decode(path_controller_, given.path_memory,
+             TurnBack(roots - given.path.unsqueeze(2), given.ahead.unsqueeze(2)) / kPlace,
+             given.path_window)};
+  if (config_.velocity_factors) {
+    const Tensor factors = FactorsOf(Steps(walked), shares_) / factor_std_;
+    live.push_back(decode(factor_controller_, given.factor_memory,
+                          factors.unfold(1, half, 1).transpose(-1, -2), given.factor_window));
+  }
+
+  const Tensor facing = SubtractHeadings(now.facing, given.ahead);
+  live.push_back(state_encoder_->forward(
+      torch::cat({Unit(now.joints), (now.root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
+                  TurnBack(given.path - now.root, given.ahead) / kPlace, facing, now.contacts},
+                 -1)));
+  live.push_back(velocity_encoder_->forward(
+      torch::cat({(now.joints - before.joints).flatten(-2) / kStep,
+                  TurnBack(now.root - before.root, given.ahead) / kStep,
+                  SubtractHeadings(now.facing, before.facing).narrow(-1, 0, 1) / kTurnStep},
+                 -1)));
+  const Tensor target = target_controller_->forward(
+      torch::cat({((given.target_joints - now.joints) / joint_std_).flatten(-2),
+                  SubtractHeadings(given.target_facing.expand_as(now.facing), now.facing),
+                  TurnBack(given.end - now.root, given.ahead),
+                  torch::ones({batch, frames, 1}, now.root.options())},
+                 -1) *
+      given.has_target);
+
+  const auto run = [](torch::nn::LSTM& lstm, const Tensor& in, std::tuple<Tensor, Tensor>* memory) {
+    if (!std::get<0>(*memory).defined()) {
+      const Tensor zero = torch::zeros({1, in.size(0), lstm->options.hidden_size()}, in.options());
+      *memory = {zero, zero};
+    }
+    auto [out, next] = lstm->forward(in, *memory);
+    *memory = next;
+    return out;
+  };
+  Tensor hidden = torch::cat(live, -1);
+  if (config_.two_lstms) hidden = run(first_, hidden, &state->first);
+  hidden = run(second_, torch::cat({hidden, target}, -1) + given.code, &state->second);
+
+  const int64_t pose = 3 * others_, all = 2 * pose + kContacts;
+  const Tensor decoded = state_decoder_->forward(hidden);
+  Tensor root;
+  if (config_.root_decoder) {
+    root = root_decoder_->forward(hidden);
+  } else {
+    root = decoded.narrow(2, all, decoded.size(2) - all);
+  }
+  const Tensor joints = given.joints + given.ramp.unsqueeze(-1) * joint_std_ *
+                                           decoded.narrow(2, 0, pose).unflatten(2, {others_, 3});
+  ControlledOutput output;
+  output.frames = Compose(given, joints, given.turn + root.narrow(2, 3, 2),
+                          given.root + kPlace * root.narrow(2, 0, 3));
+  output.contact_logits = decoded.narrow(2, 2 * pose, kContacts);
+  output.frames.contacts = torch::sigmoid(output.contact_logits);
+  output.velocities =
+      kStep * Turn(torch::cat({root.narrow(2, 5, 3).unsqueeze(2),
+                               decoded.narrow(2, pose, pose).unflatten(2, {others_, 3})},
+                              2),
+                   given.ahead.unsqueeze(2));
+  return output;
+}
+
+FrameTensors ControllersModelImpl::RollOut(const ControlledTransition& transition) {
+  const ControlledGiven given = Prepare(transition);
+  ControllersState state;
+  FrameTensors walked = transition.history.Narrow(transition.history.size() - lead(), lead());
+  FrameTensors result;
+  for (int64_t t = 0; t < transition.frames; ++t) {
+    const FrameTensors next = Walk(given.Narrow(t, 1), walked, &state).frames;
+    result = t == 0 ? next : Join(result, next);
+    walked = Join(walked.Narrow(1, lead() - 1), next);
+  }
+  return result;
+}
+
+}  // namespace choreo

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <torch/nn/module.h>
+#include <torch/nn/modules/activation.h>
+#include <torch/nn/modules/container/modulelist.h>
+#include <torch/nn/modules/container/sequential.h>
+#include <torch/nn/modules/linear.h>
+#include <torch/nn/modules/normalization.h>
+#include <torch/nn/modules/rnn.h>
+#include <torch/nn/pimpl.h>
+#include <torch/types.h>
+
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "model/controllers/controlled_frames.h"
+#include "model/controllers/controllers_config.h"
+#include "model/controllers/window_controller.h"
+#include "model/flow/planner.h"
+#include "model/flow/torch_kinematics.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// Everything about a transition that does not depend on what came out so far, of all N frames.
+/// Tensors are [batch, N, ...]; Narrow gives some of the frames.
+struct ControlledGiven {
+  torch::Tensor path;           ///< [batch, N, 3]
+  torch::Tensor ahead;          ///< [batch, N, 2] heading of the straight way to the target
+  torch::Tensor ramp;           ///< [batch, N, 1] how free a frame is of history and target, [0, 1]
+  torch::Tensor joints;         ///< [batch, N, joints - 1, 3] planned
+  torch::Tensor turn;           ///< [batch, N, 2] planned, from `ahead`; not of unit length
+  torch::Tensor root;           ///< [batch, N, 3] planned, from the path, in the frame of `ahead`
+  torch::Tensor path_window;    ///< [batch, N, window, 3]
+  torch::Tensor factor_window;  ///< [batch, N, window, 5]
+  torch::Tensor path_memory, factor_memory;  ///< what the controllers' encoders make of them
+  torch::Tensor code;                        ///< [batch, N, width] what is added at the second LSTM
+  torch::Tensor target_joints;               ///< [batch, 1, joints - 1, 3]
+  torch::Tensor target_facing;               ///< [batch, 1, 2]
+  torch::Tensor end;                         ///< [batch, 1, 3] of the path
+  torch::Tensor has_target;                  ///< [batch, 1, 1]
+
+  ControlledGiven Narrow(int64_t first, int64_t count) const;
+};
+
+/// Frames of the network, and the velocities it states beside them: [batch, n, joints, 3], the
+/// root's and the others' from the root, metres a frame, axes the scene's.
+struct ControlledOutput {
+  FrameTensors frames;
+  torch::Tensor contact_logits;
+  torch::Tensor velocities;
+};
+
+/// Hidden and cell state of both LSTMs; undefined tensors stand for zeros.
+struct ControllersState {
+  std::tuple<torch::Tensor, torch::Tensor> first, second;
+};
+
+/// The network of paper C (Section 3.2, Figure 2) around a plan of ours: see docs/decisions.md.
+class ControllersModelImpl : public torch::nn::Module {
+ public:
+  ControllersModelImpl(const ControllersConfig& config, const Skeleton& skeleton);
+
+  const ControllersConfig& config() const { return config_; }
+  const Skeleton& skeleton() const { return skeleton_; }
+  /// Frames before the first one that Walk looks at.
+  int lead() const { return config_.window / 2 + 1; }
+  const torch::Tensor& shares() const { return shares_; }  ///< [5, joints], as FactorsOf takes them
+
+  /// Mean and spread of real joints [joints - 1, 3] and of velocity factors [5].
+  void SetNormalisation(const torch::Tensor& joint_mean, const torch::Tensor& joint_std,
+                        const torch::Tensor& factor_std);
+
+  /// The frozen planner, to take weights into; null where the config has none.
+  PlannerImpl* planner() { return planner_.get(); }
+  /// Parameters that are trained.
+  std::vector<torch::Tensor> Free() const;
+
+  /// `whole` off leaves out what only Walk needs.
+  ControlledGiven Prepare(const ControlledTransition& transition, bool whole = true);
+  /// The plan alone as a motion; contacts are zeros.
+  FrameTensors Planned(const ControlledGiven& given) const;
+  /// n frames. `walked`: the lead() frames before the first of them, then all but the last one of
+  /// them, as they were taken to be (real ones, emitted ones).
+  ControlledOutput Walk(const ControlledGiven& given, const FrameTensors& walked,
+                        ControllersState* state);
+  /// Each frame seeing what came out before it, from the history on.
+  FrameTensors RollOut(const ControlledTransition& transition);
+
+ private:
+  torch::Tensor Unit(const torch::Tensor& joints) const;
+  // Where everything starts from: joints [batch, N, joints - 1, 3] and headings [batch, N, 2].
+  std::pair<torch::Tensor, torch::Tensor> Reference(const ControlledTransition& transition);
+  torch::Tensor PlanTokens(const ControlledTransition& transition, const torch::Tensor& reference,
+                           const torch::Tensor& ahead) const;
+  FrameTensors Compose(const ControlledGiven& given, const torch::Tensor& joints,
+                       const torch::Tensor& turn, const torch::Tensor& root) const;
+
+  ControllersConfig config_;
+  Skeleton skeleton_;
+  int64_t others_;  // joints but the root
+  torch::Tensor joint_mean_, joint_std_, factor_std_, shares_;
+
+  Planner planner_;
+  TorchKinematics kinematics_;
+  torch::nn::Linear plan_embed_{nullptr}, plan_head_{nullptr}, plan_code_{nullptr};
+  torch::nn::LayerNorm plan_norm_{nullptr};
+  torch::nn::ModuleList plan_blocks_{nullptr};
+  WindowController path_controller_, factor_controller_;
+  torch::nn::Sequential state_encoder_{nullptr}, velocity_encoder_{nullptr},
+      target_controller_{nullptr}, state_decoder_{nullptr}, root_decoder_{nullptr};
+  torch::nn::Linear position_code_{nullptr};
+  torch::nn::LSTM first_{nullptr}, second_{nullptr};
+};
+TORCH_MODULE(ControllersModel);
+
+}  // namespace choreo

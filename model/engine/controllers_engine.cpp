@@ -1,0 +1,193 @@
+#include "model/engine/controllers_engine.h"
+
+#include <torch/torch.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/engine/dense_controls.h"
+#include "model/flow/torch_kinematics.h"
+
+namespace choreo {
+namespace {
+
+using torch::Tensor;
+
+Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
+  const Eigen::Matrix3Xf values = points.cast<float>();
+  return torch::from_blob(const_cast<float*>(values.data()), {1, 1, values.cols(), 3}).clone();
+}
+
+FrameTensors ToTensors(const FacingPose& pose, const Contacts& contacts) {
+  return {PointsOf(pose.root).select(2, 0),
+          HeadingOf(torch::full({1, 1}, pose.heading, torch::kFloat32)), PointsOf(pose.joints),
+          torch::from_blob(const_cast<float*>(contacts.data()), {1, 1, 4}).clone()};
+}
+
+Tensor RowsOf(const Eigen::MatrixXf& columns) {  // [features, N] -> [1, N, features]
+  return torch::from_blob(const_cast<float*>(columns.data()), {1, columns.cols(), columns.rows()})
+      .clone();
+}
+
+Eigen::Matrix3Xd ToPoints(const Tensor& points) {  // [1, 1, columns, 3]
+  const Tensor dense = points.contiguous();
+  return Eigen::Map<const Eigen::Matrix3Xf>(dense.data_ptr<float>(), 3, dense.size(2))
+      .cast<double>();
+}
+
+// As a planner of the flow takes them.
+TransitionTensors PosesOf(const TransitionSpec& spec, const Pose& target) {
+  const auto joints = target.rotations.cols();
+  std::vector<Tensor> positions, rotations;
+  const auto add = [&](const Pose& pose) {
+    positions.push_back(PointsOf(pose.root_position).flatten(0, 2));
+    rotations.push_back(PointsOf(pose.rotations).flatten(0, 1));
+  };
+  for (const Pose& pose : spec.history) add(pose);
+  add(target);
+  const Tensor position = torch::stack(positions).flatten(1).unsqueeze(0);  // [1, tau + 1, 3]
+  const Tensor rotation = ExpMapBatch(torch::stack(rotations).transpose(0, 1));
+  const auto tau = static_cast<int64_t>(spec.history.size());
+  Tensor mask = torch::zeros({1, joints + 1});
+  if (spec.target) {
+    const PoseMask& known = spec.target->mask;
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      if (known.joints.empty() || known.joints[static_cast<size_t>(j)]) mask[0][j] = 1;
+    }
+    if (known.root_position) mask[0][joints] = 1;
+  }
+  return {spec.frames,
+          position.narrow(1, 0, tau),
+          rotation.narrow(1, 0, tau),
+          position.select(1, tau),
+          rotation.select(1, tau),
+          mask};
+}
+
+}  // namespace
+
+struct ControllersEngine::Slot {
+  Slot(const Skeleton& skeleton, double fps)
+      : fitter(skeleton, IdentitySource(skeleton), {}, fps) {}
+
+  int frames = 0, frame = 0;
+  ControlledGiven given;
+  ControllersState state;
+  FrameTensors walked;  // the lead frames before `frame`
+  Tensor contacts;      // that the network named for the last frame, [1, 1, 4]
+  Pose last;            // emitted before `frame`
+  PositionFitter fitter;
+};
+
+ControllersEngine::ControllersEngine(ModelInfo info, int slots, ControllersModel model)
+    : info_(std::move(info)), model_(std::move(model)), slots_(static_cast<size_t>(slots)) {}
+
+ControllersEngine::~ControllersEngine() = default;
+
+int ControllersEngine::free_slots() const {
+  return static_cast<int>(std::count(slots_.begin(), slots_.end(), nullptr));
+}
+
+void ControllersEngine::Release(int slot) noexcept { slots_[static_cast<size_t>(slot)].reset(); }
+
+int ControllersEngine::Admit(const TransitionSpec& spec) {
+  ValidateSpec(spec, info_);
+  const auto free = std::find(slots_.begin(), slots_.end(), nullptr);
+  if (free == slots_.end()) {
+    throw Error(ErrorCode::kResourceExhausted, "",
+                "all " + std::to_string(slots_.size()) + " slots are taken");
+  }
+  const c10::InferenceMode inference;
+  const Skeleton& skeleton = info_.skeleton;
+  auto slot = std::make_unique<Slot>(skeleton, info_.fps);
+  slot->frames = spec.frames;
+
+  ControlledTransition transition;
+  transition.frames = spec.frames;
+  const std::vector<Contacts> contacts =
+      DetectContacts(skeleton, Motion{.fps = info_.fps, .frames = spec.history});
+  for (size_t t = 0; t < spec.history.size(); ++t) {
+    const FrameTensors frame = ToTensors(FacingOf(skeleton, spec.history[t]), contacts[t]);
+    transition.history = t == 0 ? frame : Join(transition.history, frame);
+  }
+  const Pose& last = spec.history.back();
+  Pose target = last;
+  if (spec.target) {
+    // A joint that the key leaves open stays as it is on the way; arrival leaves it open too.
+    const auto& joints = spec.target->mask.joints;
+    for (Eigen::Index j = 0; j < target.rotations.cols(); ++j) {
+      if (joints.empty() || joints[static_cast<size_t>(j)])
+        target.rotations.col(j) = spec.target->pose.rotations.col(j);
+    }
+  }
+  const FacingPose facing = FacingOf(skeleton, target);
+  transition.target_joints = PointsOf(facing.joints).select(1, 0);
+  transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
+  transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
+  transition.poses = PosesOf(spec, target);
+  const Controls dense = DenseControls(spec, info_);
+  transition.path = RowsOf(dense.root_path);
+  transition.factors = RowsOf(dense.velocity_factors);
+
+  slot->given = model_->Prepare(transition);
+  slot->walked =
+      transition.history.Narrow(transition.history.size() - model_->lead(), model_->lead());
+  slot->last = last;
+  *free = std::move(slot);
+  return static_cast<int>(free - slots_.begin());
+}
+
+void ControllersEngine::StepSlot(const StepInput& in, StepOutput* out) {
+  Slot& slot = *slots_[static_cast<size_t>(in.slot)];
+  if (in.previous != nullptr) {
+    FrameTensors emitted = ToTensors(FacingOf(info_.skeleton, *in.previous), {});
+    emitted.contacts = slot.contacts;
+    slot.walked = Join(slot.walked.Narrow(1, model_->lead() - 1), emitted);
+    slot.last = *in.previous;
+  }
+  const FrameTensors frame =
+      model_->Walk(slot.given.Narrow(slot.frame, 1), slot.walked, &slot.state).frames;
+  slot.contacts = frame.contacts;
+  const Tensor relative = RelativePositions(frame);
+  Eigen::Matrix3Xd positions = ToPoints(relative);
+  positions.rightCols(positions.cols() - 1).colwise() += positions.col(0).eval();
+  // Bones that the network draws too long or too short are the fit's to mend: setting each to its
+  // length first would move hands and feet.
+  slot.fitter.Reset(slot.last);
+  out->pose = slot.fitter.Next(positions);
+  const Tensor contacts = frame.contacts.contiguous();
+  std::copy_n(contacts.data_ptr<float>(), out->contacts.size(), out->contacts.begin());
+  out->log_likelihood = 0;
+  ++slot.frame;
+}
+
+void ControllersEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {
+  if (in.size() != out.size()) {
+    throw InvalidArgument("out", std::to_string(out.size()) + " outputs for " +
+                                     std::to_string(in.size()) + " inputs");
+  }
+  for (const StepInput& input : in) {  // all of them, before anything moves
+    if (input.slot < 0 || input.slot >= slots() || !slots_[static_cast<size_t>(input.slot)]) {
+      throw InvalidArgument("slot", std::to_string(input.slot) + " holds no transition");
+    }
+    const Slot& slot = *slots_[static_cast<size_t>(input.slot)];
+    if (slot.frame >= slot.frames) {
+      throw InvalidArgument("slot", std::to_string(input.slot) + " has made its " +
+                                        std::to_string(slot.frames) + " frames already");
+    }
+    if ((slot.frame > 0) != (input.previous != nullptr)) {
+      throw InvalidArgument("previous", slot.frame > 0 ? "is missing after the first frame"
+                                                       : "is given before the first frame");
+    }
+    if (input.previous != nullptr && input.previous->rotations.cols() != info_.skeleton.joints()) {
+      throw InvalidArgument("previous", std::to_string(input.previous->rotations.cols()) +
+                                            " joints, must be " +
+                                            std::to_string(info_.skeleton.joints()));
+    }
+  }
+  const c10::InferenceMode inference;
+  for (size_t i = 0; i < in.size(); ++i) StepSlot(in[i], &out[i]);
+}
+
+}  // namespace choreo

@@ -1,0 +1,55 @@
+#include "model/flow/time_block.h"
+
+#include <torch/torch.h>
+
+#include <cmath>
+
+namespace choreo {
+
+using torch::Tensor;
+
+namespace {
+
+constexpr int64_t kMaxDistance = 96;  // frames; farther apart counts as this far
+
+}  // namespace
+
+TimeBlockImpl::TimeBlockImpl(int width, int heads, double dropout)
+    : heads_(heads), dropout_(dropout) {
+  using torch::nn::LayerNormOptions;
+  attention_norm_ =
+      register_module("attention_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
+  mlp_norm_ = register_module("mlp_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
+  qkv_ = register_module("qkv", torch::nn::Linear(width, 3 * width));
+  out_ = register_module("out", torch::nn::Linear(width, width));
+  up_ = register_module("up", torch::nn::Linear(width, 2 * width));
+  down_ = register_module("down", torch::nn::Linear(2 * width, width));
+  distance_bias_ = register_parameter("distance_bias", torch::zeros({2 * kMaxDistance + 1, heads}));
+}
+
+Tensor TimeBlockImpl::forward(const Tensor& x, const Tensor& distance) {
+  const int64_t batch = x.size(0), time = x.size(1), width = x.size(2);
+  const Tensor qkv = qkv_(attention_norm_(x))
+                         .view({batch, time, 3, heads_, width / heads_})
+                         .permute({2, 0, 3, 1, 4});  // [3, batch, heads, time, head width]
+  const Tensor bias = distance_bias_.index_select(0, distance.flatten())
+                          .view({time, time, heads_})
+                          .permute({2, 0, 1});
+  const double scale = 1 / std::sqrt(static_cast<double>(width / heads_));
+  const Tensor attention =
+      torch::softmax(torch::matmul(qkv[0] * scale, qkv[1].transpose(-1, -2)) + bias, -1);
+  const Tensor mixed =
+      torch::matmul(attention, qkv[2]).transpose(1, 2).reshape({batch, time, width});
+  const auto drop = [this](const Tensor& y) { return torch::dropout(y, dropout_, is_training()); };
+  const Tensor attended = x + drop(out_(mixed));
+  return attended + drop(down_(torch::gelu(up_(mlp_norm_(attended)))));
+}
+
+Tensor TimeDistances(int64_t time, torch::Device device) {
+  const Tensor steps =
+      torch::arange(time, torch::TensorOptions().dtype(torch::kLong).device(device));
+  return (steps.unsqueeze(0) - steps.unsqueeze(1)).clamp(-kMaxDistance, kMaxDistance) +
+         kMaxDistance;
+}
+
+}  // namespace choreo

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <torch/nn/module.h>
+#include <torch/nn/modules/linear.h>
+#include <torch/nn/modules/normalization.h>
+#include <torch/nn/pimpl.h>
+#include <torch/types.h>
+
+namespace choreo {
+
+/// Pre-norm transformer block over frames, with a learnt bias for every clipped distance in time.
+class TimeBlockImpl : public torch::nn::Module {
+ public:
+  TimeBlockImpl(int width, int heads, double dropout);
+  /// x [batch, time, width]; `distance` as TimeDistances has it.
+  torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& distance);
+
+ private:
+  int heads_;
+  double dropout_;
+  torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
+  torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr};
+  torch::Tensor distance_bias_;  // [distances, heads]
+};
+TORCH_MODULE(TimeBlock);
+
+/// [time, time] indices into the blocks' bias tables.
+torch::Tensor TimeDistances(int64_t time, torch::Device device);
+
+}  // namespace choreo

@@ -1,0 +1,279 @@
+#include "model/training/control_trainer.h"
+
+#include <torch/torch.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "model/controllers/checkpoint.h"
+#include "model/core/error.h"
+#include "model/flow/checkpoint.h"
+#include "model/training/adam.h"
+#include "model/training/clip_split.h"
+#include "model/training/clip_store.h"
+#include "model/training/control_clips.h"
+#include "model/training/control_losses.h"
+#include "model/training/model_card.h"
+#include "model/training/training_run.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kMaxGradientNorm = 1.0;
+constexpr int kNormalisationWindows = 512;
+constexpr int kValidationWindows = 48;
+constexpr int kTypicalFrames = 60;  // a batch of windows this long has `batch` of them
+constexpr double kLateJoints = 3;
+constexpr double kTruthDecay = 0.998;  // of scheduled sampling's probability, a step
+constexpr double kCurriculum = 0.3;    // share of a stage after which all lengths are drawn
+constexpr double kLongest = 0.25;      // share of draws among all lengths alike
+
+ControllersConfig ConfigOf(const TrainOptions& options) {
+  ControllersConfig config = ControllersConfig::Preset(options.preset);
+  config.two_lstms = !options.one_lstm;
+  config.transformers = !options.condition_fc;
+  config.root_decoder = !options.one_decoder;
+  config.velocity_factors = !options.no_velocity_factors;
+  config.key_loss = !options.no_key_loss;
+  return config;
+}
+
+class ControlRun : public TrainingRun {
+ public:
+  ControlRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
+      : TrainingRun(options, train.Hash()),
+        clips_(train.clips()),
+        hash_(train.Hash()),
+        train_(train.clips()),
+        validation_(validation.clips()) {
+    torch::manual_seed(options.seed);
+    MakeModel(train.skeleton());
+    plan_steps_ = model_->config().plan_width > 0 ? options.planner_steps : 0;
+    Normalise();
+    adam_ = std::make_unique<Adam>(*model_, "");
+    Open();
+  }
+
+ protected:
+  int64_t total_steps() const override { return plan_steps_ + options().flow_steps; }
+
+  void TrainStep() override {
+    Random random(options().seed, static_cast<uint32_t>(step() + 1));
+    torch::manual_seed(options().seed + static_cast<uint64_t>(step()) * 1000003);
+    model_->train();
+    const bool whole = step() >= plan_steps_;
+    const int64_t stage_step = whole ? step() - plan_steps_ : step();
+    const int64_t stage_steps = whole ? options().flow_steps : plan_steps_;
+    const ControlBatch batch = Draw(&random, static_cast<double>(stage_step) / stage_steps,
+                                    whole ? options().batch / 2 : options().batch);
+    adam_->ZeroGrad();
+    const ControlledGiven given = model_->Prepare(batch.transition, whole);
+    const LossTerms plan =
+        ControlLoss(*model_, batch, model_->Planned(given), nullptr, JointWeight());
+    if (!whole) {
+      Descend(plan, model_->Free());
+    } else {
+      Descend(Both(plan, Walk(batch, given, std::pow(kTruthDecay, stage_step))), model_->Free());
+    }
+    adam_->Step(
+        StageRate(whole ? options().flow_rate : options().planner_rate, stage_step, stage_steps),
+        kMaxGradientNorm);
+  }
+
+  NamedFigures Validate() override {
+    torch::NoGradGuard no_grad;
+    model_->eval();
+    NamedFigures figures;
+    for (const int frames : {10, 50, 100, 150}) {
+      if (validation_.Longest() < model_->config().history_frames + frames) continue;
+      Random random(20240607, static_cast<uint32_t>(frames));
+      const ControlBatch batch = validation_.Draw(
+          kValidationWindows, model_->config().history_frames, frames, {}, &random);
+      const FrameTensors last =
+          batch.transition.history.Narrow(batch.transition.history.size() - 1, 1);
+      const auto distance = [&](const torch::Tensor& joints) {
+        return (joints - batch.truth.joints).flatten(2).norm(2, -1).mean().item<double>();
+      };
+      const torch::Tensor u = torch::arange(1, frames + 1).view({1, frames, 1, 1}) / frames;
+      const double straight =
+          distance(last.joints + u * (batch.transition.target_joints.unsqueeze(1) - last.joints));
+      const std::string n = std::to_string(frames);
+      const ControlledGiven given = model_->Prepare(batch.transition);
+      figures.emplace_back("plan_ratio_" + n, distance(given.joints) / straight);
+      const FrameTensors out =
+          step() >= plan_steps_ ? model_->RollOut(batch.transition) : model_->Planned(given);
+      figures.emplace_back("lrp_ratio_" + n, distance(out.joints) / straight);
+      const torch::Tensor factors = FactorsOf(Steps(Join(last, out)), model_->shares());
+      const torch::Tensor miss = (factors - batch.transition.factors).abs().mean({1, 2});
+      figures.emplace_back("factor_cm_" + n, 100 * miss.mean().item<double>());
+      figures.emplace_back("avf_" + n, (miss < 0.01).to(torch::kFloat).mean().item<double>());
+      const torch::Tensor off = (out.root - batch.truth.root).norm(2, -1).mean(1);
+      figures.emplace_back("art_" + n, (off < 0.07).to(torch::kFloat).mean().item<double>());
+      const torch::Tensor heading = SubtractHeadings(out.facing, batch.truth.facing);
+      figures.emplace_back(
+          "heading_" + n,
+          torch::atan2(heading.select(-1, 0), heading.select(-1, 1)).abs().mean().item<double>());
+    }
+    std::string line = "\nstep " + std::to_string(step() + 1);
+    for (const auto& [name, value] : figures) {
+      char text[64];
+      std::snprintf(text, sizeof(text), " %s %.3f", name.c_str(), value);
+      line += text;
+    }
+    std::printf("%s\n", line.c_str());
+    std::fflush(stdout);
+    last_figures_ = figures;
+    return figures;
+  }
+
+  void Export(Safetensors* state) const override {
+    ExportTensors(*model_, "model.", state);
+    adam_->Export(state);
+  }
+  void Import(const Safetensors& state) override {
+    ImportTensors(state, "model.", model_.get());
+    adam_->Import(state);
+  }
+  void WriteInterim() override { Write(); }
+  void Finish() override {
+    if (last_figures_.empty()) Validate();  // all steps were done before
+    std::printf("checkpoint %s, content hash %s\n",
+                (options().run / "checkpoint.safetensors").string().c_str(), Write().c_str());
+  }
+
+ private:
+  // With --planner, that checkpoint's planner makes the plan to start from, as it is.
+  void MakeModel(const Skeleton& skeleton) {
+    ControllersConfig config = ConfigOf(options());
+    if (options().planner.empty()) {
+      model_ = ControllersModel(config, skeleton);
+      return;
+    }
+    const Checkpoint base = LoadCheckpoint(options().planner);
+    const PlannerConfig& planner = base.model->config().planner;
+    if (planner.width == 0 || planner.recurrent || !(base.model->skeleton() == skeleton)) {
+      throw InvalidArgument(
+          "--planner", options().planner.string() + " has no transformer planner for these clips");
+    }
+    config.planner_width = planner.width;
+    config.planner_layers = planner.layers;
+    config.planner_heads = planner.heads;
+    model_ = ControllersModel(config, skeleton);
+    Safetensors weights;
+    ExportTensors(*base.model->planner(), "planner.", &weights);
+    ImportTensors(weights, "planner.", model_->planner());
+    base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
+  }
+
+  // Speeds are learnt long before postures are, so these count more in the last
+  // part of the first stage and in the second.
+  double JointWeight() const { return step() < plan_steps_ * 5 / 8 ? 1 : kLateJoints; }
+
+  // Short windows first; the longest length rises until all are drawn. Later one draw in four is of
+  // any length, the others rather short, which is cheap and common.
+  ControlBatch Draw(Random* random, double progress, int batch) const {
+    const double open = std::min(1.0, progress / kCurriculum);
+    const int longest =
+        options().shortest + static_cast<int>(open * (options().longest - options().shortest));
+    const double u = random->Uniform();
+    const double place = random->Uniform() < kLongest ? u : u * std::sqrt(u);
+    const int frames = std::min(
+        longest, options().shortest + static_cast<int>(place * (longest - options().shortest + 1)));
+    const int windows = std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
+    return train_.Draw(windows, model_->config().history_frames, frames,
+                       {.mirror = 0.5,
+                        .tempo = 0.3,
+                        .no_target = 0.05,
+                        .smooth_path = 0.2,
+                        .smooth_factors = 0.25,
+                        .scale_factors = model_->config().velocity_factors ? 0.2 : 0.0},
+                       random);
+  }
+
+  // Scheduled sampling without a loop over time: what the network would have walked is found by
+  // letting it walk behind its own plan, all frames at once; of that and the real frames, each is
+  // drawn with the probability that the paper has.
+  LossTerms Walk(const ControlBatch& batch, const ControlledGiven& given, double truth_share) {
+    const int64_t frames = batch.transition.frames;
+    const auto& history = batch.transition.history;
+    const FrameTensors lead = history.Narrow(history.size() - model_->lead(), model_->lead());
+    const auto behind = [&](const FrameTensors& frames_before) {
+      return Join(lead, frames_before.Narrow(0, frames - 1));
+    };
+    FrameTensors walked;
+    {
+      torch::NoGradGuard no_grad;
+      ControllersState state;
+      walked = model_->Walk(given, behind(model_->Planned(given).Detach()), &state).frames;
+    }
+    const torch::Tensor real =
+        (torch::rand({batch.truth.root.size(0), frames, 1}) < truth_share).to(torch::kFloat);
+    const auto mix = [&](const torch::Tensor& truth, const torch::Tensor& own) {
+      const torch::Tensor share = truth.dim() == 4 ? real.unsqueeze(-1) : real;
+      return own + share * (truth - own);
+    };
+    const FrameTensors mixed{
+        mix(batch.truth.root, walked.root), mix(batch.truth.facing, walked.facing),
+        mix(batch.truth.joints, walked.joints), mix(batch.truth.contacts, walked.contacts)};
+    ControllersState state;
+    const ControlledOutput output = model_->Walk(given, behind(mixed), &state);
+    return ControlLoss(*model_, batch, output.frames, &output, JointWeight());
+  }
+
+  // The walk's losses and, at half their weight, the plan's.
+  static LossTerms Both(const LossTerms& plan, LossTerms walk) {
+    for (size_t i = 0; i < walk.size(); ++i) walk[i].value = walk[i].value + 0.5 * plan[i].value;
+    return walk;
+  }
+
+  void Normalise() {
+    Random random(options().seed + 3, 1);
+    const ControlBatch batch = train_.Draw(kNormalisationWindows, model_->config().history_frames,
+                                           30, {.mirror = 0.5}, &random);
+    const torch::Tensor joints = batch.truth.joints.flatten(0, 1);
+    model_->SetNormalisation(joints.mean(0), joints.std(0).clamp_min(0.02),
+                             batch.factors.flatten(0, 1).std(0).clamp_min(1e-3));
+  }
+
+  std::string Write() {
+    nlohmann::json figures = nlohmann::json::object();
+    for (const auto& [name, value] : last_figures_) figures[name] = value;
+    nlohmann::json card =
+        ModelCard(options(), plan_steps_, step() - plan_steps_, clips_, hash_, {});
+    card["validation"] = figures;
+    card["limits"] = "Trained on transitions of " + std::to_string(options().shortest) + " to " +
+                     std::to_string(options().longest) +
+                     " frames at 30 fps, of contemporary dance. It hears no music and is "
+                     "deterministic. Away from the keys it knows how fast limbs should be better "
+                     "than where: postures are those of a mean dancer. Feet slide without the "
+                     "foot lock. Factors far from real ones (1.5 times) are not reached.";
+    if (!base_.is_null()) card["planner_from"] = base_;
+    return SaveControllers(options().run / "checkpoint.safetensors", model_, train_.MedianFactors(),
+                           card);
+  }
+
+  const std::vector<PreparedClip>& clips_;
+  std::string hash_;
+  ControlClips train_, validation_;
+  ControllersModel model_{nullptr};
+  nlohmann::json base_;  // whose planner it has: its hash and card
+  std::unique_ptr<Adam> adam_;
+  int64_t plan_steps_ = 0;
+  NamedFigures last_figures_;
+};
+
+}  // namespace
+
+void TrainControllers(const TrainOptions& options) {
+  options.Validate();
+  if (!options.name.empty()) {
+    throw InvalidArgument("--name", "a controllers network is called as its preset is");
+  }
+  const ClipStore train(options.data, options.splits,
+                        options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
+      validation(options.data, options.splits, Split::kValidation);
+  ControlRun(options, train, validation).Go();
+}
+
+}  // namespace choreo
