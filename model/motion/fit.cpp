@@ -14,6 +14,9 @@ namespace {
 
 // Root mean square distance of the landmarks at which a warm start is taken for lost.
 constexpr double kLostDistance = 0.04;
+// Radians that no trunk turns. One that does is wound up: hips and shoulders are where they belong,
+// a whole turn apart.
+constexpr double kWoundTurn = 2.6;
 constexpr int kRefinementIterations = 2;
 
 // Over which heights are evened out, seconds. Longer than a jump, shorter than a recording's drift.
@@ -90,7 +93,8 @@ class PositionFitter::Solver {
       previous_ = pose_;
       const double distance =
           problem_.Solve(targets, {.before = &previous_}, options_.iterations, pose_);
-      if (distance > kLostDistance) Recover(targets, distance);
+      if (distance > kLostDistance || problem_.TrunkTurn(pose_) > kWoundTurn)
+        Recover(targets, distance);
       MakeContinuous(pose_, previous_);
     }
     has_previous_ = true;
@@ -103,11 +107,15 @@ class PositionFitter::Solver {
   bool has_previous_ = false;
 
  private:
-  // Tries again from scratch, and keeps that only where it is much nearer: a clip that does not fit
-  // at all should at least be smooth.
+  // Tries again from scratch, and keeps that only where it is much nearer, or as near and unwound:
+  // a clip that does not fit at all should at least be smooth.
   void Recover(const Eigen::Matrix3Xd& targets, double distance) {
     problem_.Initialise(targets, fresh_);
-    if (problem_.Solve(targets, {}, options_.first_iterations, fresh_) < 0.5 * distance) {
+    const double again = problem_.Solve(targets, {}, options_.first_iterations, fresh_);
+    const bool unwound = problem_.TrunkTurn(pose_) > kWoundTurn &&
+                         problem_.TrunkTurn(fresh_) < kWoundTurn &&
+                         again < std::max(distance, kLostDistance);
+    if (again < 0.5 * distance || unwound) {
       std::swap(pose_, fresh_);
     } else {
       problem_.Solve(targets, {.before = &previous_}, options_.iterations, pose_);

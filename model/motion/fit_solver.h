@@ -36,6 +36,9 @@ class FitProblem {
   /// for the twist of hips and shoulders.
   void Initialise(const Eigen::Matrix3Xd& targets, Pose& pose) const;
 
+  /// How far the trunk is turned from rest, all its joints together, radians.
+  double TrunkTurn(const Pose& pose) const;
+
   int landmarks_count() const { return marks_.size(); }
   /// Of the pose that Solve returned last, [3, landmarks].
   const Eigen::Matrix3Xd& landmarks() const { return positions_; }
@@ -63,6 +66,7 @@ class FitProblem {
   void AddHingeRows();
   void SetHinge(const Hinge& hinge);
   bool IsBelow(int joint, int ancestor) const;
+  bool InTrunk(int joint) const;  ///< between the root and both shoulders
 
   const Skeleton skeleton_;
   const LandmarkSet marks_;

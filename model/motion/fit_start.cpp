@@ -18,6 +18,9 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& correlation) {
   return u * svd.matrixV().transpose();
 }
 
+// What the parent's rotation weighs beside landmarks, square metres.
+constexpr double kStays = 1e-4, kTrunkStays = 0.02;
+
 }  // namespace
 
 bool FitProblem::IsBelow(int joint, int ancestor) const {
@@ -25,6 +28,19 @@ bool FitProblem::IsBelow(int joint, int ancestor) const {
     if (joint == ancestor) return true;
   }
   return false;
+}
+
+bool FitProblem::InTrunk(int joint) const {
+  return joint > 0 && IsBelow(skeleton_.left_shoulder, joint) &&
+         IsBelow(skeleton_.right_shoulder, joint);
+}
+
+double FitProblem::TrunkTurn(const Pose& pose) const {
+  double turn = 0;
+  for (int joint = 1; joint < skeleton_.joints(); ++joint) {
+    if (InTrunk(joint)) turn += pose.rotations.col(joint).norm();
+  }
+  return turn;
 }
 
 void FitProblem::Initialise(const Eigen::Matrix3Xd& targets, Pose& pose) const {
@@ -52,9 +68,11 @@ void FitProblem::Initialise(const Eigen::Matrix3Xd& targets, Pose& pose) const {
             return IsBelow(point.joint, joint) || (point.joint == joint && !point.offset.isZero());
           });
     }
-    // Where nothing tells, the parent's rotation goes on.
+    // Where nothing tells, the parent's rotation goes on. The trunk's landmarks stand nearly on one
+    // line and tell nothing of its twist: left to their noise, a start would be wound up by a whole
+    // turn, and stay so, with hips and shoulders in their places.
     const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];
-    Eigen::Matrix3d correlation = 1e-4 * carried;
+    Eigen::Matrix3d correlation = (InTrunk(joint) ? kTrunkStays : kStays) * carried;
     bool told = false;
     for (int i = 0; i < marks_.size(); ++i) {
       if (!below[i] || (marks_[i].parent >= 0 && below[marks_[i].parent])) continue;

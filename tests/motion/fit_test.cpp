@@ -165,6 +165,23 @@ TEST(Fit, FindsItsWayBackAfterAJump) {
   EXPECT_LT((JointPositions(Smpl(), fitter.Next(far)) - far).colwise().norm().mean(), 0.003);
 }
 
+// Hips and shoulders a whole turn apart stand where they would without it, so no distance tells.
+TEST(Fit, UnwindsATrunk) {
+  const Pose rest = RestPose(Smpl());
+  Pose wound = rest;
+  for (const char* joint : {"spine1", "spine2", "spine3"}) {
+    wound.rotations(1, Smpl().Find(joint)) = 2 * std::numbers::pi / 3;
+  }
+  const Eigen::Matrix3Xd targets = JointPositions(Smpl(), rest);
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  fitter.Reset(wound);
+  const Pose& pose = fitter.Next(targets);
+  for (const char* joint : {"spine1", "spine2", "spine3"}) {
+    EXPECT_LT(pose.rotations.col(Smpl().Find(joint)).norm(), 0.1) << joint;
+  }
+  EXPECT_LT((JointPositions(Smpl(), pose) - targets).colwise().norm().maxCoeff(), 0.001);
+}
+
 TEST(Fit, GivesTheSameBitsAgain) {
   const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 12, 30));
   const Motion a = FitClip(clip, IdentitySource(Smpl()), Smpl()).motion;
