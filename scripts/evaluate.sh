@@ -28,7 +28,7 @@ row() {  # row NAME RUN: a further method, if its checkpoint is there
 measure() {  # measure NAME MODEL OPTIONS...
   local name=$1 model=$2
   shift 2
-  "$lab" eval --engine packed --model "$model" --data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json" --split test \
+  "$lab" eval --model "$model" --data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json" --split test \
     --json "docs/images/$name.json" --markdown "docs/$name.md" ${others[@]+"${others[@]}"} "$@"
   rm "docs/images/$name.json"
 }
