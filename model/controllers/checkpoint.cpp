@@ -2,19 +2,17 @@
 
 #include <torch/torch.h>
 
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "model/controllers/random_controllers.h"
-#include "model/core/error.h"
 #include "model/flow/checkpoint.h"
-#include "model/motion/skeleton_json.h"
+#include "model/flow/checkpoint_file.h"
 
 namespace choreo {
 namespace {
 
 // Raised when the meaning of a stored tensor or field changes.
 constexpr const char* kFormat = "choreo-controllers-1";
-constexpr const char* kHashKey = "hash";
 
 }  // namespace
 
@@ -24,34 +22,12 @@ bool HoldsControllers(const Safetensors& content) {
 }
 
 ControllersCheckpoint ParseControllers(const Safetensors& content, const std::string& name) {
-  const auto meta = [&](const std::string& key) -> const std::string& {
-    const auto found = content.metadata.find(key);
-    if (found == content.metadata.end()) {
-      throw InvalidArgument(name, "not a choreo checkpoint: it has no '" + key + "'");
-    }
-    return found->second;
-  };
-  if (meta("format") != kFormat) {
-    throw InvalidArgument(
-        name, "format '" + meta("format") + "', but this build reads '" + kFormat + "'");
-  }
-  ControllersCheckpoint checkpoint;
-  checkpoint.card = meta("card");
-  checkpoint.hash = meta(kHashKey);
-  const std::string actual = ContentHash(content, kHashKey);
-  if (actual != checkpoint.hash) {
-    throw InvalidArgument(name, "content hash " + actual + ", but the file states " +
-                                    checkpoint.hash + ": it is damaged or was edited");
-  }
-  try {
-    checkpoint.model =
-        ControllersModel(nlohmann::json::parse(meta("config")).get<ControllersConfig>(),
-                         SkeletonFromJson(meta("skeleton")));
-    checkpoint.median_factors =
-        nlohmann::json::parse(meta("median_factors")).get<std::array<double, kBodyParts>>();
-  } catch (const std::exception& error) {  // of the JSON or of the skeleton in it
-    throw InvalidArgument(name, std::string("its configuration can't be read: ") + error.what());
-  }
+  const CheckpointFile file(content, name, kFormat);
+  ControllersCheckpoint checkpoint{
+      .model = ControllersModel(file.Get<ControllersConfig>("config"), file.skeleton()),
+      .median_factors = file.Get<std::array<double, kBodyParts>>("median_factors"),
+      .card = file.card(),
+      .hash = file.hash()};
   ImportTensors(content, "", checkpoint.model.get());
   checkpoint.model->eval();
   return checkpoint;
@@ -62,15 +38,9 @@ std::string SaveControllers(const std::filesystem::path& path, ControllersModel&
                             const nlohmann::json& card) {
   Safetensors content;
   ExportTensors(*model, "", &content);
-  content.metadata = {{"format", kFormat},
-                      {"config", nlohmann::json(model->config()).dump()},
-                      {"skeleton", SkeletonToJson(model->skeleton())},
-                      {"median_factors", nlohmann::json(median_factors).dump()},
-                      {"card", card.dump()}};
-  const std::string hash = ContentHash(content, kHashKey);
-  content.metadata[kHashKey] = hash;
-  WriteSafetensors(path, content);
-  return hash;
+  content.metadata["median_factors"] = nlohmann::json(median_factors).dump();
+  return WriteCheckpointFile(path, std::move(content), kFormat, model->config(), model->skeleton(),
+                             card);
 }
 
 void WriteRandomControllers(const std::filesystem::path& path, const ControllersConfig& config,

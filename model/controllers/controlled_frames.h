@@ -2,8 +2,6 @@
 
 #include <torch/types.h>
 
-#include "model/flow/planner.h"
-
 /// Motion as the controllers network sees it: paper C's p^r, o^r, p^b and c (Section 3.1) in
 /// batches, canonical frame, metres.
 namespace choreo {
@@ -30,7 +28,6 @@ struct ControlledTransition {
   torch::Tensor has_target;     ///< [batch, 1] in {0, 1}
   torch::Tensor path;           ///< [batch, N, 3] where the root should be
   torch::Tensor factors;        ///< [batch, N, 5] velocity factors, metres a frame
-  TransitionTensors poses;      ///< history and target as a planner of the flow sees them
 };
 
 /// Vectors [..., 3] turned about +Y by headings [..., 2] (sine, cosine; broadcast), or back.

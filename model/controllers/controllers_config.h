@@ -8,13 +8,9 @@ namespace choreo {
 /// Shape and switches of the controllers network (paper C, Section 3.2). Stored in every
 /// checkpoint.
 struct ControllersConfig {
-  std::string preset = "controllers";
-  int history_frames = 10;  ///< tau
+  std::string name = "controllers";  ///< what servers call it; the preset's unless it was named
+  int history_frames = 10;           ///< tau
   int max_transition_frames = 600;
-
-  /// A planner of the flow (model/flow/planner.h), frozen, whose plan, made without controls, is
-  /// what is danced around instead of interpolated positions. Width 0: none.
-  int planner_width = 0, planner_layers = 0, planner_heads = 0;
 
   /// The plan: a transformer that sees all that is given of a transition at once. Width 0: none (as
   /// in the paper).

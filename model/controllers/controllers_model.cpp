@@ -75,7 +75,7 @@ ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
 
 ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
                                            const Skeleton& skeleton)
-    : config_(config), skeleton_(skeleton), others_(skeleton.joints() - 1), kinematics_(skeleton) {
+    : config_(config), skeleton_(skeleton), others_(skeleton.joints() - 1) {
   joint_mean_ = register_buffer("joint_mean", torch::zeros({others_, 3}));
   joint_std_ = register_buffer("joint_std", torch::ones({others_, 3}));
   factor_std_ = register_buffer("factor_std", torch::ones({kBodyParts}));
@@ -86,13 +86,6 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
       shares_[part][j] = static_cast<float>(weights(part, j));
   }
 
-  if (config.planner_width > 0) {
-    planner_ =
-        register_module("planner", MakePlanner(skeleton.joints(), {.width = config.planner_width,
-                                                                   .layers = config.planner_layers,
-                                                                   .heads = config.planner_heads}));
-    for (torch::Tensor& parameter : planner_->parameters()) parameter.set_requires_grad(false);
-  }
   const int64_t pose = 3 * others_;
   if (config.plan_width > 0) {
     // Pose, its step, the step that leaves the history; root step, height, way to the end, turn to
@@ -152,35 +145,13 @@ void ControllersModelImpl::SetNormalisation(const Tensor& joint_mean, const Tens
   factor_std_.copy_(factor_std);
 }
 
-std::vector<Tensor> ControllersModelImpl::Free() const {
-  std::vector<Tensor> free;
-  for (const Tensor& parameter : parameters()) {
-    if (parameter.requires_grad()) free.push_back(parameter);
-  }
-  return free;
-}
-
 std::pair<Tensor, Tensor> ControllersModelImpl::Reference(const ControlledTransition& transition) {
-  const int64_t batch = transition.path.size(0), frames = transition.frames;
-  if (planner_) {
-    const torch::NoGradGuard no_grad;
-    planner_->eval();
-    const Tensor rotation = planner_->forward(transition.poses).trajectory.rotation;
-    const Tensor positions = kinematics_.Positions(
-        torch::zeros({batch * frames, 3}, rotation.options()), rotation.flatten(0, 1));
-    // Where the root's z axis points, as motion/rotation.h's Heading.
-    const Tensor ahead = rotation.select(2, 0).select(-1, 2).index_select(
-        -1, torch::tensor({0, 2}, rotation.options().dtype(torch::kLong)));
-    const Tensor facing = ahead / (ahead.square().sum(-1, true) + 1e-12).sqrt();
-    return {TurnBack(positions.narrow(1, 1, others_).unflatten(0, {batch, frames}),
-                     facing.unsqueeze(2)),
-            facing};
-  }
+  const int64_t frames = transition.frames;
   const Tensor u = torch::arange(1, frames + 1, transition.path.options()).view({1, frames}) /
                    static_cast<double>(frames) * transition.has_target;  // [batch, N]
   const Tensor last = transition.history.joints.narrow(1, transition.history.size() - 1, 1);
   const Tensor way = transition.target_joints.unsqueeze(1) - last;
-  return {last + u.view({batch, frames, 1, 1}) * way,
+  return {last + u.unsqueeze(-1).unsqueeze(-1) * way,
           HeadingOf(u * transition.target_turn.unsqueeze(1))};
 }
 

@@ -17,8 +17,6 @@
 #include "model/controllers/controlled_frames.h"
 #include "model/controllers/controllers_config.h"
 #include "model/controllers/window_controller.h"
-#include "model/flow/planner.h"
-#include "model/flow/torch_kinematics.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
@@ -72,11 +70,6 @@ class ControllersModelImpl : public torch::nn::Module {
   void SetNormalisation(const torch::Tensor& joint_mean, const torch::Tensor& joint_std,
                         const torch::Tensor& factor_std);
 
-  /// The frozen planner, to take weights into; null where the config has none.
-  PlannerImpl* planner() { return planner_.get(); }
-  /// Parameters that are trained.
-  std::vector<torch::Tensor> Free() const;
-
   /// `whole` off leaves out what only Walk needs.
   ControlledGiven Prepare(const ControlledTransition& transition, bool whole = true);
   /// The plan alone as a motion; contacts are zeros.
@@ -91,7 +84,7 @@ class ControllersModelImpl : public torch::nn::Module {
  private:
   torch::Tensor Unit(const torch::Tensor& joints) const;
   // Where everything starts from: joints [batch, N, joints - 1, 3] and headings [batch, N, 2].
-  std::pair<torch::Tensor, torch::Tensor> Reference(const ControlledTransition& transition);
+  static std::pair<torch::Tensor, torch::Tensor> Reference(const ControlledTransition& transition);
   torch::Tensor PlanTokens(const ControlledTransition& transition, const torch::Tensor& reference,
                            const torch::Tensor& ahead) const;
   FrameTensors Compose(const ControlledGiven& given, const torch::Tensor& joints,
@@ -102,8 +95,6 @@ class ControllersModelImpl : public torch::nn::Module {
   int64_t others_;  // joints but the root
   torch::Tensor joint_mean_, joint_std_, factor_std_, shares_;
 
-  Planner planner_;
-  TorchKinematics kinematics_;
   torch::nn::Linear plan_embed_{nullptr}, plan_head_{nullptr}, plan_code_{nullptr};
   torch::nn::LayerNorm plan_norm_{nullptr};
   torch::nn::ModuleList plan_blocks_{nullptr};

@@ -7,7 +7,6 @@
 
 #include "model/core/error.h"
 #include "model/engine/dense_controls.h"
-#include "model/flow/torch_kinematics.h"
 
 namespace choreo {
 namespace {
@@ -34,35 +33,6 @@ Eigen::Matrix3Xd ToPoints(const Tensor& points) {  // [1, 1, columns, 3]
   const Tensor dense = points.contiguous();
   return Eigen::Map<const Eigen::Matrix3Xf>(dense.data_ptr<float>(), 3, dense.size(2))
       .cast<double>();
-}
-
-// As a planner of the flow takes them.
-TransitionTensors PosesOf(const TransitionSpec& spec, const Pose& target) {
-  const auto joints = target.rotations.cols();
-  std::vector<Tensor> positions, rotations;
-  const auto add = [&](const Pose& pose) {
-    positions.push_back(PointsOf(pose.root_position).flatten(0, 2));
-    rotations.push_back(PointsOf(pose.rotations).flatten(0, 1));
-  };
-  for (const Pose& pose : spec.history) add(pose);
-  add(target);
-  const Tensor position = torch::stack(positions).flatten(1).unsqueeze(0);  // [1, tau + 1, 3]
-  const Tensor rotation = ExpMapBatch(torch::stack(rotations).transpose(0, 1));
-  const auto tau = static_cast<int64_t>(spec.history.size());
-  Tensor mask = torch::zeros({1, joints + 1});
-  if (spec.target) {
-    const PoseMask& known = spec.target->mask;
-    for (Eigen::Index j = 0; j < joints; ++j) {
-      if (known.joints.empty() || known.joints[static_cast<size_t>(j)]) mask[0][j] = 1;
-    }
-    if (known.root_position) mask[0][joints] = 1;
-  }
-  return {spec.frames,
-          position.narrow(1, 0, tau),
-          rotation.narrow(1, 0, tau),
-          position.select(1, tau),
-          rotation.select(1, tau),
-          mask};
 }
 
 }  // namespace
@@ -125,7 +95,6 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   transition.target_joints = PointsOf(facing.joints).select(1, 0);
   transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
   transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
-  transition.poses = PosesOf(spec, target);
   const Controls dense = DenseControls(spec, info_);
   transition.path = RowsOf(dense.root_path);
   transition.factors = RowsOf(dense.velocity_factors);

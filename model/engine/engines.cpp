@@ -113,8 +113,8 @@ Loaded LoadControllers(const Safetensors& content, const std::filesystem::path& 
   std::ranges::copy(checkpoint.median_factors, median.factors.begin());
   Loaded loaded;
   loaded.controllers = checkpoint.model;
-  loaded.info = {.name = config.preset,
-                 .fingerprint = Fingerprint(config.preset, checkpoint.hash,
+  loaded.info = {.name = config.name,
+                 .fingerprint = Fingerprint(config.name, checkpoint.hash,
                                             TorchKernels(torch::Device(torch::kCPU))),
                  .licence = LicenceOf(checkpoint.card),
                  .card = checkpoint.card,

@@ -2,18 +2,17 @@
 
 #include <torch/torch.h>
 
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "model/core/error.h"
+#include "model/flow/checkpoint_file.h"
 #include "model/flow/random_checkpoint.h"
-#include "model/motion/skeleton_json.h"
 
 namespace choreo {
 namespace {
 
 // Raised when the meaning of a stored tensor or field changes.
 constexpr const char* kFormat = "choreo-flow-1";
-constexpr const char* kHashKey = "hash";
 
 }  // namespace
 
@@ -53,14 +52,8 @@ std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card) {
   Safetensors content;
   ExportTensors(*model, "", &content);
-  content.metadata = {{"format", kFormat},
-                      {"config", nlohmann::json(model->config()).dump()},
-                      {"skeleton", SkeletonToJson(model->skeleton())},
-                      {"card", card.dump()}};
-  const std::string hash = ContentHash(content, kHashKey);
-  content.metadata[kHashKey] = hash;
-  WriteSafetensors(path, content);
-  return hash;
+  return WriteCheckpointFile(path, std::move(content), kFormat, model->config(), model->skeleton(),
+                             card);
 }
 
 Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
@@ -68,31 +61,10 @@ Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
 }
 
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) {
-  const auto meta = [&](const std::string& key) -> const std::string& {
-    const auto found = content.metadata.find(key);
-    if (found == content.metadata.end()) {
-      throw InvalidArgument(name, "not a choreo checkpoint: it has no '" + key + "'");
-    }
-    return found->second;
-  };
-  if (meta("format") != kFormat) {
-    throw InvalidArgument(
-        name, "format '" + meta("format") + "', but this build reads '" + kFormat + "'");
-  }
-  Checkpoint checkpoint;
-  checkpoint.card = meta("card");
-  checkpoint.hash = meta(kHashKey);
-  const std::string actual = ContentHash(content, kHashKey);
-  if (actual != checkpoint.hash) {
-    throw InvalidArgument(name, "content hash " + actual + ", but the file states " +
-                                    checkpoint.hash + ": it is damaged or was edited");
-  }
-  try {
-    checkpoint.model = FlowModel(nlohmann::json::parse(meta("config")).get<FlowConfig>(),
-                                 SkeletonFromJson(meta("skeleton")));
-  } catch (const std::exception& error) {  // of the JSON or of the skeleton in it
-    throw InvalidArgument(name, std::string("its configuration can't be read: ") + error.what());
-  }
+  const CheckpointFile file(content, name, kFormat);
+  Checkpoint checkpoint{.model = FlowModel(file.Get<FlowConfig>("config"), file.skeleton()),
+                        .card = file.card(),
+                        .hash = file.hash()};
   ImportTensors(content, "", checkpoint.model.get());
   checkpoint.model->eval();
   return checkpoint;

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/flow/torch_kinematics.h"
 #include "model/motion/facing_pose.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
@@ -82,7 +81,6 @@ ControlClips::Track ControlClips::MakeTrack(const PreparedClip& clip, double tem
     track.heading.push_back(static_cast<float>(facing.heading));
     append(&track.joints, facing.joints.reshaped());
     append(&track.factors, factors);
-    append(&track.rotations, pose.rotations.reshaped());
     for (int foot = 0; foot < 4; ++foot) {
       // Contacts stand left then right; a mirrored dancer swaps them.
       track.contacts.push_back(
@@ -137,9 +135,6 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
   Tensor factors = torch::empty({batch, window, kBodyParts});
   Tensor has_target = torch::ones({batch, 1}), weight = torch::ones({batch});
   Tensor turn = torch::empty({batch});
-  // Of history and target.
-  Tensor rotation = torch::empty({batch, history + 1, skeleton_.joints(), 3});
-  Tensor first_heading = torch::empty({batch});  // of the last history frame, in the world
   std::vector<Tensor> paths, given, wanted;
   for (int b = 0; b < batch; ++b) {
     const int64_t pick = random->Integer(0, windows);
@@ -167,14 +162,9 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
     // Into the canonical frame of the last history frame.
     const Tensor at = root[b][history - 1].clone();
     const Tensor origin = at * torch::tensor({1.0F, 0.0F, 1.0F});
-    heading[b] -= heading[b][history - 1].clone();
-    first_heading[b] = track.heading[static_cast<size_t>(start + history - 1)];
-    root[b] = TurnBack(root[b] - origin, HeadingOf(first_heading[b]));
-    const int64_t width = 3 * skeleton_.joints();
-    float* rotations = rotation[b].data_ptr<float>();
-    std::copy_n(track.rotations.data() + start * width, history * width, rotations);
-    std::copy_n(track.rotations.data() + (start + window - 1) * width, width,
-                rotations + history * width);
+    const Tensor first = heading[b][history - 1].clone();
+    heading[b] -= first;
+    root[b] = TurnBack(root[b] - origin, HeadingOf(first));
     turn[b] = static_cast<float>(NearestTurn(heading[b][window - 1].item<double>(), 0));
 
     if (random->Uniform() < variation.no_target) has_target[b] = 0;
@@ -205,20 +195,8 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
   result.truth = all.Narrow(history, frames);
   result.factors = torch::stack(wanted);
   result.weight = weight;
-  const Tensor matrices = ExpMapBatch(rotation);
-  const Tensor back =
-      ExpMapBatch(first_heading.neg().unsqueeze(1) * torch::tensor({0.0F, 1.0F, 0.0F}));
-  matrices.select(2, 0).copy_(torch::matmul(back.unsqueeze(1), matrices.select(2, 0).contiguous()));
-  result.transition = {frames,
-                       all.Narrow(0, history),
-                       joints.select(1, window - 1),
-                       turn,
-                       has_target,
-                       torch::stack(paths),
-                       torch::stack(given),
-                       {frames, root.narrow(1, 0, history), matrices.narrow(1, 0, history),
-                        root.select(1, window - 1), matrices.select(1, history),
-                        has_target.expand({batch, skeleton_.joints() + 1}).contiguous()}};
+  result.transition = {frames,     all.Narrow(0, history), joints.select(1, window - 1), turn,
+                       has_target, torch::stack(paths),    torch::stack(given)};
   return result;
 }
 

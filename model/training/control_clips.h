@@ -50,7 +50,7 @@ class ControlClips {
   struct Track {
     int64_t frames = 0;
     // Row-major: [frames, ...]
-    std::vector<float> root, heading, joints, contacts, factors, rotations;
+    std::vector<float> root, heading, joints, contacts, factors;
   };
   Track MakeTrack(const PreparedClip& clip, double tempo, bool mirrored) const;
   const Track& At(size_t clip, size_t tempo, bool mirrored) const {

@@ -20,10 +20,8 @@
 namespace choreo {
 namespace {
 
-constexpr double kMaxGradientNorm = 1.0;
 constexpr int kNormalisationWindows = 512;
 constexpr int kValidationWindows = 48;
-constexpr int kTypicalFrames = 60;  // a batch of windows this long has `batch` of them
 constexpr double kLateJoints = 3;
 constexpr double kTruthDecay = 0.998;  // of scheduled sampling's probability, a step
 constexpr double kCurriculum = 0.3;    // share of a stage after which all lengths are drawn
@@ -31,6 +29,7 @@ constexpr double kLongest = 0.25;      // share of draws among all lengths alike
 
 ControllersConfig ConfigOf(const TrainOptions& options) {
   ControllersConfig config = ControllersConfig::Preset(options.preset);
+  if (!options.name.empty()) config.name = options.name;
   config.two_lstms = !options.one_lstm;
   config.transformers = !options.condition_fc;
   config.root_decoder = !options.one_decoder;
@@ -48,9 +47,13 @@ class ControlRun : public TrainingRun {
         train_(train.clips()),
         validation_(validation.clips()) {
     torch::manual_seed(options.seed);
-    MakeModel(train.skeleton());
+    model_ = ControllersModel(ConfigOf(options), train.skeleton());
     plan_steps_ = model_->config().plan_width > 0 ? options.planner_steps : 0;
-    Normalise();
+    if (options.planner.empty()) {
+      Normalise();
+    } else {
+      TakeModel();
+    }
     adam_ = std::make_unique<Adam>(*model_, "");
     Open();
   }
@@ -72,9 +75,10 @@ class ControlRun : public TrainingRun {
     const LossTerms plan =
         ControlLoss(*model_, batch, model_->Planned(given), nullptr, JointWeight());
     if (!whole) {
-      Descend(plan, model_->Free());
+      Descend(plan, model_->parameters());
     } else {
-      Descend(Both(plan, Walk(batch, given, std::pow(kTruthDecay, stage_step))), model_->Free());
+      Descend(Both(plan, Walk(batch, given, std::pow(kTruthDecay, stage_step))),
+              model_->parameters());
     }
     adam_->Step(
         StageRate(whole ? options().flow_rate : options().planner_rate, stage_step, stage_steps),
@@ -143,26 +147,19 @@ class ControlRun : public TrainingRun {
   }
 
  private:
-  // With --planner, that checkpoint's planner makes the plan to start from, as it is.
-  void MakeModel(const Skeleton& skeleton) {
-    ControllersConfig config = ConfigOf(options());
-    if (options().planner.empty()) {
-      model_ = ControllersModel(config, skeleton);
-      return;
+  // All of another run's checkpoint: what it had learnt of walking is learnt anew in a shorter
+  // while than its plan.
+  void TakeModel() {
+    const Safetensors content = ReadSafetensors(options().planner);
+    if (!HoldsControllers(content)) {
+      throw InvalidArgument("--planner", options().planner.string() + " is no controllers network");
     }
-    const Checkpoint base = LoadCheckpoint(options().planner);
-    const PlannerConfig& planner = base.model->config().planner;
-    if (planner.width == 0 || planner.recurrent || !(base.model->skeleton() == skeleton)) {
-      throw InvalidArgument(
-          "--planner", options().planner.string() + " has no transformer planner for these clips");
+    const ControllersCheckpoint base = ParseControllers(content, options().planner.string());
+    if (!(base.model->skeleton() == model_->skeleton())) {
+      throw InvalidArgument("--planner",
+                            options().planner.string() + " has another skeleton than these clips");
     }
-    config.planner_width = planner.width;
-    config.planner_layers = planner.layers;
-    config.planner_heads = planner.heads;
-    model_ = ControllersModel(config, skeleton);
-    Safetensors weights;
-    ExportTensors(*base.model->planner(), "planner.", &weights);
-    ImportTensors(weights, "planner.", model_->planner());
+    ImportTensors(content, "", model_.get());
     base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
   }
 
@@ -180,8 +177,7 @@ class ControlRun : public TrainingRun {
     const double place = random->Uniform() < kLongest ? u : u * std::sqrt(u);
     const int frames = std::min(
         longest, options().shortest + static_cast<int>(place * (longest - options().shortest + 1)));
-    const int windows = std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
-    return train_.Draw(windows, model_->config().history_frames, frames,
+    return train_.Draw(WindowsOf(batch, frames), model_->config().history_frames, frames,
                        {.mirror = 0.5,
                         .tempo = 0.3,
                         .no_target = 0.05,
@@ -240,7 +236,7 @@ class ControlRun : public TrainingRun {
     nlohmann::json figures = nlohmann::json::object();
     for (const auto& [name, value] : last_figures_) figures[name] = value;
     nlohmann::json card =
-        ModelCard(options(), plan_steps_, step() - plan_steps_, clips_, hash_, {});
+        ModelCard(options(), plan_steps_, step() - plan_steps_, seconds(), clips_, hash_, {});
     card["validation"] = figures;
     card["limits"] = "Trained on transitions of " + std::to_string(options().shortest) + " to " +
                      std::to_string(options().longest) +
@@ -257,7 +253,7 @@ class ControlRun : public TrainingRun {
   std::string hash_;
   ControlClips train_, validation_;
   ControllersModel model_{nullptr};
-  nlohmann::json base_;  // whose planner it has: its hash and card
+  nlohmann::json base_;  // what it went on from: its hash and card
   std::unique_ptr<Adam> adam_;
   int64_t plan_steps_ = 0;
   NamedFigures last_figures_;
@@ -267,9 +263,6 @@ class ControlRun : public TrainingRun {
 
 void TrainControllers(const TrainOptions& options) {
   options.Validate();
-  if (!options.name.empty()) {
-    throw InvalidArgument("--name", "a controllers network is called as its preset is");
-  }
   const ClipStore train(options.data, options.splits,
                         options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
       validation(options.data, options.splits, Split::kValidation);

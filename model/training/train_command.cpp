@@ -39,8 +39,10 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       ->required();
   command->add_flag("--with-validation", options->with_validation,
                     "Train on the validation clips too, once everything is chosen");
-  command->add_option("--planner", options->planner,
-                      "Checkpoint whose planner the first stage goes on from (same preset)");
+  command->add_option(
+      "--planner", options->planner,
+      "Checkpoint whose planner the first stage goes on from (same preset); of controllers, "
+      "the whole network");
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
       ->required();
   command->add_option("--device", options->device, "auto | cpu | cuda:N")->capture_default_str();

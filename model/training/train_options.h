@@ -14,8 +14,8 @@ struct TrainOptions {
   std::string name;                         ///< as servers list the model; empty: the preset's
   std::vector<std::filesystem::path> data;  ///< folders of prepared clips
   std::filesystem::path splits;             ///< JSON, see ClipStore
-  std::filesystem::path planner;  ///< checkpoint whose planner the first stage starts from; empty:
-                                  ///< from scratch
+  std::filesystem::path planner;  ///< checkpoint whose planner (of controllers: all of whose
+                                  ///< network) the first stage starts from; empty: from scratch
   std::filesystem::path run;      ///< folder for state, curves and the finished checkpoint
   std::string device = "cpu";     ///< "cpu" or "cuda:N"
   bool with_validation = false;   ///< train on validation clips too: a last run, once all is chosen

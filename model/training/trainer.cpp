@@ -20,10 +20,8 @@
 namespace choreo {
 namespace {
 
-constexpr double kMaxGradientNorm = 1.0;
 constexpr int kNormalisationBatches = 24;
 constexpr int kValidationWindows = 64;
-constexpr int kTypicalFrames = 60;  // a batch of windows this long has `batch` of them
 
 FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
   FlowConfig config = FlowConfig::Preset(options.preset);
@@ -133,8 +131,8 @@ class FlowRun : public TrainingRun {
     if (flow_steps_ == 0) StartFlowStage();
     const std::vector<ValidationRow> rows =
         choreo::Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
-    nlohmann::json card =
-        ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows);
+    nlohmann::json card = ModelCard(options_, planner_steps_, flow_steps_, seconds(),
+                                    train_.clips(), train_.Hash(), rows);
     if (!base_.is_null()) card["planner_from"] = base_;
     const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
     std::printf("%s\n", card.dump(2).c_str());
@@ -146,8 +144,7 @@ class FlowRun : public TrainingRun {
   bool flow_stage() const { return step() >= planner_steps_; }
 
   MotionBatch Draw(Random* random, int frames) const {
-    const int windows =
-        std::max(8, options_.batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
+    const int windows = WindowsOf(options_.batch, frames);
     const bool keys = model_->config().keys;
     const ClipStore::Variation variation{.mirror = true,
                                          .drop_key = keys ? 0.1 : 1.0,

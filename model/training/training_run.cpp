@@ -16,7 +16,8 @@ namespace {
 
 constexpr int64_t kWarmUpSteps = 200;
 constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end of a stage
-constexpr double kForget = 0.02;    // of a loss's running mean, a step
+constexpr int kTypicalFrames = 60;
+constexpr double kForget = 0.02;  // of a loss's running mean, a step
 
 double GradientNorm(const torch::Tensor& loss, const std::vector<torch::Tensor>& parameters) {
   double square = 0;
@@ -29,6 +30,10 @@ double GradientNorm(const torch::Tensor& loss, const std::vector<torch::Tensor>&
 }
 
 }  // namespace
+
+int WindowsOf(int batch, int frames) {
+  return std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
+}
 
 double StageRate(double peak, int64_t step, int64_t steps) {
   const double warm = std::min(1.0, static_cast<double>(step + 1) / kWarmUpSteps);

@@ -53,6 +53,7 @@ class TrainingRun {
 
   const TrainOptions& options() const { return options_; }
   int64_t step() const { return step_; }
+  double seconds() const { return seconds_; }  ///< of all its steps, also before it was resumed
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
@@ -67,6 +68,13 @@ class TrainingRun {
   LossRow losses_;
   Curves curves_;
 };
+
+/// Gradients are cut to this norm.
+inline constexpr double kMaxGradientNorm = 1.0;
+
+/// How many windows of so many frames make up a step: `batch` of 60 frames or as many frames of
+/// longer ones, at most three times as many short ones, at least 8.
+int WindowsOf(int batch, int frames);
 
 /// The learning rate of a stage's step: warm-up, then a cosine to a twentieth of the peak.
 double StageRate(double peak, int64_t step, int64_t steps);
