@@ -236,7 +236,7 @@ class ControlRun : public TrainingRun {
     nlohmann::json figures = nlohmann::json::object();
     for (const auto& [name, value] : last_figures_) figures[name] = value;
     nlohmann::json card =
-        ModelCard(options(), plan_steps_, step() - plan_steps_, seconds(), clips_, hash_, {});
+        ModelCard(options(), plan_steps_, step() - plan_steps_, clips_, hash_, {});
     card["validation"] = figures;
     card["limits"] = "Trained on transitions of " + std::to_string(options().shortest) + " to " +
                      std::to_string(options().longest) +

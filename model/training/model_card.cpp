@@ -1,13 +1,12 @@
 #include "model/training/model_card.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace choreo {
 
 nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int64_t flow_steps,
-                         double seconds, const std::vector<PreparedClip>& clips,
-                         const std::string& hash, const std::vector<ValidationRow>& rows) {
+                         const std::vector<PreparedClip>& clips, const std::string& hash,
+                         const std::vector<ValidationRow>& rows) {
   nlohmann::json figures = nlohmann::json::array();
   for (const ValidationRow& row : rows) {
     figures.push_back({{"frames", row.frames},
@@ -44,7 +43,6 @@ nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int
           {"licence", licence},
           {"command", options.Command()},
           {"steps", {{"planner", planner_steps}, {"flow", flow_steps}}},
-          {"seconds", std::llround(seconds)},
           {options.with_validation ? "training_clips" : "validation", figures},
           {"limits",
            "Trained on transitions of " + std::to_string(options.shortest) + " to " +

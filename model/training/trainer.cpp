@@ -131,8 +131,8 @@ class FlowRun : public TrainingRun {
     if (flow_steps_ == 0) StartFlowStage();
     const std::vector<ValidationRow> rows =
         choreo::Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
-    nlohmann::json card = ModelCard(options_, planner_steps_, flow_steps_, seconds(),
-                                    train_.clips(), train_.Hash(), rows);
+    nlohmann::json card =
+        ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows);
     if (!base_.is_null()) card["planner_from"] = base_;
     const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
     std::printf("%s\n", card.dump(2).c_str());

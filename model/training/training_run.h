@@ -53,7 +53,6 @@ class TrainingRun {
 
   const TrainOptions& options() const { return options_; }
   int64_t step() const { return step_; }
-  double seconds() const { return seconds_; }  ///< of all its steps, also before it was resumed
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
