@@ -1,54 +1,79 @@
 #!/usr/bin/env bash
-# Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets.
-#   scripts/evaluate.sh BIN_DIRECTORY RECORDINGS [RUNS]
-# RECORDINGS holds tang2018/, dancedb/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as `train --run` leaves
-# them: recurrent/ (Harvey et al. 2020), ablation/full, no_key_loss, no_time_embedding, forward_embedding, no_keys. Rows of those that are
-# not there are left out, and named.
+# Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets, docs/tables_ablations.md, and the
+# figures that docs/results.md and README.md quote.
+#   scripts/evaluate.sh [--partial] [--out FOLDER] BIN_DIRECTORY RECORDINGS RUNS [EVAL_OPTION...]
+# RECORDINGS holds tang2018/, dancedb/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as
+# scripts/train_baselines.sh leaves them. Where some are not there it fails and names them; --partial leaves their rows out instead.
+# --out writes elsewhere than docs/. Options of `choreo-lab eval` (--windows 1, to try this out) need it: docs/ has full settings.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
+fail() { echo "evaluate.sh: $*" >&2; exit 1; }
+partial='' out=$root/docs
+while [[ ${1:-} == --* ]]; do
+  case $1 in
+    --partial) partial=1; shift ;;
+    --out) mkdir -p "$2"; out=$(realpath "$2"); shift 2 ;;
+    *) fail "unknown option '$1'" ;;
+  esac
+done
+(($# >= 3)) || fail "BIN_DIRECTORY, RECORDINGS and RUNS are wanted; see the head of this file"
 lab=$(realpath "$1")/choreo-lab
 recordings=$(realpath "$2")
-runs=$(realpath -m "${3:-$root/runs}")
+runs=$(realpath -m "$3")
+shift 3
+[[ $# -eq 0 || $out != "$root/docs" ]] || fail "options of eval ($*) need --out"
+options=("$@")
 data=$root/build/data
 cd "$root"
+
+# Who has a row, and from where.
+baselines=("Harvey et al. 2020=recurrent")
+ablations=("no time embedding=ablation/no_time_embedding" "no key loss=ablation/no_key_loss" "frames from the start=ablation/forward_embedding"
+  "no keys in training=ablation/no_keys")
+full=ablation/full
+missing=()
+others=()
+rows() {  # rows NAME=RUN...: --other options of those that are there
+  others=()
+  for row in "$@"; do
+    local checkpoint=$runs/${row#*=}/checkpoint.safetensors
+    if [[ -f $checkpoint ]]; then others+=(--other "${row%%=*}=$checkpoint"); fi
+  done
+}
+for row in "${baselines[@]}" "full=$full" "${ablations[@]}"; do
+  [[ -f $runs/${row#*=}/checkpoint.safetensors ]] || missing+=("\"${row%%=*}\" ($runs/${row#*=}/checkpoint.safetensors)")
+done
+if ((${#missing[@]})); then
+  printf 'evaluate.sh: not there: %s\n' "${missing[@]}" >&2
+  [[ $partial ]] || fail "scripts/train_baselines.sh trains them; --partial writes the tables without their rows"
+fi
 
 # Prepared once; remove build/data after a change of recordings or of `prepare`.
 [[ -f $data/tang2018/report.json ]] || "$lab" prepare tang2018 "$recordings/tang2018" "$data/tang2018" \
   --terms "none stated, citation asked (Tang et al. 2018); commercial music: internal use only"
 [[ -f $data/dancedb/report.json ]] || "$lab" prepare bvh "$recordings/dancedb" "$data/dancedb" --terms "none stated (Aristidou et al. 2017)"
 
-others=()
-row() {  # row NAME RUN: a further method, if its checkpoint is there
-  if [[ -f $runs/$2/checkpoint.safetensors ]]; then
-    others+=(--other "$1=$runs/$2/checkpoint.safetensors")
-  else
-    echo "evaluate.sh: no row \"$1\": $runs/$2/checkpoint.safetensors is not there" >&2
-  fi
-}
 measure() {  # measure NAME MODEL OPTIONS...
   local name=$1 model=$2
   shift 2
-  "$lab" eval --model "$model" --data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json" --split test \
-    --json "docs/images/$name.json" --markdown "docs/$name.md" ${others[@]+"${others[@]}"} "$@"
-  rm "docs/images/$name.json"
+  # float32: bfloat16, which some CPUs have, gives other last digits.
+  "$lab" eval --engine packed --model "$model" --data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json" --split test \
+    --json "$out/images/$name.json" --markdown "$out/$name.md" ${others[@]+"${others[@]}"} "$@" ${options[@]+"${options[@]}"}
+  rm "$out/images/$name.json"
 }
 
-row "Harvey et al. 2020" recurrent
+rm -f "$out"/images/tables_*.png  # of rows that are no more
+rows "${baselines[@]}"
 others+=(--other "free data=model/checkpoints/free.safetensors")
 measure tables model/checkpoints/default.safetensors --sheets
-for sheet in docs/images/tables_sheet_*.png; do  # a quarter of the size
+for sheet in "$out"/images/tables_sheet_*.png; do  # a quarter of the size
   ffmpeg -v error -y -i "$sheet" -vf "scale=800:-1,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none" "$sheet.small.png"
   mv "$sheet.small.png" "$sheet"
 done
 
-others=()
-row "no time embedding" ablation/no_time_embedding
-row "no key loss" ablation/no_key_loss
-row "frames from the start" ablation/forward_embedding
-row "no keys in training" ablation/no_keys
-full=$runs/ablation/full/checkpoint.safetensors
-if [[ -f $full ]]; then
-  measure tables_ablations "$full" --baseline real interpolation --long-dances 0 --best-of 0
-else
-  echo "evaluate.sh: no tables of ablations: $full is not there" >&2
+rows "${ablations[@]}"
+if [[ -f $runs/$full/checkpoint.safetensors ]]; then
+  measure tables_ablations "$runs/$full/checkpoint.safetensors" --name full --baseline real interpolation --long-dances 0 --best-of 0
 fi
+
+if [[ $out == "$root/docs" ]]; then scripts/quote_figures.py; fi

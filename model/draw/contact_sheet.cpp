@@ -54,34 +54,67 @@ std::string TimeText(double seconds) {
   return text;
 }
 
-void DrawHeader(const Canvas& canvas, const Motion& motion, const ContactSheetOptions& options,
-                bool keys) {
-  const double y = kMargin + 10;
-  canvas.SetColour(kInk);
-  canvas.Text(options.title, kMargin, y, 20, Align::kLeft, true);
-  double x = canvas.width() - kMargin;
-  const auto entry = [&](const Colour& colour, const std::string& text) {
+struct LegendEntry {
+  Colour colour;
+  std::string text;
+};
+
+// What stands right of the title, from left to right, or below it where that is long.
+struct Header {
+  std::string facts;
+  std::vector<LegendEntry> legend;
+
+  static constexpr double kTitleFont = 20, kDot = 32;  // with its margins
+  static constexpr int kLine = 26;
+
+  Header(const Motion& motion, const ContactSheetOptions& options) {
+    if (!options.rows_apart) {
+      char text[96];
+      std::snprintf(text, sizeof(text), "%s   %zu frames at %g fps",
+                    TimeText(static_cast<double>(motion.frames.size()) / motion.fps).c_str(),
+                    motion.frames.size(), motion.fps);
+      facts = text;
+    }
+    legend = {{kLeftColour, "left"}, {kRightColour, "right"}};
+    if (!options.key_frames.empty()) legend.push_back({kKey, "key pose"});
+  }
+
+  double Width(const Canvas& canvas) const {
+    double width = canvas.TextWidth(facts, kFont);
+    for (const LegendEntry& entry : legend) width += canvas.TextWidth(entry.text, kFont) + kDot;
+    return width;
+  }
+  // Whether the title leaves no room beside itself in a sheet of that width.
+  bool Wraps(const Canvas& canvas, const std::string& title, int width) const {
+    return kMargin + canvas.TextWidth(title, kTitleFont, true) + kDot + Width(canvas) + kMargin >
+           width;
+  }
+
+  void Draw(const Canvas& canvas, const std::string& title, bool wraps) const {
+    double y = kMargin + 10;
+    canvas.SetColour(kInk);
+    canvas.Text(title, kMargin, y, kTitleFont, Align::kLeft, true);
+    if (wraps) y += kLine;
+    double x = wraps ? kMargin : canvas.width() - kMargin - Width(canvas);
     canvas.SetColour(kFaint);
-    canvas.Text(text, x, y, kFont, Align::kRight);
-    x -= canvas.TextWidth(text, kFont) + 10;
-    canvas.SetColour(colour);
-    cairo_arc(canvas.cr(), x, y, 5, 0, 2 * M_PI);
-    cairo_fill(canvas.cr());
-    x -= 22;
-  };
-  if (keys) entry(kKey, "key pose");
-  entry(kRightColour, "right");
-  entry(kLeftColour, "left");
-  char facts[96];
-  std::snprintf(facts, sizeof(facts), "%s   %zu frames at %g fps",
-                TimeText(static_cast<double>(motion.frames.size()) / motion.fps).c_str(),
-                motion.frames.size(), motion.fps);
-  canvas.SetColour(kFaint);
-  canvas.Text(facts, x, y, kFont, Align::kRight);
-}
+    canvas.Text(facts, x, y, kFont, Align::kLeft);
+    x += canvas.TextWidth(facts, kFont);
+    for (const LegendEntry& entry : legend) {
+      // Without facts the first dot of a line of its own stands at the margin.
+      x += wraps && facts.empty() && &entry == &legend.front() ? 5 : 22;
+      canvas.SetColour(entry.colour);
+      cairo_arc(canvas.cr(), x, y, 5, 0, 2 * M_PI);
+      cairo_fill(canvas.cr());
+      x += 10;
+      canvas.SetColour(kFaint);
+      canvas.Text(entry.text, x, y, kFont, Align::kLeft);
+      x += canvas.TextWidth(entry.text, kFont);
+    }
+  }
+};
 
 void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const SheetFrame& shown,
-              double fps) {
+              int64_t since, double fps, bool numbered) {
   cairo_t* cr = canvas.cr();
   canvas.Paste(picture, x, y);
   // Rounds the corners by painting over what is outside.
@@ -92,7 +125,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
   cairo_fill(cr);
 
   const double text_y = y + picture.height + kLabel / 2.0 + 1;
-  const std::string time = TimeText(static_cast<double>(shown.frame) / fps);
+  const std::string time = TimeText(static_cast<double>(since) / fps);
   if (shown.key) {
     RoundedRectangle(canvas, x + 1.5, y + 1.5, picture.width - 3, picture.height - 3,
                      kCorner - 1.5);
@@ -107,6 +140,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
   }
   canvas.SetColour(shown.key ? kInk : kFaint);
   canvas.Text(time, x + 4, text_y, kFont, Align::kLeft, shown.key);
+  if (!numbered) return;
   canvas.SetColour(kFaint);
   canvas.Text(std::to_string(shown.frame), x + picture.width - 4, text_y, kFont - 2, Align::kRight);
 }
@@ -153,9 +187,12 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
       ChooseSheetFrames(static_cast<int64_t>(motion.frames.size()), options);
   const int columns = std::min(options.columns, static_cast<int>(shown.size()));
   const int rows = (static_cast<int>(shown.size()) + columns - 1) / columns;
-  const Canvas canvas(2 * kMargin + columns * (options.tile_width + kGap) - kGap,
-                      kHeader + kMargin + rows * (options.tile_height + kLabel), kPaper);
-  DrawHeader(canvas, motion, options, !options.key_frames.empty());
+  const int width = 2 * kMargin + columns * (options.tile_width + kGap) - kGap;
+  const Header heading(motion, options);
+  const bool wraps = heading.Wraps(Canvas(1, 1, kPaper), options.title, width);
+  const int header = kHeader + (wraps ? Header::kLine : 0);
+  const Canvas canvas(width, header + kMargin + rows * (options.tile_height + kLabel), kPaper);
+  heading.Draw(canvas, options.title, wraps);
 
   Picture picture{.width = options.tile_width, .height = options.tile_height, .rgb = {}};
   const double azimuth = ThreeQuarterAzimuth(motion.frames.front());
@@ -171,8 +208,11 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
     DrawFrame(skeleton, pose, StandingView(poses[i], azimuth, extent),
               KeyStyle(shown[i].key ? 1 : 0), picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
-    DrawTile(canvas, picture, kMargin + column * (options.tile_width + kGap),
-             kHeader + row * (options.tile_height + kLabel), shown[i], motion.fps);
+    DrawTile(
+        canvas, picture, kMargin + column * (options.tile_width + kGap),
+        header + row * (options.tile_height + kLabel), shown[i],
+        shown[i].frame - (options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0),
+        motion.fps, !options.rows_apart);
   }
   canvas.WritePng(png);
 }

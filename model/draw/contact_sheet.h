@@ -20,6 +20,9 @@ struct ContactSheetOptions {
   /// Frame numbers that are highlighted. Each takes the place of the evenly spaced frame nearest to
   /// it, or comes in addition where another key has that place.
   std::vector<int64_t> key_frames;
+  /// Each row is a motion of its own: times begin again with it, and what is said of the whole
+  /// (length, frame numbers) is left out. `frames` and `columns` must cut the motion so.
+  bool rows_apart = false;
 };
 
 /// Draws a motion as rows of frames, in time from left to right, into a PNG. All frames are seen

@@ -147,13 +147,11 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
   Loaded loaded;
   std::string kernels = TorchKernels(there);
   // A baseline without a flow has nothing to pack.
-  if (kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16 ||
-      (kind == EngineKind::kAuto && there.is_cpu() && config.flow_steps > 0)) {
+  const bool packs = kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16 ||
+                     (kind == EngineKind::kAuto && there.is_cpu());
+  if (packs && config.flow_steps > 0) {
     if (!there.is_cpu()) {
       throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
-    }
-    if (config.flow_steps == 0) {
-      throw InvalidArgument("engine", "packed computes a flow, and " + path.string() + " has none");
     }
     const PackedKernels& exact = VerifiedKernels();
     const PackedKernels& products = ProductKernels(kind, exact);

@@ -19,7 +19,8 @@
 /// row are taken.
 namespace choreo {
 
-/// What plans transitions and steps the flow.
+/// What plans transitions and steps the flow. A model without a flow (preset recurrent,
+/// controllers) has nothing to pack: LibTorch steps it, whatever is asked.
 enum class EngineKind {
   kAuto,        ///< the faster one: packed on the CPU, else torch
   kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to

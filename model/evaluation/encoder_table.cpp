@@ -52,15 +52,6 @@ double Apart(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a.leftCols(common) - b.leftCols(common)).colwise().squaredNorm().mean();
 }
 
-double MeanApart(const std::vector<Eigen::MatrixXd>& dances) {
-  double sum = 0;
-  int pairs = 0;
-  for (size_t i = 0; i < dances.size(); ++i) {
-    for (size_t k = 0; k < i; ++k, ++pairs) sum += Apart(dances[i], dances[k]);
-  }
-  return pairs > 0 ? sum / pairs : 0;
-}
-
 TableRow RowOf(const Method& method, const std::vector<LongPlan>& plans,
                const std::vector<Chain>& chains, const MotionEncoder& encoder,
                const Eigen::MatrixXd& reference) {
@@ -83,6 +74,15 @@ TableRow RowOf(const Method& method, const std::vector<LongPlan>& plans,
 
 }  // namespace
 
+double MeanApart(const std::vector<Eigen::MatrixXd>& dances) {
+  double sum = 0;
+  int pairs = 0;
+  for (size_t i = 0; i < dances.size(); ++i) {
+    for (size_t k = 0; k < i; ++k, ++pairs) sum += Apart(dances[i], dances[k]);
+  }
+  return pairs > 0 ? sum / pairs : 0;
+}
+
 Table EvaluateEncoded(const ClipSet& set, const std::vector<Method>& methods,
                       const MotionEncoder& encoder, const EvalOptions& options,
                       ProgressBar* progress) {
@@ -103,8 +103,8 @@ Table EvaluateEncoded(const ClipSet& set, const std::vector<Method>& methods,
   table.note = "Codes of the motion encoder " + encoder.version() + ", which explains " +
                explained +
                " of training motion. Dances of 10 s, keys each 2 s where there are "
-               "keys; FID to every other 5 s of the real clips, whose remaining seconds are the "
-               "row of real motion.";
+               "keys; units: standard deviations of training motion's codes, squared. FID to every "
+               "other 5 s of the real clips, whose remaining seconds are the row of real motion.";
   table.label_headings = {"method"};
   table.columns = {{"FID", 2}, {"variability", 2}, {"diversity", 1}};
   if (reference.cols() < 2) return table;

@@ -3,183 +3,136 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/engine/engines.h"
+#include "model/evaluation/contest.h"
 #include "model/evaluation/control_tables.h"
 #include "model/evaluation/encoder_table.h"
-#include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/eval_report.h"
 #include "model/evaluation/long_tables.h"
 #include "model/evaluation/method_sheet.h"
-#include "model/evaluation/song_beats.h"
 #include "model/evaluation/stress_table.h"
 #include "model/evaluation/transition_tables.h"
-#include "model/training/clip_split.h"
 
 namespace choreo {
 namespace {
 
-constexpr int kSlots = 16;  // a tile of the torch engine: a fuller batch is hardly dearer
-
 struct Arguments {
-  std::filesystem::path model;
+  ContestOptions contest;
   std::vector<std::filesystem::path> data;
   std::filesystem::path splits;
   std::string split = "validation";
-  std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
-  std::vector<std::string> others;
-  std::string engine = "auto";
-  std::filesystem::path json, markdown;
+  ReportPaths paths;
   EvalOptions options;
   float temperature = -1;
   bool encode = true, sheets = false;
 };
 
-// The engines of one evaluation, and the methods that use them.
-struct Contest {
-  std::vector<std::unique_ptr<StepEngine>> engines;
-  std::vector<Method> methods;
+// Beside the progress on stderr.
+void Warn(const std::string& what) { std::fprintf(stderr, "choreo-lab: %s\n", what.c_str()); }
 
-  StepEngine* Add(std::unique_ptr<StepEngine> engine) {
-    engines.push_back(std::move(engine));
-    return engines.back().get();
-  }
-};
-
-Contest MakeContest(const Arguments& arguments) {
-  using Kind = Method::Kind;
-  Contest contest;
-  const EngineKind kind = ParseEngineKind(arguments.engine);
-  StepEngine* model = contest.Add(MakeEngine(arguments.model, Device{}, kSlots, kind));
-  const auto wants = [&](const char* name) {
-    return std::ranges::find(arguments.baselines, name) != arguments.baselines.end();
-  };
-  if (wants("real")) contest.methods.push_back({"real", Kind::kReal});
-  if (wants("interpolation")) {
-    contest.methods.push_back({"interpolation", Kind::kInterpolation});
-    contest.methods.push_back({"interpolation, foot lock", Kind::kEngine,
-                               contest.Add(std::make_unique<InterpolationEngine>(model->model()))});
-  }
-  if (wants("music_only"))
-    contest.methods.push_back({"model without keys", Kind::kEngine, model, false});
-  for (const std::string& other : arguments.others) {
-    const size_t equals = other.find('=');
-    if (equals == std::string::npos || equals == 0 || other.substr(0, equals) == kServed)
-      throw InvalidArgument("--other", "'" + other + "' is not NAME=CHECKPOINT");
-    StepEngine* engine = contest.Add(MakeEngine(other.substr(equals + 1), Device{}, kSlots, kind));
-    if (!(engine->model().skeleton == model->model().skeleton))
-      throw InvalidArgument("--other", other + " dances on another skeleton than the model");
-    contest.methods.push_back({other.substr(0, equals), Kind::kEngine, engine});
-  }
-  contest.methods.push_back({kServed, Kind::kEngine, model});
-  return contest;
-}
-
-std::vector<ClipSet> LoadSets(const Arguments& arguments, const Skeleton& skeleton, Split split) {
-  std::vector<ClipSet> sets;
-  for (std::filesystem::path folder : arguments.data) {
-    if (!folder.has_filename()) folder = folder.parent_path();
-    sets.push_back({folder.filename().string(), LoadClips({folder}, arguments.splits, split)});
-    for (const PreparedClip& clip : sets.back().clips)
-      sets.back().beats.push_back(SongBeats(clip.audio, clip.motion.fps));
-    const Skeleton& theirs = sets.back().clips.front().skeleton;
-    if (!(theirs == skeleton)) {
-      throw InvalidArgument("--data", folder.string() + ": the clips' skeleton is " +
-                                          theirs.Describe() + ", the model's " +
-                                          skeleton.Describe());
-    }
-  }
-  return sets;
-}
-
-// OUT.json, OUT_TABLE.png beside it, and the Markdown that shows both.
-void WriteResults(const Arguments& arguments, const ModelInfo& model,
-                  const std::vector<Table>& tables, const std::string& summary) {
-  nlohmann::json report = {
-      {"model", model.name},      {"fingerprint", model.fingerprint},
-      {"split", arguments.split}, {"temperature", arguments.options.temperature},
-      {"summary", summary},       {"tables", nlohmann::json::array()}};
-  std::string markdown = summary + "\n";
-  for (const Table& table : tables) {
-    report["tables"].push_back(ToJson(table));
-    markdown += "\n" + ToMarkdown(table);
-    if (!table.plot || arguments.json.empty()) continue;
-    std::filesystem::path png = arguments.json;
-    png.replace_filename(arguments.json.stem().string() + "_" + table.name + ".png");
-    DrawPlot(*table.plot, png);
-    if (arguments.markdown.empty()) continue;
-    const auto here = std::filesystem::absolute(arguments.markdown).parent_path();
-    markdown += "\n![" + table.plot->title + "](" +
-                std::filesystem::relative(png, here).generic_string() + ")\n";
-  }
-  if (!arguments.json.empty()) WriteFile(arguments.json, report.dump(1) + "\n");
-  if (!arguments.markdown.empty()) WriteFile(arguments.markdown, markdown);
-}
-
-// OUT_sheet_SET_METHOD.png beside OUT.json.
-void DrawSheets(const Arguments& arguments, const Contest& contest,
-                const std::vector<ClipSet>& sets) {
+void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
+                        const std::vector<int>& lengths) {
   for (const ClipSet& set : sets) {
-    for (const Method& method : contest.methods) {
-      std::string name = "_sheet_" + set.name + "_" + method.name + ".png";
-      std::ranges::replace_if(
-          name, [](char c) { return c == ' ' || c == ',' || c == '/'; }, '_');
-      std::filesystem::path png = arguments.json;
-      png.replace_filename(arguments.json.stem().string() + name);
-      DrawMethodSheet(set, method, contest.engines.front()->model(), arguments.options.temperature,
-                      png);
+    for (const int frames : lengths) {
+      if (!ChooseWindows(set, history, frames, 1).empty()) continue;
+      Warn("--lengths: no clip of " + set.name + " has " + std::to_string(frames) +
+           " frames behind a history of " + std::to_string(history) + ", so there are no rows");
     }
   }
 }
 
-void Evaluate(Arguments arguments) {
-  const Contest contest = MakeContest(arguments);
-  StepEngine& engine = *contest.engines.front();
-  EvalOptions& options = arguments.options;
-  options.temperature = arguments.temperature >= 0
-                            ? arguments.temperature
-                            : static_cast<float>(engine.model().default_temperature);
-  const Split split = arguments.split == "test" ? Split::kTest : Split::kValidation;
-  const std::vector<ClipSet> sets = LoadSets(arguments, engine.model().skeleton, split);
-  std::optional<MotionEncoder> encoder;
-  if (arguments.encode) {
-    encoder = MotionEncoder::Train(LoadSets(arguments, engine.model().skeleton, Split::kTrain));
+void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& lengths) {
+  for (const Method& method : methods) {
+    if (method.kind != Method::Kind::kEngine) continue;
+    const int most = method.engine->model().max_transition_frames;
+    for (const int frames : lengths) {
+      if (frames <= most) continue;
+      throw InvalidArgument("--lengths", std::to_string(frames) + " frames are more than the " +
+                                             std::to_string(most) + " of " + method.name);
+    }
   }
+}
+
+std::string Summary(const Arguments& arguments, const Contest& contest) {
+  // Of the fingerprint the model's part; builds differ, figures hardly.
+  const std::string& print = contest.judged().model().fingerprint;
+  char temperature[32];
+  std::snprintf(temperature, sizeof(temperature), "%.2f", arguments.options.temperature);
+  return "Model " + print.substr(0, print.find('/', print.find('/') + 1)) + ", " + arguments.split +
+         " clips, temperature " + temperature +
+         " unless a row says otherwise. Engine: " + contest.stepped_by + ".";
+}
+
+std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& contest,
+                              const std::optional<MotionEncoder>& encoder,
+                              const EvalOptions& options) {
+  StepEngine& judged = contest.judged();
   int64_t frames = 0;
   for (const ClipSet& set : sets) {
     frames += CountTransitionFrames(set, contest.methods, options) +
-              CountLongFrames(set, engine.model(), options) +
+              CountLongFrames(set, judged.model(), options) +
               CountControlFrames(set, contest.methods, options);
     if (encoder) frames += CountEncodedFrames(set, contest.methods, options);
   }
   std::vector<Table> tables;
+  const auto add = [&](std::vector<Table> more) {
+    std::ranges::move(more, std::back_inserter(tables));
+  };
   ProgressBar progress("evaluating", frames);
   for (const ClipSet& set : sets) {
-    for (Table& table : EvaluateTransitions(set, contest.methods, options, &progress))
-      tables.push_back(std::move(table));
-    for (Table& table : EvaluateControls(set, contest.methods, options, &progress))
-      tables.push_back(std::move(table));
-    for (Table& table : EvaluateLongDances(set, engine, options, &progress))
-      tables.push_back(std::move(table));
-    if (encoder)
-      tables.push_back(EvaluateEncoded(set, contest.methods, *encoder, options, &progress));
-    tables.push_back(EvaluateStress(set, engine, options));
+    add(EvaluateTransitions(set, contest.methods, options, &progress));
+    add(EvaluateControls(set, contest.methods, options, &progress));
+    add(EvaluateLongDances(set, judged, options, &progress));
+    if (encoder) add({EvaluateEncoded(set, contest.methods, *encoder, options, &progress)});
+    add({EvaluateStress(set, judged, options)});
   }
   progress.Finish();
-  // Of the fingerprint the model's part; builds differ, figures hardly.
-  const std::string& print = engine.model().fingerprint;
-  char temperature[32];
-  std::snprintf(temperature, sizeof(temperature), "%.2f", options.temperature);
-  const std::string summary = "Model " + print.substr(0, print.find('/', print.find('/') + 1)) +
-                              ", " + arguments.split + " clips, temperature " + temperature +
-                              " unless a row says otherwise.";
+  // Every table says it of itself: they get quoted one by one.
+  for (Table& table : tables)
+    table.note += (table.note.empty() ? "Engine: " : " Engine: ") + contest.stepped_by + ".";
+  return tables;
+}
+
+void Evaluate(Arguments arguments) {
+  // What can be refused is refused before the long work.
+  SetNames(arguments.data);
+  CheckReportPaths(arguments.paths);
+  if (!arguments.paths.markdown.empty() && arguments.paths.json.empty())
+    Warn("--markdown: no plots without --json, beside which they are drawn");
+  const Contest contest = MakeContest(arguments.contest);
+  const ModelInfo& model = contest.judged().model();
+  EvalOptions& options = arguments.options;
+  CheckLengths(contest.methods, options.lengths);
+  options.temperature = arguments.temperature >= 0 ? arguments.temperature
+                                                   : static_cast<float>(model.default_temperature);
+  const Split split = arguments.split == "test" ? Split::kTest : Split::kValidation;
+  const auto sets = LoadSets(arguments.data, arguments.splits, split, model.skeleton);
+  WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
+  std::optional<MotionEncoder> encoder;
+  if (arguments.encode) {
+    encoder = MotionEncoder::Train(
+        LoadSets(arguments.data, arguments.splits, Split::kTrain, model.skeleton));
+  }
+  std::vector<Table> tables = MakeTables(sets, contest, encoder, options);
+  NameJudged(arguments.contest.name, &tables);
+  const std::string summary = Summary(arguments, contest);
   std::printf("%s\n", summary.c_str());
   for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());
-  WriteResults(arguments, engine.model(), tables, summary);
-  if (arguments.sheets) DrawSheets(arguments, contest, sets);
+  WriteReport(arguments.paths,
+              {model.name, model.fingerprint, arguments.split, contest.stepped_by, summary,
+               options.temperature},
+              tables);
+  if (!arguments.sheets) return;
+  for (const ClipSet& set : sets) {
+    for (const Method& method : contest.methods) {
+      DrawMethodSheet(set, method, model, options.temperature,
+                      arguments.paths.Picture("sheet_" + set.name + "_" + method.name));
+    }
+  }
 }
 
 }  // namespace
@@ -189,7 +142,7 @@ void AddEvalCommand(CLI::App& app) {
   EvalOptions& options = arguments->options;
   CLI::App* command =
       app.add_subcommand("eval", "Measure a model on held-out clips, as it is served");
-  command->add_option("--model", arguments->model, "Checkpoint")->required();
+  command->add_option("--model", arguments->contest.model, "Checkpoint")->required();
   command
       ->add_option("--data", arguments->data,
                    "Folders written by `choreo-lab prepare`: each is a set with tables of its own")
@@ -200,21 +153,28 @@ void AddEvalCommand(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::IsMember({"validation", "test"}));
   command
-      ->add_option("--baseline", arguments->baselines, "Further rows of the tables of transitions")
+      ->add_option("--baseline", arguments->contest.baselines,
+                   "Further rows of the tables of transitions")
       ->capture_default_str()
       ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
-  command->add_option("--other", arguments->others,
+  command->add_option("--other", arguments->contest.others,
                       "NAME=CHECKPOINT: a row for another model, danced just as the first");
-  command->add_option("--engine", arguments->engine, "auto | torch | packed")
+  command->add_option("--name", arguments->contest.name, "What the rows of --model are called")
+      ->capture_default_str();
+  command
+      ->add_option("--engine", arguments->contest.engine,
+                   "auto | torch | packed | packed-bf16; packed is float32 on any CPU; a model "
+                   "without a flow, such as a recurrent baseline, is stepped by torch all the same")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "torch", "packed", "packed-bf16"}));
-  command->add_option("--json", arguments->json,
+  command->add_option("--json", arguments->paths.json,
                       "Also write the figures here, and plots beside it");
   command
       ->add_flag("--sheets", arguments->sheets,
                  "Also draw ten random transitions of each method beside the JSON")
       ->needs("--json");
-  command->add_option("--markdown", arguments->markdown, "Also write the tables here");
+  command->add_option("--markdown", arguments->paths.markdown,
+                      "Also write the tables here; they show plots if there is a --json");
   command->add_option("--lengths", options.lengths, "Frames of the transitions")
       ->capture_default_str()
       ->check(CLI::Range(1, 1800));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "model/dance/quality_report.h"
 
@@ -19,6 +20,36 @@ void AddJointSpeeds(const JointTrack& track, Eigen::Index joint, double fps,
   }
 }
 
+// The slope of the least-squares line through values at 0, 1, 2, ...
+double Slope(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  const double middle = (count - 1) / 2;
+  double covariance = 0, variance = 0;
+  for (size_t t = 0; t < values.size(); ++t) {
+    const double from_middle = static_cast<double>(t) - middle;
+    covariance += from_middle * values[t];
+    variance += from_middle * from_middle;
+  }
+  return variance > 0 ? covariance / variance : 0;
+}
+
+// Means of the first and the last `length` values, or of both halves where there are fewer.
+template <typename Value>
+std::pair<double, double> MeansOfEnds(const std::vector<Value>& values, size_t length) {
+  length = std::min(length, values.size() / 2);
+  if (length == 0) return {0, 0};
+  const auto part = static_cast<std::ptrdiff_t>(length);
+  const auto mean = [&](auto from, auto to) {
+    return std::accumulate(from, to, 0.0) / static_cast<double>(length);
+  };
+  return {mean(values.begin(), values.begin() + part), mean(values.end() - part, values.end())};
+}
+
+// How many times as fast, or as slow.
+double PaceFactor(const LongFigures& dance) {
+  return std::max(dance.pace_change, 1 / dance.pace_change);
+}
+
 }  // namespace
 
 LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Pose> poses,
@@ -31,6 +62,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
   int64_t backwards = 0;
   const Eigen::Vector3d start = poses[0].root_position;
   figures.lowest_m = figures.highest_m = start.y();
+  std::vector<double> away, heights;
   for (size_t t = 0; t < poses.size(); ++t) {
     meter.Add({poses[t], {}, 0});
     if (key != key_frames.end() && *key == static_cast<int>(t)) {
@@ -40,12 +72,17 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
     const Eigen::Vector3d& root = poses[t].root_position;
     figures.lowest_m = std::min(figures.lowest_m, root.y());
     figures.highest_m = std::max(figures.highest_m, root.y());
-    figures.reach_m =
-        std::max(figures.reach_m, std::hypot(root.x() - start.x(), root.z() - start.z()));
+    away.push_back(std::hypot(root.x() - start.x(), root.z() - start.z()));
+    heights.push_back(root.y());
     backwards += std::ranges::count_if(hinges, [&](const Hinge& hinge) {
       return hinge.axis.dot(poses[t].rotations.col(hinge.joint)) < -kBeyondStraight;
     });
   }
+  figures.reach_m = *std::ranges::max_element(away);
+  figures.away_m_per_min = Slope(away) * fps * 60;
+  const auto ten_seconds = static_cast<size_t>(std::lround(10 * fps));
+  const auto [low, high] = MeansOfEnds(heights, ten_seconds);
+  figures.rise_m = high - low;
   const auto pairs = static_cast<double>(poses.size() * hinges.size());
   figures.bent_backwards = pairs > 0 ? static_cast<double>(backwards) / pairs : 0;
   const QualityReport report = meter.Report();
@@ -55,6 +92,8 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
     figures.key_accelerations.push_back(static_cast<float>(one.max_acceleration));
   const JointTrack track = TrackJoints(skeleton, poses);
   figures.speeds = MeanSpeeds(track, fps);
+  const auto [early, late] = MeansOfEnds(figures.speeds, ten_seconds);
+  if (early > 0) figures.pace_change = late / early;
   figures.median_speed = Percentile(figures.speeds, 0.5);
   figures.top_speed = Percentile(figures.speeds, 1);
   const auto fifth = static_cast<std::ptrdiff_t>(figures.speeds.size() / 5);
@@ -65,6 +104,11 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
     figures.joint_speeds.push_back(Percentile(std::move(speeds), 0.5));
   }
   return figures;
+}
+
+bool RealRange::Drifted(const LongFigures& dance) const {
+  return dance.away_m_per_min > away_m_per_min || std::abs(dance.rise_m) > rise_m ||
+         PaceFactor(dance) > pace_change;
 }
 
 double RealRange::JointsWithin(const LongFigures& dance) const {
@@ -83,6 +127,9 @@ RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointT
   for (const LongFigures& clip : real) {
     means.insert(means.end(), clip.speeds.begin(), clip.speeds.end());
     range.top_speed = std::max(range.top_speed, clip.top_speed);
+    range.away_m_per_min = std::max(range.away_m_per_min, clip.away_m_per_min);
+    range.rise_m = std::max(range.rise_m, std::abs(clip.rise_m));
+    range.pace_change = std::max(range.pace_change, PaceFactor(clip));
     range.p95_acceleration += clip.p95_acceleration / static_cast<double>(real.size());
   }
   range.median_speed = Percentile(std::move(means), 0.5);

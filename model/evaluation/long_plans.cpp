@@ -80,4 +80,13 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
   return plans;
 }
 
+std::vector<Chain> DanceLong(StepEngine& engine, const std::vector<LongPlan>& plans,
+                             const ClipSet& set, ProgressBar* progress) {
+  std::vector<ChainPlan> chains;
+  for (const LongPlan& plan : plans) chains.push_back(plan.chain);
+  return DanceChains(engine, chains, [&](int frames) {
+    if (progress != nullptr) progress->Advance(frames, set.name + ", long dances");
+  });
+}
+
 }  // namespace choreo

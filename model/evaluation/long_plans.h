@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/progress.h"
 #include "model/evaluation/chain.h"
 #include "model/evaluation/method.h"
 #include "model/evaluation/windows.h"
@@ -30,5 +31,9 @@ struct LongPlan {
 /// offers its keys forwards, backwards, forwards.
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
                                      int count, const EvalOptions& options);
+
+/// Dances them all; `progress` may be null.
+std::vector<Chain> DanceLong(StepEngine& engine, const std::vector<LongPlan>& plans,
+                             const ClipSet& set, ProgressBar* progress);
 
 }  // namespace choreo

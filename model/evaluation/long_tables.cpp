@@ -2,36 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "model/evaluation/beat_table.h"
+#include "model/evaluation/influence_table.h"
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/long_plans.h"
-#include "model/evaluation/pose_distance.h"
 
 namespace choreo {
 namespace {
 
-constexpr int kInfluenceDances = 8;
-constexpr int kInfluenceFrames = 600;
-
-bool HasMusic(const ClipSet& set) {
-  return std::ranges::any_of(set.clips, [](const auto& clip) { return clip.audio.cols() > 0; });
-}
-
 std::vector<KeyTimes> KindsFor(const ClipSet& set) {
   std::vector<KeyTimes> kinds = {KeyTimes::kNone, KeyTimes::kEachTwoSeconds};
-  if (HasMusic(set)) kinds.insert(kinds.end(), {KeyTimes::kEqual, KeyTimes::kOnBeats});
+  if (set.HasMusic()) kinds.insert(kinds.end(), {KeyTimes::kEqual, KeyTimes::kOnBeats});
   return kinds;
-}
-
-std::vector<Chain> Dance(StepEngine& engine, const std::vector<LongPlan>& plans, const ClipSet& set,
-                         ProgressBar* progress) {
-  std::vector<ChainPlan> chains;
-  for (const LongPlan& plan : plans) chains.push_back(plan.chain);
-  return DanceChains(engine, chains, [&](int frames) {
-    if (progress != nullptr) progress->Advance(frames, set.name + ", long dances");
-  });
 }
 
 std::vector<int> KeyFramesOf(const ChainPlan& plan) {
@@ -67,19 +50,27 @@ TableRow LongRow(const std::string& name, const std::vector<LongFigures>& dances
   const bool keys = !key_accelerations.empty();
   const auto above = static_cast<double>(std::ranges::count_if(
       key_accelerations, [&](float value) { return value > real.p95_acceleration; }));
-  return {
-      {name},
-      {Cell{static_cast<double>(dances.size()), {}},
-       median([](const LongFigures& dance) { return dance.median_speed; }),
-       median([](const LongFigures& dance) { return dance.late_speed; }),
-       share([&](const LongFigures& dance) { return real.Frozen(dance); }),
-       share([&](const LongFigures& dance) { return real.Exploded(dance); }),
-       median([](const LongFigures& dance) { return dance.reach_m; }), Cell{reach, {}},
-       Cell{lowest, {}}, Cell{highest, {}}, Cell{100 * backwards, {}}, Cell{100 * within, {}},
-       Cell{skating, {}}, median([](const LongFigures& dance) { return dance.p95_acceleration; }),
-       Cell{keys ? Percentile(key_accelerations, 0.5) : NAN, {}},
-       Cell{keys ? 100 * above / static_cast<double>(key_accelerations.size()) : NAN, {}},
-       Cell{keys ? 1000 * worst_key_m : NAN, {}}}};
+  return {{name},
+          {Cell{static_cast<double>(dances.size()), {}},
+           median([](const LongFigures& dance) { return dance.median_speed; }),
+           median([](const LongFigures& dance) { return dance.late_speed; }),
+           share([&](const LongFigures& dance) { return real.Frozen(dance); }),
+           share([&](const LongFigures& dance) { return real.Exploded(dance); }),
+           share([&](const LongFigures& dance) { return real.Drifted(dance); }),
+           median([](const LongFigures& dance) { return dance.away_m_per_min; }),
+           median([](const LongFigures& dance) { return std::abs(dance.rise_m); }),
+           median([](const LongFigures& dance) { return dance.pace_change; }),
+           median([](const LongFigures& dance) { return dance.reach_m; }),
+           Cell{reach, {}},
+           Cell{lowest, {}},
+           Cell{highest, {}},
+           Cell{100 * backwards, {}},
+           Cell{100 * within, {}},
+           Cell{skating, {}},
+           median([](const LongFigures& dance) { return dance.p95_acceleration; }),
+           Cell{keys ? Percentile(key_accelerations, 0.5) : NAN, {}},
+           Cell{keys ? 100 * above / static_cast<double>(key_accelerations.size()) : NAN, {}},
+           Cell{keys ? 1000 * worst_key_m : NAN, {}}}};
 }
 
 // The mean joint speed second by second, mean over dances that last as long.
@@ -108,16 +99,24 @@ Table LongHeadings(const ClipSet& set) {
   table.title = "Long dances, " + set.name;
   table.note =
       "Keys are poses of the clips. Frozen: the last fifth is slower than a quarter of real "
-      "motion's median; exploded: a frame's mean joint speed is above all of real motion's. "
-      "Heights are the extremes of all dances; a joint is at real speed if its median lies between "
-      "the 5th and 95th percentile of real motion's; real motion's \"keys\" are its frames each "
-      "2 s.";
+      "motion's median; exploded: a frame's mean joint speed is above all of real motion's; "
+      "drifted: the root goes away from its start (slope of a line through its distances), or is "
+      "higher or lower in the last 10 s than in the first, or the mean joint speed is another "
+      "there, "
+      "by more than in any real clip, and than 3 m/min, 15 cm, a factor of 2. Medians of these "
+      "three; heights are the extremes of all dances; a joint is at real speed if its median lies "
+      "between the 5th and 95th percentile of real motion's; real motion's \"keys\" are its frames "
+      "each 2 s.";
   table.label_headings = {"dance"};
   table.columns = {{"dances", 0},
                    {"speed median m/s", 2},
                    {"last fifth m/s", 2},
                    {"frozen %", 0},
                    {"exploded %", 0},
+                   {"drifted %", 0},
+                   {"away m/min", 2},
+                   {"rise m", 3},
+                   {"pace, end / start", 2},
                    {"reach median m", 1},
                    {"reach max m", 1},
                    {"root lowest m", 2},
@@ -129,79 +128,6 @@ Table LongHeadings(const ClipSet& set) {
                    {"acc. at keys median m/s²", 0},
                    {"keys above real p95 %", 0},
                    {"worst key mm", 4}};
-  return table;
-}
-
-// Mean distance of the same frames of two dances, cm.
-double Distance(const Skeleton& skeleton, const Chain& a, const Chain& b) {
-  return 100 * L2P(TrackJoints(skeleton, a.poses), TrackJoints(skeleton, b.poses));
-}
-
-// The next clip's song in place of its own, again and again. The first row is of the history's
-// first frame, beats count from the dance's.
-void HearNextSong(const ClipSet& set, int history, LongPlan* plan) {
-  const size_t other = (plan->clip + 1) % set.clips.size();
-  const auto& song = set.clips[other].audio;
-  if (song.cols() == 0) return;
-  ChainPlan& chain = plan->chain;
-  for (Eigen::Index t = 0; t < chain.audio.cols(); ++t)
-    chain.audio.col(t) = song.col(t % song.cols());
-  const auto length = static_cast<int>(song.cols());
-  const std::vector<double> beats = set.BeatsBetween(other, 0, length);
-  chain.beats.clear();
-  for (int from = -history; from < chain.frames; from += length) {
-    for (const double beat : beats)
-      if (from + beat >= 0 && from + beat < chain.frames) chain.beats.push_back(from + beat);
-  }
-}
-
-Table InfluenceTable(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
-                     ProgressBar* progress) {
-  Table table;
-  table.name = "influence_" + set.name;
-  table.title = "What changes a dance, " + set.name;
-  table.note =
-      "Mean distance of all joints between two dances from the same history, that differ in one "
-      "thing, over their first 20 s at most; cm.";
-  table.label_headings = {"dance"};
-  table.columns = {{"another seed", 2}, {"another seed, T = 1", 2}};
-  const bool music = HasMusic(set);
-  if (music) table.columns.insert(table.columns.end(), {{"another song", 2}, {"no song", 2}});
-  EvalOptions shorter = options;
-  shorter.long_frames = std::min(options.long_frames, kInfluenceFrames);
-  for (const KeyTimes times : {KeyTimes::kNone, KeyTimes::kEachTwoSeconds}) {
-    const std::vector<LongPlan> plans =
-        PlanLongDances(engine.model(), set, times, kInfluenceDances, shorter);
-    if (plans.empty()) continue;
-    const auto dance = [&](auto change) {
-      std::vector<LongPlan> changed = plans;
-      for (LongPlan& plan : changed) change(plan);
-      return Dance(engine, changed, set, progress);
-    };
-    const auto distance = [&](const std::vector<Chain>& a, const std::vector<Chain>& b) {
-      double sum = 0;
-      for (size_t i = 0; i < a.size(); ++i) sum += Distance(engine.model().skeleton, a[i], b[i]);
-      return Cell{sum / static_cast<double>(a.size()), {}};
-    };
-    const auto other_seed = [](LongPlan& plan) { plan.chain.seed += 1000; };
-    const std::vector<Chain> as_is = dance([](LongPlan&) {});
-    const std::vector<Chain> hot = dance([](LongPlan& plan) { plan.chain.temperature = 1; });
-    const std::vector<Chain> hot_seed = dance([&](LongPlan& plan) {
-      plan.chain.temperature = 1;
-      other_seed(plan);
-    });
-    TableRow row{{NameOf(times)}, {distance(as_is, dance(other_seed)), distance(hot, hot_seed)}};
-    if (music) {
-      row.cells.push_back(distance(as_is, dance([&](LongPlan& plan) {
-                                     HearNextSong(set, engine.model().history_frames, &plan);
-                                   })));
-      row.cells.push_back(distance(as_is, dance([](LongPlan& plan) {
-                                     plan.chain.audio.resize(0, 0);
-                                     plan.chain.beats.clear();
-                                   })));
-    }
-    table.rows.push_back(row);
-  }
   return table;
 }
 
@@ -230,7 +156,7 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
   for (const KeyTimes times : KindsFor(set)) {
     const std::vector<LongPlan> plans =
         PlanLongDances(model, set, times, options.long_seeds, options);
-    const std::vector<Chain> chains = Dance(engine, plans, set, progress);
+    const std::vector<Chain> chains = DanceLong(engine, plans, set, progress);
     std::vector<LongFigures> dances;
     double worst_key = 0;
     for (size_t i = 0; i < chains.size(); ++i) {
@@ -247,26 +173,21 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
     table.plot->series.push_back(SpeedCurve(NameOf(times), dances, model.fps, options.long_frames));
   }
   std::vector<Table> tables = {table};
-  if (HasMusic(set)) {
+  if (set.HasMusic()) {
     for (size_t clip = 0; clip < set.clips.size(); ++clip)
       beat_table.Add("real", clip, 0, real[clip].speeds);
     tables.push_back(beat_table.Finish());
   }
-  tables.push_back(InfluenceTable(set, engine, options, progress));
+  tables.push_back(EvaluateInfluence(set, engine, options, progress));
   return tables;
 }
 
 int64_t CountLongFrames(const ClipSet& set, const ModelInfo& model, const EvalOptions& options) {
   if (options.long_seeds == 0) return 0;
-  int64_t frames = 0;
-  const auto add = [&](int count, const EvalOptions& like, int64_t times) {
-    for (const LongPlan& plan : PlanLongDances(model, set, KeyTimes::kNone, count, like))
-      frames += times * plan.chain.frames;
-  };
-  add(options.long_seeds, options, static_cast<int64_t>(KindsFor(set).size()));
-  EvalOptions shorter = options;
-  shorter.long_frames = std::min(options.long_frames, kInfluenceFrames);
-  add(kInfluenceDances, shorter, HasMusic(set) ? 12 : 8);
+  int64_t frames = CountInfluenceFrames(set, model, options);
+  for (const LongPlan& plan :
+       PlanLongDances(model, set, KeyTimes::kNone, options.long_seeds, options))
+    frames += static_cast<int64_t>(KindsFor(set).size()) * plan.chain.frames;
   return frames;
 }
 

@@ -37,7 +37,7 @@ void DrawMethodSheet(const ClipSet& set, const Method& method, const ModelInfo& 
   }
   std::vector<TransitionResult> results;
   if (method.kind == Method::Kind::kEngine) results = DanceTransitions(*method.engine, jobs);
-  // At the columns' rate, so that the times under a row are right but for its beginning.
+  // At the columns' rate, so that the times under a row are right.
   Motion rows{.fps = model.fps * (kColumns - 1) / kSheetFrames, .frames = {}};
   ContactSheetOptions sheet;
   sheet.title = method.name + ", " + set.name + ": " + std::to_string(windows.size()) +
@@ -57,6 +57,7 @@ void DrawMethodSheet(const ClipSet& set, const Method& method, const ModelInfo& 
   }
   sheet.frames = static_cast<int>(rows.frames.size());
   sheet.columns = kColumns;
+  sheet.rows_apart = true;
   sheet.tile_width = 120;
   sheet.tile_height = 140;
   DrawContactSheet(model.skeleton, rows, sheet, png);

@@ -3,11 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "model/core/error.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
+#include "model/training/clip_hash.h"
 
 namespace choreo {
 namespace {
@@ -74,10 +74,10 @@ MotionEncoder MotionEncoder::Train(const std::vector<ClipSet>& training) {
         solver.eigenvectors().col(from).transpose() / std::sqrt(variances[from]);
   }
   encoder.explained_ = variances.tail(codes).sum() / std::max(variances.sum(), 1e-12);
-  char version[96];
-  std::snprintf(version, sizeof(version), "linear-1/%d codes/%lld windows/%.6g m²", codes,
-                static_cast<long long>(count), variances.sum());
-  encoder.version_ = version;
+  std::string hash = "window " + std::to_string(kWindow) + ", stride " + std::to_string(kStride) +
+                     ", step " + std::to_string(kStep) + ", codes " + std::to_string(kCodes);
+  for (const ClipSet& set : training) hash = HashOfClips(set.clips, hash);
+  encoder.version_ = "linear-1/" + hash;
   return encoder;
 }
 

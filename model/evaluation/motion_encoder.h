@@ -15,7 +15,8 @@ namespace choreo {
 /// numbers; each has variance 1 over the training windows. Immutable; thread-safe.
 ///
 /// It is learnt from the training split at each evaluation, in seconds, so that no file goes with
-/// the program; version() names recipe and data, and figures of different versions don't compare.
+/// the program; version() is recipe and the hash of settings and training clips, and figures of
+/// different versions don't compare.
 class MotionEncoder {
  public:
   static constexpr int kWindow = 30;  ///< frames

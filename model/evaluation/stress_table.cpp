@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/long_figures.h"
+#include "model/evaluation/window_figures.h"
+#include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -14,17 +17,28 @@ namespace {
 constexpr int kWindowsPerClip = 4;
 constexpr double kLyingHeight = 0.12;  // of the root, m
 
+enum class Way { kReal, kNoKey, kLying, kAlmostTheSame };
+
 struct Case {
   const char* name;
   int frames;
-  bool lying;
-  double shift_m;  // of the key's root, forwards
+  Way way;
+  double shift_m = 0;  // of the key's root, forwards
 };
 
 constexpr Case kCases[] = {
-    {"standing to lying", 30, true, 0},        {"standing to lying", 10, true, 0},
-    {"standing to lying", 3, true, 0},         {"standing to lying 6 m away", 30, true, 6},
-    {"almost the same pose", 30, false, 0.02}, {"almost the same pose", 90, false, 0.02},
+    {"real motion", 3, Way::kReal},
+    {"real motion", 10, Way::kReal},
+    {"real motion", 30, Way::kReal},
+    {"real motion", 90, Way::kReal},
+    {"no key", 30, Way::kNoKey},
+    {"no key", 90, Way::kNoKey},
+    {"standing to lying", 30, Way::kLying},
+    {"standing to lying", 10, Way::kLying},
+    {"standing to lying", 3, Way::kLying},
+    {"standing to lying 6 m away", 30, Way::kLying, 6},
+    {"almost the same pose", 30, Way::kAlmostTheSame, 0.02},
+    {"almost the same pose", 90, Way::kAlmostTheSame, 0.02},
 };
 
 // On her back where she stood, her head where she came from.
@@ -37,6 +51,49 @@ Pose Lying(const Skeleton& skeleton, const Pose& standing) {
   pose.root_position = standing.root_position;
   pose.root_position.y() = kLyingHeight;
   return pose;
+}
+
+// The key of a case, from the real one; none without.
+std::optional<WorldTarget> KeyOf(const Case& one, const Skeleton& skeleton,
+                                 const TransitionRequest& request) {
+  if (one.way == Way::kReal) return request.target;
+  if (one.way == Way::kNoKey) return std::nullopt;
+  const Pose& from = request.history.back();
+  Pose key = one.way == Way::kLying ? Lying(skeleton, from) : from;
+  const double heading = Heading(ExpMap(from.rotations.col(0)));
+  key.root_position += HeadingRotation(heading) * Eigen::Vector3d(0, 0, one.shift_m);
+  return WorldTarget{key, {}};
+}
+
+// What became of one window: two frames of its history, then the way.
+struct Danced {
+  Motion motion;
+  std::optional<WorldTarget> key;
+  std::optional<RequiredSpeed> asked;  // none without a key
+};
+
+std::vector<Danced> DanceCase(const Case& one, const ClipSet& set, StepEngine& engine,
+                              float temperature) {
+  const ModelInfo& model = engine.model();
+  const std::vector<EvalWindow> windows =
+      ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip);
+  std::vector<TransitionJob> jobs;
+  std::vector<Danced> all;
+  for (const EvalWindow& window : windows) {
+    jobs.push_back(JobOf(model, set, window, one.frames, temperature, jobs.size()));
+    TransitionRequest& request = jobs.back().request;
+    request.target = KeyOf(one, model.skeleton, request);
+    all.push_back({{.fps = model.fps, .frames = RealPoses(set, window, one.frames, kFramesBefore)},
+                   request.target,
+                   TransitionRun(model, request).required_speed()});
+  }
+  if (one.way == Way::kReal) return all;
+  const auto results = DanceTransitions(engine, jobs);
+  for (size_t i = 0; i < results.size(); ++i) {
+    std::ranges::transform(results[i].frames, all[i].motion.frames.begin() + kFramesBefore,
+                           &DanceFrame::pose);
+  }
+  return all;
 }
 
 }  // namespace
@@ -56,7 +113,7 @@ Table EvaluateStress(const ClipSet& set, StepEngine& engine, const EvalOptions& 
   char note[256];
   std::snprintf(note, sizeof(note),
                 "Frozen: slower than a quarter of real motion's median (%.2f m/s). Warned: the "
-                "stream says interval_too_short.",
+                "stream says interval_too_short. Real motion's keys are its own poses.",
                 range.median_speed);
   table.note = note;
   table.label_headings = {"way", "frames"};
@@ -64,44 +121,34 @@ Table EvaluateStress(const ClipSet& set, StepEngine& engine, const EvalOptions& 
                    {"warned %", 0},      {"frozen %", 0},       {"speed median m/s", 2},
                    {"acc. max m/s²", 0}, {"worst key mm", 4}};
   for (const Case& one : kCases) {
-    std::vector<TransitionJob> jobs;
-    for (const EvalWindow& window :
-         ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip)) {
-      jobs.push_back(JobOf(model, set, window, one.frames, options.temperature, jobs.size()));
-      TransitionRequest& request = jobs.back().request;
-      const Pose& from = request.history.back();
-      Pose key = one.lying ? Lying(model.skeleton, from) : from;
-      const double heading = Heading(ExpMap(from.rotations.col(0)));
-      key.root_position += HeadingRotation(heading) * Eigen::Vector3d(0, 0, one.shift_m);
-      request.target = WorldTarget{key, {}};
-    }
-    if (jobs.empty()) continue;
-    double root = 0, joint = 0, worst = 0, hardest = 0;
+    const std::vector<Danced> all = DanceCase(one, set, engine, options.temperature);
+    if (all.empty()) continue;
+    const auto count = static_cast<double>(all.size());
+    double root = 0, joint = 0, hardest = 0, worst = 0;
     int warned = 0, frozen = 0;
     std::vector<float> speeds;
-    const auto results = DanceTransitions(engine, jobs);
-    for (size_t i = 0; i < results.size(); ++i) {
-      const RequiredSpeed& asked = *results[i].required_speed;
-      root += asked.root_m_per_s / static_cast<double>(jobs.size());
-      joint += asked.joint_rad_per_s / static_cast<double>(jobs.size());
-      warned += asked.TooFast() ? 1 : 0;
-      worst = std::max(worst, results[i].arrival->final_error_m);
-      Motion motion{.fps = model.fps,
-                    .frames = {jobs[i].request.history.end() - 2, jobs[i].request.history.end()}};
-      for (const DanceFrame& frame : results[i].frames) motion.frames.push_back(frame.pose);
-      hardest = std::max(hardest, MeasureMotion(model.skeleton, motion).max_acceleration);
-      const LongFigures figures = MeasureLong(model.skeleton, model.fps, motion.frames, {});
-      frozen += figures.median_speed < 0.25 * range.median_speed ? 1 : 0;
-      speeds.push_back(static_cast<float>(figures.median_speed));
+    for (const Danced& danced : all) {
+      if (danced.asked) {
+        root += danced.asked->root_m_per_s / count;
+        joint += danced.asked->joint_rad_per_s / count;
+        warned += danced.asked->TooFast() ? 1 : 0;
+      }
+      const std::vector<Pose>& poses = danced.motion.frames;
+      if (danced.key) {
+        const PoseError error = ComparePoses(model.skeleton, poses.back(), danced.key->pose);
+        worst = std::max(worst, error.position_m);
+      }
+      hardest = std::max(hardest, MeasureMotion(model.skeleton, danced.motion).max_acceleration);
+      const double speed = MeasureLong(model.skeleton, model.fps, poses, {}).median_speed;
+      frozen += speed < 0.25 * range.median_speed ? 1 : 0;
+      speeds.push_back(static_cast<float>(speed));
     }
-    const auto percent = [&](int count) {
-      return Cell{100.0 * count / static_cast<double>(jobs.size()), {}};
-    };
+    const auto of_keys = [&](double value) { return Cell{all[0].asked ? value : NAN, {}}; };
     table.rows.push_back(
         {{one.name, std::to_string(one.frames)},
-         {Cell{static_cast<double>(jobs.size()), {}}, Cell{root, {}}, Cell{joint, {}},
-          percent(warned), percent(frozen), Cell{Percentile(speeds, 0.5), {}}, Cell{hardest, {}},
-          Cell{1000 * worst, {}}}});
+         {Cell{count, {}}, of_keys(root), of_keys(joint), of_keys(100 * warned / count),
+          Cell{100 * frozen / count, {}}, Cell{Percentile(speeds, 0.5), {}}, Cell{hardest, {}},
+          of_keys(1000 * worst)}});
   }
   return table;
 }

@@ -42,9 +42,6 @@ Figures TransitionJudge::Dance(const Method& method, float temperature, uint32_t
     for (const DanceFrame& frame : results[i].frames) danced.push_back(frame.pose);
     figures.push_back(MeasureWindow(model_.skeleton, model_.fps, danced, real));
     figures.back().clip = windows_[i].clip;
-    if (!results[i].arrival) continue;
-    figures.back().final_key_m = results[i].arrival->final_error_m;
-    figures.back().final_key_deg = results[i].arrival->final_error_deg;
   }
   return figures;
 }
@@ -57,10 +54,11 @@ void TransitionJudge::AddRawKeys(const Method& method, float temperature, Figure
   }
   const auto results = DanceTransitions(*method.engine, jobs, Tick());
   for (size_t i = 0; i < results.size(); ++i) {
-    (*figures)[i].raw_key_m = results[i].arrival->raw_error_m;
-    (*figures)[i].raw_key_distance =
-        KeyPoseDistance(JointPositions(model_.skeleton, results[i].frames.back().pose),
-                        JointPositions(model_.skeleton, jobs[i].request.target->pose));
+    const Pose& danced = results[i].frames.back().pose;
+    const Pose key = RealPoses(set_, windows_[i], frames_, 0).back();
+    (*figures)[i].raw_key_m = ComparePoses(model_.skeleton, danced, key).position_m;
+    (*figures)[i].raw_key_distance = KeyPoseDistance(JointPositions(model_.skeleton, danced),
+                                                     JointPositions(model_.skeleton, key));
   }
 }
 

@@ -25,8 +25,7 @@ class TransitionJudge {
   /// `candidate` numbers the samples of an engine.
   Figures Run(const Method& method, float temperature, uint32_t candidate = 0) const;
 
-  /// Fills in the raw key figures of an engine that dances onto keys: the same noise, nothing
-  /// steering towards the key.
+  /// Fills in the raw key figures of an engine: the same noise, no arrival, no foot lock.
   void AddRawKeys(const Method& method, float temperature, Figures* figures) const;
 
  private:

@@ -1,10 +1,8 @@
 #include "model/evaluation/transition_tables.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <iterator>
-#include <map>
 
+#include "model/evaluation/ratio_tables.h"
 #include "model/evaluation/transition_judge.h"
 
 namespace choreo {
@@ -12,19 +10,6 @@ namespace {
 
 const Method& Served(const std::vector<Method>& methods) {
   return *std::ranges::find(methods, kServed, &Method::name);
-}
-
-// All that was measured at one length.
-struct LengthFigures {
-  int frames = 0;
-  std::vector<EvalWindow> windows;
-  std::map<std::string, Figures> methods;
-  Figures line;  // interpolation, whether or not it has a row
-  Figures hot, best;
-};
-
-Cell RatioToLine(const Figures& figures, const LengthFigures& length) {
-  return Ratio(figures, &WindowFigures::l2p, length.line, &WindowFigures::l2p);
 }
 
 TableRow MethodRow(const std::string& method, const LengthFigures& length,
@@ -51,22 +36,6 @@ TableRow MethodRow(const std::string& method, const LengthFigures& length,
            mean(&WindowFigures::skate_ratio), mean(&WindowFigures::p95_acceleration),
            Cell{Largest(figures, &WindowFigures::max_acceleration), {}},
            Cell{pace.median_jerk(), {}}, Cell{pace.median_speed(), {}}}};
-}
-
-Plot RatioPlot(const std::string& title) {
-  Plot plot;
-  plot.title = title;
-  plot.x_label = "frames";
-  plot.y_label = "L2P / interpolation's";
-  return plot;
-}
-
-void AddPoint(Plot* plot, const std::string& label, double x, double y) {
-  auto series = std::ranges::find(plot->series, label, &PlotSeries::label);
-  if (series == plot->series.end())
-    series = plot->series.insert(series, PlotSeries{.label = label, .x = {}, .y = {}});
-  series->x.push_back(x);
-  series->y.push_back(y);
 }
 
 Table TransitionTable(const ClipSet& set, const std::vector<Method>& methods,
@@ -112,25 +81,26 @@ Table KeyTable(const ClipSet& set, const std::vector<Method>& methods,
   Table table;
   table.name = "keys_" + set.name;
   table.title = "How keys are met, " + set.name;
+  table.note =
+      "Raw: without arrival and foot lock; error: of the worst joint. Keys are real motion's own "
+      "poses; who is told of no key misses it.";
   table.label_headings = {"frames", "method"};
   table.columns = {{"raw KPD cm²", 3},  {"raw error mean cm", 2}, {"median cm", 2},
                    {"worst cm", 2},     {"final KPD cm²", 5},     {"final error worst mm", 4},
                    {"worst degrees", 5}};
+  std::string hardest;
   double worst = 0;
   for (const LengthFigures& length : lengths) {
     for (const Method& method : methods) {
-      if (method.kind != Method::Kind::kEngine || !method.keys || length.windows.empty()) continue;
+      if (length.windows.empty()) continue;
       const Figures& figures = length.methods.at(method.name);
       std::vector<float> raw;
       for (size_t i = 0; i < figures.size(); ++i) {
         raw.push_back(static_cast<float>(100 * figures[i].raw_key_m));
         if (method.name != kServed || figures[i].raw_key_m <= worst) continue;
         worst = figures[i].raw_key_m;
-        table.note =
-            "Raw: without arrival and foot lock; error: of the worst joint. The model's "
-            "worst raw key: " +
-            set.clips[length.windows[i].clip].name + ", frame " +
-            std::to_string(length.windows[i].start) + " on.";
+        hardest = " The judged model's worst raw key: " + set.clips[length.windows[i].clip].name +
+                  ", frame " + std::to_string(length.windows[i].start) + " on.";
       }
       table.rows.push_back({{std::to_string(length.frames), method.name},
                             {Mean(figures, &WindowFigures::raw_key_distance, 1e4),
@@ -141,69 +111,7 @@ Table KeyTable(const ClipSet& set, const std::vector<Method>& methods,
                              Cell{Largest(figures, &WindowFigures::final_key_deg), {}}}});
     }
   }
-  return table;
-}
-
-// One column a length.
-Table RatioTable(const std::vector<LengthFigures>& lengths, const std::string& heading) {
-  Table table;
-  table.label_headings = {heading};
-  for (const LengthFigures& length : lengths)
-    table.columns.push_back({std::to_string(length.frames) + " frames", 2});
-  return table;
-}
-
-Table GenreTable(const ClipSet& set, const std::vector<LengthFigures>& lengths) {
-  Table table = RatioTable(lengths, "genre");
-  table.name = "genres_" + set.name;
-  table.title = "L2P of the model over interpolation's, by genre, " + set.name;
-  table.note = "Intervals over clips: none where a genre has but one.";
-  Plot plot = RatioPlot(table.title);
-  std::vector<std::string> genres = Genres(set);
-  if (genres.size() == 1) genres.clear();
-  genres.insert(genres.begin(), "all");
-  for (const std::string& genre : genres) {
-    TableRow row{{genre}, {}};
-    for (const LengthFigures& length : lengths) {
-      const auto of_genre = [&](const Figures& all) {
-        Figures some;
-        std::ranges::copy_if(all, std::back_inserter(some), [&](const WindowFigures& window) {
-          return genre == "all" || GenreOf(set.clips[window.clip]) == genre;
-        });
-        return some;
-      };
-      row.cells.push_back(Ratio(of_genre(length.methods.at(kServed)), &WindowFigures::l2p,
-                                of_genre(length.line), &WindowFigures::l2p));
-      AddPoint(&plot, genre, length.frames, row.cells.back().value);
-    }
-    table.rows.push_back(row);
-  }
-  table.plot = plot;
-  return table;
-}
-
-Table SampleTable(const ClipSet& set, const std::vector<LengthFigures>& lengths,
-                  const EvalOptions& options) {
-  char served[64];
-  std::snprintf(served, sizeof(served), "as served, T = %.2f", options.temperature);
-  Table table = RatioTable(lengths, "samples");
-  table.name = "samples_" + set.name;
-  table.title = "L2P of samples over interpolation's, " + set.name;
-  table.note = "The best of several is the one nearest to the real dance, window by window.";
-  Plot plot = RatioPlot(table.title);
-  const auto add = [&](const std::string& label, auto&& figures_of) {
-    TableRow row{{label}, {}};
-    for (const LengthFigures& length : lengths) {
-      row.cells.push_back(RatioToLine(figures_of(length), length));
-      AddPoint(&plot, label, length.frames, row.cells.back().value);
-    }
-    table.rows.push_back(row);
-  };
-  add(served, [](const LengthFigures& length) { return length.methods.at(kServed); });
-  add("one, T = 1", [](const LengthFigures& length) { return length.hot; });
-  add("best of " + std::to_string(options.best_of) + ", T = 1",
-      [](const LengthFigures& length) { return length.best; });
-  table.plot = plot;
+  table.note += hardest;
   return table;
 }
 
@@ -222,7 +130,7 @@ std::vector<Table> EvaluateTransitions(const ClipSet& set, const std::vector<Met
     length.line = judge.Run({"interpolation", Method::Kind::kInterpolation}, options.temperature);
     for (const Method& method : methods) {
       Figures figures = judge.Run(method, options.temperature);
-      if (method.kind == Method::Kind::kEngine && method.keys)
+      if (method.kind == Method::Kind::kEngine)
         judge.AddRawKeys(method, options.temperature, &figures);
       length.methods[method.name] = std::move(figures);
     }
@@ -245,7 +153,7 @@ int64_t CountTransitionFrames(const ClipSet& set, const std::vector<Method>& met
                               const EvalOptions& options) {
   int64_t passes = options.best_of;
   for (const Method& method : methods) {
-    if (method.kind == Method::Kind::kEngine) passes += method.keys ? 2 : 1;
+    if (method.kind == Method::Kind::kEngine) passes += 2;
   }
   int64_t frames = 0;
   const int history = Served(methods).engine->model().history_frames;

@@ -12,8 +12,8 @@ namespace choreo {
 
 /// Transitions between real poses of a set (paper F, Table 2 and the key columns of Table 1):
 ///   transitions_SET  every method: distances to the real dance and the field's metrics
-///   keys_SET         every method that dances onto keys: how far it misses them, raw and as served
-///   genres_SET       the model's ratio to interpolation, genre by genre
+///   keys_SET         every method: how far it misses keys, raw and as served
+///   genres_SET       the model's ratio to interpolation, genre by genre (ratio_tables.h)
 ///   samples_SET      the same as served, at temperature 1, and of the best of some samples there
 /// Methods of one table have one temperature, the same windows, music, seeds and post-processing.
 /// `methods` has exactly one that is named kServed. Deterministic.

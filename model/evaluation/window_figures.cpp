@@ -10,6 +10,7 @@
 #include "model/evaluation/kinetic_features.h"
 #include "model/evaluation/npss.h"
 #include "model/evaluation/pose_distance.h"
+#include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
@@ -34,7 +35,10 @@ WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vec
   const std::span<const Pose> theirs = std::span(real).subspan(kFramesBefore);
   const JointTrack track = TrackJoints(skeleton, ours), truth = TrackJoints(skeleton, theirs);
   figures.l2p = L2P(track, truth);
-  figures.key_distance = KeyPoseDistance(track.back(), truth.back());
+  figures.raw_key_distance = figures.key_distance = KeyPoseDistance(track.back(), truth.back());
+  const PoseError error = ComparePoses(skeleton, ours.back(), theirs.back());
+  figures.raw_key_m = figures.final_key_m = error.position_m;
+  figures.final_key_deg = error.angle_deg;
   const Eigen::MatrixXd turns = GlobalQuaternions(skeleton, ours);
   const Eigen::MatrixXd real_turns = GlobalQuaternions(skeleton, theirs);
   figures.l2q = L2Q(turns, real_turns);

@@ -20,9 +20,9 @@ struct WindowFigures {
   double npss_sum = 0, npss_weight = 0;
   double pfc = 0;
   double skate_ratio = 0, p95_acceleration = 0, max_acceleration = 0;  ///< quality_report.h
-  double key_distance = 0;                         ///< KPD at the last frame, m^2
-  double final_key_m = 0, final_key_deg = 0;       ///< the worst joint; of methods with keys
-  double raw_key_distance = NAN, raw_key_m = NAN;  ///< the same without arrival, foot lock
+  double key_distance = 0;                     ///< KPD at the last frame, m^2
+  double final_key_m = 0, final_key_deg = 0;   ///< ComparePoses there: the worst joint
+  double raw_key_distance = 0, raw_key_m = 0;  ///< the same without arrival, foot lock
   Pace pace;
   Eigen::VectorXd kinetic, geometric;  ///< geometric: empty where the skeleton has none
 };

@@ -18,6 +18,10 @@ std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, in
   return within;
 }
 
+bool ClipSet::HasMusic() const {
+  return std::ranges::any_of(clips, [](const auto& clip) { return clip.audio.cols() > 0; });
+}
+
 std::vector<double> ClipSet::BeatsBetween(size_t clip, int start, int frames) const {
   return clip < beats.size() ? choreo::BeatsBetween(beats[clip], start, frames)
                              : std::vector<double>();

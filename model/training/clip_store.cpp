@@ -2,9 +2,6 @@
 
 #include <torch/torch.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +10,7 @@
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
+#include "model/training/clip_hash.h"
 
 namespace choreo {
 namespace {
@@ -61,20 +59,7 @@ bool ClipStore::HasMusic() const {
                              [](const PreparedClip& clip) { return clip.audio.cols() > 0; });
 }
 
-std::string ClipStore::Hash() const {
-  XXH64_hash_t hash = 0;
-  for (const auto& clip : clips_) {
-    hash = XXH3_64bits_withSeed(clip.name.data(), clip.name.size(), hash);
-    for (const Pose& pose : clip.motion.frames) {
-      hash = XXH3_64bits_withSeed(pose.root_position.data(), 3 * sizeof(double), hash);
-      hash = XXH3_64bits_withSeed(
-          pose.rotations.data(), static_cast<size_t>(pose.rotations.size()) * sizeof(double), hash);
-    }
-  }
-  char hex[17];
-  std::snprintf(hex, sizeof(hex), "%016llx", static_cast<unsigned long long>(hash));
-  return hex;
-}
+std::string ClipStore::Hash() const { return HashOfClips(clips_); }
 
 MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation& variation,
                             Random* random) const {

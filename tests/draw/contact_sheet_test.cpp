@@ -78,6 +78,27 @@ TEST(ContactSheet, BreaksIntoRows) {
   EXPECT_GT(png.height, 160);
 }
 
+TEST(ContactSheet, ALongTitleHasALineOfItsOwnAndRowsCanBeApart) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 32, 31);
+  const auto draw = [&](const std::string& title, int width, bool apart) {
+    ContactSheetOptions options = Small();
+    options.frames = 32;
+    options.columns = 16;
+    options.tile_width = width;
+    options.title = title;
+    options.rows_apart = apart;
+    DrawContactSheet(kSmpl, motion, options, folder / "sheet.png");
+    return DecodedPng(folder / "sheet.png");
+  };
+  const DecodedPng brief = draw("Short", 60, false);
+  EXPECT_EQ(draw(std::string(90, 'W'), 60, false).height, brief.height + 26);
+  // Other times under the second row, and nothing of the whole.
+  const DecodedPng apart = draw("Short", 60, true);
+  EXPECT_EQ(apart.height, brief.height);
+  EXPECT_NE(apart.pixels, brief.pixels);
+}
+
 TEST(ContactSheet, AWriteThatFailsLeavesWhatWasThere) {
   const TemporaryFolder folder;
   WriteFile(folder / "a.png", "good");

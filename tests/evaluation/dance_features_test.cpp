@@ -29,6 +29,24 @@ TEST(Frechet, DistanceOfKnownGaussians) {
   ExpectError(ErrorCode::kInvalidArgument, "1 motions", [&] { FrechetDistance(a, b.leftCols(1)); });
 }
 
+TEST(Frechet, DistanceOfGaussiansThatAreDrawn) {
+  // N((0, 0), [2 1; 1 2]) and N((1, -2), [5 3; 3 5]) have the eigenvectors (1, 1), (1, -1) in
+  // common, and the variances 3, 1 and 8, 2 along them, so the distance has a closed form.
+  const double expected =
+      1 + 4 + std::pow(std::sqrt(3) - std::sqrt(8), 2) + std::pow(1 - std::sqrt(2), 2);
+  Random random(7);
+  const auto draw = [&](const Eigen::Vector2d& mean, double sum, double difference) {
+    Eigen::MatrixXd set(2, 20000);
+    for (Eigen::Index i = 0; i < set.cols(); ++i) {
+      const double along = std::sqrt(sum / 2) * random.Normal();
+      const double across = std::sqrt(difference / 2) * random.Normal();
+      set.col(i) = mean + Eigen::Vector2d(along + across, along - across);
+    }
+    return set;
+  };
+  EXPECT_NEAR(FrechetDistance(draw({0, 0}, 3, 1), draw({1, -2}, 8, 2)), expected, 0.03 * expected);
+}
+
 TEST(Frechet, DoesNotDependOnTheBasis) {
   Random random(1);
   Eigen::MatrixXd a(3, 40), b(3, 40);

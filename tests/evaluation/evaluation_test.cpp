@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "model/evaluation/batch.h"
+#include "model/evaluation/contest.h"
+#include "model/evaluation/eval_report.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/evaluation/method_sheet.h"
 #include "model/evaluation/transition_tables.h"
@@ -139,7 +142,12 @@ TEST_F(Tables, KeysAreMissedRawAndMetAsServed) {
   EXPECT_GT(keys[1].value, 0.01);
   EXPECT_LE(keys[5].value, 1);
   EXPECT_LE(keys[6].value, 0.1);
-  EXPECT_EQ(Find("keys_set").rows.size(), 2U);  // neither real motion nor music alone
+  // Real motion has its keys, who is told of none misses it, and by the same before arrival.
+  for (const Cell& cell : Row("keys_set", {"30", "real"})) EXPECT_EQ(cell.value, 0);
+  EXPECT_EQ(Row("keys_set", {"30", "interpolation"})[5].value, 0);
+  const auto& free = Row("keys_set", {"30", "music"});
+  EXPECT_GT(free[0].value, keys[0].value);
+  EXPECT_GT(free[5].value, 10);
 }
 
 TEST_F(Tables, GenresAddUpAndTheBestSampleIsNoWorseThanOne) {
@@ -147,6 +155,8 @@ TEST_F(Tables, GenresAddUpAndTheBestSampleIsNoWorseThanOne) {
   EXPECT_DOUBLE_EQ(Row("genres_set", {"all"})[1].value,
                    Row("transitions_set", {"30", kServed})[1].value);
   EXPECT_FALSE(Row("genres_set", {"walk"})[1].interval);
+  EXPECT_TRUE(Find("genres_set").plot);
+  EXPECT_EQ(Row("samples_set", {"real"})[1].value, 0);
   for (int length : {0, 1}) {
     EXPECT_LE(Row("samples_set", {"best of 3, T = 1"})[static_cast<size_t>(length)].value,
               Row("samples_set", {"one, T = 1"})[static_cast<size_t>(length)].value);
@@ -157,7 +167,7 @@ TEST_F(Tables, AreTheSameAgainAndCountTheirFrames) {
   const std::vector<Table> again = EvaluateTransitions(set_, methods_, options_, nullptr);
   ASSERT_EQ(again.size(), tables_.size());
   for (size_t i = 0; i < again.size(); ++i) EXPECT_EQ(ToJson(again[i]), ToJson(tables_[i]));
-  EXPECT_EQ(CountTransitionFrames(set_, methods_, options_), 6 * (12 + 30) * (1 + 2 + 3));
+  EXPECT_EQ(CountTransitionFrames(set_, methods_, options_), 6 * (12 + 30) * (2 + 2 + 3));
 }
 
 TEST_F(Tables, MethodsAreDrawn) {
@@ -167,6 +177,13 @@ TEST_F(Tables, MethodsAreDrawn) {
     DrawMethodSheet(set_, method, engine_.model(), 0.3F, png);
     EXPECT_GT(std::filesystem::file_size(png), 1000U);
   }
+}
+
+TEST_F(Tables, OneGenreNeedsNoPlot) {
+  set_.clips[1].name = "walk_b";
+  tables_ = EvaluateTransitions(set_, methods_, options_, nullptr);
+  EXPECT_EQ(Find("genres_set").rows.size(), 1U);
+  EXPECT_FALSE(Find("genres_set").plot);
 }
 
 TEST_F(Tables, ASetThatIsTooShortHasNoRows) {
@@ -193,6 +210,71 @@ TEST(Table, ReadsAsMarkdownAndAsJson) {
   const nlohmann::json json = ToJson(table);
   EXPECT_EQ(json["rows"][0]["m interval"][1], 2);
   EXPECT_TRUE(json["rows"][0]["s"].is_null());
+}
+
+TEST(NameJudged, RenamesRowsAndCurvesOfTheModelAlone) {
+  std::vector<Table> tables = {{.name = "t",
+                                .title = "Title",
+                                .note = "",
+                                .label_headings = {"frames", "method"},
+                                .columns = {{"m", 2}},
+                                .rows = {{{"10", "real"}, {Cell{0, {}}}},
+                                         {{"10", kServed}, {Cell{1, {}}}},
+                                         {{"10", "model without keys"}, {Cell{2, {}}}}},
+                                .plot = Plot{.title = "",
+                                             .x_label = "",
+                                             .y_label = "",
+                                             .series = {{.label = kServed, .x = {}, .y = {}}}}}};
+  NameJudged("full", &tables);
+  EXPECT_EQ(tables[0].rows[0].labels[1], "real");
+  EXPECT_EQ(tables[0].rows[1].labels[1], "full");
+  EXPECT_EQ(tables[0].rows[2].labels[1], "model without keys");
+  EXPECT_EQ(tables[0].plot->series[0].label, "full");
+}
+
+TEST(ReportPaths, FoldersAreMadeAndWhatCannotBeWrittenIsNamedFirst) {
+  const TemporaryFolder folder;
+  const auto there = folder.path() / "not" / "yet" / "figures.json";
+  CheckReportPaths({.json = there, .markdown = {}});
+  EXPECT_TRUE(std::filesystem::is_directory(there.parent_path()));
+  EXPECT_TRUE(std::filesystem::is_empty(there.parent_path()));
+  std::ofstream(there) << "old";
+  CheckReportPaths({.json = there, .markdown = folder.path() / "tables.md"});
+  EXPECT_EQ(std::filesystem::file_size(there), 3U);  // untouched
+  ExpectError(ErrorCode::kInvalidArgument, "--json",
+              [&] { CheckReportPaths({.json = there / "below_a_file.json", .markdown = {}}); });
+  ExpectError(ErrorCode::kInvalidArgument, "--markdown",
+              [&] { CheckReportPaths({.json = {}, .markdown = folder.path()}); });
+  EXPECT_EQ(ReportPaths({.json = there, .markdown = {}}).Picture("sheet_set_a, b/c").filename(),
+            "figures_sheet_set_a__b_c.png");
+}
+
+TEST(Contest, RefusesNamesThatAreTakenBeforeItLoadsAnything) {
+  for (const auto& [others, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"a=/absent", "a=/absent/too"}, "another row is called 'a'"},
+           {{"real=/absent"}, "another row is called 'real'"},
+           {{"model=/absent"}, "another row is called 'model'"},
+           {{"full=/absent"}, "another row is called 'full'"},
+           {{"a="}, "'a=' is not NAME=CHECKPOINT"},
+           {{"/absent"}, "'/absent' is not NAME=CHECKPOINT"}}) {
+    ContestOptions options;
+    options.model = "/absent";
+    options.others = others;
+    options.name = "full";
+    ExpectError(ErrorCode::kInvalidArgument, why, [&] { MakeContest(options); });
+  }
+  ContestOptions options;
+  options.model = "/absent";
+  options.name = "interpolation";
+  ExpectError(ErrorCode::kInvalidArgument, "--name", [&] { MakeContest(options); });
+}
+
+TEST(SetNames, AreThoseOfFoldersEachOnce) {
+  EXPECT_THAT(SetNames({"data/a", "data/b/"}), testing::ElementsAre("a", "b"));
+  ExpectError(ErrorCode::kInvalidArgument, "'data/a/': another set is called 'a'", [] {
+    SetNames({"data/a", "data/a/"});
+  });
+  ExpectError(ErrorCode::kInvalidArgument, "--data", [] { SetNames({"old/a", "new/a"}); });
 }
 
 }  // namespace

@@ -53,9 +53,25 @@ TEST(MotionEncoder, DoesNotSeeWhereTheDancerStandsOrFaces) {
 }
 
 TEST(MotionEncoder, NamesItsDataAndNeedsSome) {
-  EXPECT_NE(MotionEncoder::Train({Clips(300)}).version(),
-            MotionEncoder::Train({Clips(310)}).version());
+  const std::string version = MotionEncoder::Train({Clips(300)}).version();
+  EXPECT_THAT(version, testing::MatchesRegex("linear-1/[0-9a-f]{16}"));
+  EXPECT_EQ(MotionEncoder::Train({Clips(300)}).version(), version);
+  EXPECT_NE(MotionEncoder::Train({Clips(310)}).version(), version);
+  ClipSet touched = Clips(300);  // one joint of one frame
+  touched.clips[1].motion.frames[77].rotations(0, 3) += 1e-3;
+  EXPECT_NE(MotionEncoder::Train({touched}).version(), version);
   ExpectError(ErrorCode::kInvalidArgument, "0 windows", [] { MotionEncoder::Train({Clips(20)}); });
+}
+
+TEST(MeanApart, OfDancesThatAreKnown) {
+  // Codes of two windows; the third dance has but one, which is compared alone.
+  Eigen::MatrixXd a(2, 2), b(2, 2), c(2, 1);
+  a << 0, 0, 0, 0;
+  b << 3, 1, 4, 0;  // windows (3, 4) and (1, 0): 25 and 1 from a's
+  c << 0, 2;        // 4 from a's, 9 + 4 from b's
+  EXPECT_DOUBLE_EQ(MeanApart({a, b}), 13);
+  EXPECT_DOUBLE_EQ(MeanApart({a, b, c}), (13.0 + 4 + 13) / 3);
+  EXPECT_EQ(MeanApart({a}), 0);
 }
 
 TEST(EvaluateEncoded, RealMotionIsNearestAndSeedsVaryOnlyWithNoise) {

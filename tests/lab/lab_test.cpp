@@ -7,9 +7,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "tests/support/sanitizers.h"
+#include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
 namespace choreo {
@@ -89,6 +93,117 @@ TEST(LabTest, ADeviceThatIsNotThereIsNamedInOneLine) {
   EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: device: cuda:99 was asked for, but"));
   EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
   EXPECT_THAT(Lab(kTrain + "--device tpu").said, HasSubstr("'tpu' is not one of auto, cpu, cuda"));
+}
+
+std::string Bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A model whose weights are random but for one step, and what it is measured on.
+class LabEval : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (kSanitized) GTEST_SKIP() << "LibTorch is not built for sanitizers";
+    testing_support::WriteSyntheticData(folder_.path() / "clips");
+    // The encoder's row of real motion wants two blocks of five seconds.
+    WritePreparedClip(folder_.path() / "clips",
+                      testing_support::SyntheticClip("held_out", 320, 0.5, true));
+  }
+
+  void TrainOneStep(const std::string& preset) {
+    const Outcome outcome = Lab("train --preset " + preset + kData + " --run " + preset +
+                                    " --planner-steps 1 --flow-steps 1 --batch 4 --shortest 5 "
+                                    "--longest 20 --rollout-frames 4",
+                                folder_.path());
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+  }
+
+  Outcome Eval(const std::string& arguments) {
+    return Lab("eval --model ablation/checkpoint.safetensors" + kData +
+                   " --lengths 10 20 --windows 2 --best-of 2 --long-dances 2 --long-frames 60 " +
+                   arguments,
+               folder_.path());
+  }
+
+  inline static const std::string kData = " --data clips --splits clips/splits.json";
+  const TemporaryFolder folder_;
+};
+
+TEST_F(LabEval, WritesEveryTableAndTheSameBytesAgain) {
+  TrainOneStep("ablation");
+  TrainOneStep("recurrent");
+  const std::string arguments =
+      "--engine packed --baseline real interpolation --other 'a "
+      "baseline=recurrent/checkpoint.safetensors' --name mine ";
+  const Outcome first = Eval(arguments + "--json one/t.json --markdown one/t.md");
+  ASSERT_EQ(first.code, 0) << first.said;
+  const Outcome second = Eval(arguments + "--json two/t.json --markdown two/t.md");
+  ASSERT_EQ(second.code, 0) << second.said;
+  const auto one = folder_.path() / "one", two = folder_.path() / "two";
+  for (const auto& file : std::filesystem::directory_iterator(one)) {
+    const auto name = file.path().filename();
+    EXPECT_EQ(Bytes(file.path()), Bytes(two / name)) << name;
+  }
+  const auto report = nlohmann::json::parse(Bytes(one / "t.json"));
+  EXPECT_THAT(std::string(report["engine"]), HasSubstr("packed float32"));
+  EXPECT_THAT(std::string(report["engine"]), HasSubstr("; torch for a baseline"));
+  const std::string markdown = Bytes(one / "t.md");
+  std::vector<std::string> names;
+  for (const auto& table : report["tables"]) {
+    names.push_back(table["name"]);
+    EXPECT_FALSE(table["rows"].empty()) << names.back();
+    EXPECT_THAT(std::string(table["note"]), HasSubstr("Engine: packed float32")) << names.back();
+    EXPECT_THAT(markdown, HasSubstr("### " + std::string(table["title"]))) << names.back();
+  }
+  EXPECT_THAT(names, testing::ElementsAre("transitions_clips", "keys_clips", "genres_clips",
+                                          "samples_clips", "long_clips", "beats_clips",
+                                          "influence_clips", "encoder_clips", "stress_clips"));
+  // Every method at both lengths, and keys met.
+  const auto& keys = report["tables"][1]["rows"];
+  EXPECT_EQ(keys.size(), 10U);
+  for (const auto& row : keys) {
+    if (row["method"] == "mine") {
+      EXPECT_LE(row["final error worst mm"], 1);
+    } else if (row["method"] == "real") {
+      EXPECT_EQ(row["raw KPD cm²"], 0);
+    }
+  }
+  EXPECT_THAT(markdown, HasSubstr("(t_transitions_clips.png)"));
+  EXPECT_TRUE(std::filesystem::exists(one / "t_transitions_clips.png"));
+}
+
+TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
+  for (const auto& [arguments, why] : std::vector<std::pair<std::string, std::string>>{
+           {"--data clips/", "choreo-lab: --data: 'clips/': another set is called 'clips'"},
+           {"--other a=b --other a=c", "choreo-lab: --other: 'a=c': another row is called 'a'"},
+           {"--json clips/splits.json/t.json", "choreo-lab: --json: 'clips/splits.json/t.json'"},
+           {"--markdown clips", "choreo-lab: --markdown: 'clips' cannot be written"}}) {
+    const Outcome outcome = Eval(arguments);
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_THAT(outcome.said, HasSubstr(why)) << arguments;
+    EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
+  }
+}
+
+TEST_F(LabEval, WarnsOfLengthsWithoutWindowsAndOfPlotsThatAreNotDrawn) {
+  TrainOneStep("ablation");
+  TrainOneStep("recurrent");
+  const Outcome outcome = Lab("eval --model ablation/checkpoint.safetensors" + kData +
+                                  " --lengths 10 315 --windows 1 --best-of 0 --long-dances 0 "
+                                  "--no-encoder --markdown alone.md",
+                              folder_.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("--lengths: no clip of clips has 315 frames"));
+  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("has 10 frames")));
+  EXPECT_THAT(outcome.said, HasSubstr("--markdown: no plots without --json"));
+  EXPECT_THAT(Bytes(folder_.path() / "alone.md"), HasSubstr("0 windows of 315 frames"));
+  const Outcome endless = Lab("eval --model ablation/checkpoint.safetensors" + kData +
+                                  " --lengths 1800 --other r=recurrent/checkpoint.safetensors",
+                              folder_.path());
+  EXPECT_EQ(endless.code, 1);
+  EXPECT_THAT(endless.said,
+              HasSubstr("choreo-lab: --lengths: 1800 frames are more than the 150 of r"));
 }
 
 }  // namespace

@@ -1,0 +1,122 @@
+#include "model/evaluation/contest.h"
+
+#include <algorithm>
+
+#include "model/core/error.h"
+#include "model/engine/engines.h"
+#include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/song_beats.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kSlots = 16;  // a tile of the torch engine: a fuller batch is hardly dearer
+const char* const kFree = "model without keys";
+const char* const kLockedLine = "interpolation, foot lock";
+
+struct Other {
+  std::string name;
+  std::filesystem::path checkpoint;
+};
+
+std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std::string& judged) {
+  std::vector<std::string> taken = {kFree, "real", "interpolation", kLockedLine};
+  if (std::ranges::find(taken, judged) != taken.end())
+    throw InvalidArgument("--name", "'" + judged + "': another row is called so");
+  taken.insert(taken.end(), {kServed, judged});
+  std::vector<Other> others;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw InvalidArgument("--other", "'" + text + "' is not NAME=CHECKPOINT");
+    const std::string name = text.substr(0, equals);
+    if (std::ranges::find(taken, name) != taken.end())
+      throw InvalidArgument("--other", "'" + text + "': another row is called '" + name + "'");
+    taken.push_back(name);
+    others.push_back({name, text.substr(equals + 1)});
+  }
+  return others;
+}
+
+// What steps a model, from the kernels at the end of its fingerprint. Of float32 the instructions
+// don't matter.
+std::string EngineOf(const ModelInfo& model, EngineKind kind) {
+  const size_t packed = model.fingerprint.find("/packed ");
+  if (packed == std::string::npos) return "torch";
+  const std::string kernels = model.fingerprint.substr(packed + 1);
+  if (kind != EngineKind::kPacked) return kernels;
+  const bool planned = kernels.find("plans by") == std::string::npos;
+  return planned ? "packed float32" : "packed float32, plans by torch";
+}
+
+}  // namespace
+
+Contest MakeContest(const ContestOptions& options) {
+  using Kind = Method::Kind;
+  const std::vector<Other> others = ParseOthers(options.others, options.name);
+  const EngineKind kind = ParseEngineKind(options.engine);
+  Contest contest;
+  const auto add = [&](std::unique_ptr<StepEngine> engine) {
+    contest.engines.push_back(std::move(engine));
+    return contest.engines.back().get();
+  };
+  StepEngine* judged = add(MakeEngine(options.model, Device{}, kSlots, kind));
+  const ModelInfo& model = judged->model();
+  contest.stepped_by = EngineOf(model, kind);
+  const auto wants = [&](const char* name) {
+    return std::ranges::find(options.baselines, name) != options.baselines.end();
+  };
+  if (wants("real")) contest.methods.push_back({"real", Kind::kReal});
+  if (wants("interpolation")) {
+    contest.methods.push_back({"interpolation", Kind::kInterpolation});
+    contest.methods.push_back(
+        {kLockedLine, Kind::kEngine, add(std::make_unique<InterpolationEngine>(model))});
+  }
+  if (wants("music_only")) contest.methods.push_back({kFree, Kind::kEngine, judged, false});
+  for (const Other& other : others) {
+    StepEngine* engine = add(MakeEngine(other.checkpoint, Device{}, kSlots, kind));
+    if (!(engine->model().skeleton == model.skeleton)) {
+      throw InvalidArgument("--other", "'" + other.checkpoint.string() +
+                                           "' dances on another skeleton than the model");
+    }
+    contest.methods.push_back({other.name, Kind::kEngine, engine});
+    const std::string by = EngineOf(engine->model(), kind);
+    if (by != EngineOf(model, kind)) contest.stepped_by += "; " + by + " for " + other.name;
+  }
+  contest.methods.push_back({kServed, Kind::kEngine, judged});
+  return contest;
+}
+
+std::vector<std::string> SetNames(const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& folder : folders) {
+    const auto plain = folder.has_filename() ? folder : folder.parent_path();
+    names.push_back(plain.filename().string());
+    if (std::ranges::count(names, names.back()) > 1) {
+      throw InvalidArgument("--data", "'" + folder.string() + "': another set is called '" +
+                                          names.back() + "', after its folder");
+    }
+  }
+  return names;
+}
+
+std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
+                              const std::filesystem::path& splits, Split split,
+                              const Skeleton& skeleton) {
+  const std::vector<std::string> names = SetNames(folders);
+  std::vector<ClipSet> sets;
+  for (size_t i = 0; i < folders.size(); ++i) {
+    sets.push_back({names[i], LoadClips({folders[i]}, splits, split)});
+    for (const PreparedClip& clip : sets.back().clips)
+      sets.back().beats.push_back(SongBeats(clip.audio, clip.motion.fps));
+    const Skeleton& theirs = sets.back().clips.front().skeleton;
+    if (!(theirs == skeleton)) {
+      throw InvalidArgument("--data", folders[i].string() + ": the clips' skeleton is " +
+                                          theirs.Describe() + ", the model's " +
+                                          skeleton.Describe());
+    }
+  }
+  return sets;
+}
+
+}  // namespace choreo

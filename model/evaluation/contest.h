@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/evaluation/method.h"
+#include "model/evaluation/windows.h"
+#include "model/training/clip_split.h"
+
+namespace choreo {
+
+/// Who is measured against whom, as people ask for it.
+struct ContestOptions {
+  std::filesystem::path model;  ///< checkpoint
+  std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
+  std::vector<std::string> others;  ///< NAME=CHECKPOINT
+  std::string engine = "auto";      ///< ParseEngineKind
+  std::string name = kServed;       ///< what the judged model is shown as
+};
+
+/// The engines of one evaluation, and the methods that use them: the judged one, kServed, is last.
+struct Contest {
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  std::vector<Method> methods;
+  std::string stepped_by;  ///< "packed float32; torch for Harvey et al. 2020"
+
+  StepEngine& judged() const { return *engines.front(); }
+};
+
+/// Throws Error(kInvalidArgument, "--other") for what is not NAME=CHECKPOINT, a name that another
+/// row has (--name, if it is that one's), or a model on another skeleton; otherwise as MakeEngine
+/// does. Names are looked at before anything is loaded.
+Contest MakeContest(const ContestOptions& options);
+
+/// The clips of each folder that belong to `split`, with their beats: a set that is named after the
+/// folder. Throws Error(kInvalidArgument, "--data") for two folders of one name, or another
+/// skeleton than `skeleton`; otherwise as LoadClips does.
+std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
+                              const std::filesystem::path& splits, Split split,
+                              const Skeleton& skeleton);
+/// The names of those sets, checked alike, without a look at the folders.
+std::vector<std::string> SetNames(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace choreo

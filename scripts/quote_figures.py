@@ -1,0 +1,300 @@
+#!/usr/bin/python3
+"""Writes what docs/results.md and README.md quote from docs/tables.md and docs/tables_ablations.md, so that it can't drift.
+
+    scripts/quote_figures.py            writes
+    scripts/quote_figures.py --check    changes nothing; fails where a page quotes something else
+
+A quotation stands between <!-- figures: NAME --> and <!-- end -->; NAME is a function below. Bold is a bar that is not reached. A figure
+that the tables don't have is a dash, and named on stderr.
+"""
+import math
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = ("docs/results.md", "README.md")
+SETS = ("dancedb", "tang2018")
+LENGTHS = ("10", "30", "60", "90")
+HARVEY = "Harvey et al. 2020"
+WANTED = {"dancedb": (0.95, 0.75, 0.75, 0.78), "tang2018": (0.90, 0.75, 0.80, 0.82)}  # L2P over interpolation's
+missing = set()
+
+
+def read_tables(path):
+    """{title: {row's labels: {column: figure}}}; an interval is left out."""
+    tables, columns, title = {}, [], ""
+    for line in path.read_text().splitlines() if path.exists() else []:
+        if line.startswith("### "):
+            title, columns = line[4:], []
+            tables[title] = {}
+        elif line.startswith("|") and not columns:
+            columns = [cell.strip() for cell in line.strip("|").split("|")]
+        elif line.startswith("|:"):
+            labels = sum(rule.startswith(":") for rule in line.strip("|").split("|"))
+        elif line.startswith("|"):
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            figures = dict(zip(columns[labels:], (cell.split(" ")[0] for cell in cells[labels:])))
+            tables[title][tuple(cells[:labels])] = figures
+    return tables
+
+
+TABLES = read_tables(ROOT / "docs/tables.md")
+ABLATIONS = read_tables(ROOT / "docs/tables_ablations.md")
+
+
+def figure(title, labels, column, tables=TABLES):
+    text = tables.get(title, {}).get(tuple(labels), {}).get(column)
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        if text is None:
+            missing.add(f"{title}: {', '.join(labels)}: {column}")
+        return None
+
+
+def show(value, digits=2, reached=lambda value: True, unit=""):
+    if value is None:
+        return "–"
+    text = f"{value:,.{digits}f}{unit}"
+    return text if reached(value) else f"**{text}**"
+
+
+def over(above, below):
+    return above / below if above is not None and below else None
+
+
+def rows_of(title):
+    return TABLES.get(title, {})
+
+
+def transitions(which, method, column, lengths=LENGTHS):
+    return [figure(f"Transitions between real poses, {which}", (frames, method), column) for frames in lengths]
+
+
+def over_real(which, column, reached=lambda value: True):
+    pairs = zip(transitions(which, "model", column), transitions(which, "real", column))
+    return ", ".join(show(over(model, real), 2, reached) for model, real in pairs)
+
+
+def ratios(which, method, bars):
+    pairs = zip(transitions(which, method, "L2P / interpolation's"), bars)
+    return ", ".join(show(value, 2, lambda v, bar=bar: v <= bar) for value, bar in pairs)
+
+
+def has_music(which):
+    return f"Steps on beats, {which}" in TABLES
+
+
+def samples(which):
+    title = f"L2P of samples over interpolation's, {which}"
+    names = [labels[0] for labels in rows_of(title)]
+    best = next((name for name in names if name.startswith("best of")), "best of 10, T = 1")
+    served = transitions(which, "model", "L2P / interpolation's", ("30",))[0]
+    near = figure(title, (best,), "30 frames")
+    return (show(figure(title, ("one, T = 1",), "30 frames"), 2, lambda v: v <= 1) + "; " +
+            show(near, 2, lambda v: served is not None and v < served))
+
+
+def fid(which):
+    title = f"FID, variability, diversity, {which}"
+    real = figure(title, ("real",), "FID")
+    methods = ("model without keys", "interpolation, foot lock", HARVEY)
+    others = [over(figure(title, (name,), "FID"), real) for name in methods]
+    lowest = min((value for value in others if value is not None), default=0)
+    own = over(figure(title, ("model",), "FID"), real)
+    return ", ".join([show(value, 1) for value in others] + [show(own, 1, lambda v: v < lowest and v <= 2)])
+
+
+def beats(which, row, column):
+    return figure(f"Steps on beats, {which}", (row,), column)
+
+
+def beats_hit(which):
+    return "; ".join(f"{show(beats(which, row, 'hit rate %'), 0, unit=' %')}, "
+                     f"{show(beats(which, row, 'above chance'), 0, lambda v: v >= 8)} points" for row in ("no keys", "keys each 2 s"))
+
+
+def on_beats(which):
+    equal = beats(which, "keys each 100 frames", "hit rate %")
+    on = beats(which, "as many keys, on beats", "hit rate %")
+    return f"{show(on, 0, lambda v: equal is not None and v > equal)} against {show(equal, 0)} %"
+
+
+def coverage(which):
+    return "; ".join(show(beats(which, row, "coverage / real's"), 2, lambda v: 0.9 <= v <= 1.1) for row in ("no keys", "keys each 2 s"))
+
+
+def alignment(which):
+    return "; ".join(show(beats(which, *place), 2) for place in (("keys each 2 s", "alignment"), ("keys each 2 s", "its chance"),
+                                                                 ("real", "alignment")))
+
+
+def variability(which):
+    title = f"FID, variability, diversity, {which}"
+    free = figure(title, ("model without keys",), "variability")
+    return show(free, 0) + "; " + show(figure(title, ("model",), "variability"), 0, lambda v: free is not None and v < free)
+
+
+def long(which, row, column):
+    return figure(f"Long dances, {which}", (row,), column)
+
+
+def broken(row):
+    return lambda which: ", ".join(show(long(which, row, column), 0, lambda v: v == 0, " %")
+                                   for column in ("frozen %", "exploded %", "drifted %"))
+
+
+def hard_keys(which):
+    return (show(long(which, "keys each 2 s", "keys above real p95 %"), 0, lambda v: v <= 5, " %") + "; " +
+            show(long(which, "real motion", "keys above real p95 %"), 0, unit=" %"))
+
+
+def hinges(which):
+    return "; ".join(show(long(which, row, "hinges backwards %"), 2, unit=" %") for row in ("no keys", "keys each 2 s"))
+
+
+def final_keys(which):
+    title = f"How keys are met, {which}"
+    worst = [[figure(title, (frames, "model"), column) for frames in LENGTHS] for column in ("final error worst mm", "worst degrees")]
+    most = [max((value for value in values if value is not None), default=None) for values in worst]
+    return show(most[0], 4, lambda v: v <= 1, " mm") + "; " + show(most[1], 5, lambda v: v <= 0.1, "°")
+
+
+def influence(column):
+    title = "What changes a dance, "
+    return lambda which: "; ".join(show(figure(title + which, (row,), column), 0, unit=" cm") for row in ("no keys", "keys each 2 s"))
+
+
+def stress(which):
+    title = f"Keys that ask for too much or too little, {which}"
+    return ", ".join(show(figure(title, (way, frames), "frozen %"), 0, unit=" %")
+                     for frames in ("30", "90") for way in ("almost the same pose", "real motion"))
+
+
+def table(head, rows):
+    lines = [head, [" --- "] * len(head)] + rows
+    return "\n\n" + "\n".join("|" + "|".join(cell if cell == " --- " else f" {cell} " for cell in line) + "|" for line in lines) + "\n\n"
+
+
+def served():
+    bars = "; ".join(", ".join(f"{bar:.2f}" for bar in WANTED[which]) for which in SETS)
+    rows = [["L2P over interpolation's at 10, 30, 60, 90 frames", *(ratios(which, "model", WANTED[which]) for which in SETS), bars]]
+    genres = {which: rows_of(f"L2P of the model over interpolation's, by genre, {which}") for which in SETS}
+    for name in sorted({labels[0] for which in SETS for labels in genres[which]} - {"all"}):
+        cells = []
+        for which in SETS:
+            figures = genres[which].get((name,), {})
+            title = f"L2P of the model over interpolation's, by genre, {which}"
+            cells.append(", ".join(show(figure(title, (name,), f"{frames} frames"), 2, lambda v, bar=bar: v <= bar)
+                                   for frames, bar in zip(LENGTHS, WANTED[which])) if figures else "–")
+        rows.append([f"the same, {name}", *cells, ", ".join(f"{bar:.2f}" for bar in WANTED["tang2018"])])
+
+    def add(label, cell, wanted, music=False):
+        rows.append([label, *(cell(which) if has_music(which) or not music else "–" for which in SETS), wanted])
+
+    near = lambda value: 0.8 <= value <= 1.2
+    add("one sample at T = 1, 30 frames; best of 10 there", samples, "1.0; under the served figure")
+    add("FID over real motion's: no keys, interpolation, Harvey et al., model", fid, "the model's the lowest, and 2")
+    add("beats hit, over chance: no keys; a key each 2 s", beats_hit, "+8 points", True)
+    add("beats hit: as many keys, on beats, against each 100 frames", on_beats, "more", True)
+    add("kinematic beats over real motion's: no keys; keys", coverage, "0.9 to 1.1", True)
+    add("beat alignment (AIST++) of keyed dances; its chance; real motion's", alignment, "–", True)
+    add("variability, in the encoder's units: no keys; keys", variability, "more without keys")
+    add("another seed changes a dance by: no keys; keys", influence("another seed"), "–")
+    add("another song changes a dance by: no keys; keys", influence("another song"), "–", True)
+    add("median speed over real motion's at 10, 30, 60, 90 frames", lambda which: over_real(which, "speed median m/s", near), "0.8 to 1.2")
+    add("median jerk over real motion's at 10, 30, 60, 90 frames", lambda which: over_real(which, "jerk median m/s³", near), "0.8 to 1.2")
+    add("skating over real motion's at 10, 30, 60, 90 frames", lambda which: over_real(which, "skating", lambda v: v <= 1), "1")
+    add("keys passed harder than real motion's 95th percentile; real motion itself", hard_keys, "5 %")
+    add("final key error, worst", final_keys, "1 mm; 0.1°")
+    add("50 dances of up to 60 s without keys: frozen, exploded, drifted", broken("no keys"), "none")
+    add("50 such dances, a key each 2 s: frozen, exploded, drifted", broken("keys each 2 s"), "none")
+    add("hinges bent backwards, share of frames and hinges: no keys; keys", hinges, "–")
+    add("frozen onto a key that is almost the same pose, beside real motion, 30 frames; 90", stress, "–")
+    return table(["figure", "dancedb, an unseen dancer", "tang2018", "wanted at least"], rows)
+
+
+def free():
+    rows = [["L2P over interpolation's at 10, 30, 60, 90 frames", *(ratios(which, "free data", [math.inf] * 4) for which in SETS)]]
+    fids = lambda which: [figure(f"FID, variability, diversity, {which}", (name,), "FID") for name in
+                          ("free data", "interpolation, foot lock", "real")]
+    rows.append(["FID; interpolation's; real motion's", *("; ".join(show(value, 1) for value in fids(which)) for which in SETS)])
+    return table(["figure", *SETS], rows)
+
+
+def ablations():
+    methods = ("full", "no time embedding", "no key loss", "no keys in training", "frames from the start")
+    rows = []
+    for which in SETS:
+        for frames in LENGTHS:
+            figures = [figure(f"How keys are met, {which}", (frames, method), "raw KPD cm²", ABLATIONS) for method in methods]
+            rows.append([which, frames, *(show(value, 0) for value in figures)])
+    return table(["set", "frames", *methods], rows)
+
+
+def pictures():
+    images = sorted((ROOT / "docs/images").glob("tables_*.png"))
+    lines = []
+    for label, kind in (("Ten transitions of each method", "sheet"), ("Plots", ""), ("Plots of the ablations", "ablations")):
+        of_kind = [image for image in images if (image.stem.split("_")[1] if image.stem.split("_")[1] in ("sheet", "ablations") else "") == kind]
+        links = [f"[{image.stem.removeprefix('tables_').removeprefix(kind).strip('_').replace('_', ' ')}](images/{image.name})"
+                 for image in of_kind]
+        if links:
+            lines.append(f"{label}: " + ",\n".join(links) + ".")
+    return "\n\n" + "\n\n".join(lines) + "\n\n"
+
+
+def readme():
+    rows = []
+    for frames in LENGTHS[1:]:
+        row = [frames]
+        for which in SETS:
+            row.append(show(transitions(which, "model", "L2P / interpolation's", (frames,))[0]))
+            skating = [transitions(which, method, "skating", (frames,))[0] for method in ("model", "real")]
+            row.append(f"{show(skating[0])} ({show(skating[1])})")
+        rows.append(row)
+    return table(["frames", "ratio, dancedb (an unseen dancer)", "skating", "ratio, tang2018", "skating"], rows)
+
+
+def readme_beats():
+    keyed = "keys each 2 s"
+    hit, chance = (show(beats("tang2018", keyed, column), 0) for column in ("hit rate %", "chance %"))
+    more = show(beats("tang2018", keyed, "coverage / real's"), 1)
+    return (f"With a key each 2 s, {hit} % of its kinematic beats are on the music's, where chance is {chance} %; it has {more} times as many "
+            "of them as real dancers.")
+
+
+def free_ratios():
+    return ", ".join(", ".join(show(value) for value in transitions(which, "free data", "L2P / interpolation's", LENGTHS[1:])) + f" on {which}"
+                     for which in SETS)
+
+
+def real_jerk():
+    jerks = [show(transitions(which, "real", "jerk median m/s³", ("30",))[0], 0) for which in SETS]
+    return f"{jerks[0]} m/s³ on dancedb, whose recordings are noisy, and {jerks[1]} on tang2018"
+
+
+def main():
+    check = sys.argv[1:] == ["--check"]
+    if sys.argv[1:] and not check:
+        sys.exit(__doc__)
+    wrong = []
+    for page in PAGES:
+        path = ROOT / page
+        text = path.read_text()
+        quoted = re.sub(r"(<!-- figures: (\w+) -->).*?(<!-- end -->)", lambda match: match[1] + globals()[match[2]]() + match[3], text,
+                        flags=re.DOTALL)
+        if quoted == text:
+            continue
+        wrong.append(page)
+        if not check:
+            path.write_text(quoted)
+    for name in sorted(missing):
+        print(f"quote_figures.py: not in the tables: {name}", file=sys.stderr)
+    if check and wrong:
+        sys.exit(f"quote_figures.py: {', '.join(wrong)}: other figures than docs/tables*.md; run scripts/quote_figures.py")
+
+
+if __name__ == "__main__":
+    main()

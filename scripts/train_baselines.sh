@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Trains what docs/results.md compares the model with: the baseline of Harvey et al. 2020, and the ablations of paper F's Table 1.
+#   scripts/train_baselines.sh BIN_DIRECTORY DATA SPLITS RUNS
+# DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/
+# and ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/, where scripts/evaluate.sh looks for them. Killed, it goes on
+# from where it was when it is started again; what is finished is not trained again.
+set -euo pipefail
+
+# Steps and peak rates: the baseline in two runs, the second from the first's end. An ablation is a small flow without a planner.
+recurrent_steps=(12000 18000)
+recurrent_rates=(8e-4 5e-4)
+ablation_steps=3000
+ablation_rate=1e-3
+batch=32
+
+(($# == 4)) || { echo "train_baselines.sh: BIN_DIRECTORY, DATA, SPLITS and RUNS are wanted; see the head of this file" >&2; exit 2; }
+lab=$(realpath "$1")/choreo-lab
+data=$(realpath "$2")
+splits=$(realpath "$3")
+mkdir -p "$4"
+runs=$(realpath "$4")
+# On few cores one thread is fastest.
+export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+
+train() {  # train RUN OPTION...
+  local run=$runs/$1
+  shift
+  [[ -f $run/checkpoint.safetensors ]] && { echo "$run is finished"; return; }
+  "$lab" train --data "$data/tang2018" --data "$data/dancedb" --data "$data/cmu" --splits "$splits" --batch "$batch" --resume --run "$run" "$@"
+}
+
+recurrent=(--preset recurrent --flow-steps 1)  # it has no flow: the one step does nothing
+train recurrent_start "${recurrent[@]}" --planner-steps "${recurrent_steps[0]}" --planner-rate "${recurrent_rates[0]}"
+train recurrent "${recurrent[@]}" --planner "$runs/recurrent_start/checkpoint.safetensors" \
+  --planner-steps "${recurrent_steps[1]}" --planner-rate "${recurrent_rates[1]}"
+
+ablation=(--preset ablation --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
+train ablation/full "${ablation[@]}"
+train ablation/no_key_loss "${ablation[@]}" --no-key-loss
+train ablation/no_time_embedding "${ablation[@]}" --no-time-embedding
+train ablation/forward_embedding "${ablation[@]}" --forward-embedding
+train ablation/no_keys "${ablation[@]}" --no-keys
