@@ -179,16 +179,20 @@ void AddEvalCommand(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1800));
   command->add_option("--windows", options.windows_per_clip, "Transitions a clip and length")
+      ->take_last()
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
   command
       ->add_option("--best-of", options.best_of, "Samples a transition at temperature 1; 0: none")
+      ->take_last()
       ->capture_default_str()
       ->check(CLI::Range(0, 1000));
   command->add_option("--long-dances", options.long_seeds, "Long dances of each kind; 0: none")
+      ->take_last()
       ->capture_default_str()
       ->check(CLI::Range(0, 100000));
   command->add_option("--long-frames", options.long_frames, "Frames of a long dance")
+      ->take_last()
       ->capture_default_str()
       ->check(CLI::Range(60, 100000));
   command->add_flag("!--no-encoder", arguments->encode,
