@@ -48,10 +48,18 @@ if ((${#missing[@]})); then
   [[ $partial ]] || fail "scripts/train_baselines.sh trains them; --partial writes the tables without their rows"
 fi
 
-# Prepared once; remove build/data after a change of recordings or of `prepare`.
-[[ -f $data/tang2018/report.json ]] || "$lab" prepare tang2018 "$recordings/tang2018" "$data/tang2018" \
-  --terms "none stated, citation asked (Tang et al. 2018); commercial music: internal use only"
-[[ -f $data/dancedb/report.json ]] || "$lab" prepare bvh "$recordings/dancedb" "$data/dancedb" --terms "none stated (Aristidou et al. 2017)"
+# Prepared once, and again where the recordings or what prepares them has changed.
+stamp=$({
+  find -L "$recordings/tang2018" "$recordings/dancedb" -type f -printf '%P %s\n' | sort
+  cat model/{audio,body,formats,motion}/*.{cpp,h} model/training/{*recording*,jolts,prepare,prepare_command,prepared_clip}.{cpp,h}
+} | sha256sum)
+if [[ $(cat "$data/stamp" 2>/dev/null) != "$stamp" ]]; then
+  rm -rf "$data/tang2018" "$data/dancedb"
+  "$lab" prepare tang2018 "$recordings/tang2018" "$data/tang2018" \
+    --terms "none stated, citation asked (Tang et al. 2018); commercial music: internal use only"
+  "$lab" prepare bvh "$recordings/dancedb" "$data/dancedb" --terms "none stated (Aristidou et al. 2017)"
+  echo "$stamp" >"$data/stamp"
+fi
 
 measure() {  # measure NAME MODEL OPTIONS...
   local name=$1 model=$2

@@ -56,6 +56,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
                         const std::vector<int>& key_frames) {
   LongFigures figures;
   if (poses.empty()) return figures;
+  figures.seconds = static_cast<double>(poses.size()) / fps;
   QualityMeter meter(skeleton, fps, 0);
   auto key = key_frames.begin();
   const std::vector<Hinge> hinges = Hinges(skeleton);

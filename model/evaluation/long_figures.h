@@ -11,6 +11,7 @@ namespace choreo {
 /// A long dance judged for drift (our own bounds), freezing, explosion, broken limbs and jolts at
 /// its keys.
 struct LongFigures {
+  double seconds = 0;
   double median_speed = 0;  ///< of the mean joint speed, m/s
   double late_speed = 0;    ///< the same over its last fifth: freezing shows here
   double top_speed = 0;     ///< of any frame: explosion shows here

@@ -52,6 +52,7 @@ TableRow LongRow(const std::string& name, const std::vector<LongFigures>& dances
       key_accelerations, [&](float value) { return value > real.p95_acceleration; }));
   return {{name},
           {Cell{static_cast<double>(dances.size()), {}},
+           median([](const LongFigures& dance) { return dance.seconds; }),
            median([](const LongFigures& dance) { return dance.median_speed; }),
            median([](const LongFigures& dance) { return dance.late_speed; }),
            share([&](const LongFigures& dance) { return real.Frozen(dance); }),
@@ -98,7 +99,8 @@ Table LongHeadings(const ClipSet& set) {
   table.name = "long_" + set.name;
   table.title = "Long dances, " + set.name;
   table.note =
-      "Keys are poses of the clips. Frozen: the last fifth is slower than a quarter of real "
+      "Keys are poses of the clips, whose songs end a dance. Frozen: the last fifth is slower than "
+      "a quarter of real "
       "motion's median; exploded: a frame's mean joint speed is above all of real motion's; "
       "drifted: the root goes away from its start (slope of a line through its distances), or is "
       "higher or lower in the last 10 s than in the first, or the mean joint speed is another "
@@ -109,6 +111,7 @@ Table LongHeadings(const ClipSet& set) {
       "each 2 s.";
   table.label_headings = {"dance"};
   table.columns = {{"dances", 0},
+                   {"seconds median", 0},
                    {"speed median m/s", 2},
                    {"last fifth m/s", 2},
                    {"frozen %", 0},

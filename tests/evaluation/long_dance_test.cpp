@@ -134,6 +134,7 @@ TEST(LongFigures, DriftIsWalkingAwaySinkingOrAnotherPace) {
   const auto steady = [](double s) { return std::sin(6 * s); };
   const LongFigures stays = measure(nowhere, steady);
   const RealRange calm = RangeOf({stays}, {}, 30);
+  EXPECT_EQ(stays.seconds, 60);
   EXPECT_NEAR(stays.away_m_per_min, 0, 1e-9);
   EXPECT_NEAR(stays.rise_m, 0, 1e-9);
   EXPECT_NEAR(stays.pace_change, 1, 0.01);
