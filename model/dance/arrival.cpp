@@ -89,6 +89,13 @@ Pose Arrival::Apply(const Pose& raw) {
         previous_.root_position + Step(way, velocity_.root, end_velocity, left);
     emitted.root_position += w * (path - raw.root_position);
     if (left == 1) emitted.root_position = target_.pose.root_position;
+  } else if (target_.height) {
+    const Eigen::Vector3d way(0, *target_.height - previous_.root_position.y(), 0);
+    const Eigen::Vector3d end_velocity = after_ ? after_->root : model_velocity_.root;
+    const double path =
+        previous_.root_position.y() + Step(way, velocity_.root, end_velocity, left).y();
+    emitted.root_position.y() += w * (path - raw.root_position.y());
+    if (left == 1) emitted.root_position.y() = *target_.height;
   }
   for (int joint = 0; joint < raw.rotations.cols(); ++joint) {
     if (!Asked(joint)) continue;

@@ -4,6 +4,7 @@
 
 #include "model/core/error.h"
 #include "model/dance/path_lead.h"
+#include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
@@ -72,7 +73,9 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
     if (!HasHeights(curve)) curve = nullptr;
   }
   if (!request.end && request.curves.back() == nullptr) {
-    request.end.emplace().position.y() = model_->skeleton.pelvis_height;
+    const std::optional<double> key =
+        target ? StandingHeight(model_->skeleton, target->pose, target->mask) : std::nullopt;
+    request.end.emplace().position.y() = key.value_or(model_->skeleton.pelvis_height);
   }
   const Lead height = LeadPath(request);
 

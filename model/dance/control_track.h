@@ -43,8 +43,9 @@ struct TransitionControls {
 /// the dancer by at the transition's start, or the key at its end, it is bent smoothly to them: the
 /// key wins, and a warning tells by how much. From the dancer to a first point further ahead, and
 /// from a last point to the key, a cubic leads; without a key the last point holds. A height that
-/// nobody asks for leads from the dancer's to the key's, or to standing. A transition that the path
-/// has no frame of is left to the model.
+/// nobody asks for leads from the dancer's to the key's: the one it states, or that at which its
+/// pose stands on the floor (StandingHeight); without a key, to standing at rest. A transition that
+/// the path has no frame of is left to the model.
 ///
 /// Velocity factors: parts, and frames, that nobody speaks of have the model's first reference.
 class ControlTrack {

@@ -13,7 +13,12 @@ namespace {
 // What a key that stands on the very first frame makes of the neutral stance before it.
 Pose StanceOfFirstKey(const Skeleton& skeleton, const Key& key) {
   Pose stance = RestPose(skeleton);
-  if (key.mask.root_position) stance.root_position = key.pose.root_position;
+  if (key.mask.root_position) {
+    stance.root_position = key.pose.root_position;
+  } else {
+    stance.root_position.y() =
+        StandingHeight(skeleton, key.pose, key.mask).value_or(skeleton.pelvis_height);
+  }
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     if (key.mask.joints.empty() || key.mask.joints[static_cast<size_t>(joint)]) {
       stance.rotations.col(joint) = key.pose.rotations.col(joint);

@@ -36,6 +36,14 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
+// Of a key that leaves its place open: where the path has it, or standing.
+std::optional<double> HeightAtKey(const ModelInfo& model, const TransitionRequest& request) {
+  const auto& [pose, mask] = *request.target;
+  const std::optional<double> standing = StandingHeight(model.skeleton, pose, mask);
+  const Eigen::Matrix3Xd& path = request.controls.root_path;
+  return standing && path.cols() > 0 ? path(1, path.cols() - 1) : standing;
+}
+
 Pose Near(Pose pose, const Pose& previous) {
   for (int joint = 0; joint < pose.rotations.cols(); ++joint) {
     pose.rotations.col(joint) =
@@ -115,6 +123,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   if (request.target) {
     spec_.target = Target{Near(ground_.ToLocal(request.target->pose), spec_.history.back()),
                           request.target->mask};
+    if (!spec_.target->mask.root_position) spec_.target->height = HeightAtKey(model, request);
   }
   spec_.controls.root_path.resize(3, request.controls.root_path.cols());
   for (Eigen::Index frame = 0; frame < request.controls.root_path.cols(); ++frame) {

@@ -132,29 +132,11 @@ void ControllersEngine::StepSlot(const StepInput& in, StepOutput* out) {
 }
 
 void ControllersEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {
-  if (in.size() != out.size()) {
-    throw InvalidArgument("out", std::to_string(out.size()) + " outputs for " +
-                                     std::to_string(in.size()) + " inputs");
-  }
-  for (const StepInput& input : in) {  // all of them, before anything moves
-    if (input.slot < 0 || input.slot >= slots() || !slots_[static_cast<size_t>(input.slot)]) {
-      throw InvalidArgument("slot", std::to_string(input.slot) + " holds no transition");
-    }
-    const Slot& slot = *slots_[static_cast<size_t>(input.slot)];
-    if (slot.frame >= slot.frames) {
-      throw InvalidArgument("slot", std::to_string(input.slot) + " has made its " +
-                                        std::to_string(slot.frames) + " frames already");
-    }
-    if ((slot.frame > 0) != (input.previous != nullptr)) {
-      throw InvalidArgument("previous", slot.frame > 0 ? "is missing after the first frame"
-                                                       : "is given before the first frame");
-    }
-    if (input.previous != nullptr && input.previous->rotations.cols() != info_.skeleton.joints()) {
-      throw InvalidArgument("previous", std::to_string(input.previous->rotations.cols()) +
-                                            " joints, must be " +
-                                            std::to_string(info_.skeleton.joints()));
-    }
-  }
+  ValidateSteps(in, out.size(), slots(), info_, [this](int number) -> std::optional<SlotProgress> {
+    const auto& slot = slots_[static_cast<size_t>(number)];
+    if (!slot) return std::nullopt;
+    return SlotProgress{slot->frame, slot->frames, false};
+  });
   const c10::InferenceMode inference;
   for (size_t i = 0; i < in.size(); ++i) StepSlot(in[i], &out[i]);
 }

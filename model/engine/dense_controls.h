@@ -8,9 +8,9 @@ namespace choreo {
 /// filled.
 ///
 /// A path that is not given is a smooth curve that leaves the history's last root with its
-/// velocity, to the target's root (without one, to a stop). A given path is bent at its start to
-/// leave from the history's root, and at its end to the target's root where it misses it: the key
-/// wins. Factors that are not given are the model's first reference.
+/// velocity, to the target's root or, of a target that leaves the place open, to its height; what
+/// has no end comes to a stop. Factors that are not given are the model's first reference. What is
+/// given stays as it is.
 /// The spec is valid (ValidateSpec); the model names at least one reference.
 Controls DenseControls(const TransitionSpec& spec, const ModelInfo& model);
 

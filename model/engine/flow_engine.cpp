@@ -68,16 +68,10 @@ void FlowEngine::StepTile(std::span<const StepInput> in, std::span<StepOutput> o
 }
 
 void FlowEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {
-  if (in.size() != out.size()) {
-    throw InvalidArgument("out", std::to_string(out.size()) + " outputs for " +
-                                     std::to_string(in.size()) + " inputs");
-  }
-  for (const StepInput& input : in) {  // all of them, before anything moves
-    if (input.slot < 0 || input.slot >= slots() || !At(input).taken) {
-      throw InvalidArgument("slot", std::to_string(input.slot) + " holds no transition");
-    }
-    At(input).window.Check(input);
-  }
+  ValidateSteps(in, out.size(), slots(), info_, [this](int slot) {
+    const Slot& of = slots_[static_cast<size_t>(slot)];
+    return of.taken ? std::optional(of.window.progress()) : std::nullopt;
+  });
   for (const StepInput& input : in) At(input).window.Advance(input);
   for (size_t first = 0; first < in.size(); first += rows_.size()) {
     const size_t count = std::min(rows_.size(), in.size() - first);

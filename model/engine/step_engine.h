@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,12 +48,15 @@ struct ModelInfo {
 struct Target {
   Pose pose;  ///< canonical frame
   PoseMask mask;
+  /// The root's above the floor, metres, of a key that leaves its position open. None: open too.
+  std::optional<double> height = {};
 };
 
 /// What is asked of a transition beside its key (paper C, Section 3.3). What is left empty, the
 /// model chooses.
 struct Controls {
-  /// [3, frames] or empty: where the root should be in each frame, metres, canonical frame.
+  /// [3, frames] or empty: where the root should be in each frame, metres, canonical frame; from
+  /// the history's last root to the target's (dance/path_lead.h bends it there).
   Eigen::Matrix3Xf root_path;
   /// [kBodyParts, frames] or empty: how lively each part should be in each frame
   /// (motion/velocity_factors.h), metres a frame, at least 0.
@@ -99,6 +103,19 @@ struct StepOutput {
   float log_likelihood =
       0;  ///< of this frame, nats (model's standardised space, log-determinants included)
 };
+
+/// How far a slot's transition is.
+struct SlotProgress {
+  int frame = 0;       ///< next to be stepped
+  int frames = 0;      ///< N
+  bool hears = false;  ///< its model listens to the rows of its music
+};
+
+/// What StepEngine::Step checks before anything moves: throws Error(kInvalidArgument) unless there
+/// are `outputs` inputs, each of a slot that holds a transition and what its next frame needs.
+/// `progress` is asked of slots in [0, slots); none: it holds no transition.
+void ValidateSteps(std::span<const StepInput> in, size_t outputs, int slots, const ModelInfo& model,
+                   const std::function<std::optional<SlotProgress>(int slot)>& progress);
 
 /// A network on one device with a fixed number of slots. Each slot holds one transition in
 /// progress. Not thread-safe: one worker owns an engine. A slot's outputs do not depend on which

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/core/error.h"
 #include "model/core/random.h"
 
 namespace choreo {
@@ -69,25 +68,6 @@ const Pose* TransitionWindow::Reference(int frame) {
   reference_.root_position = Eigen::Map<const Eigen::Vector3f>(at).cast<double>();
   reference_.rotations = Eigen::Map<const Eigen::Matrix3Xf>(at + 3, 3, joints).cast<double>();
   return &reference_;
-}
-
-void TransitionWindow::Check(const StepInput& input) const {
-  if (frame_ >= frames_) {
-    throw InvalidArgument("slot", std::to_string(input.slot) + " has made its " +
-                                      std::to_string(frames_) + " frames already");
-  }
-  if ((frame_ > 0) != (input.previous != nullptr)) {
-    throw InvalidArgument("previous", frame_ > 0 ? "is missing after the first frame"
-                                                 : "is given before the first frame");
-  }
-  if (input.previous != nullptr && input.previous->rotations.cols() != skeleton_.joints()) {
-    throw InvalidArgument("previous", std::to_string(input.previous->rotations.cols()) +
-                                          " joints, must be " + std::to_string(skeleton_.joints()));
-  }
-  if (has_audio_ && static_cast<int>(input.audio_row.size()) != audio_features_) {
-    throw InvalidArgument("audio_row", std::to_string(input.audio_row.size()) +
-                                           " values, must be " + std::to_string(audio_features_));
-  }
 }
 
 void TransitionWindow::Advance(const StepInput& input) {

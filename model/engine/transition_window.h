@@ -18,7 +18,7 @@ namespace choreo {
 /// that StepInput::previous hands back (velocities between them, contacts as motion/contacts.h
 /// detects them), so a transition is a function of poses alone.
 ///
-/// Per frame: Check, Advance, read the inputs, Finish. Nothing allocates there. Not thread-safe.
+/// Per frame: Advance, read the inputs, Finish. Nothing allocates there. Not thread-safe.
 class TransitionWindow {
  public:
   explicit TransitionWindow(const ModelInfo& model);
@@ -27,9 +27,9 @@ class TransitionWindow {
   /// The spec is valid (ValidateSpec).
   void Begin(const TransitionSpec& spec, std::span<const Pose> plan);
 
-  /// Throws Error(kInvalidArgument) unless `input` is what the next frame needs.
-  void Check(const StepInput& input) const;
-  /// Moves the windows on by what was emitted and what is heard.
+  SlotProgress progress() const { return {frame_, frames_, has_audio_}; }
+  /// Moves the windows on by what was emitted and what is heard; `input` is what the next frame
+  /// needs (ValidateSteps).
   void Advance(const StepInput& input);
 
   /// Inputs of the frame to be stepped.

@@ -38,13 +38,21 @@ Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose) {
   return ForwardKinematics(skeleton, pose).positions;
 }
 
+namespace {
+
+void CheckMask(const Skeleton& skeleton, const PoseMask& mask) {
+  if (mask.joints.empty() || static_cast<int>(mask.joints.size()) == skeleton.joints()) return;
+  throw InvalidArgument("mask.joints", std::to_string(mask.joints.size()) +
+                                           " joints, must be 0 or " +
+                                           std::to_string(skeleton.joints()));
+}
+
+}  // namespace
+
 PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
                        const PoseMask& mask) {
+  CheckMask(skeleton, mask);
   const int joints = skeleton.joints();
-  if (!mask.joints.empty() && static_cast<int>(mask.joints.size()) != joints) {
-    throw InvalidArgument("mask.joints", std::to_string(mask.joints.size()) +
-                                             " joints, must be 0 or " + std::to_string(joints));
-  }
   Eigen::Matrix3Xd difference = JointPositions(skeleton, a) - JointPositions(skeleton, b);
   PoseError error;
   const bool every_joint =
@@ -61,6 +69,30 @@ PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
     error.angle_deg = std::max(error.angle_deg, angle * 180.0 / std::numbers::pi);
   }
   return error;
+}
+
+std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
+                                     const PoseMask& mask) {
+  CheckMask(skeleton, mask);
+  // Where a joint is depends on the rotations of those above it.
+  std::vector<bool> known(static_cast<size_t>(skeleton.joints()), true);
+  for (size_t joint = 1; joint < known.size(); ++joint) {
+    const auto parent = static_cast<size_t>(skeleton.parents[joint]);
+    known[joint] = known[parent] && (mask.joints.empty() || mask.joints[parent]);
+  }
+  const Eigen::RowVectorXd rest = JointPositions(skeleton, RestPose(skeleton)).row(1);
+  Eigen::RowVectorXd least = Eigen::RowVectorXd::Constant(rest.cols(), rest.minCoeff());
+  for (const int foot : skeleton.feet) {
+    if (foot < 0 || !known[static_cast<size_t>(foot)]) return std::nullopt;
+    least[foot] = rest[foot];
+  }
+  const Eigen::RowVectorXd hanging =
+      JointPositions(skeleton, {Eigen::Vector3d::Zero(), pose.rotations}).row(1);
+  double height = 0;
+  for (Eigen::Index joint = 0; joint < rest.cols(); ++joint) {
+    if (known[static_cast<size_t>(joint)]) height = std::max(height, least[joint] - hanging[joint]);
+  }
+  return height;
 }
 
 Pose RestPose(const Skeleton& skeleton) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "model/motion/motion.h"
@@ -35,6 +36,12 @@ struct PoseError {
 };
 PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
                        const PoseMask& mask = {});
+
+/// How high the root of a pose is that stands on the floor: no joint is lower than the lowest one
+/// at rest, and no foot joint lower than it is at rest. None where `mask` leaves open how the feet
+/// hang below the root, and for a skeleton without feet.
+std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
+                                     const PoseMask& mask = {});
 
 /// The neutral stance of DESIGN's "no history": rest pose, feet on the floor, at the origin, facing
 /// +Z.

@@ -103,6 +103,25 @@ TEST(Arrival, LeavesUntouchedWhatTheKeyDoesNotAskFor) {
   }
 }
 
+TEST(Arrival, MeetsTheHeightOfAKeyThatLeavesItsPlaceOpen) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
+    Target target{RandomPose(random), {}, 0.7};
+    target.mask.root_position = false;
+    Wanderer model(RandomPose(random), 0.02, random());
+    Arrival arrival({}, 30, target, before);
+    Pose previous = before.back();
+    for (int frame = 0; frame < 30; ++frame) {
+      const Pose raw = model.Next(previous, 30 - frame);
+      previous = arrival.Apply(raw);
+      EXPECT_EQ(previous.root_position.x(), raw.root_position.x());
+      EXPECT_EQ(previous.root_position.z(), raw.root_position.z());
+    }
+    EXPECT_EQ(previous.root_position.y(), 0.7);
+  }
+}
+
 TEST(Arrival, TouchesNothingBeforeItsWindowAndNothingWhenOff) {
   std::mt19937 random(3);
   const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);

@@ -77,6 +77,28 @@ TEST_F(ControlTrackTest, HeightsComeFromThePathOrFromTheDancer) {
   EXPECT_NEAR(For(0, 90).controls.root_path(1, 50), 1.3, 1e-9);
 }
 
+TEST_F(ControlTrackTest, AKeyWithoutAPlaceStandsUnlessThePathSaysHowHighItIs) {
+  track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
+  AimAt(0);
+  target_->mask.root_position = false;
+  const Skeleton& skeleton = engine_.model().skeleton;
+  for (const int knee : {skeleton.left_knee, skeleton.right_knee})
+    target_->pose.rotations(0, knee) = 0.8;
+  for (const int hip : {skeleton.left_hip, skeleton.right_hip})
+    target_->pose.rotations(0, hip) = -0.6;
+  const double crouched = *StandingHeight(skeleton, target_->pose);
+  ASSERT_LT(crouched, standing_ - 0.02);
+  const Eigen::Matrix3Xd path = For(0, 90).controls.root_path;
+  EXPECT_NEAR(path(1, 89), crouched, 1e-9);
+  EXPECT_NEAR(path(0, 89), 0.89, 1e-9);
+  target_->mask.joints.assign(24, false);
+  target_->mask.joints[static_cast<size_t>(skeleton.left_elbow)] = true;
+  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), standing_, 1e-9) << "legs are open";
+  target_->mask.joints.clear();
+  track_.Set(Way({0, 100}, {0, 1}, {standing_, 1.4}), 0, "controls");
+  EXPECT_GT(For(0, 90).controls.root_path(1, 89), standing_ + 0.2);
+}
+
 TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   AimAt(1.09);

@@ -115,6 +115,48 @@ TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
   }
 }
 
+TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  Pose crouch = RestPose(skeleton);
+  for (const int hip : {skeleton.left_hip, skeleton.right_hip}) crouch.rotations(0, hip) = -1.1;
+  for (const int knee : {skeleton.left_knee, skeleton.right_knee}) crouch.rotations(0, knee) = 1.8;
+  for (const int ankle : {skeleton.feet[0], skeleton.feet[2]}) crouch.rotations(0, ankle) = -0.7;
+  const PoseMask nowhere{.root_position = false, .joints = {}};
+  const double toes_at_rest = JointPositions(skeleton, RestPose(skeleton)).row(1).minCoeff();
+  const auto lowest_foot = [&](const Pose& pose) {
+    const Eigen::Matrix3Xd joints = JointPositions(skeleton, pose);
+    double lowest = 9;
+    for (const int foot : skeleton.feet) lowest = std::min(lowest, joints(1, foot));
+    return lowest - toes_at_rest;
+  };
+  for (const int64_t first : {0, 40}) {  // the first one may stand where the dance begins
+    for (const bool path : {true, false}) {
+      const Recording dance = Perform([&](DanceStream& s) {
+        if (path) s.SetControls(Way(0, 299, 0, 2));
+        s.SetKey("crouch", AtFrame{first}, crouch, nowhere);
+        s.SetKey("up", AtFrame{100}, RestPose(skeleton), nowhere);
+        s.SetKey("again", AtFrame{160}, crouch, nowhere);
+      });
+      ASSERT_TRUE(dance.summary) << dance.error->what();
+      EXPECT_TRUE(dance.warnings.empty());
+      for (const int64_t frame : {first, int64_t{100}, int64_t{160}}) {
+        EXPECT_NEAR(lowest_foot(dance.poses[static_cast<size_t>(frame)]), 0, 0.01)
+            << frame << (path ? " on a path" : "");
+      }
+    }
+  }
+  // A path that says how high the root is wins.
+  ControlRequest jump = Way(0, 299, 0, 2);
+  jump.root_path->has_heights = true;
+  jump.root_path->points.row(1).setConstant(1.2);
+  const Recording high = Perform([&](DanceStream& s) {
+    s.SetControls(jump);
+    s.SetKey("crouch", AtFrame{100}, crouch, nowhere);
+  });
+  ASSERT_TRUE(high.summary) << high.error->what();
+  EXPECT_NEAR(high.poses[100].root_position.y(), 1.2, 1e-5);
+}
+
 TEST_F(ControlledDanceTest, DoesNotDependOnWhenMessagesCome) {
   const auto messages = [](DanceStream& s, const std::function<void()>& between) {
     s.SetControls(Way(0, 200, 0, 1));

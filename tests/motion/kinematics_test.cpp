@@ -48,6 +48,41 @@ TEST(Kinematics, PlanarChainInClosedForm) {
   }
 }
 
+TEST(Kinematics, APoseStandsWithItsLowestFootOnTheFloor) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  const Pose rest = RestPose(smpl);
+  EXPECT_DOUBLE_EQ(*StandingHeight(smpl, rest), smpl.pelvis_height);
+  Pose crouch = rest;
+  for (const int hip : {smpl.left_hip, smpl.right_hip}) crouch.rotations(0, hip) = -1.2;
+  for (const int knee : {smpl.left_knee, smpl.right_knee}) crouch.rotations(0, knee) = 2.0;
+  const double height = *StandingHeight(smpl, crouch);
+  EXPECT_LT(height, smpl.pelvis_height - 0.2);
+  crouch.root_position = {3, height, -2};
+  EXPECT_EQ(*StandingHeight(smpl, crouch), height) << "wherever the pose is said to be";
+  const Eigen::Matrix3Xd at_rest = JointPositions(smpl, rest),
+                         crouched = JointPositions(smpl, crouch);
+  double lowest = 1;
+  for (const int foot : smpl.feet) lowest = std::min(lowest, crouched(1, foot) - at_rest(1, foot));
+  EXPECT_NEAR(lowest, 0, 1e-12);
+  // One leg bent: the other one carries.
+  Pose kick = rest;
+  kick.rotations(0, smpl.left_hip) = -1.5;
+  EXPECT_DOUBLE_EQ(*StandingHeight(smpl, kick), smpl.pelvis_height);
+}
+
+TEST(Kinematics, WhoseLegsAreOpenStandsAtNoHeight) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  PoseMask mask;
+  mask.joints.assign(24, true);
+  mask.joints[static_cast<size_t>(smpl.left_shoulder)] = false;
+  EXPECT_TRUE(StandingHeight(smpl, RestPose(smpl), mask));
+  mask.joints[static_cast<size_t>(smpl.left_knee)] = false;
+  EXPECT_FALSE(StandingHeight(smpl, RestPose(smpl), mask));
+  Pose chain;
+  chain.rotations.setZero(3, 3);
+  EXPECT_FALSE(StandingHeight(Chain(), chain)) << "a skeleton without feet";
+}
+
 TEST(Kinematics, SmplStandsOnTheFloorAtRest) {
   const Skeleton& smpl = Skeleton::Smpl24();
   const Eigen::Matrix3Xd rest = JointPositions(smpl, RestPose(smpl));
