@@ -1,12 +1,8 @@
-#include "model/engine/scheduler.h"
+#include "tests/engine/scheduler_fixture.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <set>
-
-#include "tests/engine/fake_job.h"
-#include "tests/engine/gated_engine.h"
 
 namespace choreo {
 namespace {
@@ -14,57 +10,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAre;
 using Steps = std::vector<std::vector<uint64_t>>;
-
-constexpr auto kLong = std::chrono::minutes(1);
-
-ErrorCode CodeOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return ErrorCode::kInternal;
-}
-
-class SchedulerTest : public ::testing::Test {
- protected:
-  void Start(int slots, Scheduler::Options options = {}, uint64_t poison = 0) {
-    std::vector<std::unique_ptr<StepEngine>> engines;
-    engines.push_back(std::make_unique<GatedEngine>(slots, &gate_, poison));
-    options.max_admissions = admissions_;
-    scheduler_ = std::make_unique<Scheduler>(std::move(engines), options);
-  }
-  // Its seed names it in gate_.steps().
-  std::shared_ptr<FakeJob> Job(uint64_t seed, int frames) {
-    return std::make_shared<FakeJob>(MakeSpec(scheduler_->model(), frames, seed));
-  }
-  std::shared_ptr<FakeJob> SubmitJob(uint64_t seed, int frames) {
-    auto job = Job(seed, frames);
-    scheduler_->Submit(job);
-    return job;
-  }
-  // A job that holds its slot and sleeps.
-  std::shared_ptr<FakeJob> SubmitSleeper(uint64_t seed, int frames = 10) {
-    auto job = Job(seed, frames);
-    job->allowed_frames = 0;
-    scheduler_->Submit(job);
-    EXPECT_TRUE(job->WaitRefusals(1));
-    return job;
-  }
-  // Closes the gate and lets a job of one frame, seed 99, stand there: what is submitted until the
-  // gate opens meets in the next step.
-  std::shared_ptr<FakeJob> HoldWorker() {
-    gate_.Close();
-    auto job = SubmitJob(99, 1);
-    EXPECT_TRUE(gate_.WaitSteps(1));
-    return job;
-  }
-
-  int admissions_ = 64;  // all at once, which is easier to follow
-  Gate gate_;
-  std::unique_ptr<Scheduler> scheduler_;  // goes before the gate
-};
 
 TEST_F(SchedulerTest, RunsAJobToItsEnd) {
   Start(2);
@@ -135,31 +80,6 @@ TEST_F(SchedulerTest, ACrowdIsAdmittedOneByOneBetweenSteps) {
                   UnorderedElementsAre(1, 4, 2), UnorderedElementsAre(1, 2), ElementsAre(1)));
 }
 
-// So are the transitions that follow on others which end together.
-TEST_F(SchedulerTest, ChainsThatEndTogetherGoOnOneByOne) {
-  admissions_ = 1;
-  Start(6);
-  gate_.Close();
-  auto dancing = SubmitJob(1, 7);
-  ASSERT_TRUE(gate_.WaitSteps(1));
-  std::vector<std::shared_ptr<FakeJob>> first, next;
-  for (uint64_t i = 0; i < 2; ++i) {
-    first.push_back(Job(i + 2, i == 0 ? 2 : 1));
-    next.push_back(Job(i + 12, 2));
-    first.back()->when_done = [this, follower = next.back()](const Error*) {
-      scheduler_->Submit(follower);
-    };
-    scheduler_->Submit(first.back());
-  }
-  gate_.Open();
-  for (const auto& job : next) ASSERT_TRUE(job->WaitDone());
-  ASSERT_TRUE(dancing->WaitDone());
-  EXPECT_THAT(gate_.steps(),
-              ElementsAre(ElementsAre(1), UnorderedElementsAre(1, 2), UnorderedElementsAre(1, 2, 3),
-                          UnorderedElementsAre(1, 12), UnorderedElementsAre(1, 12, 13),
-                          UnorderedElementsAre(1, 13), ElementsAre(1)));
-}
-
 TEST_F(SchedulerTest, EqualDeadlinesGoInOrderOfSubmission) {
   Start(6, {.max_waiting = 0, .max_batch = 1});
   HoldWorker();
@@ -221,50 +141,6 @@ TEST_F(SchedulerTest, WakingUnknownAndFinishedJobsDoesNothing) {
   EXPECT_EQ(next->frames().size(), 3U);
 }
 
-TEST_F(SchedulerTest, CancellingARunningJobGivesItsSlotToTheNext) {
-  Start(1);
-  gate_.Close();
-  auto running = SubmitJob(1, 1000);
-  auto next = SubmitJob(2, 2);
-  ASSERT_TRUE(gate_.PassOne());
-  running->cancelled = true;
-  gate_.Open();
-  ASSERT_TRUE(running->WaitDone());
-  ASSERT_TRUE(next->WaitDone());
-  EXPECT_EQ(running->failure(), ErrorCode::kCancelled);
-  EXPECT_LE(running->frames().size(), 2U);
-  EXPECT_EQ(next->failure(), std::nullopt);
-}
-
-TEST_F(SchedulerTest, CancellingASleepingJobFreesItsSlotAtOnce) {
-  Start(1);
-  auto sleeper = SubmitSleeper(1);
-  auto next = SubmitJob(2, 2);
-  sleeper->cancelled = true;
-  scheduler_->Wake(sleeper.get());
-  ASSERT_TRUE(next->WaitDone());
-  ASSERT_TRUE(sleeper->WaitDone());
-  EXPECT_EQ(sleeper->failure(), ErrorCode::kCancelled);
-}
-
-TEST_F(SchedulerTest, CancellingAWaitingJobFreesItsPlace) {
-  Start(1, {.max_waiting = 2, .max_batch = 1});
-  auto sleeper = SubmitSleeper(1);
-  auto first = SubmitJob(2, 2), second = SubmitJob(3, 2);
-  EXPECT_EQ(scheduler_->stats().waiting, 2);
-  first->cancelled = true;
-  scheduler_->Wake(first.get());
-  ASSERT_TRUE(first->WaitDone());
-  EXPECT_EQ(first->failure(), ErrorCode::kCancelled);
-  EXPECT_EQ(scheduler_->stats().waiting, 1);
-  auto third = SubmitJob(4, 2);  // there is room again
-  sleeper->allowed_frames = 10;
-  scheduler_->Wake(sleeper.get());
-  ASSERT_TRUE(second->WaitDone());
-  ASSERT_TRUE(third->WaitDone());
-  EXPECT_EQ(second->failure(), std::nullopt);
-}
-
 TEST_F(SchedulerTest, AdmissionIsBoundedAndInOrder) {
   Start(2, {.max_waiting = 2, .max_batch = 1});
   auto a = SubmitSleeper(1), b = SubmitSleeper(2);
@@ -291,169 +167,6 @@ TEST_F(SchedulerTest, RefusesNullAndDoubleSubmission) {
   EXPECT_EQ(CodeOf([&] { scheduler_->Submit(nullptr); }), ErrorCode::kInvalidArgument);
   auto sleeper = SubmitSleeper(1);
   EXPECT_EQ(CodeOf([&] { scheduler_->Submit(sleeper); }), ErrorCode::kInvalidArgument);
-}
-
-TEST_F(SchedulerTest, AFailingStepFailsItsBatchAndTheWorkerLivesOn) {
-  Start(4, {}, /*poison=*/13);
-  HoldWorker();
-  auto mate = SubmitJob(1, 3), poisoned = SubmitJob(13, 3);
-  gate_.Open();
-  ASSERT_TRUE(mate->WaitDone());
-  ASSERT_TRUE(poisoned->WaitDone());
-  EXPECT_EQ(mate->failure(), ErrorCode::kInternal);
-  EXPECT_EQ(poisoned->failure(), ErrorCode::kInternal);
-  auto later = SubmitJob(2, 3);
-  ASSERT_TRUE(later->WaitDone());
-  EXPECT_EQ(later->failure(), std::nullopt);
-  ASSERT_TRUE(scheduler_->WaitUntilIdle(kLong));
-  EXPECT_EQ(scheduler_->stats().active, 0);
-}
-
-TEST_F(SchedulerTest, ARefusedSpecFailsItsJobAndItsPlaceGoesOn) {
-  Start(1);
-  auto sleeper = SubmitSleeper(1);
-  auto bad = SubmitJob(2, 0), good = SubmitJob(3, 2);
-  sleeper->cancelled = true;
-  scheduler_->Wake(sleeper.get());
-  ASSERT_TRUE(good->WaitDone());
-  EXPECT_EQ(bad->failure(), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(good->failure(), std::nullopt);
-}
-
-TEST_F(SchedulerTest, AThrowingJobFailsAlone) {
-  Start(4);
-  HoldWorker();
-  auto healthy = SubmitJob(1, 5);
-  auto bad_frame = Job(2, 5), bad_input = Job(3, 5);
-  bad_frame->on_frame = [] { throw std::runtime_error("frame"); };
-  bad_input->before_input = [] { throw Error(ErrorCode::kOutOfRange, "audio", "gap"); };
-  scheduler_->Submit(bad_frame);
-  scheduler_->Submit(bad_input);
-  gate_.Open();
-  for (const auto& job : {healthy, bad_frame, bad_input}) ASSERT_TRUE(job->WaitDone());
-  EXPECT_EQ(healthy->failure(), std::nullopt);
-  EXPECT_EQ(healthy->frames().size(), 5U);
-  EXPECT_EQ(bad_frame->failure(), ErrorCode::kInternal);
-  EXPECT_EQ(bad_input->failure(), ErrorCode::kOutOfRange);
-}
-
-TEST_F(SchedulerTest, AChainKeepsItsSlotBeforeAllThatWait) {
-  Start(1, {.max_waiting = 1, .max_batch = 1});
-  HoldWorker();
-  auto first = Job(1, 2), second = Job(2, 2), third = Job(3, 2);
-  first->when_done = [&](const Error*) { scheduler_->Submit(second); };
-  second->when_done = [&](const Error*) { scheduler_->Submit(third); };
-  scheduler_->Submit(first);
-  ASSERT_TRUE(gate_.PassOne());  // 99 is done, first stands at the gate
-  auto rival = SubmitJob(50, 1);
-  EXPECT_EQ(scheduler_->stats().waiting, 1);  // full, and yet the chain goes on
-  gate_.Open();
-  ASSERT_TRUE(rival->WaitDone());
-  EXPECT_THAT(gate_.steps(),
-              ElementsAre(ElementsAre(99), ElementsAre(1), ElementsAre(1), ElementsAre(2),
-                          ElementsAre(2), ElementsAre(3), ElementsAre(3), ElementsAre(50)));
-}
-
-TEST_F(SchedulerTest, AChainMissesNoStep) {
-  Start(3);
-  HoldWorker();
-  auto neighbour = SubmitJob(1, 4);
-  auto first = Job(2, 2), second = Job(3, 2);
-  first->when_done = [&](const Error*) { scheduler_->Submit(second); };
-  scheduler_->Submit(first);
-  gate_.Open();
-  ASSERT_TRUE(neighbour->WaitDone());
-  ASSERT_TRUE(second->WaitDone());
-  EXPECT_THAT(gate_.steps(),
-              ElementsAre(ElementsAre(99), UnorderedElementsAre(1, 2), UnorderedElementsAre(1, 2),
-                          UnorderedElementsAre(1, 3), UnorderedElementsAre(1, 3)));
-}
-
-TEST_F(SchedulerTest, AJobMayBeSubmittedAgainFromItsOwnEnd) {
-  Start(1);
-  std::vector<int> lengths;
-  auto job = Job(1, 3);
-  FakeJob* raw = job.get();
-  std::weak_ptr<FakeJob> weak = job;
-  std::atomic<int> runs = 0;
-  job->when_done = [&, raw](const Error*) {
-    lengths.push_back(static_cast<int>(raw->frames().size()));
-    if (++runs < 3) scheduler_->Submit(weak.lock());
-  };
-  scheduler_->Submit(job);
-  ASSERT_TRUE(scheduler_->WaitUntilIdle(kLong));
-  EXPECT_EQ(job->times_done(), 3);
-  EXPECT_THAT(lengths, ElementsAre(3, 4, 5));  // after its third frame it always says: enough
-}
-
-TEST_F(SchedulerTest, OnlyTheFirstFollowUpInherits) {
-  Start(1, {.max_waiting = 2, .max_batch = 1});
-  HoldWorker();
-  auto parent = Job(1, 1), heir = Job(2, 1), sibling = Job(3, 1);
-  parent->when_done = [&](const Error*) {
-    scheduler_->Submit(heir);
-    scheduler_->Submit(sibling);
-  };
-  scheduler_->Submit(parent);
-  auto rival = SubmitJob(50, 1);
-  // 99's place goes to the parent, so one place is left to wait in.
-  gate_.Open();
-  ASSERT_TRUE(sibling->WaitDone());
-  EXPECT_THAT(gate_.steps(), ElementsAre(ElementsAre(99), ElementsAre(1), ElementsAre(2),
-                                         ElementsAre(50), ElementsAre(3)));
-}
-
-TEST_F(SchedulerTest, DrainingFinishesWhatWasAcceptedAndChains) {
-  Start(1);
-  HoldWorker();
-  auto first = Job(1, 2), second = Job(2, 2);
-  first->when_done = [&](const Error*) { scheduler_->Submit(second); };
-  scheduler_->Submit(first);
-  auto waiting = SubmitJob(3, 2);
-  scheduler_->Stop(true);
-  scheduler_->Stop(true);
-  EXPECT_EQ(CodeOf([&] { scheduler_->Submit(Job(4, 1)); }), ErrorCode::kUnavailable);
-  EXPECT_FALSE(scheduler_->WaitUntilIdle(std::chrono::milliseconds(1)));
-  gate_.Open();
-  ASSERT_TRUE(scheduler_->WaitUntilIdle(kLong));
-  for (const auto& job : {first, second, waiting}) {
-    EXPECT_EQ(job->failure(), std::nullopt);
-    EXPECT_EQ(job->frames().size(), 2U);
-  }
-}
-
-TEST_F(SchedulerTest, AHardStopEndsRunningSleepingAndWaitingJobs) {
-  Start(2);
-  auto sleeper = SubmitSleeper(1);
-  gate_.Close();
-  auto running = SubmitJob(2, 1000), waiting = SubmitJob(3, 1);
-  ASSERT_TRUE(gate_.WaitSteps(1));
-  auto follow_up = Job(4, 1);
-  std::optional<ErrorCode> refused;
-  running->when_done = [&](const Error*) {
-    refused = CodeOf([&] { scheduler_->Submit(follow_up); });
-  };
-  scheduler_->Stop(true);
-  scheduler_->Stop(false);
-  scheduler_->Stop(true);  // does not soften it
-  gate_.Open();
-  ASSERT_TRUE(scheduler_->WaitUntilIdle(kLong));
-  for (const auto& job : {sleeper, running, waiting}) {
-    EXPECT_EQ(job->failure(), ErrorCode::kUnavailable);
-    EXPECT_EQ(job->times_done(), 1);
-  }
-  EXPECT_EQ(refused, ErrorCode::kUnavailable);
-  EXPECT_EQ(CodeOf([&] { scheduler_->Submit(follow_up); }), ErrorCode::kUnavailable);
-}
-
-TEST_F(SchedulerTest, DestructionEndsEveryJobOnce) {
-  Start(1);
-  auto sleeper = SubmitSleeper(1);
-  auto waiting = SubmitJob(2, 5);
-  scheduler_.reset();
-  EXPECT_EQ(sleeper->times_done(), 1);
-  EXPECT_EQ(waiting->times_done(), 1);
-  EXPECT_EQ(waiting->failure(), ErrorCode::kUnavailable);
 }
 
 TEST_F(SchedulerTest, RefusesUselessOptionsAndMixedEngines) {

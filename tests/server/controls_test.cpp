@@ -215,6 +215,9 @@ struct BadControls {
   const char* message;  ///< behind "controls." or "controls[0]."
 };
 
+// What the test is called by.
+void PrintTo(const BadControls& bad, std::ostream* out) { *out << bad.name; }
+
 class BadControlsTest : public ControlsServerTest, public testing::WithParamInterface<BadControls> {
  protected:
   static void ExpectRefused(const grpc::Status& status, const std::string& prefix) {

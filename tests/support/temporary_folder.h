@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -16,7 +17,9 @@ class TemporaryFolder {
     for (char& c : name) {
       if (c == '/') c = '_';
     }
-    path_ = std::filesystem::path(testing::TempDir()) / ("choreo." + name);
+    // The process: builds that test at the same time have a folder each.
+    path_ = std::filesystem::path(testing::TempDir()) /
+            ("choreo." + name + "." + std::to_string(getpid()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
