@@ -2,6 +2,8 @@
 
 #include <torch/torch.h>
 
+#include "model/motion/velocity_factors.h"
+
 namespace choreo {
 
 using torch::Tensor;
@@ -59,6 +61,16 @@ Tensor FactorsOf(const Tensor& steps, const Tensor& shares) {
   // The small constant keeps the gradient finite where nothing moves.
   const Tensor speeds = (steps.square().sum(-1) + 1e-10).sqrt();
   return torch::matmul(speeds, shares.transpose(0, 1));
+}
+
+Tensor SharesOf(const Skeleton& skeleton) {
+  const BodyPartWeights weights = WeighBodyParts(skeleton);
+  Tensor shares = torch::empty({kBodyParts, skeleton.joints()});
+  for (int part = 0; part < kBodyParts; ++part) {
+    for (int j = 0; j < skeleton.joints(); ++j)
+      shares[part][j] = static_cast<float>(weights(part, j));
+  }
+  return shares;
 }
 
 }  // namespace choreo

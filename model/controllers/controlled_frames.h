@@ -2,6 +2,8 @@
 
 #include <torch/types.h>
 
+#include "model/motion/skeleton.h"
+
 /// Motion as the controllers network sees it: paper C's p^r, o^r, p^b and c (Section 3.1) in
 /// batches, canonical frame, metres.
 namespace choreo {
@@ -44,5 +46,6 @@ torch::Tensor RelativePositions(const FrameTensors& frames);
 torch::Tensor Steps(const FrameTensors& frames);
 /// Paper C's Eq. 1 of those differences: [..., joints, 3] and shares [5, joints] -> [..., 5].
 torch::Tensor FactorsOf(const torch::Tensor& steps, const torch::Tensor& shares);
+torch::Tensor SharesOf(const Skeleton& skeleton);  ///< WeighBodyParts, [5, joints]
 
 }  // namespace choreo

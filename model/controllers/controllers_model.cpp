@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "model/flow/planner.h"
-#include "model/flow/time_block.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {
@@ -14,13 +13,11 @@ using torch::Tensor;
 
 namespace {
 
-constexpr int64_t kEmbedding = 32;     // of each count of frames
-constexpr double kRampFrames = 6;      // over which the residual grows from a fixed end
-constexpr double kStep = 0.02;         // metres a frame that count as one
-constexpr double kPlace = 0.1;         // metres beside the path that count as one
-constexpr double kHeight = 0.2;        // metres of height that count as one
-constexpr double kTurnStep = 0.05;     // radians a frame that count as one
-constexpr double kPlanSmoothness = 1;  // frames
+constexpr int64_t kEmbedding = ControlledScale::kEmbedding;
+constexpr double kRampFrames = 6;  // over which the residual grows from a fixed end
+constexpr double kStep = ControlledScale::kStep, kHeight = ControlledScale::kHeight;
+constexpr double kPlace = 0.1;      // metres beside the path that count as one
+constexpr double kTurnStep = 0.05;  // radians a frame that count as one
 constexpr int64_t kContacts = 4;
 
 torch::nn::Sequential Connected(int64_t in, std::initializer_list<int64_t> hidden, int64_t out,
@@ -41,13 +38,6 @@ torch::nn::Sequential Connected(int64_t in, std::initializer_list<int64_t> hidde
     torch::nn::init::zeros_(last->bias);
   }
   return layers;
-}
-
-// Low-pass along [batch, N, features].
-Tensor SmoothInTime(const Tensor& x) {
-  const Tensor at = torch::arange(x.size(1), x.options());
-  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / kPlanSmoothness;
-  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
 }
 
 // Windows of `size` frames around each of N, [batch, N, size, features]: `before` holds the frames
@@ -76,31 +66,13 @@ ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
 ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
                                            const Skeleton& skeleton)
     : config_(config), skeleton_(skeleton), others_(skeleton.joints() - 1) {
-  joint_mean_ = register_buffer("joint_mean", torch::zeros({others_, 3}));
-  joint_std_ = register_buffer("joint_std", torch::ones({others_, 3}));
-  factor_std_ = register_buffer("factor_std", torch::ones({kBodyParts}));
-  const BodyPartWeights weights = WeighBodyParts(skeleton);
-  shares_ = torch::empty({kBodyParts, skeleton.joints()});
-  for (int part = 0; part < kBodyParts; ++part) {
-    for (int j = 0; j < skeleton.joints(); ++j)
-      shares_[part][j] = static_cast<float>(weights(part, j));
-  }
+  scale_.joint_mean = register_buffer("joint_mean", torch::zeros({others_, 3}));
+  scale_.joint_std = register_buffer("joint_std", torch::ones({others_, 3}));
+  scale_.factor_std = register_buffer("factor_std", torch::ones({kBodyParts}));
+  scale_.shares = SharesOf(skeleton);
 
   const int64_t pose = 3 * others_;
-  if (config.plan_width > 0) {
-    // Pose, its step, the step that leaves the history; root step, height, way to the end, turn to
-    // the target; factors; is-history, is-target; two counts of frames.
-    const int64_t token = 3 * pose + 3 + 1 + 3 + 2 + kBodyParts + 2 + 2 * kEmbedding;
-    plan_embed_ = register_module("plan_embed", torch::nn::Linear(token, config.plan_width));
-    plan_blocks_ = register_module("plan_blocks", torch::nn::ModuleList());
-    for (int i = 0; i < config.plan_layers; ++i)
-      plan_blocks_->push_back(TimeBlock(config.plan_width, config.plan_heads, config.plan_dropout));
-    plan_norm_ = register_module(
-        "plan_norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({config.plan_width})));
-    plan_head_ = register_module("plan_head", torch::nn::Linear(config.plan_width, pose + 2 + 3));
-    torch::nn::init::zeros_(plan_head_->weight);
-    torch::nn::init::zeros_(plan_head_->bias);
-  }
+  if (config.plan_width > 0) plan_.emplace(config, skeleton, scale_, this);
 
   path_controller_ = register_module("path_controller", MakeWindowController(3, config));
   int64_t live = 2 * config.encoding + config.controller;
@@ -140,9 +112,9 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
 void ControllersModelImpl::SetNormalisation(const Tensor& joint_mean, const Tensor& joint_std,
                                             const Tensor& factor_std) {
   torch::NoGradGuard no_grad;
-  joint_mean_.copy_(joint_mean);
-  joint_std_.copy_(joint_std);
-  factor_std_.copy_(factor_std);
+  scale_.joint_mean.copy_(joint_mean);
+  scale_.joint_std.copy_(joint_std);
+  scale_.factor_std.copy_(factor_std);
 }
 
 std::pair<Tensor, Tensor> ControllersModelImpl::Reference(const ControlledTransition& transition) {
@@ -153,50 +125,6 @@ std::pair<Tensor, Tensor> ControllersModelImpl::Reference(const ControlledTransi
   const Tensor way = transition.target_joints.unsqueeze(1) - last;
   return {last + u.unsqueeze(-1).unsqueeze(-1) * way,
           HeadingOf(u * transition.target_turn.unsqueeze(1))};
-}
-
-Tensor ControllersModelImpl::Unit(const Tensor& joints) const {
-  return ((joints - joint_mean_) / joint_std_).flatten(-2);
-}
-
-Tensor ControllersModelImpl::PlanTokens(const ControlledTransition& transition,
-                                        const Tensor& reference, const Tensor& ahead) const {
-  const FrameTensors& history = transition.history;
-  const int64_t batch = reference.size(0), frames = transition.frames, tau = history.size(),
-                time = tau + frames;
-  const auto options = reference.options();
-  const Tensor poses = Unit(torch::cat({history.joints, reference}, 1));
-  const Tensor steps =
-      (history.joints.narrow(1, 1, tau - 1) - history.joints.narrow(1, 0, tau - 1)).flatten(-2) /
-      kStep;
-  const int64_t width = poses.size(2);
-  const Tensor stepped = torch::cat({torch::zeros({batch, 1, width}, options), steps,
-                                     torch::zeros({batch, frames, width}, options)},
-                                    1);
-  const Tensor leaving = steps.narrow(1, tau - 2, 1).expand_as(poses);
-  const Tensor root = torch::cat({history.root, transition.path}, 1);
-  const Tensor facing = torch::cat({history.facing, ahead}, 1);
-  const Tensor before = torch::cat({root.narrow(1, 0, 1), root.narrow(1, 0, time - 1)}, 1);
-  const Tensor has = transition.has_target.unsqueeze(1);  // [batch, 1, 1]
-  const Tensor end = root.narrow(1, time - 1, 1);
-  const Tensor past = FactorsOf(Steps(history), shares_) / factor_std_;
-  const Tensor given = transition.factors / factor_std_;
-  const Tensor factors =
-      torch::cat({past.narrow(1, 0, 1), past, given}, 1) * (config_.velocity_factors ? 1.0 : 0.0);
-  const Tensor is_history = torch::zeros({1, time, 1}, options);
-  is_history.narrow(1, 0, tau).fill_(1);
-  const Tensor is_target = torch::zeros({1, time, 1}, options);
-  is_target.narrow(1, time - 1, 1).fill_(1);
-  const Tensor since = torch::arange(-tau, frames, options).view({1, time});
-  const Tensor left = (frames - 1) - since;
-  const auto all = [&](const Tensor& x) { return x.expand({batch, time, x.size(-1)}); };
-  return torch::cat({poses, stepped, leaving, TurnBack(root - before, facing) / kStep,
-                     (root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
-                     TurnBack(end - root, facing) * has,
-                     SubtractHeadings(HeadingOf(transition.target_turn).unsqueeze(1), facing) * has,
-                     factors, all(is_history), is_target * has,
-                     all(TimeEmbedding(since, kEmbedding)), TimeEmbedding(left, kEmbedding) * has},
-                    -1);
 }
 
 ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transition, bool whole) {
@@ -228,14 +156,10 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
                    -1);
     given.code = position_code_(place);
   }
-  if (config_.plan_width > 0) {
-    Tensor x = plan_embed_(PlanTokens(transition, reference, given.ahead));
-    const Tensor distance = TimeDistances(x.size(1), options.device());
-    for (const auto& block : *plan_blocks_) x = block->as<TimeBlock>()->forward(x, distance);
-    const Tensor hidden = plan_norm_(x).narrow(1, history.size(), frames);
-    const Tensor residual = SmoothInTime(plan_head_(hidden));
+  if (plan_) {
+    const auto [residual, hidden] = plan_->Make(transition, reference, given.ahead);
     const int64_t pose = 3 * others_;
-    given.joints = reference + given.ramp.unsqueeze(-1) * joint_std_ *
+    given.joints = reference + given.ramp.unsqueeze(-1) * scale_.joint_std *
                                    residual.narrow(2, 0, pose).unflatten(2, {others_, 3});
     given.turn = residual.narrow(2, pose, 2);
     given.root = kPlace * residual.narrow(2, pose + 2, 3);
@@ -257,8 +181,8 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
   given.path_memory = encode(path_controller_, given.path_window);
   if (config_.velocity_factors) {
     given.factor_window =
-        Windows(FactorsOf(Steps(history), shares_), transition.factors, config_.window) /
-        factor_std_;
+        Windows(FactorsOf(Steps(history), scale_.shares), transition.factors, config_.window) /
+        scale_.factor_std;
     given.factor_memory = encode(factor_controller_, given.factor_window);
   }
   return given;
@@ -298,23 +222,23 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
              TurnBack(roots - given.path.unsqueeze(2), given.ahead.unsqueeze(2)) / kPlace,
              given.path_window)};
   if (config_.velocity_factors) {
-    const Tensor factors = FactorsOf(Steps(walked), shares_) / factor_std_;
+    const Tensor factors = FactorsOf(Steps(walked), scale_.shares) / scale_.factor_std;
     live.push_back(decode(factor_controller_, given.factor_memory,
                           factors.unfold(1, half, 1).transpose(-1, -2), given.factor_window));
   }
 
   const Tensor facing = SubtractHeadings(now.facing, given.ahead);
-  live.push_back(state_encoder_->forward(
-      torch::cat({Unit(now.joints), (now.root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
-                  TurnBack(given.path - now.root, given.ahead) / kPlace, facing, now.contacts},
-                 -1)));
+  live.push_back(state_encoder_->forward(torch::cat(
+      {scale_.Unit(now.joints), (now.root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
+       TurnBack(given.path - now.root, given.ahead) / kPlace, facing, now.contacts},
+      -1)));
   live.push_back(velocity_encoder_->forward(
       torch::cat({(now.joints - before.joints).flatten(-2) / kStep,
                   TurnBack(now.root - before.root, given.ahead) / kStep,
                   SubtractHeadings(now.facing, before.facing).narrow(-1, 0, 1) / kTurnStep},
                  -1)));
   const Tensor target = target_controller_->forward(
-      torch::cat({((given.target_joints - now.joints) / joint_std_).flatten(-2),
+      torch::cat({((given.target_joints - now.joints) / scale_.joint_std).flatten(-2),
                   SubtractHeadings(given.target_facing.expand_as(now.facing), now.facing),
                   TurnBack(given.end - now.root, given.ahead),
                   torch::ones({batch, frames, 1}, now.root.options())},
@@ -342,7 +266,7 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
   } else {
     root = decoded.narrow(2, all, decoded.size(2) - all);
   }
-  const Tensor joints = given.joints + given.ramp.unsqueeze(-1) * joint_std_ *
+  const Tensor joints = given.joints + given.ramp.unsqueeze(-1) * scale_.joint_std *
                                            decoded.narrow(2, 0, pose).unflatten(2, {others_, 3});
   ControlledOutput output;
   output.frames = Compose(given, joints, given.turn + root.narrow(2, 3, 2),

@@ -2,19 +2,19 @@
 
 #include <torch/nn/module.h>
 #include <torch/nn/modules/activation.h>
-#include <torch/nn/modules/container/modulelist.h>
 #include <torch/nn/modules/container/sequential.h>
 #include <torch/nn/modules/linear.h>
-#include <torch/nn/modules/normalization.h>
 #include <torch/nn/modules/rnn.h>
 #include <torch/nn/pimpl.h>
 #include <torch/types.h>
 
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "model/controllers/controlled_frames.h"
+#include "model/controllers/controlled_plan.h"
 #include "model/controllers/controllers_config.h"
 #include "model/controllers/window_controller.h"
 #include "model/motion/skeleton.h"
@@ -64,7 +64,9 @@ class ControllersModelImpl : public torch::nn::Module {
   const Skeleton& skeleton() const { return skeleton_; }
   /// Frames before the first one that Walk looks at.
   int lead() const { return config_.window / 2 + 1; }
-  const torch::Tensor& shares() const { return shares_; }  ///< [5, joints], as FactorsOf takes them
+  const torch::Tensor& shares() const {
+    return scale_.shares;
+  }  ///< [5, joints], as FactorsOf takes them
 
   /// Mean and spread of real joints [joints - 1, 3] and of velocity factors [5].
   void SetNormalisation(const torch::Tensor& joint_mean, const torch::Tensor& joint_std,
@@ -82,22 +84,18 @@ class ControllersModelImpl : public torch::nn::Module {
   FrameTensors RollOut(const ControlledTransition& transition);
 
  private:
-  torch::Tensor Unit(const torch::Tensor& joints) const;
   // Where everything starts from: joints [batch, N, joints - 1, 3] and headings [batch, N, 2].
   static std::pair<torch::Tensor, torch::Tensor> Reference(const ControlledTransition& transition);
-  torch::Tensor PlanTokens(const ControlledTransition& transition, const torch::Tensor& reference,
-                           const torch::Tensor& ahead) const;
   FrameTensors Compose(const ControlledGiven& given, const torch::Tensor& joints,
                        const torch::Tensor& turn, const torch::Tensor& root) const;
 
   ControllersConfig config_;
   Skeleton skeleton_;
   int64_t others_;  // joints but the root
-  torch::Tensor joint_mean_, joint_std_, factor_std_, shares_;
+  ControlledScale scale_;
 
-  torch::nn::Linear plan_embed_{nullptr}, plan_head_{nullptr}, plan_code_{nullptr};
-  torch::nn::LayerNorm plan_norm_{nullptr};
-  torch::nn::ModuleList plan_blocks_{nullptr};
+  std::optional<ControlledPlan> plan_;
+  torch::nn::Linear plan_code_{nullptr};
   WindowController path_controller_, factor_controller_;
   torch::nn::Sequential state_encoder_{nullptr}, velocity_encoder_{nullptr},
       target_controller_{nullptr}, state_decoder_{nullptr}, root_decoder_{nullptr};
