@@ -13,9 +13,11 @@ namespace choreo {
 /// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4),
 /// for models that take them; empty where the judged one takes none. Methods that take none stand
 /// beside it without:
-///   lrp_SET, avf_SET, art_SET  its Tables 2-4 at 10, 50, 100 and 150 frames, the network alone and
-///                              as served (arrival, foot lock), beside interpolation along the path
-///   multipliers_SET            factors times 0.5 and 1.5: how the speed of each part follows
+///   lrp_SET, avf_SET, art_SET  its Tables 2-4 at 10, 50, 100 and 150 frames: real motion,
+///                              interpolation along the path, each network alone and as served
+///                              (arrival, foot lock), and without keys
+///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET  of the same dances
+///   multipliers_SET            factors times 0.5, 1 and 1.5: how the speed of each part follows
 ///   repetition_SET             100 to 250 frames: how much of a dance repeats itself, how much of
 ///                              its ending holds still
 /// `methods` has exactly one that is named kServed. Deterministic.

@@ -24,7 +24,8 @@ int InterpolationEngine::Admit(const TransitionSpec& spec) {
       std::ranges::find_if(slots_, [](const auto& slot) { return !slot.has_value(); });
   if (free == slots_.end()) throw Error(ErrorCode::kResourceExhausted, "", "every slot is taken");
   const Pose& from = spec.history.back();
-  *free = Way{from, spec.target ? spec.target->pose : from, spec.frames, 0};
+  *free =
+      Way{from, spec.target ? spec.target->pose : from, spec.frames, 0, spec.controls.root_path};
   return static_cast<int>(free - slots_.begin());
 }
 
@@ -32,7 +33,9 @@ void InterpolationEngine::Step(std::span<const StepInput> in, std::span<StepOutp
   for (size_t i = 0; i < in.size(); ++i) {
     Way& way = *slots_[static_cast<size_t>(in[i].slot)];
     out[i] = {};
-    out[i].pose = InterpolatePoses(way.from, way.to, static_cast<double>(++way.done) / way.frames);
+    out[i].pose = InterpolatePoses(way.from, way.to, (way.done + 1.0) / way.frames);
+    if (way.path.cols() > 0) out[i].pose.root_position = way.path.col(way.done).cast<double>();
+    ++way.done;
   }
 }
 

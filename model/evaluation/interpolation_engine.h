@@ -9,7 +9,8 @@ namespace choreo {
 
 /// The baseline of paper F's Table 2 as an engine, so that it passes the same pipeline as a model
 /// (arrival, foot lock): linear for the root, spherical for the joints, from the last history pose
-/// to the key. Without a target it stands still. Not thread-safe.
+/// to the key, or on the path that was asked for. Without a target its posture stands still. Not
+/// thread-safe.
 class InterpolationEngine : public StepEngine {
  public:
   /// Looks like `model` in all that a request depends on.
@@ -27,6 +28,7 @@ class InterpolationEngine : public StepEngine {
   struct Way {
     Pose from, to;
     int frames, done;
+    Eigen::Matrix3Xf path;
   };
   ModelInfo model_;
   std::vector<std::optional<Way>> slots_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace choreo {
@@ -35,6 +36,23 @@ nlohmann::json Number(double value) {
 }
 
 }  // namespace
+
+Cell Mean(const std::vector<ClipFigure>& figures) {
+  if (figures.empty()) return {};
+  std::map<size_t, std::pair<double, double>> clips;
+  double sum = 0;
+  for (const ClipFigure& figure : figures) {
+    clips[figure.clip].first += figure.value;
+    clips[figure.clip].second += 1;
+    sum += figure.value;
+  }
+  std::vector<double> sums, counts;
+  for (const auto& [clip, entry] : clips) {
+    sums.push_back(entry.first);
+    counts.push_back(entry.second);
+  }
+  return {sum / static_cast<double>(figures.size()), BootstrapRatio(sums, counts)};
+}
 
 std::string ToMarkdown(const Table& table) {
   std::vector<std::vector<std::string>> lines;

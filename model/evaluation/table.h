@@ -17,6 +17,15 @@ struct Cell {
   std::optional<Interval> interval;  ///< 95 %
 };
 
+/// What one window of a clip came to.
+struct ClipFigure {
+  size_t clip = 0;  ///< within its set
+  double value = 0;
+};
+
+/// Mean over windows with its interval over clips; NaN of none.
+Cell Mean(const std::vector<ClipFigure>& figures);
+
 struct Column {
   std::string heading;  ///< with unit
   int digits = 2;

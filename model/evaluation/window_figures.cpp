@@ -76,20 +76,10 @@ Cell Ratio(const std::vector<WindowFigures>& above, double WindowFigures::*numer
 }
 
 Cell Mean(const std::vector<WindowFigures>& windows, double WindowFigures::*figure, double unit) {
-  std::map<size_t, std::pair<double, double>> clips;
-  double sum = 0;
-  for (const WindowFigures& window : windows) {
-    clips[window.clip].first += unit * (window.*figure);
-    clips[window.clip].second += 1;
-    sum += unit * (window.*figure);
-  }
-  std::vector<double> sums, counts;
-  for (const auto& [clip, entry] : clips) {
-    sums.push_back(entry.first);
-    counts.push_back(entry.second);
-  }
-  if (windows.empty()) return {};
-  return {sum / static_cast<double>(windows.size()), BootstrapRatio(sums, counts)};
+  std::vector<ClipFigure> figures;
+  for (const WindowFigures& window : windows)
+    figures.push_back({window.clip, unit * (window.*figure)});
+  return Mean(figures);
 }
 
 double Largest(const std::vector<WindowFigures>& windows, double WindowFigures::*figure) {

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/core/progress.h"
+#include "model/evaluation/method.h"
+#include "model/evaluation/table.h"
+#include "model/evaluation/windows.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo {
+
+/// One way of answering requests with controls.
+struct ControlledWay {
+  enum class Kind {
+    kReal,           ///< what was really danced
+    kInterpolation,  ///< slerp, its root on the path
+    kEngine,
+  };
+  std::string name;
+  Kind kind = Kind::kEngine;
+  StepEngine* engine = nullptr;  ///< of kEngine; not owned
+  bool keys = true;
+  bool finished = true;  ///< as served: with arrival and foot lock
+
+  bool TakesVelocityFactors() const {
+    return kind == Kind::kEngine && engine->model().velocity_factors;
+  }
+};
+
+/// Real motion, interpolation along the path, and each engine of `methods`: the network alone and
+/// as served; without keys, as served.
+std::vector<ControlledWay> WaysOf(const std::vector<Method>& methods);
+
+/// [kBodyParts, frames] metres a frame.
+using FactorTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
+
+/// Factors of each of `danced`, which follows on `before`.
+FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
+                          const std::vector<Pose>& danced);
+
+/// A real transition, and what is asked of those who dance it again.
+struct ControlledWindow {
+  size_t clip = 0;
+  Pose before;  ///< the last history pose
+  std::vector<Pose> real;
+  Eigen::Matrix3Xd path;
+  FactorTrack factors;
+};
+
+/// One dance a window.
+using Dances = std::vector<std::vector<Pose>>;
+
+/// The windows of one length, danced by anyone. Set, model and progress must outlive it.
+class ControlCourse {
+ public:
+  ControlCourse(const ClipSet& set, const ModelInfo& model, int frames, int per_clip,
+                ProgressBar* progress);
+
+  const std::vector<ControlledWindow>& windows() const { return windows_; }
+
+  /// With the real path, and `scale` times the real factors where the way takes any.
+  Dances Dance(const ControlledWay& way, double scale = 1) const;
+
+  /// Mean over windows of a figure of each.
+  using Figure = std::function<double(const ControlledWindow&, const std::vector<Pose>& danced)>;
+  Cell MeanOf(const Dances& dances, const Figure& figure) const;
+
+ private:
+  std::vector<Pose> Interpolated(const ControlledWindow& window) const;
+
+  const ClipSet& set_;
+  const ModelInfo& model_;
+  int frames_;
+  ProgressBar* progress_;
+  std::vector<EvalWindow> chosen_;
+  std::vector<ControlledWindow> windows_;
+};
+
+}  // namespace choreo

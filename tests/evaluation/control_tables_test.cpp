@@ -1,0 +1,180 @@
+#include "model/evaluation/control_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "model/evaluation/interpolation_engine.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+#include "tests/support/fake_engine.h"
+#include "tests/support/synthetic_clips.h"
+
+namespace choreo {
+namespace {
+
+using testing_support::SyntheticClip;
+
+/// Dances as the fake model does, beside its path.
+class BesideEngine : public ControlledEngine {
+ public:
+  explicit BesideEngine(double metres) : metres_(metres) {}
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    ControlledEngine::Step(in, out);
+    for (StepOutput& output : out) output.pose.root_position.x() += metres_;
+  }
+
+ private:
+  double metres_;
+};
+
+/// Keeps its posture and swings the left shoulder to and fro, as fast as it is asked: the mean
+/// speed of the arm's joints is the factor, to the letter.
+class SwingingEngine : public ControlledEngine {
+ public:
+  int Admit(const TransitionSpec& spec) override {
+    const int slot = ControlledEngine::Admit(spec);
+    last_[slot] = spec.history.back();
+    side_[slot] = 1;
+    return slot;
+  }
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    ControlledEngine::Step(in, out);
+    for (size_t i = 0; i < in.size(); ++i) {
+      Pose& pose = last_[in[i].slot];
+      const double asked = out[i].pose.rotations(0, model_.skeleton.Find(kTellingJoints[1]));
+      const double turn = 2 * std::asin(asked / (2 * MeanRadius(pose)));
+      side_[in[i].slot] *= -1;
+      const int shoulder = model_.skeleton.left_shoulder;
+      // About an axis of its own, which the turn does not move.
+      pose.rotations.col(shoulder) =
+          LogMap(ExpMap(side_[in[i].slot] * turn * Eigen::Vector3d::UnitZ()) *
+                 ExpMap(pose.rotations.col(shoulder)));
+      pose.root_position = out[i].pose.root_position;
+      out[i].pose = pose;
+    }
+  }
+
+ private:
+  // Of the arm's joints from that axis, by their shares in the factor.
+  double MeanRadius(const Pose& pose) const {
+    const Skeleton& skeleton = model_.skeleton;
+    const JointPlacement placed = ForwardKinematics(skeleton, pose);
+    const auto parent =
+        static_cast<size_t>(skeleton.parents[static_cast<size_t>(skeleton.left_shoulder)]);
+    const Eigen::Vector3d axis = placed.rotations[parent].col(2);
+    const Eigen::Vector3d centre = placed.positions.col(skeleton.left_shoulder);
+    const BodyPartWeights weights = WeighBodyParts(skeleton);
+    double radius = 0;
+    for (int joint = 0; joint < skeleton.joints(); ++joint) {
+      // The collar and the shoulder stand still.
+      bool moves = false;
+      for (int at = joint; at > 0; at = skeleton.parents[static_cast<size_t>(at)])
+        moves = moves || at == skeleton.left_shoulder;
+      if (!moves) continue;
+      const Eigen::Vector3d from = placed.positions.col(joint) - centre;
+      radius += weights(1, joint) * from.cross(axis).norm();
+    }
+    return radius;
+  }
+
+  std::map<int, Pose> last_;
+  std::map<int, double> side_;
+};
+
+class ControlTablesTest : public testing::Test {
+ protected:
+  double Figure(const std::string& table, const std::vector<std::string>& row,
+                const std::string& column) const {
+    const Table& of = *std::ranges::find(tables_, table + "_set", &Table::name);
+    const auto at = std::ranges::find(of.columns, column, &Column::heading) - of.columns.begin();
+    const auto line = std::ranges::find(of.rows, row, &TableRow::labels);
+    if (line == of.rows.end()) return std::nan("");
+    return line->cells[static_cast<size_t>(at)].value;
+  }
+
+  const ClipSet set_ = {
+      "set", {SyntheticClip("walk_a", 300, 0.1, false), SyntheticClip("turn_b", 300, 0.9, false)}};
+  InterpolationEngine line_{ControlledEngine().model()};
+  BesideEngine near_{0.05}, beside_{0.09};
+  SwingingEngine swinging_;
+  FakeEngine plain_;
+  const std::vector<Method> methods_ = {{"real", Method::Kind::kReal},
+                                        {"still", Method::Kind::kEngine, &line_, false},
+                                        {"near", Method::Kind::kEngine, &near_},
+                                        {"beside", Method::Kind::kEngine, &beside_},
+                                        {"swinging", Method::Kind::kEngine, &swinging_},
+                                        {"plain", Method::Kind::kEngine, &plain_},
+                                        {kServed, Method::Kind::kEngine, &line_}};
+  const EvalOptions options_{.windows_per_clip = 1};
+  const std::vector<Table> tables_ = EvaluateControls(set_, methods_, options_, nullptr);
+};
+
+TEST_F(ControlTablesTest, RealMotionIsTheYardstick) {
+  for (const std::string length : {"10", "50", "100", "150"}) {
+    EXPECT_EQ(Figure("lrp", {"real"}, length), 0);
+    EXPECT_EQ(Figure("lrp_ratio", {"real"}, length), 0);
+    EXPECT_EQ(Figure("lrp_turned", {"real"}, length), 0);
+    EXPECT_EQ(Figure("avf", {"real"}, length), 1);
+    EXPECT_EQ(Figure("art", {"real"}, length), 1);
+    EXPECT_GE(Figure("control_skate", {"real"}, length), 0);
+  }
+  for (const std::string_view part : kBodyPartNames)
+    EXPECT_DOUBLE_EQ(Figure("multipliers", {"real", "1.0"}, std::string(part)), 1);
+  EXPECT_EQ(Figure("repetition", {"real"}, "still at the end, 250"), 0);
+  // As many rows as there are ways, in every table.
+  for (const Table& table : tables_) {
+    if (table.label_headings.size() != 1) continue;
+    EXPECT_EQ(table.rows.size(), 2U + 2 * 5 + 1) << table.name;
+  }
+}
+
+TEST_F(ControlTablesTest, InterpolationIsTheUnitWhoeverDancesIt) {
+  for (const std::string length : {"50", "150"}) {
+    EXPECT_EQ(Figure("lrp_ratio", {"interpolation"}, length), 1);
+    EXPECT_NEAR(Figure("lrp_ratio", {"model, network alone"}, length), 1, 1e-3);
+    EXPECT_EQ(Figure("art", {"model, network alone"}, length), 1);
+    EXPECT_GT(Figure("lrp", {"interpolation"}, length), 1);
+    // Without keys it never leaves its posture.
+    EXPECT_GT(Figure("lrp_ratio", {"still"}, length), 1);
+  }
+  EXPECT_GT(Figure("multipliers", {"interpolation", "1.0"}, "left_arm"), 0);
+  EXPECT_TRUE(std::isnan(Figure("multipliers", {"interpolation", "0.5"}, "left_arm")));
+}
+
+TEST_F(ControlTablesTest, ARootWithinSevenCentimetresCounts) {
+  EXPECT_EQ(Figure("art", {"near, network alone"}, "100"), 1);
+  EXPECT_EQ(Figure("art", {"beside, network alone"}, "100"), 0);
+  EXPECT_EQ(Figure("art", {"near, network alone"}, "mean"), 1);
+  // Who takes no path is not told of it.
+  EXPECT_LT(Figure("art", {"plain, network alone"}, "150"), 1);
+}
+
+TEST_F(ControlTablesTest, WhoObeysItsFactorsMultipliesItsSpeeds) {
+  for (const auto& [times, scale] :
+       std::map<std::string, double>{{"0.5", 0.5}, {"1.0", 1}, {"1.5", 1.5}}) {
+    EXPECT_NEAR(Figure("multipliers", {"swinging, network alone", times}, "left_arm"), scale, 0.01);
+    EXPECT_NEAR(Figure("multipliers", {"swinging, network alone", times}, "right_arm"), 0, 1e-4);
+  }
+  // One that takes none has the one row.
+  EXPECT_FALSE(std::isnan(Figure("multipliers", {"plain", "1.0"}, "left_arm")));
+  EXPECT_TRUE(std::isnan(Figure("multipliers", {"plain", "0.5"}, "left_arm")));
+}
+
+TEST_F(ControlTablesTest, WhoSwingsToAndFroRepeatsHerself) {
+  EXPECT_GT(Figure("repetition", {"swinging, network alone"}, "repeated, 250"), 0.5);
+  EXPECT_LT(Figure("repetition", {"real"}, "repeated, 250"), 0.5);
+}
+
+TEST_F(ControlTablesTest, CountsTheFramesThatItDances) {
+  // Two windows a length; 10 to 150 and 100 to 250 frames by each of eleven ways, 90 frames three
+  // times by those with factors and once by the other two.
+  const int64_t once = 2 * (10 + 50 + 100 + 150 + 100 + 150 + 200 + 250);
+  EXPECT_EQ(CountControlFrames(set_, methods_, options_), 11 * once + 2 * 90 * (9 * 3 + 2));
+  EXPECT_TRUE(EvaluateControls(set_, {{kServed, Method::Kind::kEngine, &plain_}}, options_, nullptr)
+                  .empty());
+}
+
+}  // namespace
+}  // namespace choreo
