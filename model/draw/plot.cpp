@@ -102,6 +102,11 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
+  // As long as `extent`, its middle where it was.
+  void WidenTo(double extent) {
+    const double extra = std::max(0.0, extent - (high - low)) / 2;
+    low -= extra, high += extra;
+  }
   // Never empty, never a single point; `margin` of the extent is added on both sides.
   void Settle(double margin) {
     if (!(low <= high)) low = 0, high = 1;
@@ -145,18 +150,22 @@ void DrawLine(const Canvas& canvas, double x1, double y1, double x2, double y2) 
 }
 
 // More series than colours: the second round is dashed.
-void SelectLine(const Canvas& canvas, size_t index) {
-  canvas.SetColour(kLines[index % kColours]);
+void SelectLine(const Canvas& canvas, const Plot& plot, size_t index) {
+  const auto end = plot.series.begin() + static_cast<std::ptrdiff_t>(index) + 1;
+  const auto number = static_cast<size_t>(std::count_if(
+      plot.series.begin(), end, [](const PlotSeries& series) { return !series.asked; }));
+  canvas.SetColour(number == 0 ? kInk : kLines[(number - 1) % kColours]);
   cairo_set_line_width(canvas.cr(), 2);
   const double dashes[] = {6, 4};
-  cairo_set_dash(canvas.cr(), dashes, index / kColours % 2 ? 2 : 0, 0);
+  const bool dashed = plot.series[index].asked || (number - 1) / kColours % 2 == 1;
+  cairo_set_dash(canvas.cr(), dashes, dashed ? 2 : 0, 0);
 }
 
 void DrawSeries(const Canvas& canvas, const Plot& plot, const Axis& x_axis, const Axis& y_axis) {
   cairo_t* cr = canvas.cr();
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
-    SelectLine(canvas, i);
+    SelectLine(canvas, plot, i);
     const bool few = series.x.size() <= 40;
     int run = 0;
     double last_x = 0, last_y = 0;
@@ -193,7 +202,7 @@ void DrawLegend(const Canvas& canvas, const Plot& plot, double left, double righ
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const double width = kSample + 6 + canvas.TextWidth(plot.series[i].label, kFont) + kGap;
     if (x > left && x + width > right) x = left, y += kLine;
-    SelectLine(canvas, i);
+    SelectLine(canvas, plot, i);
     DrawLine(canvas, x, y, x + kSample, y);
     cairo_set_dash(canvas.cr(), nullptr, 0, 0);
     canvas.SetColour(kInk);
@@ -216,7 +225,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
       ys.Add(value);
     }
   }
-  xs.Settle(0);
+  xs.Settle(plot.map ? 0.04 : 0);
   ys.Settle(0.04);
 
   const Canvas canvas(plot.width, plot.height, kPaper);
@@ -231,12 +240,19 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   DrawLegend(canvas, plot, 24, right, top);
   top += 10;
 
-  const Axis y_axis(ys.low, ys.high, bottom, top, plot.log_y, 56);
+  Axis y_axis(ys.low, ys.high, bottom, top, plot.log_y, 56);
   double widest = 0;
   for (const Tick& tick : y_axis.ticks()) {
     widest = std::max(widest, canvas.TextWidth(tick.label, kFont));
   }
   const double left = 24 + (plot.y_label.empty() ? 0 : 26) + widest + 8;
+  if (plot.map) {
+    const double unit =
+        std::max((xs.high - xs.low) / (right - left), (ys.high - ys.low) / (bottom - top));
+    xs.WidenTo(unit * (right - left));
+    ys.WidenTo(unit * (bottom - top));
+    y_axis = Axis(ys.low, ys.high, bottom, top, false, 56);
+  }
   const Axis x_axis(xs.low, xs.high, left, right, false, 90);
 
   cairo_set_line_width(cr, 1);

@@ -11,6 +11,9 @@ namespace choreo {
 struct PlotSeries {
   std::string label;
   std::vector<double> x, y;  ///< of one length
+  /// What was asked, beside what came of it: dashed, in the colour of the series before it; ahead
+  /// of all others, in that of the text.
+  bool asked = false;
 };
 
 /// A line chart.
@@ -20,6 +23,7 @@ struct Plot {
   std::string y_label;
   std::vector<PlotSeries> series;
   bool log_y = false;
+  bool map = false;  ///< a unit is as long up as to the right
   int width = 1000;  ///< pixels, 200 to 8192
   int height = 600;
 };

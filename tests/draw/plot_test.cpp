@@ -88,6 +88,40 @@ TEST(Plot, IsDrawnEvenOfNothingOrOfOneValue) {
   }
 }
 
+TEST(Plot, WhatWasAskedIsDashedInTheColourOfWhatCame) {
+  const TemporaryFolder folder;
+  Plot plot = Example();
+  DrawPlot(plot, folder / "both.png");
+  plot.series[1].asked = true;
+  DrawPlot(plot, folder / "asked.png");
+  const DecodedPng both(folder / "both.png"), asked(folder / "asked.png");
+  EXPECT_EQ(asked.Count(kSecondLine), 0);
+  EXPECT_GT(asked.Count(kFirstLine), both.Count(kFirstLine) + 100);
+  // Ahead of all others it has none's.
+  std::swap(plot.series[0], plot.series[1]);
+  DrawPlot(plot, folder / "first.png");
+  EXPECT_LT(DecodedPng(folder / "first.png").Count(kFirstLine), asked.Count(kFirstLine) - 100);
+}
+
+TEST(Plot, OnAMapAUnitIsAsLongUpAsToTheRight) {
+  const TemporaryFolder folder;
+  Plot plot;
+  plot.series = {{"square", {0, 1, 1, 0, 0}, {0, 0, 1, 1, 0}}};
+  plot.map = true;
+  DrawPlot(plot, folder / "map.png");
+  const DecodedPng png(folder / "map.png");
+  int left = png.width, right = 0, top = png.height, bottom = 0;
+  for (int y = 45; y < png.height; ++y) {  // below the legend
+    for (int x = 0; x < png.width; ++x) {
+      if (png.At(x, y) != kFirstLine) continue;
+      left = std::min(left, x), right = std::max(right, x);
+      top = std::min(top, y), bottom = std::max(bottom, y);
+    }
+  }
+  EXPECT_NEAR(right - left, bottom - top, 3);
+  EXPECT_GT(right - left, 200);
+}
+
 TEST(Plot, RefusesWhatItCannotDraw) {
   const TemporaryFolder folder;
   Plot plot = Example();

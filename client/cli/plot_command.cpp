@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "client/cli/commands.h"
+#include "client/cli/control_options.h"
+#include "client/cli/json_fields.h"
+#include "client/cli/options.h"
+#include "client/cli/output_file.h"
+#include "model/core/error.h"
+#include "model/draw/plot.h"
+#include "model/formats/motion_file.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo::cli {
+namespace {
+
+constexpr double kCentimetre = 100;   // of a metre
+constexpr double kSmoothing_s = 0.5;  // over which speeds are means
+
+struct PlotOptions {
+  std::string of;
+  std::vector<std::string> motions, labels, paths;
+  std::vector<double> speeds;
+  Plot plot;
+  std::string out;
+};
+
+/// Mean of the values within half of `window` around each.
+std::vector<double> MovingMean(const std::vector<double>& values, double window) {
+  const auto half = static_cast<std::ptrdiff_t>(window / 2);
+  const auto count = static_cast<std::ptrdiff_t>(values.size());
+  std::vector<double> means;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - half),
+                         to = std::min(count, i + half + 1);
+    double sum = 0;
+    for (std::ptrdiff_t k = from; k < to; ++k) sum += values[static_cast<size_t>(k)];
+    means.push_back(sum / static_cast<double>(to - from));
+  }
+  return means;
+}
+
+PlotSeries SpeedOf(BodyPart part, const SkeletonMotion& dance) {
+  const auto& [skeleton, motion] = dance;
+  const BodyPartWeights weights = WeighBodyParts(skeleton);
+  PlotSeries line;
+  std::vector<double> speeds;
+  Eigen::Matrix3Xd before;
+  for (const Pose& pose : motion.frames) {
+    Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+    if (before.cols() > 0) {
+      const auto factors = VelocityFactors(weights, before, now);
+      speeds.push_back(kCentimetre * factors[static_cast<size_t>(part)]);
+      line.x.push_back(static_cast<double>(speeds.size()) / motion.fps);
+    }
+    before = std::move(now);
+  }
+  line.y = MovingMean(speeds, kSmoothing_s * motion.fps);
+  return line;
+}
+
+// Seen from above, the audience at the right.
+void AddPlace(const Eigen::Vector3d& place, PlotSeries* line) {
+  line->x.push_back(place.z());
+  line->y.push_back(place.x());
+}
+
+PlotSeries RootOf(const Motion& motion, bool height) {
+  PlotSeries line;
+  for (const Pose& pose : motion.frames) {
+    if (height) {
+      line.x.push_back(static_cast<double>(line.x.size()) / motion.fps);
+      line.y.push_back(pose.root_position.y());
+    } else {
+      AddPlace(pose.root_position, &line);
+    }
+  }
+  return line;
+}
+
+PlotSeries AskedOf(const std::string& path, double fps, bool height) {
+  const auto asked = ParsePathFile(ReadText(path, "path file"), path, fps);
+  if (height && asked.heights.empty()) throw InvalidArgument("--path", path + " has no heights");
+  PlotSeries line{.label = "asked", .x = {}, .y = {}, .asked = true};
+  for (size_t i = 0; i < asked.points.size(); ++i) {
+    if (height) {
+      line.x.push_back(static_cast<double>(asked.frames[i]) / fps);
+      line.y.push_back(asked.heights[i]);
+    } else {
+      AddPlace({asked.points[i].x(), 0, asked.points[i].y()}, &line);
+    }
+  }
+  return line;
+}
+
+PlotSeries LevelOf(double speed, const PlotSeries& danced) {
+  PlotSeries line{.label = "asked", .x = {}, .y = {}, .asked = true};
+  if (!danced.x.empty()) line.x = {danced.x.front(), danced.x.back()};
+  line.y.assign(line.x.size(), speed);
+  return line;
+}
+
+void RequireOneEach(const std::string& option, size_t count, size_t motions) {
+  if (count == 0 || count == motions || (count == 1 && option != "--label")) return;
+  throw InvalidArgument(
+      option, std::to_string(count) + " of them for " + std::to_string(motions) + " motions");
+}
+
+void Run(PlotOptions& options) {
+  RequireExtension("--out", options.out, ".png");
+  std::vector<NamedFile> inputs;
+  for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
+  for (const std::string& path : options.paths) inputs.push_back({"--path", path});
+  RequireOutputs({{"--out", options.out}}, inputs);
+  const std::optional<BodyPart> part = FindBodyPart(options.of);
+  const bool height = options.of == "height";
+  if (part && !options.paths.empty())
+    throw InvalidArgument("--path", "says nothing of the speed of a " + options.of);
+  if (!part && !options.speeds.empty())
+    throw InvalidArgument("--asked", "goes with a part of the body, not with " + options.of);
+  const size_t motions = options.motions.size(),
+               asked = options.paths.size() + options.speeds.size();
+  RequireOneEach("--label", options.labels.size(), motions);
+  RequireOneEach(part ? "--asked" : "--path", asked, motions);
+
+  Plot& plot = options.plot;
+  plot.map = !part && !height;
+  plot.x_label = plot.map ? "towards the audience, m" : "s";
+  plot.y_label = plot.map ? "to the dancer's left, m"
+                 : height ? "height of the root, m"
+                          : "cm a frame, mean of 0.5 s";
+  for (size_t i = 0; i < motions; ++i) {
+    const SkeletonMotion dance = ReadMotion(options.motions[i]);
+    PlotSeries line = part ? SpeedOf(*part, dance) : RootOf(dance.motion, height);
+    line.label = options.labels.empty() ? std::filesystem::path(options.motions[i]).stem().string()
+                                        : options.labels[i];
+    if (i < asked) {
+      PlotSeries wanted = part ? LevelOf(options.speeds[i], line)
+                               : AskedOf(options.paths[i], dance.motion.fps, height);
+      // One for all stands ahead of them.
+      if (asked < motions) plot.series.push_back(std::move(wanted));
+      plot.series.push_back(std::move(line));
+      if (asked == motions) plot.series.push_back(std::move(wanted));
+    } else {
+      plot.series.push_back(std::move(line));
+    }
+  }
+  DrawPlot(plot, options.out);
+}
+
+}  // namespace
+
+void AddPlotCommand(CLI::App& program) {
+  auto options = std::make_shared<PlotOptions>();
+  CLI::App* command = program.add_subcommand(
+      "plot", "Compare motions in a line chart: ways over the floor, heights, speeds of parts.");
+  command
+      ->add_option("of", options->of,
+                   "path (from above), height (of the root), or the speed of trunk, left_arm, "
+                   "right_arm, left_leg, right_leg.")
+      ->required()
+      ->check(CLI::IsMember(
+          {"path", "height", "trunk", "left_arm", "right_arm", "left_leg", "right_leg"}));
+  command->add_option("motions", options->motions, ".npz, .bvh or .glb files.")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("-o,--out", options->out, "PNG file to write.")->required();
+  AddRepeated(*command, "--label", options->labels,
+              "What the legend calls a motion, one each; default: the files' names.");
+  AddRepeated(*command, "--path", options->paths,
+              "Path file that was asked for: one for all motions, or one each.");
+  AddRepeated(*command, "--asked", options->speeds,
+              "Speed that was asked for, cm a frame: one for all motions, or one each.")
+      ->check(NumberFrom(0, 1000));
+  command->add_option("--title", options->plot.title, "Heading.");
+  command->add_option("--width", options->plot.width, "Pixels.")
+      ->check(WholeNumberFrom(200, 8192))
+      ->capture_default_str();
+  command->add_option("--height", options->plot.height, "Pixels.")
+      ->check(WholeNumberFrom(200, 8192))
+      ->capture_default_str();
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,85 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "model/formats/motion_file.h"
+#include "model/motion/kinematics.h"
+#include "tests/client/command_fixture.h"
+#include "tests/draw/decoded_png.h"
+
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr uint32_t kFirstLine = 0x0072b2, kSecondLine = 0xd55e00, kInk = 0x24292f;  // of plots
+
+/// A folder with two motions, one slow and straight, one fast, aslant and rising with a swinging
+/// arm, and a path.
+class PlotCommandTest : public testing::Test {
+ protected:
+  PlotCommandTest() {
+    for (const double speed : {0.01, 0.02}) {
+      Motion motion;
+      for (int frame = 0; frame < 60; ++frame) {
+        Pose pose = RestPose(Skeleton::Smpl24());
+        pose.root_position.z() = speed * frame;
+        if (speed > 0.01) {
+          pose.root_position += Eigen::Vector3d(0.004, 0.002, 0) * frame;
+          pose.rotations(2, Skeleton::Smpl24().left_shoulder) = 0.02 * frame;
+        }
+        motion.frames.push_back(pose);
+      }
+      WriteMotion(folder_ / (speed == 0.01 ? "slow.npz" : "fast.npz"), Skeleton::Smpl24(), motion);
+    }
+    std::ofstream(folder_ / "path.json")
+        << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 2, "x": 0.5, "z": 0.6}]})";
+  }
+  std::string At(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+  Outcome Plot(const std::string& arguments) const {
+    return Choreo("plot " + arguments + " -o " + At("plot.png"));
+  }
+  int Drawn(uint32_t colour) const { return DecodedPng(folder_ / "plot.png").Count(colour); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(PlotCommandTest, DrawsWaysHeightsAndSpeeds) {
+  for (const std::string of : {"path", "height", "trunk", "left_arm"}) {
+    const Outcome outcome = Plot(of + " " + At("slow.npz") + " " + At("fast.npz"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    for (const uint32_t line : {kFirstLine, kSecondLine}) EXPECT_GT(Drawn(line), 100) << of;
+  }
+}
+
+TEST_F(PlotCommandTest, DrawsWhatWasAskedBesideThem) {
+  const std::string both = At("slow.npz") + " " + At("fast.npz");
+  const auto ink = [&](const std::string& arguments) {
+    const Outcome outcome = Plot(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return Drawn(kInk);
+  };
+  EXPECT_GT(ink("path " + both + " --path " + At("path.json")), ink("path " + both) + 100);
+  EXPECT_GT(ink("trunk " + both + " --asked 0.5"), ink("trunk " + both) + 100);
+  // One each has its motion's colour.
+  EXPECT_LT(ink("trunk " + both + " --asked 0.5 --asked 0.6"), ink("trunk " + both) + 100);
+}
+
+TEST_F(PlotCommandTest, SaysWhatDoesNotFit) {
+  const std::string both = At("slow.npz") + " " + At("fast.npz");
+  const auto refused = [&](const std::string& arguments, const std::string& message) {
+    const Outcome outcome = Plot(arguments);
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "plot.png"));
+  };
+  refused("path " + both + " --label one", "--label: 1 of them for 2 motions");
+  refused("trunk " + both + " --path " + At("path.json"), "--path: says nothing of the speed");
+  refused("path " + both + " --asked 1", "--asked: goes with a part of the body, not with path");
+  refused("height " + At("slow.npz") + " --path " + At("path.json"), "has no heights");
+  EXPECT_EQ(Plot("elbow " + both).code, 2);
+}
+
+}  // namespace
+}  // namespace choreo
