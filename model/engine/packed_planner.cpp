@@ -33,7 +33,7 @@ PackedPlanner::PackedPlanner(const Safetensors& content, const FlowConfig& confi
                              const PackedKernels& products)
     : config_(config),
       joints_(skeleton.joints()),
-      bender_(skeleton, config.history_frames, kernels) {
+      bender_(skeleton, config.history_frames, config.planner.root_turn, kernels) {
   const PackedTensors tensors(content);
   feature_width_ = static_cast<int>(content.tensors.at("feature_mean").data.size());
   const int key = 3 + 6 * joints_ + joints_ + 1, hidden = config.planner.width;

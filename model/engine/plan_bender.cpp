@@ -13,7 +13,7 @@ namespace {
 // As model/flow/planner.cpp has them; the parity test holds both together.
 constexpr double kRampFrames = 6;
 constexpr float kLeastAlong = 0.25F, kAlongSoftness = 0.1F;
-constexpr float kFreeTurn = 0.25F, kRootTurn = 0.15F;
+constexpr float kFreeTurn = 0.625F;
 constexpr double kTurnHorizon = 12;
 constexpr double kResidualSigma = 2;
 constexpr int kResidualReach = 12;  // frames, where a Gaussian is 1e-8 of its peak
@@ -51,9 +51,11 @@ Eigen::Vector3d WayRound(const Eigen::Vector3d& turn, const TransitionSpec& spec
 
 }  // namespace
 
-PlanBender::PlanBender(const Skeleton& skeleton, int history, const PackedKernels& kernels)
+PlanBender::PlanBender(const Skeleton& skeleton, int history, double root_turn,
+                       const PackedKernels& kernels)
     : joints_(skeleton.joints()),
       history_(history),
+      root_turn_(static_cast<float>(root_turn)),
       pairs_(MirrorPairs(skeleton)),
       kernels_(kernels) {}
 
@@ -171,6 +173,7 @@ void PlanBender::Bend(int frames, const PackedTransformer::Scratch& network,
       };
       s->positions.Part<3>(row, 0) = line(side, frame, 0) + ramp(joints_) * residual.head<3>();
       float* along = s->along.Row(row);
+      const float free = kFreeTurn * root_turn_, soft = root_turn_ - free;
       for (int joint = 0; joint < joints_; ++joint) {
         const float share = ramp(joint);
         for (int i = 0; i < 2; ++i, ++along) {
@@ -179,9 +182,8 @@ void PlanBender::Bend(int frames, const PackedTransformer::Scratch& network,
           Eigen::Vector3f turn = share * residual.segment<3>(3 + at);
           if (joint == 0) {
             const float size = std::sqrt(turn.squaredNorm() + 1e-12F);
-            if (size >= kFreeTurn) {
-              const float bounded =
-                  kFreeTurn + kRootTurn * std::tanh((size - kFreeTurn) / kRootTurn);
+            if (size >= free) {
+              const float bounded = free + soft * std::tanh((size - free) / soft);
               turn *= bounded / size;
             }
           }

@@ -21,7 +21,8 @@ class PlanBender {
     RowBuffer smooth, along, bounded;
   };
 
-  PlanBender(const Skeleton& skeleton, int history, const PackedKernels& kernels);
+  /// `root_turn` as in PlannerConfig.
+  PlanBender(const Skeleton& skeleton, int history, double root_turn, const PackedKernels& kernels);
 
   /// Writes the network's poses: history, then the line from its last pose to the key, the root
   /// going the way round that the dancer turns; what the key does not name stays as it is. Reads
@@ -36,6 +37,7 @@ class PlanBender {
   void Mirror(int rows, PackedTransformer::Scratch* network) const;
 
   int joints_, history_;
+  float root_turn_;
   std::vector<int> pairs_;  // MirrorPairs
   const PackedKernels& kernels_;
 };

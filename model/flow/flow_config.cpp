@@ -8,7 +8,7 @@ namespace choreo {
 
 // With defaults: checkpoints from before there were two kinds do not name theirs.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(PlannerConfig, width, recurrent, layers, heads,
-                                                dropout, variety)
+                                                dropout, variety, root_turn)
 
 // One list serves both directions, so that a field can't be written and not read.
 #define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                       \
@@ -48,7 +48,8 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     config.hidden = 192;
     config.recurrent = false;
     config.condition_width = 256;
-    config.planner = {.width = 160, .layers = 3, .heads = 5, .dropout = 0.1, .variety = 24};
+    config.planner = {
+        .width = 160, .layers = 3, .heads = 5, .dropout = 0.1, .variety = 24, .root_turn = 1.3};
     config.max_transition_frames = 150;
     config.temperature = 0.25;
     config.fine_temperature = 0.15;

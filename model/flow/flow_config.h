@@ -14,6 +14,9 @@ struct PlannerConfig {
   int heads = 6;
   double dropout = 0;  ///< of what each half of a block adds, in its own training
   int variety = 0;     ///< principal components of what plans leave open (variety.h); 0: none
+  /// How far a transformer's plan may turn the root away from interpolation, as the length of what
+  /// is added to a column of its rotation: 0.4 is 22 degrees, 1.3 is 52 and more.
+  double root_turn = 0.4;
 };
 
 /// Sampling around a plan drops past frames that strayed from it, as training drops frames at

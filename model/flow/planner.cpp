@@ -21,7 +21,7 @@ constexpr double kRampFrames = 6;        // frames over which the residual grows
 constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's spread counts as one
 constexpr double kBasis = 10000;         // Eq. 9
 constexpr double kLeastAlong = 0.25, kAlongSoftness = 0.1;  // of BoundedSixD
-constexpr double kFreeTurn = 0.25, kRootTurn = 0.15;        // of BoundedSixD's root
+constexpr double kFreeTurn = 0.625;   // of BoundedSixD's root: share of its bound that is free
 constexpr double kTurnHorizon = 12;   // frames that a dancer goes on turning as she does
 constexpr double kResidualSigma = 2;  // frames, of SmoothInTime
 
@@ -56,14 +56,14 @@ Tensor SmoothInTime(const Tensor& x) {
 // `line` plus `turn`, both [batch, N, joints, 6]. The mean of two ways round (left or right?)
 // nearly cancels a column of the line, and what is left flips by half a turn from one frame to the
 // next. So a column's share along the line's own stays positive, softly; and the root, with which
-// the whole body would flip, goes the line's way round: its turn is softly kept below 0.7, some 40
-// degrees.
-Tensor BoundedSixD(const Tensor& line, const Tensor& turn) {
+// the whole body would flip, goes the line's way round: its turn is softly kept below `most`.
+Tensor BoundedSixD(const Tensor& line, const Tensor& turn, double most) {
   const Tensor column = line.unflatten(-1, {2, 3}), wanted = turn.unflatten(-1, {2, 3});
   const Tensor root = wanted.narrow(2, 0, 1);
   const Tensor size = root.square().sum(-1, true).add(1e-12).sqrt();
-  const Tensor bounded = torch::where(
-      size < kFreeTurn, size, kFreeTurn + kRootTurn * ((size - kFreeTurn) / kRootTurn).tanh());
+  const double free = kFreeTurn * most, soft = most - free;
+  const Tensor bounded =
+      torch::where(size < free, size, free + soft * ((size - free) / soft).tanh());
   const Tensor sum =
       column + torch::cat({root * (bounded / size), wanted.narrow(2, 1, wanted.size(2) - 1)}, 2);
   const Tensor along = (column * sum).sum(-1, true);
@@ -172,13 +172,14 @@ class TransformerPlanner : public PlannerImpl {
 
  private:
   int width_;
+  double root_turn_;
   torch::nn::Linear embed_{nullptr}, head_{nullptr};
   torch::nn::LayerNorm norm_{nullptr};
   torch::nn::ModuleList blocks_;
 };
 
 TransformerPlanner::TransformerPlanner(int joints, const PlannerConfig& config)
-    : PlannerImpl(joints), width_(config.width) {
+    : PlannerImpl(joints), width_(config.width), root_turn_(config.root_turn) {
   // Token: the pose, its step, the step that leaves the history (root 3, rotations 6 a joint,
   // each), key mask (joints + root), is-history, is-key, two frame counts.
   const int64_t features = 3 * (3 + 6 * joints) + joints + 1 + 2 + 2 * kEmbeddingWidth;
@@ -238,9 +239,10 @@ PlannerImpl::Plan TransformerPlanner::forward(const TransitionTensors& transitio
   const Tensor move = residual.narrow(2, 0, 3) * ramp.narrow(2, joints_, 1);
   const Tensor turn = residual.narrow(2, 3, 6 * joints_).view({batch, frames, joints_, 6}) *
                       ramp.narrow(2, 0, joints_).unsqueeze(-1);
-  return {{line.position + move,
-           MatrixFromSixDBatch(BoundedSixD(line_six_d.view({batch, frames, joints_, 6}), turn))},
-          hidden};
+  return {
+      {line.position + move, MatrixFromSixDBatch(BoundedSixD(
+                                 line_six_d.view({batch, frames, joints_, 6}), turn, root_turn_))},
+      hidden};
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace choreo {
 namespace {
 
 constexpr double kMostTempo = 1.33;
+constexpr double kOtherWay = 1.9;  // radians between a dancer's root and interpolation's
 
 // A window of a clip: frame i of it stands at clip frame first + i * tempo.
 struct Place {
@@ -153,16 +154,37 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
   return result;
 }
 
-MotionBatch MotionBatch::To(torch::Device device) const {
-  MotionBatch moved = *this;
+namespace {
+
+template <typename Change>
+MotionBatch Changed(MotionBatch batch, const Change& change) {
   for (torch::Tensor* tensor :
-       {&moved.transition.history_position, &moved.transition.history_rotation,
-        &moved.transition.target_position, &moved.transition.target_rotation,
-        &moved.transition.target_mask, &moved.truth.position, &moved.truth.rotation,
-        &moved.features, &moved.audio, &moved.has_audio}) {
-    *tensor = tensor->to(device);
+       {&batch.transition.history_position, &batch.transition.history_rotation,
+        &batch.transition.target_position, &batch.transition.target_rotation,
+        &batch.transition.target_mask, &batch.truth.position, &batch.truth.rotation,
+        &batch.features, &batch.audio, &batch.has_audio}) {
+    *tensor = change(*tensor);
   }
-  return moved;
+  return batch;
+}
+
+}  // namespace
+
+MotionBatch MotionBatch::To(torch::Device device) const {
+  return Changed(*this, [&](const torch::Tensor& tensor) { return tensor.to(device); });
+}
+
+MotionBatch MotionBatch::OneWayRound() const {
+  const TrajectoryTensors line = Interpolate(transition, /*as_turning=*/true);
+  const torch::Tensor apart =
+      torch::matmul(line.rotation.select(2, 0).transpose(-1, -2), truth.rotation.select(2, 0));
+  // The trace of a rotation by more than kOtherWay is less than that.
+  const torch::Tensor trace = apart.diagonal(0, -2, -1).sum(-1).amin(1);
+  const torch::Tensor has_root = transition.target_mask.select(1, 0) > 0;
+  const torch::Tensor rows =
+      (~(has_root & (trace < 1 + 2 * std::cos(kOtherWay)))).nonzero().squeeze(1);
+  if (rows.size(0) == 0) return *this;
+  return Changed(*this, [&](const torch::Tensor& tensor) { return tensor.index_select(0, rows); });
 }
 
 }  // namespace choreo

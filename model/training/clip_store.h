@@ -22,6 +22,12 @@ struct MotionBatch {
   torch::Tensor has_audio;  ///< [batch, 1]
 
   MotionBatch To(torch::Device device) const;
+
+  /// The windows in which the dancer turns the way round that interpolation between history and key
+  /// does; all of them where there are none. Half a turn can be made both ways: a planner that
+  /// learnt both would dance their mean, whose trunk twists until it snaps round. What a dancer does
+  /// is one of them, the one that interpolation shows.
+  MotionBatch OneWayRound() const;
 };
 
 /// Prepared clips of one split in memory; immutable after construction.
