@@ -245,6 +245,23 @@ TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
       1e-3);
 }
 
+TEST_F(TrainerTest, WindowsThatTurnTheOtherWayRoundAreLeftOut) {
+  const ClipStore store({folder_.path()}, folder_.path() / "splits.json", Split::kTrain);
+  Random random(5);
+  MotionBatch batch = store.Draw(6, 10, 20, {}, &random);
+  EXPECT_EQ(batch.OneWayRound().features.size(0), 6);
+  // For one frame the first dancer has her back where interpolation has her face.
+  const torch::Tensor back =
+      torch::diag(torch::tensor({-1.0F, 1.0F, -1.0F}, batch.truth.rotation.options()));
+  batch.truth.rotation[0][10][0] = torch::matmul(back, batch.truth.rotation[0][10][0]);
+  const MotionBatch rest = batch.OneWayRound();
+  EXPECT_TRUE(torch::equal(rest.features, batch.features.narrow(0, 1, 5)));
+  EXPECT_TRUE(torch::equal(rest.truth.rotation, batch.truth.rotation.narrow(0, 1, 5)));
+  // Who has no key turns as she likes.
+  batch.transition.target_mask.zero_();
+  EXPECT_EQ(batch.OneWayRound().features.size(0), 6);
+}
+
 TEST(AdamTest, TakesTheStepsOfTheReference) {
   // One parameter, gradient 2 w: torch's own Adam is the reference.
   torch::nn::Linear ours(2, 1), reference(2, 1);
