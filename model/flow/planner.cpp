@@ -25,11 +25,17 @@ constexpr double kFreeTurn = 0.625;   // of BoundedSixD's root: share of its bou
 constexpr double kTurnHorizon = 12;   // frames that a dancer goes on turning as she does
 constexpr double kResidualSigma = 2;  // frames, of SmoothInTime
 
-// The way round that the dancer is already turning. A key half a turn away can be reached both
-// ways, and slerp's shorter one is the wrong one about as often as not: of two turns that end
-// alike, `turn` [batch, 3] and its complement, the one nearer to what the last frames' turning
-// leads to.
+// The way round that the dancer is known to turn, or is already turning. A key half a turn away can
+// be reached both ways, and slerp's shorter one is the wrong one about as often as not: of two
+// turns that end alike, `turn` [batch, 3] and its complement, the one nearer to what is expected.
 Tensor WayRound(const Tensor& turn, const TransitionTensors& transition) {
+  const Tensor angle = turn.square().sum(-1, true).add(1e-12).sqrt();
+  const Tensor other = turn * (1 - 2 * M_PI / angle);
+  const auto nearer = [&](const Tensor& expected) {
+    const auto miss = [&](const Tensor& way) { return (way - expected).square().sum(-1, true); };
+    return torch::where(miss(other) < miss(turn), other, turn);
+  };
+  if (transition.turning.defined()) return nearer(transition.turning);
   const int64_t history = transition.history_rotation.size(1);
   if (history < 3) return turn;
   const auto root = [&](int64_t frame) {
@@ -38,11 +44,7 @@ Tensor WayRound(const Tensor& turn, const TransitionTensors& transition) {
   const Tensor rate =
       LogMapBatch(torch::matmul(root(history - 3).transpose(-1, -2), root(history - 1))) / 2;
   const double ahead = std::min(kTurnHorizon, static_cast<double>(transition.frames));
-  const Tensor expected = ahead * rate;
-  const Tensor angle = turn.square().sum(-1, true).add(1e-12).sqrt();
-  const Tensor other = turn * (1 - 2 * M_PI / angle);
-  const auto miss = [&](const Tensor& way) { return (way - expected).square().sum(-1, true); };
-  return torch::where(miss(other) < miss(turn), other, turn);
+  return nearer(ahead * rate);
 }
 
 // Low-pass along [batch, N, features]: a plan that changes its mind about the way round does so
@@ -139,20 +141,27 @@ TransitionTensors MirrorTransition(const TransitionTensors& transition, const Te
       torch::cat({transition.target_mask.narrow(1, 0, joints).index_select(1, pairs),
                   transition.target_mask.narrow(1, joints, 1)},
                  1);
+  if (transition.turning.defined()) {
+    mirrored.turning =
+        transition.turning * torch::tensor({1.0F, -1.0F, -1.0F}, transition.turning.options());
+  }
   return mirrored;
 }
 
 PlannerImpl::Plan PlannerImpl::Balanced(const TransitionTensors& transition, const Tensor& pairs) {
   const TransitionTensors other = MirrorTransition(transition, pairs);
   const int64_t batch = transition.target_position.size(0);
-  const auto both = [](const Tensor& a, const Tensor& b) { return torch::cat({a, b}, 0); };
+  const auto both = [](const Tensor& a, const Tensor& b) {
+    return a.defined() ? torch::cat({a, b}, 0) : a;
+  };
   const Plan plan =
       forward({.frames = transition.frames,
                .history_position = both(transition.history_position, other.history_position),
                .history_rotation = both(transition.history_rotation, other.history_rotation),
                .target_position = both(transition.target_position, other.target_position),
                .target_rotation = both(transition.target_rotation, other.target_rotation),
-               .target_mask = both(transition.target_mask, other.target_mask)});
+               .target_mask = both(transition.target_mask, other.target_mask),
+               .turning = both(transition.turning, other.turning)});
   const Tensor& position = plan.trajectory.position;
   const Tensor& rotation = plan.trajectory.rotation;
   const Tensor six_d = SixDBatch(rotation.narrow(0, 0, batch)) +

@@ -19,6 +19,9 @@ struct TransitionTensors {
   torch::Tensor target_rotation;   ///< [batch, joints, 3, 3]
   torch::Tensor target_mask;       ///< [batch, joints + 1] in {0, 1}: each joint, then the root
                                    ///< position; zeros: no key
+  /// [batch, 3] rotation vector: of the two ways round that the root can turn to the key, the one
+  /// nearer to this is taken. Undefined: nearer to what the last frames' turning leads to.
+  torch::Tensor turning = {};
 };
 
 /// A trajectory of poses: position [batch, N, 3], rotation [batch, N, joints, 3, 3].

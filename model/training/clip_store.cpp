@@ -16,7 +16,7 @@ namespace choreo {
 namespace {
 
 constexpr double kMostTempo = 1.33;
-constexpr double kOtherWay = 1.9;  // radians between a dancer's root and interpolation's
+constexpr double kAstray = 1.9;  // radians between a dancer's root and interpolation's
 
 // A window of a clip: frame i of it stands at clip frame first + i * tempo.
 struct Place {
@@ -161,9 +161,9 @@ MotionBatch Changed(MotionBatch batch, const Change& change) {
   for (torch::Tensor* tensor :
        {&batch.transition.history_position, &batch.transition.history_rotation,
         &batch.transition.target_position, &batch.transition.target_rotation,
-        &batch.transition.target_mask, &batch.truth.position, &batch.truth.rotation,
-        &batch.features, &batch.audio, &batch.has_audio}) {
-    *tensor = change(*tensor);
+        &batch.transition.target_mask, &batch.transition.turning, &batch.truth.position,
+        &batch.truth.rotation, &batch.features, &batch.audio, &batch.has_audio}) {
+    if (tensor->defined()) *tensor = change(*tensor);
   }
   return batch;
 }
@@ -174,17 +174,24 @@ MotionBatch MotionBatch::To(torch::Device device) const {
   return Changed(*this, [&](const torch::Tensor& tensor) { return tensor.to(device); });
 }
 
-MotionBatch MotionBatch::OneWayRound() const {
-  const TrajectoryTensors line = Interpolate(transition, /*as_turning=*/true);
+MotionBatch MotionBatch::WithItsTurning() const {
+  MotionBatch told = *this;
+  const torch::Tensor last = transition.history_rotation.select(1, -1).select(1, 0).unsqueeze(1);
+  const torch::Tensor root = torch::cat({last, truth.rotation.select(2, 0)}, 1);
+  told.transition.turning =
+      LogMapBatch(torch::matmul(root.narrow(1, 0, transition.frames).transpose(-1, -2),
+                                root.narrow(1, 1, transition.frames)))
+          .sum(1);
+  const TrajectoryTensors line = Interpolate(told.transition, /*as_turning=*/true);
   const torch::Tensor apart =
       torch::matmul(line.rotation.select(2, 0).transpose(-1, -2), truth.rotation.select(2, 0));
-  // The trace of a rotation by more than kOtherWay is less than that.
+  // The trace of a rotation by more than kAstray is less than that.
   const torch::Tensor trace = apart.diagonal(0, -2, -1).sum(-1).amin(1);
   const torch::Tensor has_root = transition.target_mask.select(1, 0) > 0;
   const torch::Tensor rows =
-      (~(has_root & (trace < 1 + 2 * std::cos(kOtherWay)))).nonzero().squeeze(1);
-  if (rows.size(0) == 0) return *this;
-  return Changed(*this, [&](const torch::Tensor& tensor) { return tensor.index_select(0, rows); });
+      (~(has_root & (trace < 1 + 2 * std::cos(kAstray)))).nonzero().squeeze(1);
+  if (rows.size(0) == 0) return told;
+  return Changed(told, [&](const torch::Tensor& tensor) { return tensor.index_select(0, rows); });
 }
 
 }  // namespace choreo

@@ -23,11 +23,11 @@ struct MotionBatch {
 
   MotionBatch To(torch::Device device) const;
 
-  /// The windows in which the dancer turns the way round that interpolation between history and key
-  /// does; all of them where there are none. Half a turn can be made both ways: a planner that
-  /// learnt both would dance their mean, whose trunk twists until it snaps round. What a dancer does
-  /// is one of them, the one that interpolation shows.
-  MotionBatch OneWayRound() const;
+  /// Tells interpolation and plans the way round that the dancer turns to the key, and leaves out
+  /// the windows in which she strays farther from it than a plan may (all are kept if all do). Half
+  /// a turn can be made both ways: a planner that had to guess would learn the mean of both, whose
+  /// trunk twists until it snaps round. When it dances, one of them is chosen for it.
+  MotionBatch WithItsTurning() const;
 };
 
 /// Prepared clips of one split in memory; immutable after construction.

@@ -20,7 +20,9 @@ void FitVariety(const ClipStore& clips, int batch, int longest, uint64_t seed, t
     const bool keyed = i / kLengths % 2 == 0;
     const ClipStore::Variation variation{.mirror = true, .drop_key = keyed ? 0.0 : 1.0};
     const MotionBatch drawn =
-        clips.Draw(batch, flow->config().history_frames, frames, variation, &random).To(device);
+        clips.Draw(batch, flow->config().history_frames, frames, variation, &random)
+            .WithItsTurning()
+            .To(device);
     const TrajectoryTensors plan = flow->Begin(drawn.transition).reference;
     samples.push_back({drawn.transition, VarietyImpl::Difference(plan, drawn.truth)});
   }

@@ -153,7 +153,7 @@ class FlowRun : public TrainingRun {
                                          .tempo = flow_stage() ? 0.0 : options_.tempo,
                                          .hold_history = 0.05};
     return train_.Draw(windows, model_->config().history_frames, frames, variation, random)
-        .OneWayRound()
+        .WithItsTurning()
         .To(device_);
   }
 

@@ -245,21 +245,42 @@ TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
       1e-3);
 }
 
-TEST_F(TrainerTest, WindowsThatTurnTheOtherWayRoundAreLeftOut) {
+TEST_F(TrainerTest, APlanIsToldTheWayRoundAndWhoStraysFarIsLeftOut) {
   const ClipStore store({folder_.path()}, folder_.path() / "splits.json", Split::kTrain);
   Random random(5);
   MotionBatch batch = store.Draw(6, 10, 20, {}, &random);
-  EXPECT_EQ(batch.OneWayRound().features.size(0), 6);
+  EXPECT_EQ(batch.WithItsTurning().features.size(0), 6);
   // For one frame the first dancer has her back where interpolation has her face.
   const torch::Tensor back =
       torch::diag(torch::tensor({-1.0F, 1.0F, -1.0F}, batch.truth.rotation.options()));
-  batch.truth.rotation[0][10][0] = torch::matmul(back, batch.truth.rotation[0][10][0]);
-  const MotionBatch rest = batch.OneWayRound();
+  MotionBatch stray = batch;
+  stray.truth.rotation = batch.truth.rotation.clone();
+  stray.truth.rotation[0][10][0] = torch::matmul(back, stray.truth.rotation[0][10][0]);
+  const MotionBatch rest = stray.WithItsTurning();
   EXPECT_TRUE(torch::equal(rest.features, batch.features.narrow(0, 1, 5)));
   EXPECT_TRUE(torch::equal(rest.truth.rotation, batch.truth.rotation.narrow(0, 1, 5)));
+  // The second turns 4.5 radians to her left, which is shorter to the right: her line goes with
+  // her.
+  const torch::Tensor angle = 4.5 * torch::arange(1, 21) / 20;
+  const torch::Tensor turns = ExpMapBatch(angle.unsqueeze(1) * torch::tensor({0.0F, 1.0F, 0.0F}));
+  MotionBatch round = batch;
+  round.transition.history_rotation = batch.transition.history_rotation.clone();
+  round.transition.target_rotation = batch.transition.target_rotation.clone();
+  round.truth.rotation = batch.truth.rotation.clone();
+  round.transition.history_rotation[1].select(1, 0).copy_(torch::eye(3).expand({10, 3, 3}));
+  round.truth.rotation[1].select(1, 0).copy_(turns);
+  round.transition.target_rotation[1][0].copy_(turns[19]);
+  const MotionBatch told = round.WithItsTurning();
+  EXPECT_NEAR(told.transition.turning[1][1].item<double>(), 4.5, 1e-3);
+  const auto miss = [&](const TransitionTensors& transition) {
+    const TrajectoryTensors line = Interpolate(transition, /*as_turning=*/true);
+    return (line.rotation[1].select(1, 0) - turns).abs().max().item<double>();
+  };
+  EXPECT_LT(miss(told.transition), 1e-3);
+  EXPECT_GT(miss(round.transition), 0.5);
   // Who has no key turns as she likes.
-  batch.transition.target_mask.zero_();
-  EXPECT_EQ(batch.OneWayRound().features.size(0), 6);
+  stray.transition.target_mask.zero_();
+  EXPECT_EQ(stray.WithItsTurning().features.size(0), 6);
 }
 
 TEST(AdamTest, TakesTheStepsOfTheReference) {
