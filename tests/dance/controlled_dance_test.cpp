@@ -222,9 +222,11 @@ TEST_F(ControlledDanceTest, BadControlsLeaveTheDanceAsItIs) {
     s.SetControls(Factor(BodyPart::kLeftArm, 2));
     ExpectError(ErrorCode::kInvalidArgument, "controls[1].velocity_factors.factors[0]: -1",
                 [&] { s.SetControls(Factor(BodyPart::kLeftArm, -1)); });
+    s.SetPaused(true);  // a dance that is over would take no notice
     s.KeysComplete();
     ExpectError(ErrorCode::kInvalidArgument, "controls[1]: comes after keyframes_complete",
                 [&] { s.SetControls(Factor(BodyPart::kLeftArm, 1)); });
+    s.SetPaused(false);
   });
   ASSERT_TRUE(dance.summary) << dance.error->what();
   EXPECT_NEAR(LeftArm(dance.poses.back()), 0.04, 1e-6);
