@@ -16,6 +16,7 @@ constexpr float kLeastAlong = 0.25F, kAlongSoftness = 0.1F;
 constexpr float kFreeTurn = 0.625F;
 constexpr double kTurnHorizon = 12;
 constexpr double kResidualSigma = 2;
+constexpr double kEaseFrames = 30;
 constexpr int kResidualReach = 12;  // frames, where a Gaussian is 1e-8 of its peak
 
 using Row = Eigen::Map<Eigen::RowVectorXf>;
@@ -47,6 +48,21 @@ Eigen::Vector3d WayRound(const Eigen::Vector3d& turn, const TransitionSpec& spec
   const double angle = std::sqrt(turn.squaredNorm() + 1e-12);
   const Eigen::Vector3d other = turn * (1 - 2 * std::numbers::pi / angle);
   return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
+}
+
+// A plan's steady walk, that of its second half, is taken out of its first `frames` positions.
+void TakeOutWalk(int frames, RowBuffer* positions) {
+  const int middle = frames / 2;
+  if (frames - 1 == middle) return;
+  Eigen::RowVector3f walk = (positions->Part<3>(frames - 1, 0) - positions->Part<3>(middle, 0)) /
+                            static_cast<float>(frames - 1 - middle);
+  walk.y() = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double since = frame + 1.0;
+    const double eased =
+        since < kEaseFrames ? since * since / (2 * kEaseFrames) : since - kEaseFrames / 2;
+    positions->Part<3>(frame, 0) -= static_cast<float>(eased) * walk;
+  }
 }
 
 }  // namespace
@@ -223,6 +239,7 @@ void PlanBender::Bend(int frames, const PackedTransformer::Scratch& network,
       Straighten(columns);
     }
   }
+  if (network.masks.Row(0)[joints_] == 0) TakeOutWalk(frames, &s->positions);
 }
 
 }  // namespace choreo

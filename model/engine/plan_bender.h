@@ -29,7 +29,7 @@ class PlanBender {
   /// the first row of the network's masks and writes the second, the mirror image's.
   void Interpolate(const TransitionSpec& spec, PackedTransformer::Scratch* network) const;
   /// Bends each side's line by the network's residual, in units of `pose_std`, and takes the mean
-  /// of the two.
+  /// of the two; where no root position is asked for, without its steady walk.
   void Bend(int frames, const PackedTransformer::Scratch& network, const Eigen::VectorXf& pose_std,
             Scratch* scratch) const;
 

@@ -24,6 +24,7 @@ constexpr double kLeastAlong = 0.25, kAlongSoftness = 0.1;  // of BoundedSixD
 constexpr double kFreeTurn = 0.625;   // of BoundedSixD's root: share of its bound that is free
 constexpr double kTurnHorizon = 12;   // frames that a dancer goes on turning as she does
 constexpr double kResidualSigma = 2;  // frames, of SmoothInTime
+constexpr double kEaseFrames = 30;    // over which WithoutWalk begins
 
 // The way round that the dancer is known to turn, or is already turning. A key half a turn away can
 // be reached both ways, and slerp's shorter one is the wrong one about as often as not: of two
@@ -72,6 +73,21 @@ Tensor BoundedSixD(const Tensor& line, const Tensor& turn, double most) {
   const Tensor kept =
       kLeastAlong + kAlongSoftness * torch::softplus((along - kLeastAlong) / kAlongSoftness);
   return (sum + (kept - along) * column).flatten(-2);
+}
+
+// Where no position is asked for, a mean walks on as it faces: it hardly turns, and dancers turn
+// and come back. So the steady walk of `position` [batch, N, 3], that of its second half, is taken
+// out by the share `free` [batch, 1]; what history leads to in the first frames stays.
+Tensor WithoutWalk(const Tensor& position, const Tensor& free) {
+  const int64_t frames = position.size(1), middle = frames / 2;
+  if (frames - 1 == middle) return position;
+  const Tensor walk = (position.select(1, frames - 1) - position.select(1, middle)) /
+                      static_cast<double>(frames - 1 - middle);
+  const Tensor floor = torch::tensor({1.0F, 0.0F, 1.0F}, position.options());
+  const Tensor since = torch::arange(1, frames + 1, position.options());
+  const Tensor eased = torch::where(since < kEaseFrames, since.square() / (2 * kEaseFrames),
+                                    since - kEaseFrames / 2);
+  return position - eased.view({1, -1, 1}) * (free * walk * floor).unsqueeze(1);
 }
 
 Tensor MirrorPositions(const Tensor& positions) {
@@ -166,9 +182,10 @@ PlannerImpl::Plan PlannerImpl::Balanced(const TransitionTensors& transition, con
   const Tensor& rotation = plan.trajectory.rotation;
   const Tensor six_d = SixDBatch(rotation.narrow(0, 0, batch)) +
                        SixDBatch(MirrorRotations(rotation.narrow(0, batch, batch), pairs));
-  return {{0.5 * (position.narrow(0, 0, batch) + MirrorPositions(position.narrow(0, batch, batch))),
-           MatrixFromSixDBatch(six_d)},
-          plan.hidden.narrow(0, 0, batch)};
+  const Tensor mean =
+      0.5 * (position.narrow(0, 0, batch) + MirrorPositions(position.narrow(0, batch, batch)));
+  const Tensor free = 1 - transition.target_mask.narrow(1, rotation.size(2), 1);
+  return {{WithoutWalk(mean, free), MatrixFromSixDBatch(six_d)}, plan.hidden.narrow(0, 0, batch)};
 }
 
 namespace {

@@ -49,8 +49,8 @@ class PlannerImpl : public torch::nn::Module {
                            ///< flow to condition on
   };
   virtual Plan forward(const TransitionTensors& transition) = 0;
-  /// What `forward` makes of the transition and of its mirror image, mirrored back, on average: a
-  /// dancer has no better side, and two opinions are nearer to the truth than one.
+  /// The mean of what `forward` makes of the transition and, mirrored back, of its mirror image: no
+  /// side is better. Where no root position is asked for, without the steady walk of that mean.
   Plan Balanced(const TransitionTensors& transition, const torch::Tensor& pairs);
   /// Spread of real poses, [3 + 6 joints] (root position, 6D rotations): tokens and residuals are
   /// in these units, without which training hardly moves.

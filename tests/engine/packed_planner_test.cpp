@@ -100,6 +100,34 @@ TEST(PackedPlanner, TurnsTheWayThatLibTorchTurns) {
   }
 }
 
+// Behind its first second a plan that no root position leads goes nowhere (temperature 0: nothing
+// but the plan), whichever engine makes it.
+TEST(PackedPlanner, APlanThatIsLedNowhereStaysWhereItIs) {
+  SetTorchThreads(1);
+  const Planners planners(std::filesystem::path(CHOREO_SOURCE_DIR) /
+                          "model/checkpoints/default.safetensors");
+  for (const bool key : {false, true}) {
+    TransitionSpec spec = RandomSpec(planners.model, 7, 90);
+    spec.temperature = 0;
+    if (key) {
+      spec.target->mask.root_position = false;
+    } else {
+      spec.target.reset();
+    }
+    for (const Planner& planner : {planners.packed, planners.torch}) {
+      const TransitionPlan plan = planner->Plan(spec);
+      Eigen::Vector3d walked = plan.poses[89].root_position - plan.poses[45].root_position;
+      walked.y() = 0;
+      EXPECT_LT(walked.norm(), 1e-4) << key;
+    }
+  }
+  TransitionSpec led = RandomSpec(planners.model, 7, 90);
+  led.target->mask.root_position = true;
+  led.target->pose.root_position = led.history.back().root_position + Eigen::Vector3d(2, 0, 0);
+  const TransitionPlan plan = planners.packed->Plan(led);
+  EXPECT_GT((plan.poses[89].root_position - plan.poses[45].root_position).norm(), 0.3);
+}
+
 // Plans that are made at once, of all lengths, have the bits that they have alone.
 TEST_P(PackedPlannerTest, APlanIsTheSameWhateverElseIsPlanned) {
   const Planners planners(checkpoint_.path());
