@@ -69,8 +69,8 @@ Contest MakeContest(const ContestOptions& options) {
   if (wants("real")) contest.methods.push_back({"real", Kind::kReal});
   if (wants("interpolation")) {
     contest.methods.push_back({"interpolation", Kind::kInterpolation});
-    contest.methods.push_back(
-        {kLockedLine, Kind::kEngine, add(std::make_unique<InterpolationEngine>(model))});
+    contest.methods.push_back({kLockedLine, Kind::kEngine,
+                               add(std::make_unique<InterpolationEngine>(model)), true, false});
   }
   if (wants("music_only")) contest.methods.push_back({kFree, Kind::kEngine, judged, false});
   for (const Other& other : others) {

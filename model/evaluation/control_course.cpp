@@ -1,5 +1,7 @@
 #include "model/evaluation/control_course.h"
 
+#include "model/dance/control_track.h"
+#include "model/dance/quality_report.h"
 #include "model/evaluation/control_figures.h"
 #include "model/evaluation/joint_track.h"
 #include "model/motion/resample.h"
@@ -12,18 +14,32 @@ std::vector<ControlledWay> WaysOf(const std::vector<Method>& methods) {
                                      {"interpolation", Kind::kInterpolation}};
   for (const Method& method : methods) {
     if (method.kind != Method::Kind::kEngine) continue;
-    if (method.keys)
+    if (method.keys && method.network)
       ways.push_back({method.name + ", network alone", Kind::kEngine, method.engine, true, false});
     ways.push_back({method.name, Kind::kEngine, method.engine, method.keys});
   }
   return ways;
 }
 
-FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
-                          const std::vector<Pose>& danced) {
+namespace {
+
+std::vector<Pose> Behind(const Pose& before, const std::vector<Pose>& danced) {
   std::vector<Pose> poses = {before};
   poses.insert(poses.end(), danced.begin(), danced.end());
-  return TrackVelocityFactors(WeighBodyParts(skeleton), TrackJoints(skeleton, poses));
+  return poses;
+}
+
+}  // namespace
+
+FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
+                          const std::vector<Pose>& danced) {
+  return TrackVelocityFactors(WeighBodyParts(skeleton),
+                              TrackJoints(skeleton, Behind(before, danced)));
+}
+
+double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
+                    const std::vector<Pose>& danced) {
+  return MeasureMotion(skeleton, {.fps = fps, .frames = Behind(before, danced)}).skate_ratio;
 }
 
 ControlCourse::ControlCourse(const ClipSet& set, const ModelInfo& model, int frames, int per_clip,
@@ -39,6 +55,7 @@ ControlCourse::ControlCourse(const ClipSet& set, const ModelInfo& model, int fra
     one.clip = window.clip;
     one.before = poses.front();
     one.real.assign(poses.begin() + 1, poses.end());
+    one.key = one.real.back();
     one.path.resize(3, frames);
     for (int t = 0; t < frames; ++t)
       one.path.col(t) = one.real[static_cast<size_t>(t)].root_position;
@@ -47,10 +64,30 @@ ControlCourse::ControlCourse(const ClipSet& set, const ModelInfo& model, int fra
   }
 }
 
+TransitionJob ControlCourse::JobFor(size_t window) const {
+  TransitionJob job = JobOf(model_, set_, chosen_[window], frames_,
+                            static_cast<float>(model_.default_temperature), window);
+  job.request.target->pose = windows_[window].key;
+  return job;
+}
+
+void ControlCourse::Redraw(const Draw& draw) {
+  for (size_t i = 0; i < windows_.size(); ++i) {
+    ControlRequest asked;
+    asked.root_path = draw(&windows_[i]);
+    ControlTrack track(model_);
+    track.Set(asked, 0, "path");
+    const TransitionRequest request = JobFor(i).request;
+    windows_[i].path =
+        track.For(0, frames_, request.history, request.target, "key").controls.root_path;
+    windows_[i].factors.resize(kBodyParts, 0);
+  }
+}
+
 std::vector<Pose> ControlCourse::Interpolated(const ControlledWindow& window) const {
   std::vector<Pose> poses;
   for (int t = 0; t < frames_; ++t) {
-    Pose pose = InterpolatePoses(window.before, window.real.back(), (t + 1.0) / frames_);
+    Pose pose = InterpolatePoses(window.before, window.key, (t + 1.0) / frames_);
     pose.root_position = window.path.col(t);
     poses.push_back(std::move(pose));
   }
@@ -59,6 +96,7 @@ std::vector<Pose> ControlCourse::Interpolated(const ControlledWindow& window) co
 
 Dances ControlCourse::Dance(const ControlledWay& way, double scale) const {
   Dances dances;
+  if (!way.Lasts(frames_)) return dances;
   if (way.kind != ControlledWay::Kind::kEngine) {
     for (const ControlledWindow& window : windows_) {
       dances.push_back(way.kind == ControlledWay::Kind::kReal ? window.real : Interpolated(window));
@@ -67,10 +105,9 @@ Dances ControlCourse::Dance(const ControlledWay& way, double scale) const {
   }
   std::vector<TransitionJob> jobs;
   for (size_t i = 0; i < windows_.size(); ++i) {
-    TransitionJob job =
-        JobOf(model_, set_, chosen_[i], frames_, static_cast<float>(model_.default_temperature), i);
+    TransitionJob job = JobFor(i);
     if (!way.keys) job.request.target.reset();
-    if (way.engine->model().root_path) job.request.controls.root_path = windows_[i].path;
+    if (way.TakesPath()) job.request.controls.root_path = windows_[i].path;
     if (way.TakesVelocityFactors())
       job.request.controls.velocity_factors = (scale * windows_[i].factors).cast<float>();
     if (!way.finished) {
@@ -89,11 +126,11 @@ Dances ControlCourse::Dance(const ControlledWay& way, double scale) const {
   return dances;
 }
 
-Cell ControlCourse::MeanOf(const Dances& dances, const Figure& figure) const {
+std::vector<ClipFigure> ControlCourse::FiguresOf(const Dances& dances, const Figure& figure) const {
   std::vector<ClipFigure> figures;
   for (size_t i = 0; i < dances.size(); ++i)
     figures.push_back({windows_[i].clip, figure(windows_[i], dances[i])});
-  return Mean(figures);
+  return figures;
 }
 
 }  // namespace choreo

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/core/progress.h"
+#include "model/dance/root_path.h"
 #include "model/evaluation/method.h"
 #include "model/evaluation/table.h"
 #include "model/evaluation/windows.h"
@@ -25,13 +26,18 @@ struct ControlledWay {
   bool keys = true;
   bool finished = true;  ///< as served: with arrival and foot lock
 
+  /// Whether it can dance that many frames at all.
+  bool Lasts(int frames) const {
+    return kind != Kind::kEngine || frames <= engine->model().max_transition_frames;
+  }
+  bool TakesPath() const { return kind != Kind::kEngine || engine->model().root_path; }
   bool TakesVelocityFactors() const {
     return kind == Kind::kEngine && engine->model().velocity_factors;
   }
 };
 
-/// Real motion, interpolation along the path, and each engine of `methods`: the network alone and
-/// as served; without keys, as served.
+/// Real motion, interpolation along the path, and each engine of `methods`: the network alone, if
+/// there is one, and as served; without keys, as served.
 std::vector<ControlledWay> WaysOf(const std::vector<Method>& methods);
 
 /// [kBodyParts, frames] metres a frame.
@@ -41,13 +47,18 @@ using FactorTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
 FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
                           const std::vector<Pose>& danced);
 
+/// Share of the steps in which a foot skates (QualityReport::skate_ratio).
+double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
+                    const std::vector<Pose>& danced);
+
 /// A real transition, and what is asked of those who dance it again.
 struct ControlledWindow {
   size_t clip = 0;
   Pose before;  ///< the last history pose
   std::vector<Pose> real;
+  Pose key;  ///< the last of `real`, unless it was moved
   Eigen::Matrix3Xd path;
-  FactorTrack factors;
+  FactorTrack factors;  ///< no columns: none are asked for
 };
 
 /// One dance a window.
@@ -61,14 +72,24 @@ class ControlCourse {
 
   const std::vector<ControlledWindow>& windows() const { return windows_; }
 
-  /// With the real path, and `scale` times the real factors where the way takes any.
+  /// Asks for a path that nobody danced, as the service leads over it, and for no factors. `draw`
+  /// may move the key, and gives points of frames counted from the transition's first.
+  using Draw = std::function<RootPath(ControlledWindow*)>;
+  void Redraw(const Draw& draw);
+
+  /// With what is asked: real path and factors unless they were drawn anew; `scale` times the
+  /// factors where the way takes any. None of a way that can't dance as long.
   Dances Dance(const ControlledWay& way, double scale = 1) const;
 
-  /// Mean over windows of a figure of each.
+  /// A figure of each window, and its mean over windows.
   using Figure = std::function<double(const ControlledWindow&, const std::vector<Pose>& danced)>;
-  Cell MeanOf(const Dances& dances, const Figure& figure) const;
+  std::vector<ClipFigure> FiguresOf(const Dances& dances, const Figure& figure) const;
+  Cell MeanOf(const Dances& dances, const Figure& figure) const {
+    return Mean(FiguresOf(dances, figure));
+  }
 
  private:
+  TransitionJob JobFor(size_t window) const;
   std::vector<Pose> Interpolated(const ControlledWindow& window) const;
 
   const ClipSet& set_;

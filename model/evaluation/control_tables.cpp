@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
-#include "model/dance/quality_report.h"
 #include "model/evaluation/control_course.h"
 #include "model/evaluation/control_figures.h"
+#include "model/evaluation/drawn_table.h"
 #include "model/evaluation/joint_track.h"
 #include "model/evaluation/repetition.h"
 #include "model/motion/facing_pose.h"
@@ -49,83 +49,96 @@ Table LengthTable(const char* name, const ClipSet& set, const std::string& title
   return table;
 }
 
-void AddAverages(Table* table) {
-  table->columns.push_back({"mean", table->columns.front().digits});
-  for (TableRow& row : table->rows) {
-    double sum = 0;
-    for (const Cell& cell : row.cells) sum += cell.value;
-    row.cells.push_back({sum / static_cast<double>(row.cells.size()), {}});
+// Who is not told what is asked.
+std::string WithoutControls(const std::vector<ControlledWay>& ways) {
+  std::string names;
+  for (const ControlledWay& way : ways) {
+    if (!way.TakesPath() && way.finished) names += (names.empty() ? "; " : ", ") + way.name;
   }
+  return names.empty() ? names : names + " takes neither";
 }
 
-double SkateRatio(const Skeleton& skeleton, double fps, const ControlledWindow& window,
-                  const std::vector<Pose>& danced) {
-  std::vector<Pose> poses = {window.before};
-  poses.insert(poses.end(), danced.begin(), danced.end());
-  return MeasureMotion(skeleton, {.fps = fps, .frames = poses}).skate_ratio;
-}
+// What the dances of one way came to, length by length.
+using Lengths = std::vector<std::vector<ClipFigure>>;
 
 std::vector<Table> PaperTables(const ClipSet& set, const ModelInfo& model,
                                const std::vector<ControlledWay>& ways, const EvalOptions& options,
                                ProgressBar* progress) {
   const std::string asked =
-      "Transitions between real poses, with the real dance's root path and velocity factors. ";
-  Table lrp = LengthTable("lrp", set, "LRP, cm",
-                          asked +
-                              "Paper C, Table 2: distance of root-relative positions of "
-                              "postures that face +Z.",
-                          1, kLengths);
-  Table ratio = LengthTable("lrp_ratio", set, "LRP over interpolation's",
-                            asked + "Interpolation: slerp, its root on the path.", 2, kLengths);
-  Table turned = LengthTable("lrp_turned", set, "LRP in the scene's axes, cm",
-                             asked + "As LRP, but a wrong heading counts too.", 1, kLengths);
-  Table avf =
-      LengthTable("avf", set, "AVF",
-                  asked + "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, kLengths);
-  Table art =
-      LengthTable("art", set, "ART",
-                  asked + "Paper C, Table 4: share whose root keeps within 7 cm.", 2, kLengths);
-  Table skate = LengthTable("control_skate", set, "Skating ratio", asked, 3, kLengths);
-  for (Table* table : {&lrp, &ratio, &turned, &avf, &art, &skate}) {
-    for (const ControlledWay& way : ways) table->rows.push_back({{way.name}, {}});
-  }
+      "Transitions between real poses, with the real dance's root path and velocity factors" +
+      WithoutControls(ways) + ". ";
   const Skeleton& skeleton = model.skeleton;
+  struct Figured {
+    Table table;
+    ControlCourse::Figure figure;
+    bool averaged;
+    std::vector<Lengths> ways = {};
+  };
+  std::vector<Figured> all = {
+      {LengthTable("lrp", set, "LRP, cm",
+                   asked + "Paper C, Table 2: distance of root-relative positions of postures that "
+                           "face +Z.",
+                   1, kLengths),
+       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
+         return kCentimetre * RootRelativeDistance(FacingTrack(skeleton, danced),
+                                                   FacingTrack(skeleton, window.real));
+       },
+       true},
+      {LengthTable("lrp_turned", set, "LRP in the scene's axes, cm",
+                   asked + "As LRP, but a wrong heading counts too.", 1, kLengths),
+       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
+         return kCentimetre * RootRelativeDistance(TrackJoints(skeleton, danced),
+                                                   TrackJoints(skeleton, window.real));
+       },
+       false},
+      {LengthTable("avf", set, "AVF",
+                   asked + "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, kLengths),
+       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
+         const auto factors = FactorTrackOf(skeleton, window.before, danced);
+         return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
+       },
+       true},
+      {LengthTable("art", set, "ART",
+                   asked + "Paper C, Table 4: share whose root keeps within 7 cm.", 2, kLengths),
+       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
+         const double off = RootDeviation(TrackJoints(skeleton, danced), window.path);
+         return off < kRootTolerance ? 1.0 : 0.0;
+       },
+       true},
+      {LengthTable("control_skate", set, "Skating ratio", asked, 3, kLengths),
+       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
+         return SkateRatioOf(skeleton, model.fps, window.before, danced);
+       },
+       false}};
+  for (Figured& one : all) one.ways.resize(ways.size());
   for (const int frames : kLengths) {
     const ControlCourse course(set, model, frames, options.windows_per_clip, progress);
     for (size_t w = 0; w < ways.size(); ++w) {
-      const auto dances = course.Dance(ways[w]);
-      const auto add = [&](Table* table, const ControlCourse::Figure& figure) {
-        table->rows[w].cells.push_back(course.MeanOf(dances, figure));
-      };
-      add(&lrp, [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-        return kCentimetre * RootRelativeDistance(FacingTrack(skeleton, danced),
-                                                  FacingTrack(skeleton, window.real));
-      });
-      add(&turned, [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-        return kCentimetre * RootRelativeDistance(TrackJoints(skeleton, danced),
-                                                  TrackJoints(skeleton, window.real));
-      });
-      add(&avf, [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-        const auto factors = FactorTrackOf(skeleton, window.before, danced);
-        return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
-      });
-      add(&art, [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-        return RootDeviation(TrackJoints(skeleton, danced), window.path) < kRootTolerance ? 1.0
-                                                                                          : 0.0;
-      });
-      add(&skate, [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-        return SkateRatio(skeleton, model.fps, window, danced);
-      });
+      const Dances dances = course.Dance(ways[w]);
+      for (Figured& one : all) one.ways[w].push_back(course.FiguresOf(dances, one.figure));
     }
   }
+  Table ratio = LengthTable("lrp_ratio", set, "LRP over interpolation's",
+                            asked + "Interpolation: slerp, its root on the path.", 2, kLengths);
+  std::vector<Table> tables;
+  for (Figured& one : all) {
+    if (one.averaged) one.table.columns.push_back({"mean", one.table.columns.front().digits});
+    for (size_t w = 0; w < ways.size(); ++w) {
+      TableRow row{{ways[w].name}, {}};
+      for (const auto& figures : one.ways[w]) row.cells.push_back(Mean(figures));
+      if (one.averaged) row.cells.push_back(MeanOfMeans(one.ways[w]));
+      one.table.rows.push_back(std::move(row));
+    }
+    tables.push_back(std::move(one.table));
+  }
+  const std::vector<Lengths>& lrp = all.front().ways;
   for (size_t w = 0; w < ways.size(); ++w) {
-    for (size_t i = 0; i < lrp.columns.size(); ++i) {
-      const double straight = lrp.rows[kInterpolation].cells[i].value;
-      ratio.rows[w].cells.push_back({lrp.rows[w].cells[i].value / straight, {}});
-    }
+    ratio.rows.push_back({{ways[w].name}, {}});
+    for (size_t i = 0; i < lrp[w].size(); ++i)
+      ratio.rows.back().cells.push_back(Ratio(lrp[w][i], lrp[kInterpolation][i]));
   }
-  for (Table* table : {&lrp, &avf, &art}) AddAverages(table);
-  return {lrp, ratio, turned, avf, art, skate};
+  tables.insert(tables.begin() + 1, std::move(ratio));
+  return tables;
 }
 
 // Means over windows and frames of the factors that came out over those of the real dance.
@@ -143,22 +156,22 @@ Table MultiplierTable(const ClipSet& set, const ModelInfo& model,
   table.label_headings = {"method", "times"};
   for (const std::string_view part : kBodyPartNames) table.columns.push_back({std::string(part)});
   const ControlCourse course(set, model, kScaledFrames, options.windows_per_clip, progress);
-  Eigen::Matrix<double, kBodyParts, 1> real = Eigen::Matrix<double, kBodyParts, 1>::Zero();
-  for (const ControlledWindow& window : course.windows()) real += window.factors.rowwise().mean();
+  const auto speeds = [&](const Dances& dances, int part) {
+    return course.FiguresOf(
+        dances, [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
+          return FactorTrackOf(model.skeleton, window.before, danced).row(part).mean();
+        });
+  };
+  const Dances real = course.Dance({"real", ControlledWay::Kind::kReal});
   for (const ControlledWay& way : ways) {
     for (const double scale : kScales) {
       if (scale != 1 && !way.TakesVelocityFactors()) continue;
-      const auto dances = course.Dance(way, scale);
-      Eigen::Matrix<double, kBodyParts, 1> danced = Eigen::Matrix<double, kBodyParts, 1>::Zero();
-      for (size_t i = 0; i < dances.size(); ++i) {
-        danced +=
-            FactorTrackOf(model.skeleton, course.windows()[i].before, dances[i]).rowwise().mean();
-      }
+      const Dances dances = course.Dance(way, scale);
       char times[16];
       std::snprintf(times, sizeof(times), "%.1f", scale);
       TableRow row{{way.name, times}, {}};
       for (int part = 0; part < kBodyParts; ++part)
-        row.cells.push_back({danced[part] / real[part], {}});
+        row.cells.push_back(Ratio(speeds(dances, part), speeds(real, part)));
       table.rows.push_back(std::move(row));
     }
   }
@@ -206,8 +219,10 @@ std::vector<Table> EvaluateControls(const ClipSet& set, const std::vector<Method
   if (model == nullptr) return {};
   const std::vector<ControlledWay> ways = WaysOf(methods);
   std::vector<Table> tables = PaperTables(set, *model, ways, options, progress);
+  if (!options.all_controls) return tables;
   tables.push_back(MultiplierTable(set, *model, ways, options, progress));
   tables.push_back(RepetitionTable(set, *model, ways, options, progress));
+  tables.push_back(EvaluateDrawnPaths(set, *model, ways, options, progress));
   return tables;
 }
 
@@ -215,19 +230,21 @@ int64_t CountControlFrames(const ClipSet& set, const std::vector<Method>& method
                            const EvalOptions& options) {
   const ModelInfo* model = Judged(methods);
   if (model == nullptr) return 0;
-  const auto count = [&](int frames) {
-    return frames *
-           static_cast<int64_t>(
-               ChooseWindows(set, model->history_frames, frames, options.windows_per_clip).size());
-  };
-  int64_t once = 0;
-  for (const int frames : kLengths) once += count(frames);
-  for (const int frames : kLongLengths) once += count(frames);
-  int64_t total = 0;
-  for (const ControlledWay& way : WaysOf(methods)) {
+  const std::vector<ControlledWay> ways = WaysOf(methods);
+  int64_t total = options.all_controls ? CountDrawnFrames(set, *model, ways, options) : 0;
+  for (const ControlledWay& way : ways) {
     if (way.kind != ControlledWay::Kind::kEngine) continue;
+    const auto count = [&](int frames) {
+      if (!way.Lasts(frames)) return int64_t{0};
+      const auto windows =
+          ChooseWindows(set, model->history_frames, frames, options.windows_per_clip).size();
+      return frames * static_cast<int64_t>(windows);
+    };
+    for (const int frames : kLengths) total += count(frames);
+    if (!options.all_controls) continue;
+    for (const int frames : kLongLengths) total += count(frames);
     const auto scales = way.TakesVelocityFactors() ? std::size(kScales) : 1;
-    total += once + static_cast<int64_t>(scales) * count(kScaledFrames);
+    total += static_cast<int64_t>(scales) * count(kScaledFrames);
   }
   return total;
 }

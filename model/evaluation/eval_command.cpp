@@ -28,7 +28,7 @@ struct Arguments {
   ReportPaths paths;
   EvalOptions options;
   float temperature = -1;
-  bool encode = true, sheets = false;
+  bool encode = true, sheets = false, controls_only = false;  // of the tables
 };
 
 // Beside the progress on stderr.
@@ -68,14 +68,15 @@ std::string Summary(const Arguments& arguments, const Contest& contest) {
 }
 
 std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& contest,
-                              const std::optional<MotionEncoder>& encoder,
+                              const std::optional<MotionEncoder>& encoder, bool controls_only,
                               const EvalOptions& options) {
   StepEngine& judged = contest.judged();
   int64_t frames = 0;
   for (const ClipSet& set : sets) {
+    frames += CountControlFrames(set, contest.methods, options);
+    if (controls_only) continue;
     frames += CountTransitionFrames(set, contest.methods, options) +
-              CountLongFrames(set, judged.model(), options) +
-              CountControlFrames(set, contest.methods, options);
+              CountLongFrames(set, judged.model(), options);
     if (encoder) frames += CountEncodedFrames(set, contest.methods, options);
   }
   std::vector<Table> tables;
@@ -84,8 +85,9 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
   };
   ProgressBar progress("evaluating", frames);
   for (const ClipSet& set : sets) {
-    add(EvaluateTransitions(set, contest.methods, options, &progress));
     add(EvaluateControls(set, contest.methods, options, &progress));
+    if (controls_only) continue;
+    add(EvaluateTransitions(set, contest.methods, options, &progress));
     add(EvaluateLongDances(set, judged, options, &progress));
     if (encoder) add({EvaluateEncoded(set, contest.methods, *encoder, options, &progress)});
     add({EvaluateStress(set, judged, options)});
@@ -106,18 +108,20 @@ void Evaluate(Arguments arguments) {
   const Contest contest = MakeContest(arguments.contest);
   const ModelInfo& model = contest.judged().model();
   EvalOptions& options = arguments.options;
+  if (arguments.controls_only && !model.root_path)
+    throw InvalidArgument("--controls", model.name + " takes none");
   CheckLengths(contest.methods, options.lengths);
   options.temperature = arguments.temperature >= 0 ? arguments.temperature
                                                    : static_cast<float>(model.default_temperature);
   const Split split = arguments.split == "test" ? Split::kTest : Split::kValidation;
   const auto sets = LoadSets(arguments.data, arguments.splits, split, model.skeleton);
-  WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
+  if (!arguments.controls_only) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
   std::optional<MotionEncoder> encoder;
-  if (arguments.encode) {
+  if (arguments.encode && !arguments.controls_only) {
     encoder = MotionEncoder::Train(
         LoadSets(arguments.data, arguments.splits, Split::kTrain, model.skeleton));
   }
-  std::vector<Table> tables = MakeTables(sets, contest, encoder, options);
+  std::vector<Table> tables = MakeTables(sets, contest, encoder, arguments.controls_only, options);
   NameJudged(arguments.contest.name, &tables);
   const std::string summary = Summary(arguments, contest);
   std::printf("%s\n", summary.c_str());
@@ -198,6 +202,17 @@ void AddEvalCommand(CLI::App& app) {
   command->add_flag("!--no-encoder", arguments->encode,
                     "No FID, variability and diversity, for which an encoder is learnt from the "
                     "training clips of the data");
+  command
+      ->add_option_function<std::string>(
+          "--controls",
+          [arguments](const std::string& which) {
+            arguments->controls_only = true;
+            arguments->options.all_controls = which == "all";
+          },
+          "all | paper: only the tables of controls, or of those paper C's alone; they have "
+          "lengths "
+          "of their own")
+      ->check(CLI::IsMember({"all", "paper"}));
   command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
       ->check(CLI::Range(0.0, 2.0));
   command->callback([arguments] { Evaluate(*arguments); });

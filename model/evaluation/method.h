@@ -18,6 +18,8 @@ struct Method {
   Kind kind = Kind::kEngine;
   StepEngine* engine = nullptr;  ///< of kEngine; not owned
   bool keys = true;              ///< kEngine: false for a dance to the music alone
+  bool network = true;  ///< kEngine: false where there is none to be looked at without arrival and
+                        ///< foot lock
 };
 
 inline const char* const kServed = "model";  ///< the method that is judged, in every table
@@ -28,8 +30,9 @@ struct EvalOptions {
   int windows_per_clip = 8;
   int best_of = 10;  ///< samples a window at temperature 1; 0: none
   float temperature = 0;
-  int long_seeds = 50;     ///< long dances of each kind; 0: none
-  int long_frames = 1800;  ///< 60 s
+  int long_seeds = 50;       ///< long dances of each kind; 0: none
+  int long_frames = 1800;    ///< 60 s
+  bool all_controls = true;  ///< false: of the tables of controls, paper C's alone
 };
 
 }  // namespace choreo

@@ -37,21 +37,39 @@ nlohmann::json Number(double value) {
 
 }  // namespace
 
-Cell Mean(const std::vector<ClipFigure>& figures) {
-  if (figures.empty()) return {};
+Cell Ratio(const std::vector<ClipFigure>& above, const std::vector<ClipFigure>& below) {
   std::map<size_t, std::pair<double, double>> clips;
-  double sum = 0;
-  for (const ClipFigure& figure : figures) {
+  double over = 0, under = 0;
+  for (const ClipFigure& figure : above) {
     clips[figure.clip].first += figure.value;
-    clips[figure.clip].second += 1;
-    sum += figure.value;
+    over += figure.value;
   }
-  std::vector<double> sums, counts;
-  for (const auto& [clip, entry] : clips) {
-    sums.push_back(entry.first);
-    counts.push_back(entry.second);
+  for (const ClipFigure& figure : below) {
+    clips[figure.clip].second += figure.value;
+    under += figure.value;
   }
-  return {sum / static_cast<double>(figures.size()), BootstrapRatio(sums, counts)};
+  if (above.empty() || under == 0) return {};
+  std::vector<double> numerators, denominators;
+  for (const auto& [clip, sums] : clips) {
+    numerators.push_back(sums.first);
+    denominators.push_back(sums.second);
+  }
+  return {over / under, BootstrapRatio(numerators, denominators)};
+}
+
+Cell Mean(const std::vector<ClipFigure>& figures) { return MeanOfMeans({figures}); }
+
+Cell MeanOfMeans(const std::vector<std::vector<ClipFigure>>& groups) {
+  std::vector<ClipFigure> above, below;
+  for (const std::vector<ClipFigure>& group : groups) {
+    // All groups weigh alike, however many windows they have.
+    const double weight = groups.size() == 1 ? 1 : 1 / static_cast<double>(group.size());
+    for (const ClipFigure& figure : group) {
+      above.push_back({figure.clip, weight * figure.value});
+      below.push_back({figure.clip, weight});
+    }
+  }
+  return Ratio(above, below);
 }
 
 std::string ToMarkdown(const Table& table) {

@@ -23,8 +23,14 @@ struct ClipFigure {
   double value = 0;
 };
 
+/// Sum over windows of `above` over that of `below`, with its interval over clips; NaN where that
+/// is nothing.
+Cell Ratio(const std::vector<ClipFigure>& above, const std::vector<ClipFigure>& below);
 /// Mean over windows with its interval over clips; NaN of none.
 Cell Mean(const std::vector<ClipFigure>& figures);
+/// Mean of the means of several groups of windows (lengths, say), with its interval over the clips
+/// of all.
+Cell MeanOfMeans(const std::vector<std::vector<ClipFigure>>& groups);
 
 struct Column {
   std::string heading;  ///< with unit

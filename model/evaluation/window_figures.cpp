@@ -1,7 +1,6 @@
 #include "model/evaluation/window_figures.h"
 
 #include <algorithm>
-#include <map>
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/foot_contact_score.h"
@@ -20,6 +19,14 @@ Eigen::MatrixXd Stack(const std::vector<Eigen::VectorXd>& columns) {
   Eigen::MatrixXd matrix(columns[0].size(), static_cast<Eigen::Index>(columns.size()));
   for (size_t i = 0; i < columns.size(); ++i) matrix.col(static_cast<Eigen::Index>(i)) = columns[i];
   return matrix;
+}
+
+std::vector<ClipFigure> Of(const std::vector<WindowFigures>& windows, double WindowFigures::*figure,
+                           double unit = 1) {
+  std::vector<ClipFigure> figures;
+  for (const WindowFigures& window : windows)
+    figures.push_back({window.clip, unit * (window.*figure)});
+  return figures;
 }
 
 }  // namespace
@@ -56,30 +63,11 @@ WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vec
 
 Cell Ratio(const std::vector<WindowFigures>& above, double WindowFigures::*numerator,
            const std::vector<WindowFigures>& below, double WindowFigures::*denominator) {
-  std::map<size_t, std::pair<double, double>> clips;
-  double over = 0, under = 0;
-  for (const WindowFigures& window : above) {
-    clips[window.clip].first += window.*numerator;
-    over += window.*numerator;
-  }
-  for (const WindowFigures& window : below) {
-    clips[window.clip].second += window.*denominator;
-    under += window.*denominator;
-  }
-  std::vector<double> numerators, denominators;
-  for (const auto& [clip, sums] : clips) {
-    numerators.push_back(sums.first);
-    denominators.push_back(sums.second);
-  }
-  if (under == 0) return {};
-  return {over / under, BootstrapRatio(numerators, denominators)};
+  return Ratio(Of(above, numerator), Of(below, denominator));
 }
 
 Cell Mean(const std::vector<WindowFigures>& windows, double WindowFigures::*figure, double unit) {
-  std::vector<ClipFigure> figures;
-  for (const WindowFigures& window : windows)
-    figures.push_back({window.clip, unit * (window.*figure)});
-  return Mean(figures);
+  return Mean(Of(windows, figure, unit));
 }
 
 double Largest(const std::vector<WindowFigures>& windows, double WindowFigures::*figure) {

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
+#include "model/evaluation/table.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo {
@@ -36,6 +38,22 @@ TEST(Bootstrap, OneClipHasNoInterval) {
   EXPECT_FALSE(BootstrapRatio(one, one));
   ExpectError(ErrorCode::kInvalidArgument, "denominators: 0 for 1 numerators",
               [&] { BootstrapRatio(one, {}); });
+}
+
+TEST(Bootstrap, GroupsWeighAlikeInAMeanOfMeans) {
+  // Means 2 and 10, of four windows and of one.
+  const std::vector<ClipFigure> many = {{0, 1}, {0, 3}, {1, 1}, {1, 3}}, one = {{1, 10}};
+  const Cell cell = MeanOfMeans({many, one});
+  EXPECT_DOUBLE_EQ(cell.value, 6);
+  ASSERT_TRUE(cell.interval);
+  EXPECT_DOUBLE_EQ(cell.interval->low, 2);  // the first clip alone
+  EXPECT_TRUE(std::isnan(MeanOfMeans({}).value));
+}
+
+TEST(Bootstrap, ARatioOfNothingIsNone) {
+  EXPECT_DOUBLE_EQ(Ratio({{0, 1}, {1, 2}}, {{0, 2}, {1, 4}}).value, 0.5);
+  EXPECT_TRUE(std::isnan(Ratio({}, {{0, 1}}).value));
+  EXPECT_TRUE(std::isnan(Ratio({{0, 1}}, {}).value));
 }
 
 }  // namespace

@@ -167,11 +167,55 @@ TEST_F(ControlTablesTest, WhoSwingsToAndFroRepeatsHerself) {
   EXPECT_LT(Figure("repetition", {"real"}, "repeated, 250"), 0.5);
 }
 
+TEST_F(ControlTablesTest, DrawnPathsAreKeptToAndEndAtTheKey) {
+  for (const std::string path : {"as danced", "straight", "on the spot", "a bow"}) {
+    EXPECT_LT(Figure("drawn", {path, "model"}, "root off path mean cm"), 1) << path;
+    EXPECT_LT(Figure("drawn", {path, "model"}, "key missed cm"), 0.01) << path;
+    EXPECT_NEAR(Figure("drawn", {path, "near, network alone"}, "root off path mean cm"), 5, 1e-3);
+    // The fake misses keys by a little itself.
+    EXPECT_NEAR(Figure("drawn", {path, "near, network alone"}, "key missed cm"), 5, 0.5) << path;
+    // Who takes no path can't be asked for one.
+    EXPECT_TRUE(std::isnan(Figure("drawn", {path, "plain"}, "skating"))) << path;
+  }
+  EXPECT_GT(Figure("drawn", {"as danced", "real"}, "root asked m/s"), 0);
+  EXPECT_TRUE(std::isnan(Figure("drawn", {"a bow", "real"}, "skating")));
+  // A bow is a detour; on the spot, what is left is the height, and to stop.
+  const auto asked = [&](const std::string& path) {
+    return Figure("drawn", {path, "interpolation"}, "root asked m/s");
+  };
+  EXPECT_GT(asked("a bow"), asked("straight") + 0.1);
+  EXPECT_LT(asked("on the spot"), 0.15);
+}
+
+TEST_F(ControlTablesTest, WhoCanNotDanceAsLongHasNoFigure) {
+  class Brief : public ControlledEngine {
+   public:
+    Brief() { model_.max_transition_frames = 150; }
+  } brief;
+  const std::vector<Method> methods = {{"brief", Method::Kind::kEngine, &brief},
+                                       {kServed, Method::Kind::kEngine, &line_}};
+  const auto tables = EvaluateControls(set_, methods, options_, nullptr);
+  const Table& table = *std::ranges::find(tables, "repetition_set", &Table::name);
+  const auto row =
+      std::ranges::find(table.rows, std::vector<std::string>{"brief"}, &TableRow::labels);
+  ASSERT_NE(row, table.rows.end());
+  EXPECT_FALSE(std::isnan(row->cells[1].value));
+  EXPECT_TRUE(std::isnan(row->cells[2].value));
+  EXPECT_EQ(CountControlFrames(set_, methods, options_),
+            2 * 2 * (10 + 50 + 100 + 150) * 2 + 2 * 2 * (100 + 150) +
+                2 * 2 * (100 + 150 + 200 + 250) + 2 * 90 * 2 * 2 * (3 + 4));
+}
+
 TEST_F(ControlTablesTest, CountsTheFramesThatItDances) {
   // Two windows a length; 10 to 150 and 100 to 250 frames by each of eleven ways, 90 frames three
-  // times by those with factors and once by the other two.
-  const int64_t once = 2 * (10 + 50 + 100 + 150 + 100 + 150 + 200 + 250);
-  EXPECT_EQ(CountControlFrames(set_, methods_, options_), 11 * once + 2 * 90 * (9 * 3 + 2));
+  // times by those with factors and once by the other two, and on four paths by those with keys
+  // that take a path.
+  const int64_t paper = 2 * (10 + 50 + 100 + 150), repeated = 2 * (100 + 150 + 200 + 250);
+  const int64_t frames = 11 * (paper + repeated) + 2 * 90 * (9 * 3 + 2) + 2 * 90 * 4 * 8;
+  EXPECT_EQ(CountControlFrames(set_, methods_, options_), frames);
+  EvalOptions less = options_;
+  less.all_controls = false;
+  EXPECT_EQ(CountControlFrames(set_, methods_, less), 11 * paper);
   EXPECT_TRUE(EvaluateControls(set_, {{kServed, Method::Kind::kEngine, &plain_}}, options_, nullptr)
                   .empty());
 }

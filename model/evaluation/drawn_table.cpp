@@ -1,0 +1,129 @@
+#include "model/evaluation/drawn_table.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "model/dance/quality_report.h"
+#include "model/evaluation/control_figures.h"
+#include "model/evaluation/joint_track.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kFrames = 90;
+constexpr double kAside = 1;  // metres beside the straight way, in its middle
+
+enum class Way { kDanced, kStraight, kOnTheSpot, kBow };
+
+struct DrawnPath {
+  const char* name;
+  Way way;
+};
+
+constexpr DrawnPath kPaths[] = {{"as danced", Way::kDanced},
+                                {"straight", Way::kStraight},
+                                {"on the spot", Way::kOnTheSpot},
+                                {"a bow", Way::kBow}};
+
+// Heights are nobody's concern: they lead from the dancer's to the key's.
+RootPath Draw(Way way, ControlledWindow* window) {
+  const Eigen::Vector3d start = window->before.root_position;
+  Eigen::Vector3d& end = window->key.root_position;
+  RootPath path;
+  if (way == Way::kOnTheSpot) end = {start.x(), end.y(), start.z()};
+  if (way == Way::kBow) {
+    const Eigen::Vector3d left = HeadingRotation(Heading(ExpMap(window->before.rotations.col(0)))) *
+                                 Eigen::Vector3d::UnitX();
+    path.frames = {0, kFrames / 2, kFrames - 1};
+    path.points.resize(3, 3);
+    path.points << start, (start + end) / 2 + kAside * left, end;
+  } else {
+    path.frames = {0, kFrames - 1};
+    path.points.resize(3, 2);
+    path.points << start + (end - start) / kFrames, end;
+  }
+  return path;
+}
+
+std::vector<ControlledWay> Drawable(const std::vector<ControlledWay>& ways) {
+  std::vector<ControlledWay> some;
+  std::ranges::copy_if(ways, std::back_inserter(some),
+                       [](const ControlledWay& way) { return way.TakesPath() && way.keys; });
+  return some;
+}
+
+double PathSpeed(const ControlledWindow& window, double fps) {
+  Eigen::Vector3d last = window.before.root_position;
+  double length = 0;
+  for (const auto point : window.path.colwise()) {
+    length += (point - last).norm();
+    last = point;
+  }
+  return length * fps / static_cast<double>(window.path.cols());
+}
+
+}  // namespace
+
+Table EvaluateDrawnPaths(const ClipSet& set, const ModelInfo& model,
+                         const std::vector<ControlledWay>& ways, const EvalOptions& options,
+                         ProgressBar* progress) {
+  Table table;
+  table.name = "drawn_" + set.name;
+  table.title = "Drawn paths, " + set.name;
+  char note[256];
+  std::snprintf(note, sizeof(note),
+                "%d frames between real poses on paths that nobody danced, no velocity factors "
+                "asked for. On the spot: the key stands where the dancer does. A bow: %.0f m to "
+                "the dancer's left in the middle. Of the key's joints the worst.",
+                kFrames, kAside);
+  table.note = note;
+  table.label_headings = {"path", "method"};
+  table.columns = {{"root asked m/s", 2},
+                   {"skating", 2},
+                   {"root off path mean cm", 1},
+                   {"key missed cm", 2},
+                   {"a joint off degrees", 1}};
+  const Skeleton& skeleton = model.skeleton;
+  for (const DrawnPath& path : kPaths) {
+    ControlCourse course(set, model, kFrames, options.windows_per_clip, progress);
+    if (path.way != Way::kDanced)
+      course.Redraw([&](ControlledWindow* window) { return Draw(path.way, window); });
+    for (const ControlledWay& way : Drawable(ways)) {
+      if (way.kind == ControlledWay::Kind::kReal && path.way != Way::kDanced) continue;
+      const Dances dances = course.Dance(way);
+      const auto mean = [&](auto&& figure) { return course.MeanOf(dances, figure); };
+      using Danced = const std::vector<Pose>&;
+      table.rows.push_back(
+          {{path.name, way.name},
+           {mean([&](const ControlledWindow& window, Danced) {
+              return PathSpeed(window, model.fps);
+            }),
+            mean([&](const ControlledWindow& window, Danced danced) {
+              return SkateRatioOf(skeleton, model.fps, window.before, danced);
+            }),
+            mean([&](const ControlledWindow& window, Danced danced) {
+              return 100 * RootDeviation(TrackJoints(skeleton, danced), window.path);
+            }),
+            mean([&](const ControlledWindow& window, Danced danced) {
+              return 100 * ComparePoses(skeleton, danced.back(), window.key).position_m;
+            }),
+            mean([&](const ControlledWindow& window, Danced danced) {
+              return ComparePoses(skeleton, danced.back(), window.key).angle_deg;
+            })}});
+    }
+  }
+  return table;
+}
+
+int64_t CountDrawnFrames(const ClipSet& set, const ModelInfo& model,
+                         const std::vector<ControlledWay>& ways, const EvalOptions& options) {
+  const auto engines =
+      std::ranges::count(Drawable(ways), ControlledWay::Kind::kEngine, &ControlledWay::kind);
+  const auto windows =
+      ChooseWindows(set, model.history_frames, kFrames, options.windows_per_clip).size();
+  return static_cast<int64_t>(std::size(kPaths) * windows) * kFrames * engines;
+}
+
+}  // namespace choreo
