@@ -157,7 +157,7 @@ struct DanceConfig {
   std::optional<uint64_t> seed = {};
   std::optional<double> temperature = {};  ///< 0 to 2
   /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
-  /// rest at the origin, facing +Z.
+  /// rest, facing +Z, where a path from frame 0 on begins, or else at the origin.
   std::vector<Pose> history = {};
   int64_t first_frame = 0;  ///< number of the first frame made, with `history`
   std::optional<Continuation> continuation = {};  ///< instead of `history`

@@ -27,6 +27,10 @@ v1::WarningCode ToCode(DanceWarning::Kind kind) {
       return v1::WARNING_CODE_PATH_TOO_FAST;
     case DanceWarning::Kind::kKeyOffPath:
       return v1::WARNING_CODE_KEY_OFF_PATH;
+    case DanceWarning::Kind::kPathBehindEnd:
+      return v1::WARNING_CODE_PATH_BEHIND_END;
+    case DanceWarning::Kind::kKeyOffHeight:
+      return v1::WARNING_CODE_KEY_OFF_HEIGHT;
     case DanceWarning::Kind::kControlsTooLate:
       return v1::WARNING_CODE_CONTROLS_TOO_LATE;
   }

@@ -1,6 +1,7 @@
 #include "model/dance/control_track.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/error.h"
 #include "model/dance/path_lead.h"
@@ -50,6 +51,30 @@ const PathCurve* ControlTrack::CurveAt(int64_t frame) const {
   return said != paths_.rend() && said->control.Covers(frame) ? &said->control : nullptr;
 }
 
+Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>& key_on_it) const {
+  Pose stance = RestPose(model_->skeleton);
+  const PathCurve* curve = CurveAt(first_frame);
+  if (curve != nullptr) {
+    const double height = stance.root_position.y();
+    stance.root_position = curve->At(first_frame - 1).position;
+    stance.root_position.y() = height;
+  }
+  if (!key_on_it) return stance;
+  const auto& [pose, mask] = *key_on_it;
+  if (mask.root_position) {
+    stance.root_position = pose.root_position;
+  } else if (HasHeights(curve)) {
+    stance.root_position.y() = curve->At(first_frame - 1).position.y();
+  } else if (const auto height = StandingHeight(model_->skeleton, pose, mask)) {
+    stance.root_position.y() = *height;
+  }
+  for (Eigen::Index joint = 0; joint < stance.rotations.cols(); ++joint) {
+    if (mask.joints.empty() || mask.joints[static_cast<size_t>(joint)])
+      stance.rotations.col(joint) = pose.rotations.col(joint);
+  }
+  return stance;
+}
+
 void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pose> history,
                             const std::optional<WorldTarget>& target, const std::string& key_id,
                             TransitionControls* out) const {
@@ -72,11 +97,10 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   for (const PathCurve*& curve : request.curves) {
     if (!HasHeights(curve)) curve = nullptr;
   }
-  if (!request.end && request.curves.back() == nullptr) {
-    const std::optional<double> key =
-        target ? StandingHeight(model_->skeleton, target->pose, target->mask) : std::nullopt;
-    request.end.emplace().position.y() = key.value_or(model_->skeleton.pelvis_height);
-  }
+  const std::optional<double> standing =
+      target ? StandingHeight(model_->skeleton, target->pose, target->mask) : std::nullopt;
+  if (!request.end && request.curves.back() == nullptr)
+    request.end.emplace().position.y() = standing.value_or(model_->skeleton.pelvis_height);
   const Lead height = LeadPath(request);
 
   Eigen::Matrix3Xd& path = out->controls.root_path;
@@ -84,6 +108,8 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   const int64_t last = first_frame + frames - 1;
   const double missed = (floor.missed + height.missed).norm();
   if (missed > kKeyTolerance) out->warnings.push_back(KeyOffPath(key_id, last, missed));
+  if (standing && !request.end && std::abs(path(1, frames - 1) - *standing) > kKeyTolerance)
+    out->warnings.push_back(KeyOffHeight(key_id, last, *standing, path(1, frames - 1)));
   double fastest = 0;
   int where = 0;
   for (int frame = 0; frame < frames; ++frame) {
@@ -116,6 +142,11 @@ void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionCon
       factors(part, frame) = asked.At(at, body_part, *model_);
     }
   }
+}
+
+std::optional<DanceWarning> ControlTrack::BehindEnd(int64_t end) const {
+  if (paths_.empty() || paths_.back().control.first() < end) return std::nullopt;
+  return PathBehindEnd(paths_.back().control.first(), end);
 }
 
 TransitionControls ControlTrack::For(int64_t first_frame, int frames, std::span<const Pose> history,

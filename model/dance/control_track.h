@@ -44,8 +44,9 @@ struct TransitionControls {
 /// key wins, and a warning tells by how much. From the dancer to a first point further ahead, and
 /// from a last point to the key, a cubic leads; without a key the last point holds. A height that
 /// nobody asks for leads from the dancer's to the key's: the one it states, or that at which its
-/// pose stands on the floor (StandingHeight); without a key, to standing at rest. A transition that
-/// the path has no frame of is left to the model.
+/// pose stands on the floor (StandingHeight); without a key, to standing at rest. Where a path with
+/// heights has such a pose elsewhere, the path wins, and a warning tells by how much. A transition
+/// that the path has no frame of is left to the model.
 ///
 /// Velocity factors: parts, and frames, that nobody speaks of have the model's first reference.
 class ControlTrack {
@@ -57,10 +58,18 @@ class ControlTrack {
   /// beyond kMaxControls or kMaxControlValues.
   void Set(const ControlRequest& request, int64_t from, const std::string& field);
 
+  /// How a dancer of whom nothing is known stands before `first_frame`: at rest, facing +Z, where a
+  /// path that has this frame goes on from, or else at the origin. What a key on that very frame
+  /// asks, she has done already.
+  Pose Stance(int64_t first_frame, const std::optional<WorldTarget>& key_on_it) const;
+
   /// Of the frames [first_frame, first_frame + frames). `history` is the transition's, at least one
   /// pose; `key_id` is how warnings call the target.
   TransitionControls For(int64_t first_frame, int frames, std::span<const Pose> history,
                          const std::optional<WorldTarget>& target, const std::string& key_id) const;
+
+  /// The path that was set last, if frames before `end` are none of its.
+  std::optional<DanceWarning> BehindEnd(int64_t end) const;
 
  private:
   template <typename Control>

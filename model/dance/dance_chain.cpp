@@ -5,29 +5,8 @@
 #include "model/core/error.h"
 #include "model/dance/playback_clock.h"
 #include "model/dance/warning.h"
-#include "model/motion/kinematics.h"
 
 namespace choreo {
-namespace {
-
-// What a key that stands on the very first frame makes of the neutral stance before it.
-Pose StanceOfFirstKey(const Skeleton& skeleton, const Key& key) {
-  Pose stance = RestPose(skeleton);
-  if (key.mask.root_position) {
-    stance.root_position = key.pose.root_position;
-  } else {
-    stance.root_position.y() =
-        StandingHeight(skeleton, key.pose, key.mask).value_or(skeleton.pelvis_height);
-  }
-  for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    if (key.mask.joints.empty() || key.mask.joints[static_cast<size_t>(joint)]) {
-      stance.rotations.col(joint) = key.pose.rotations.col(joint);
-    }
-  }
-  return stance;
-}
-
-}  // namespace
 
 /// One transition of the chain.
 class DanceChain::Job : public StepJob {
@@ -216,17 +195,16 @@ void DanceChain::Advance(bool inherits) {
 }
 
 void DanceChain::Start() {
+  TransitionRequest request;
+  request.frames = static_cast<int>(segment_->to - segment_->from);
+  if (segment_->key) request.target = WorldTarget{segment_->key->pose, segment_->key->mask};
   if (history_.empty()) {
-    const bool on_key = segment_->key && segment_->to == 1;
     const Pose stance =
-        on_key ? StanceOfFirstKey(model_.skeleton, *segment_->key) : RestPose(model_.skeleton);
+        controls_.Stance(segment_->from, request.frames == 1 ? request.target : std::nullopt);
     const std::vector<Pose> history = FillHistory(model_, {&stance, 1});
     history_.assign(history.begin(), history.end());
   }
-  TransitionRequest request;
-  request.frames = static_cast<int>(segment_->to - segment_->from);
   request.history.assign(history_.begin(), history_.end());
-  if (segment_->key) request.target = WorldTarget{segment_->key->pose, segment_->key->mask};
   request.seed = config_.seed;
   request.candidate = config_.candidate;
   request.first_frame = segment_->from;
@@ -294,6 +272,7 @@ void DanceChain::PostContinuation() {
 
 void DanceChain::Summarise() {
   over_ = true;
+  if (const auto warning = controls_.BehindEnd(next_frame_)) Post(*warning);
   std::vector<double> beats;
   for (double seconds : music_beats_) beats.push_back(seconds * model_.fps);
   mailbox_.Post([report = meter_.Report(beats)](DanceSink& sink) { sink.OnSummary(report); });

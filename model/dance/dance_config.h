@@ -16,8 +16,9 @@ struct DanceConfig {
   uint32_t candidate = 0;
   std::optional<float> temperature;  ///< 0..2; none: the model's default
   double output_fps = 30;            ///< 1..120; the model's own rate passes through untouched
-  /// Up to tau poses before frame 0 (world, model rate, oldest first). None: the neutral stance at
-  /// the origin, or the first key's pose if that stands on frame 0. Excludes `continuation`.
+  /// Up to tau poses before frame 0 (world, model rate, oldest first). None: the neutral stance
+  /// where a root path begins at frame 0, or else at the origin; or the first key's pose if that
+  /// stands on frame 0. Excludes `continuation`.
   std::vector<Pose> history;
   std::optional<Continuation> continuation;  ///< start at its frame
   /// Go on from a continuation of another fingerprint, with a warning, instead of

@@ -17,7 +17,8 @@ struct GroupRequest {
   std::optional<float> temperature;  ///< 0..2; none: the model's default
   double output_fps = 30;
   int frames = 0;             ///< 1..min(1800, the model's longest)
-  std::vector<Pose> history;  ///< as TransitionRequest's; excludes `continuation`
+  std::vector<Pose> history;  ///< as TransitionRequest's, but none is the neutral stance where the
+                              ///< root path begins; excludes `continuation`
   std::optional<Continuation> continuation;
   bool allow_inexact_resume = false;
   int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it

@@ -29,15 +29,18 @@ void RootPath::Validate(const std::string& field) const {
                           std::to_string(count) + " points, a path needs at least 2");
   }
   for (int64_t i = 0; i < count; ++i) {
-    for (const int axis : {0, 1, 2}) {
-      if (axis == 1 && !has_heights) continue;
+    // Written so that NaN fails too.
+    for (const int axis : {0, 2}) {
       const double value = points(axis, i);
-      // Written so that NaN fails too.
       if (std::abs(value) <= kMaxPosition) continue;
-      const std::string place = axis == 1 ? ".heights[" + std::to_string(i)
-                                          : ".points[" + std::to_string(2 * i + axis / 2);
-      throw InvalidArgument(field + place + "]",
+      throw InvalidArgument(field + ".points[" + std::to_string(2 * i + axis / 2) + "]",
                             Show(value) + " m is not within " + Show(kMaxPosition) + " m of 0");
+    }
+    const double height = points(1, i);
+    if (has_heights && !(height >= 0 && height <= kMaxRootHeight)) {
+      throw InvalidArgument(
+          field + ".heights[" + std::to_string(i) + "]",
+          Show(height) + " m above the floor is not in [0, " + Show(kMaxRootHeight) + "]");
     }
   }
 }

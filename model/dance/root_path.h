@@ -7,6 +7,9 @@
 
 namespace choreo {
 
+/// Metres above the floor: a metre more than standing, which nobody leaps.
+inline constexpr double kMaxRootHeight = 2;
+
 /// Where the root should be, as a client says it: points in time, world frame, metres. A dense path
 /// has a point in each frame; of a sparse one the smooth curve through its points is meant.
 struct RootPath {
@@ -16,7 +19,7 @@ struct RootPath {
 
   /// Throws Error(kInvalidArgument) below `field` for fewer than 2 points, frames that do not
   /// ascend or lie outside a dance, points that are not finite or further than kMaxPosition from
-  /// the origin.
+  /// the origin, heights outside [0, kMaxRootHeight].
   void Validate(const std::string& field) const;
 };
 

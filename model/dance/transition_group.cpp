@@ -185,7 +185,6 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
 void TransitionGroup::Impl::Begin() {
   TransitionRequest transition;
   transition.frames = request_.frames;
-  transition.history = FillHistory(model_, request_.History());
   transition.target = request_.target;
   transition.after = request_.after;
   transition.has_audio = audio_.has_value();
@@ -198,9 +197,19 @@ void TransitionGroup::Impl::Begin() {
 
   ControlTrack controls(model_);
   controls.Set(request_.controls, first_frame_, "controls");
+  const Pose stance =
+      controls.Stance(first_frame_, transition.frames == 1 ? transition.target : std::nullopt);
+  const std::vector<Pose>& given = request_.History();
+  transition.history =
+      FillHistory(model_, given.empty() ? std::span(&stance, 1) : std::span(given));
   TransitionControls asked = controls.For(first_frame_, transition.frames, transition.history,
                                           transition.target, "target");
   transition.controls = std::move(asked.controls);
+  const int64_t end = first_frame_ + transition.frames;
+  if (const auto warning = controls.BehindEnd(end)) asked.warnings.push_back(*warning);
+  const auto& path = request_.controls.root_path;
+  if (path && path->frames.back() < first_frame_)
+    asked.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
 
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {

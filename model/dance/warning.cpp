@@ -1,5 +1,7 @@
 #include "model/dance/warning.h"
 
+#include <cmath>
+
 #include "model/dance/validation.h"
 
 namespace choreo {
@@ -40,6 +42,23 @@ DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest) {
   return {DanceWarning::Kind::kControlsTooLate, last_frame,
           "the root path ends at frame " + std::to_string(last_frame) + ", and frames before " +
               std::to_string(earliest) + " are frozen: nothing comes of it"};
+}
+
+DanceWarning PathBehindEnd(int64_t first_frame, int64_t end) {
+  return {DanceWarning::Kind::kPathBehindEnd, first_frame,
+          "the root path begins at frame " + std::to_string(first_frame) +
+              ", and the last frame is " + std::to_string(end - 1) + ": nothing comes of it"};
+}
+
+DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height) {
+  const auto centimetres = [](double metres) {
+    return Show(std::round(100 * metres) / 100) + " m";
+  };
+  return {DanceWarning::Kind::kKeyOffHeight, frame,
+          "key \"" + id + "\" stands on the floor with its root at " + centimetres(standing) +
+              ", the root path has " + centimetres(height) + ": it is " +
+              centimetres(std::abs(height - standing)) +
+              (height > standing ? " in the air" : " too low for its feet") + "; the path wins"};
 }
 
 }  // namespace choreo

@@ -15,6 +15,8 @@ struct DanceWarning {
     kPathTooFast,       ///< at `frame` the root path asks for more speed than people have
     kKeyOffPath,        ///< the root path does not lead to the key at `frame`
     kControlsTooLate,   ///< every frame that a root path speaks of is frozen; `frame` is its last
+    kPathBehindEnd,     ///< the dance is over before the root path's first frame, `frame`
+    kKeyOffHeight,      ///< the pose of the key at `frame` stands at another height than the path's
   };
   Kind kind = Kind::kIntervalTooShort;
   int64_t frame = 0;  ///< model rate, absolute
@@ -31,5 +33,10 @@ DanceWarning PathTooFast(int64_t frame, double m_per_s);
 DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres);
 /// The path ends before frame `earliest`, the first that is not frozen.
 DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest);
+/// The path begins at or behind `end`, before which the dance ends.
+DanceWarning PathBehindEnd(int64_t first_frame, int64_t end);
+/// A key without a root position stands on the floor with its root at `standing`, and the path is
+/// at `height`; metres.
+DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height);
 
 }  // namespace choreo

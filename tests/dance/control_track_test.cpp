@@ -99,6 +99,62 @@ TEST_F(ControlTrackTest, AKeyWithoutAPlaceStandsUnlessThePathSaysHowHighItIs) {
   EXPECT_GT(For(0, 90).controls.root_path(1, 89), standing_ + 0.2);
 }
 
+TEST_F(ControlTrackTest, SaysWhereAKeyStandsElsewhereThanThePathHasIt) {
+  AimAt(0);
+  target_->mask.root_position = false;
+  const auto told = [&](double height) {
+    track_.Set(Way({0, 100}, {0, 1}, {height, height}), 0, "controls");
+    return For(0, 90).warnings;
+  };
+  EXPECT_TRUE(told(standing_ + 0.04).empty());
+  const std::vector<DanceWarning> above = told(1.3), below = told(0.7);
+  ASSERT_EQ(above.size(), 1u);
+  EXPECT_EQ(above[0].kind, DanceWarning::Kind::kKeyOffHeight);
+  EXPECT_EQ(above[0].frame, 89);
+  EXPECT_EQ(above[0].message,
+            "key \"landing\" stands on the floor with its root at 0.98 m, the root path has 1.3 m: "
+            "it is 0.32 m in the air; the path wins");
+  ASSERT_EQ(below.size(), 1u);
+  EXPECT_THAT(below[0].message, HasSubstr("it is 0.28 m too low for its feet"));
+  // One that states where its root is wins instead; of one whose legs are open nothing is known.
+  target_->mask.root_position = true;
+  ASSERT_EQ(told(1.3).size(), 1u);
+  EXPECT_EQ(told(1.3)[0].kind, DanceWarning::Kind::kKeyOffPath);
+  target_->mask.root_position = false;
+  target_->mask.joints.assign(24, false);
+  target_->mask.joints[static_cast<size_t>(engine_.model().skeleton.left_elbow)] = true;
+  EXPECT_TRUE(told(1.3).empty());
+}
+
+TEST_F(ControlTrackTest, OneOfWhomNothingIsKnownStandsWhereThePathBegins) {
+  EXPECT_EQ(track_.Stance(0, {}).root_position, RestPose(engine_.model().skeleton).root_position);
+  track_.Set(Way({30, 90}, {4, 5}, {0.5, 0.5}), 0, "controls");
+  EXPECT_EQ(track_.Stance(0, {}).root_position.x(), 0);
+  EXPECT_NEAR(track_.Stance(30, {}).root_position.x(), 4 - 1.0 / 60, 1e-9);
+  EXPECT_NEAR(track_.Stance(30, {}).root_position.y(), standing_, 1e-9) << "at rest, not crouched";
+  // What a key on the first frame asks is done already.
+  AimAt(7);
+  target_->pose.rotations(2, 16) = 1;
+  EXPECT_EQ(track_.Stance(30, target_).root_position.x(), 7);
+  EXPECT_EQ(track_.Stance(30, target_).rotations(2, 16), 1);
+  target_->mask.root_position = false;
+  EXPECT_NEAR(track_.Stance(30, target_).root_position.x(), 4 - 1.0 / 60, 1e-9);
+  EXPECT_NEAR(track_.Stance(30, target_).root_position.y(), 0.5, 1e-9);
+}
+
+TEST_F(ControlTrackTest, NamesAPathThatBeginsBehindTheEnd) {
+  EXPECT_FALSE(track_.BehindEnd(60));
+  track_.Set(Way({100, 200}, {0, 1}), 0, "controls");
+  EXPECT_FALSE(track_.BehindEnd(101));
+  const auto warning = track_.BehindEnd(100);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->kind, DanceWarning::Kind::kPathBehindEnd);
+  EXPECT_EQ(warning->message,
+            "the root path begins at frame 100, and the last frame is 99: nothing comes of it");
+  track_.Set(Way({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
+  EXPECT_FALSE(track_.BehindEnd(100));
+}
+
 TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   AimAt(1.09);

@@ -70,6 +70,27 @@ TEST_F(ControlledDanceTest, FollowsAPathOverManyTransitions) {
   EXPECT_TRUE(dance.warnings.empty());
 }
 
+TEST_F(ControlledDanceTest, BeginsWhereThePathBegins) {
+  for (const bool key : {false, true}) {
+    const Recording dance = Perform([key](DanceStream& s) {
+      s.SetControls(Way(0, 299, -5, -4));
+      if (!key) return;
+      s.SetKey("first", AtFrame{0}, KeyAt(0, 0), {.root_position = false, .joints = {}});
+    });
+    ASSERT_TRUE(dance.summary) << dance.error->what();
+    EXPECT_TRUE(dance.warnings.empty()) << dance.warnings[0].message;
+    EXPECT_NEAR(dance.poses[0].root_position.x(), -5, 1e-5);
+    EXPECT_NEAR(dance.poses[0].root_position.z(), -5, 1e-5);
+  }
+}
+
+TEST_F(ControlledDanceTest, APathThatBeginsBehindTheEndIsToldOf) {
+  const Recording dance = Perform([](DanceStream& s) { s.SetControls(Way(120, 240, 0, 1)); }, 120);
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  ASSERT_EQ(dance.warnings.size(), 1u);
+  EXPECT_EQ(dance.warnings[0].kind, DanceWarning::Kind::kPathBehindEnd);
+}
+
 TEST_F(ControlledDanceTest, ControlsHoldFromTheFirstFrameThatIsNotFrozen) {
   const Recording dance = Perform([](DanceStream& s) {
     s.SetControls(Factor(BodyPart::kLeftArm, 2));
@@ -286,9 +307,24 @@ class GroupRecorder : public GroupSink {
   Recording recording_;
 };
 
+TEST_F(ControlledDanceTest, ASingleTransitionTellsOfAPathThatItHasNoFrameOf) {
+  for (const auto& [from, kind] : {std::pair{0, DanceWarning::Kind::kControlsTooLate},
+                                   std::pair{160, DanceWarning::Kind::kPathBehindEnd}}) {
+    GroupRequest request;
+    request.first_frame = 100;
+    request.frames = 60;
+    request.controls = Way(from, from + 99, 0, 1);
+    auto sink = std::make_shared<GroupRecorder>();
+    const TransitionGroup group(*scheduler_, request, sink);
+    const Recording transition = sink->Wait();
+    ASSERT_EQ(transition.warnings.size(), 1u);
+    EXPECT_EQ(transition.warnings[0].kind, kind);
+  }
+}
+
 TEST_F(ControlledDanceTest, ASingleTransitionIsThatOfTheStream) {
-  const ControlRequest path = Way(0, 200, 0, 1);
-  const Pose key = KeyAt(0.9, 0.2);
+  const ControlRequest path = Way(0, 200, 3, 4);
+  const Pose key = KeyAt(3.9, 3.2);
   const Recording dance = Perform(
       [&](DanceStream& s) {
         s.SetControls(path);

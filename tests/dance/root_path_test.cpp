@@ -96,6 +96,10 @@ TEST(RootPath, RefusesWhatIsNoPath) {
   refused(Path({0, 9}, {{0, 0, 0}, {0, 0, nan}}), "root_path.points[3]: nan m is not within 10000");
   refused(Path({0, 9}, {{1e5, 0, 0}, {0, 0, 0}}), "root_path.points[0]: 100000 m is not within");
   refused(Path({0, 9}, {{0, 0, 0}, {0, nan, 0}}, true), "root_path.heights[1]: nan m");
+  refused(Path({0, 9}, {{0, -0.1, 0}, {0, 1, 0}}, true),
+          "root_path.heights[0]: -0.1 m above the floor is not in [0, 2]");
+  refused(Path({0, 9}, {{0, 0, 0}, {0, 2.1, 0}}, true),
+          "root_path.heights[1]: 2.1 m above the floor is not in [0, 2]");
   refused(Path({0, 9, 9}, {{0, 0, 0}, {0, 0, 1}, {0, 0, 2}}),
           "root_path.frames[2]: 9 is not after the frame before it, 9");
   refused(Path({-1, 9}, {{0, 0, 0}, {0, 0, 1}}), "root_path.frames[0]: -1 is not in [0, 108000]");

@@ -177,6 +177,30 @@ TEST_F(ControlsServerTest, ContradictionsAreWarningsWithTheAmount) {
   EXPECT_LT(answer.summary->report().keyframes(0).errors().final_error_m(), 1e-3);
 }
 
+TEST_F(ControlsServerTest, AKeyThatStandsElsewhereThanThePathHasItIsToldOf) {
+  v1::StreamDanceRequest config, key;
+  *config.mutable_config() = Config();
+  *key.mutable_keyframe() = Key("plie", 90);
+  key.mutable_keyframe()->mutable_pose()->clear_root_position();
+  const Answer answer = Dance({config, Asking(Path({0, 119}, {0, 0, 1, 0}, {0.6F, 0.6F})), key});
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  ASSERT_GE(answer.events.size(), 1u);
+  EXPECT_EQ(answer.events[0].warning().code(), v1::WARNING_CODE_KEY_OFF_HEIGHT);
+  EXPECT_EQ(answer.events[0].frame(), 90);
+  EXPECT_THAT(answer.events[0].warning().message(), HasSubstr("0.38 m too low for its feet"));
+}
+
+TEST_F(ControlsServerTest, APathBehindTheEndIsToldOfByBothCalls) {
+  const v1::Controls controls = Path({120, 180}, {0, 0, 1, 1});
+  const Answer dance = DanceWith(controls), transition = Generate(Transition(controls));
+  for (const Answer* answer : {&dance, &transition}) {
+    ASSERT_TRUE(answer->status.ok()) << answer->status.error_message();
+    ASSERT_EQ(answer->events.size(), 1u);
+    EXPECT_EQ(answer->events[0].warning().code(), v1::WARNING_CODE_PATH_BEHIND_END);
+    EXPECT_EQ(answer->events[0].frame(), 120);
+  }
+}
+
 TEST_F(ControlsServerTest, APathThatComesTooLateIsToldOf) {
   v1::StreamDanceRequest config, until;
   *config.mutable_config() = Config();
@@ -262,7 +286,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadControls{"InfinitePath", Path({0, 9}, {0, HUGE_VALF, 0, 0}),
                     ".root_path.points[1]: inf m is not within 10000 m of 0"},
         BadControls{"NanHeight", Path({0, 9}, {0, 0, 0, 1}, {1, kNan}),
-                    ".root_path.heights[1]: nan m is not within"},
+                    ".root_path.heights[1]: nan m above the floor is not in [0, 2]"},
+        BadControls{"UndergroundHeight", Path({0, 9}, {0, 0, 0, 1}, {-5, 1}),
+                    ".root_path.heights[0]: -5 m above the floor is not in [0, 2]"},
+        BadControls{"HeightThatNobodyLeaps", Path({0, 9}, {0, 0, 0, 1}, {1, 3}),
+                    ".root_path.heights[1]: 3 m above the floor is not in [0, 2]"},
         BadControls{"NoPoint", Path({}, {}),
                     ".root_path.points: 0 points, a path needs at least 2"},
         BadControls{"OnePoint", Path({3}, {0, 0}),
