@@ -9,15 +9,15 @@ namespace choreo {
 namespace {
 
 constexpr double kStepSeconds = 0.3;
-constexpr double kDrift = 0.12;           // metres the body may leave a planted foot behind
-constexpr double kLowToes = 0.04;         // metres above rest: on the floor
-constexpr double kLiftedToes = 0.07;      // the model has lifted the foot
-constexpr double kStillSpeed = 0.6;       // m/s: a foot that the model moves slower stands
-constexpr double kSameSpot = 0.03;        // metres that need no step of their own
-constexpr double kFarthestReach = 1.02;   // of the leg's length: a toe drawn two centimetres
+constexpr double kDrift = 0.12;          // metres the body may leave a planted foot behind
+constexpr double kLowToes = 0.04;        // metres above rest: on the floor
+constexpr double kLiftedToes = 0.07;     // the model has lifted the foot
+constexpr double kStillSpeed = 0.6;      // m/s: a foot that the model moves slower stands
+constexpr double kSameSpot = 0.03;       // metres that need no step of their own
+constexpr double kFarthestReach = 1.02;  // of the leg's length: a toe drawn two centimetres
 constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metres
 constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
-constexpr int kFewestStepFrames = 5;
+constexpr int kFewestStepFrames = 4;
 
 double SmoothStep(double u) { return u * u * (3 - 2 * u); }
 
@@ -50,7 +50,7 @@ FootLock::FootLock(const Skeleton& skeleton, double fps, int transition_frames,
     : skeleton_(skeleton),
       frames_(transition_frames),
       step_frames_(StepFrames(fps, transition_frames)),
-      still_(kStillSpeed / fps) {
+      fps_(fps) {
   const std::array<Leg, 2> legs = Leg::Of(skeleton);
   for (size_t side = 0; side < 2; ++side) feet_[side].leg = legs[side];
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
@@ -62,7 +62,7 @@ FootLock::FootLock(const Skeleton& skeleton, double fps, int transition_frames,
   for (Foot& foot : feet_) {
     foot.at = foot.from = foot.raw = now.col(foot.leg.toes);
     foot.planted = foot.at.y() < rest_height_ + kLowToes &&
-                   Apart(now.col(foot.leg.toes), before.col(foot.leg.toes)) < still_;
+                   Apart(now.col(foot.leg.toes), before.col(foot.leg.toes)) < kStillSpeed / fps_;
     foot.last_start = frames_;
   }
   if (target) PlanLastSteps(*target);
@@ -108,12 +108,14 @@ Eigen::Vector3d FootLock::Move(Foot* foot, const Eigen::Vector3d& raw) {
   Eigen::Vector3d at = foot->from + SmoothStep(u) * (goal - foot->from);
   const double arc = std::min(kHighestArc, kArc + kArcPerMetre * Apart(goal, foot->from));
   const double model_lift = std::max(0.0, raw.y() - rest_height_ - kLowToes);
-  if (foot->duration > 0) at.y() += std::max(0.0, arc - model_lift) * 4 * u * (1 - u);
+  // A quick step, between keys that stand close together, is a low one.
+  const double lift = foot->duration / (kStepSeconds * fps_) * std::max(0.0, arc - model_lift);
+  at.y() += lift * 4 * u * (1 - u);
   if (!(foot->last_step && foot->landing)) at.y() = std::max(at.y(), rest_height_);
   // A step comes down where the floor is; a foot that the model moves by itself stands once it is
   // slow. A key that has the foot in the air, or leaves it open, takes it from the model's hand.
   const bool low = goal.y() < rest_height_ + (foot->landing ? kLiftedToes : kLowToes);
-  const bool comes_down = foot->duration > 0 || Apart(raw, foot->raw) < still_;
+  const bool comes_down = foot->duration > 0 || Apart(raw, foot->raw) < kStillSpeed / fps_;
   foot->planted = u == 1 && low && comes_down && (!foot->last_step || foot->landing);
   return at;
 }

@@ -60,8 +60,8 @@ class FootLock {
 
   const Skeleton skeleton_;
   const int frames_;
-  const int step_frames_;                      // of a step in the air
-  const double still_;                         // metres a frame
+  const int step_frames_;  // of a step in the air
+  const double fps_;
   double rest_height_ = 0, ankle_height_ = 0;  // of a foot that stands: toes, ankle
   bool ends_on_key_ = false;
   int next_ = 0;

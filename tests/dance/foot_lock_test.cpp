@@ -72,7 +72,7 @@ TEST(FootLock, OneFootCarriesTheOther) {
 }
 
 TEST(FootLock, TheKeyIsUntouchedAndItsFeetStandBeforeIt) {
-  for (const int frames : {14, 30, 60}) {
+  for (const int frames : {10, 14, 30, 60}) {
     const Target key{At(0.3), {}};
     const Motion dance = Dance(frames, 0.3 * kFps / frames, key);
     EXPECT_EQ(dance.frames.back().rotations, key.pose.rotations);
@@ -82,6 +82,26 @@ TEST(FootLock, TheKeyIsUntouchedAndItsFeetStandBeforeIt) {
       EXPECT_LT((end.col(leg.toes) - before.col(leg.toes)).norm(), 0.01) << frames;
     }
   }
+}
+
+// A third of a second: both feet step, one after the other, low enough not to be thrown.
+TEST(FootLock, BetweenKeysThatStandCloseStepsAreQuickAndLow) {
+  const Target key{At(0.15), {}};
+  const Motion dance = Dance(10, 0.15 * kFps / 10, key);
+  const std::array<Leg, 2> legs = Leg::Of(Body());
+  double highest = 0;
+  for (size_t t = 1; t < dance.frames.size(); ++t) {
+    const Eigen::Matrix3Xd before = JointPositions(Body(), dance.frames[t - 1]);
+    const Eigen::Matrix3Xd now = JointPositions(Body(), dance.frames[t]);
+    const auto step = [&](size_t side) {
+      return (now.col(legs[side].toes) - before.col(legs[side].toes)).norm();
+    };
+    EXPECT_LT(std::min(step(0), step(1)), 0.003) << "no foot stands in frame " << t;
+    for (const Leg& leg : legs) highest = std::max(highest, now(1, leg.toes));
+  }
+  const double stands = JointPositions(Body(), At(0))(1, legs[0].toes);
+  EXPECT_GT(highest, stands + 0.015);
+  EXPECT_LT(highest, stands + 0.04);
 }
 
 TEST(FootLock, WhoStandsIsNotTouched) {
