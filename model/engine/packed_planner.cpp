@@ -53,7 +53,8 @@ PackedPlanner::PackedPlanner(const Safetensors& content, const FlowConfig& confi
   counts_ = (counts_ * weight.middleRows(key, feature_width_)).eval();
 }
 
-TransitionPlan PackedPlanner::Plan(const TransitionSpec& spec) const {
+TransitionPlan PackedPlanner::PlanTurning(const TransitionSpec& spec,
+                                          const Eigen::Vector3d& turn) const {
   thread_local Scratch scratch;
   TransitionPlan plan;
   const int pose = 3 + 6 * joints_;
@@ -77,7 +78,7 @@ TransitionPlan PackedPlanner::Plan(const TransitionSpec& spec) const {
     key.tail(joints_ + 1) = mask;
   }
   if (transformer_) {
-    bender_.Interpolate(spec, &scratch.network);
+    bender_.Interpolate(spec, turn, &scratch.network);
     transformer_->Run(spec.frames, &scratch.network);
     bender_.Bend(spec.frames, scratch.network, transformer_->pose_std, &scratch.bent);
     WritePoses(spec, &scratch, &plan.poses);

@@ -23,9 +23,10 @@ class PackedPlanner : public TransitionPlanner {
   /// Throws as PackedTensors does. `products` as PackedTransformer has it.
   PackedPlanner(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
                 const PackedKernels& kernels, const PackedKernels& products);
-  TransitionPlan Plan(const TransitionSpec& spec) const override;
 
  private:
+  TransitionPlan PlanTurning(const TransitionSpec& spec,
+                             const Eigen::Vector3d& turn) const override;
   struct Scratch;
   void WritePoses(const TransitionSpec& spec, Scratch* s, std::vector<Pose>* poses) const;
   void WriteCondition(const TransitionSpec& spec, Scratch* s, std::vector<float>* condition) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "model/motion/mirror.h"
 #include "model/motion/rotation.h"
@@ -14,7 +13,6 @@ namespace {
 constexpr double kRampFrames = 6;
 constexpr float kLeastAlong = 0.25F, kAlongSoftness = 0.1F;
 constexpr float kFreeTurn = 0.625F;
-constexpr double kTurnHorizon = 12;
 constexpr double kResidualSigma = 2;
 constexpr double kEaseFrames = 30;
 constexpr int kResidualReach = 12;  // frames, where a Gaussian is 1e-8 of its peak
@@ -36,18 +34,6 @@ void Straighten(SixD&& columns) {
   const Eigen::Vector3f x = Unit(columns.template head<3>());
   columns.template head<3>() = x;
   columns.template tail<3>() = Unit(b - x.dot(b) * x);
-}
-
-// Of two turns that end alike the one that the dancer's own turning leads to.
-Eigen::Vector3d WayRound(const Eigen::Vector3d& turn, const TransitionSpec& spec) {
-  const size_t history = spec.history.size();
-  if (history < 3) return turn;
-  const Eigen::Vector3d rate = 0.5 * RotationDifference(spec.history[history - 3].rotations.col(0),
-                                                        spec.history[history - 1].rotations.col(0));
-  const Eigen::Vector3d expected = std::min<double>(kTurnHorizon, spec.frames) * rate;
-  const double angle = std::sqrt(turn.squaredNorm() + 1e-12);
-  const Eigen::Vector3d other = turn * (1 - 2 * std::numbers::pi / angle);
-  return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
 }
 
 // A plan's steady walk, that of its second half, is taken out of its first `frames` positions.
@@ -75,7 +61,7 @@ PlanBender::PlanBender(const Skeleton& skeleton, int history, double root_turn,
       pairs_(MirrorPairs(skeleton)),
       kernels_(kernels) {}
 
-void PlanBender::Interpolate(const TransitionSpec& spec,
+void PlanBender::Interpolate(const TransitionSpec& spec, const Eigen::Vector3d& root_turn,
                              PackedTransformer::Scratch* network) const {
   const auto history = static_cast<int>(spec.history.size());
   RowBuffer& poses = network->poses;
@@ -99,8 +85,9 @@ void PlanBender::Interpolate(const TransitionSpec& spec,
     poses.Part<3>(history + t, 0) = (last.root_position + u * move).cast<float>();
   }
   for (int joint = 0; joint < joints_; ++joint) {
-    Eigen::Vector3d turn = RotationDifference(last.rotations.col(joint), goal.rotations.col(joint));
-    if (joint == 0) turn = WayRound(turn, spec);
+    Eigen::Vector3d turn =
+        joint == 0 ? root_turn
+                   : RotationDifference(last.rotations.col(joint), goal.rotations.col(joint));
     turn *= mask[joint];
     // from exp(u turn) = from + sin(u angle) from K + (1 - cos(u angle)) from K^2, K the axis.
     const double angle = turn.norm();

@@ -24,10 +24,11 @@ class PlanBender {
   /// `root_turn` as in PlannerConfig.
   PlanBender(const Skeleton& skeleton, int history, double root_turn, const PackedKernels& kernels);
 
-  /// Writes the network's poses: history, then the line from its last pose to the key, the root
-  /// going the way round that the dancer turns; what the key does not name stays as it is. Reads
-  /// the first row of the network's masks and writes the second, the mirror image's.
-  void Interpolate(const TransitionSpec& spec, PackedTransformer::Scratch* network) const;
+  /// Writes the network's poses: history, then the line from its last pose to the key, to which the
+  /// root turns by `root_turn`; what the key does not name stays as it is. Reads the first row of
+  /// the network's masks and writes the second, the mirror image's.
+  void Interpolate(const TransitionSpec& spec, const Eigen::Vector3d& root_turn,
+                   PackedTransformer::Scratch* network) const;
   /// Bends each side's line by the network's residual, in units of `pose_std`, and takes the mean
   /// of the two; where no root position is asked for, without its steady walk.
   void Bend(int frames, const PackedTransformer::Scratch& network, const Eigen::VectorXf& pose_std,

@@ -90,7 +90,8 @@ std::vector<Pose> Poses(const Tensor& positions, const Tensor& rotations, const 
 TorchPlanner::TorchPlanner(FlowModel model, torch::Device device)
     : model_(std::move(model)), device_(device) {}
 
-TransitionPlan TorchPlanner::Plan(const TransitionSpec& spec) const {
+TransitionPlan TorchPlanner::PlanTurning(const TransitionSpec& spec,
+                                         const Eigen::Vector3d& turn) const {
   const c10::InferenceMode inference;
   const auto there = [&](const Tensor& one) { return one.to(device_); };
   // Where no key is asked for, the last pose stands in: the mask hides it.
@@ -98,14 +99,16 @@ TransitionPlan TorchPlanner::Plan(const TransitionSpec& spec) const {
   FlowModel model = model_;
   Tensor variety;
   if (model->variety() && spec.temperature > 0) variety = there(VarietyOf(spec, model));
-  const TransitionContext context =
-      model->Begin({.frames = spec.frames,
-                    .history_position = there(Positions(spec.history).unsqueeze(0)),
-                    .history_rotation = there(Rotations(spec.history).unsqueeze(0)),
-                    .target_position = there(Positions({&goal, 1})),
-                    .target_rotation = there(Rotations({&goal, 1})),
-                    .target_mask = there(Mask(spec, model->skeleton().joints()))},
-                   variety);
+  const TransitionContext context = model->Begin(
+      {.frames = spec.frames,
+       .history_position = there(Positions(spec.history).unsqueeze(0)),
+       .history_rotation = there(Rotations(spec.history).unsqueeze(0)),
+       .target_position = there(Positions({&goal, 1})),
+       .target_rotation = there(Rotations({&goal, 1})),
+       .target_mask = there(Mask(spec, model->skeleton().joints())),
+       .turning = there(torch::tensor({{static_cast<float>(turn.x()), static_cast<float>(turn.y()),
+                                        static_cast<float>(turn.z())}}))},
+      variety);
   TransitionPlan plan;
   const Tensor condition = context.static_condition[0].cpu().contiguous();
   plan.static_condition.assign(condition.data_ptr<float>(),

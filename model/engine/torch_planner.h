@@ -12,9 +12,11 @@ class TorchPlanner : public TransitionPlanner {
  public:
   /// `model` is in eval mode, on `device`.
   TorchPlanner(FlowModel model, torch::Device device);
-  TransitionPlan Plan(const TransitionSpec& spec) const override;
 
  private:
+  TransitionPlan PlanTurning(const TransitionSpec& spec,
+                             const Eigen::Vector3d& turn) const override;
+
   FlowModel model_;
   torch::Device device_;
 };

@@ -18,8 +18,16 @@ struct TransitionPlan {
 class TransitionPlanner {
  public:
   virtual ~TransitionPlanner() = default;
-  /// The spec is valid (ValidateSpec).
-  virtual TransitionPlan Plan(const TransitionSpec& spec) const = 0;
+  /// The spec is valid (ValidateSpec). A key can be reached by turning either way round: the plan
+  /// goes on turning as the last frames do, unless it swings round in a few frames so and the plan
+  /// of the other way does so less.
+  TransitionPlan Plan(const TransitionSpec& spec) const;
+
+ private:
+  /// The root turns to the key by the rotation vector `turn`, or by what the plan adds to it; zero
+  /// without a key for it.
+  virtual TransitionPlan PlanTurning(const TransitionSpec& spec,
+                                     const Eigen::Vector3d& turn) const = 0;
 };
 
 }  // namespace choreo

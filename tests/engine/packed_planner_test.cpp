@@ -85,7 +85,7 @@ TEST(PackedPlanner, PlansTheShippedModelAsLibTorchDoes) {
   }
 }
 
-// A key half a turn away, which the history's turning decides.
+// A key half a turn away: whichever way round is gone, both go it.
 TEST(PackedPlanner, TurnsTheWayThatLibTorchTurns) {
   SetTorchThreads(1);
   const Planners planners(std::filesystem::path(CHOREO_SOURCE_DIR) /

@@ -1,0 +1,58 @@
+#include "model/engine/transition_planner.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kTurnHorizon = 12;  // frames that a dancer goes on turning as she does
+constexpr double kSwing = 0.14;      // radians a frame: a turn of the whole body in 1.5 s
+
+// The other of the two turns that end alike.
+Eigen::Vector3d OtherWay(const Eigen::Vector3d& turn) {
+  return turn * (1 - 2 * std::numbers::pi / std::max(turn.norm(), 1e-6));
+}
+
+// Of the two ways round the one that the history's turning leads to; `turn` where it says nothing.
+Eigen::Vector3d AsTurning(const Eigen::Vector3d& turn, const TransitionSpec& spec) {
+  const size_t history = spec.history.size();
+  if (history < 3) return turn;
+  const Eigen::Vector3d rate = 0.5 * RotationDifference(spec.history[history - 3].rotations.col(0),
+                                                        spec.history[history - 1].rotations.col(0));
+  const Eigen::Vector3d expected = std::min<double>(kTurnHorizon, spec.frames) * rate;
+  const Eigen::Vector3d other = OtherWay(turn);
+  return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
+}
+
+// The most that the root turns in a frame, radians.
+double FastestTurn(const TransitionPlan& plan, const TransitionSpec& spec) {
+  double fastest = 0;
+  Eigen::Vector3d before = spec.history.back().rotations.col(0);
+  for (const Pose& pose : plan.poses) {
+    const Eigen::Vector3d now = pose.rotations.col(0);
+    fastest = std::max(fastest, RotationDifference(before, now).norm());
+    before = now;
+  }
+  return fastest;
+}
+
+}  // namespace
+
+TransitionPlan TransitionPlanner::Plan(const TransitionSpec& spec) const {
+  const bool asked =
+      spec.target && (spec.target->mask.joints.empty() || spec.target->mask.joints[0]);
+  if (!asked) return PlanTurning(spec, Eigen::Vector3d::Zero());
+  const Eigen::Vector3d turn = AsTurning(
+      RotationDifference(spec.history.back().rotations.col(0), spec.target->pose.rotations.col(0)),
+      spec);
+  TransitionPlan plan = PlanTurning(spec, turn);
+  const double fastest = FastestTurn(plan, spec);
+  if (fastest < kSwing) return plan;
+  TransitionPlan other = PlanTurning(spec, OtherWay(turn));
+  return FastestTurn(other, spec) < fastest ? other : plan;
+}
+
+}  // namespace choreo
