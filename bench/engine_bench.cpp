@@ -21,7 +21,8 @@
 /// memory. All on one thread, in CPU time of that thread, so that a machine that does something
 /// else besides disturbs less; quote ratios of one run.
 ///
-/// `default` is the model that ships; `paper` has paper F's size and random weights.
+/// `default` is the model that ships; `paper` has paper F's size and random weights; `controllers`,
+/// which ships too, follows a root path and has but the one engine.
 namespace choreo {
 namespace {
 
@@ -33,8 +34,10 @@ class Models {
  public:
   Models() {
     std::filesystem::create_directories(folder_);
-    paths_["default"] =
-        std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors";
+    for (const std::string shipped : {"default", "controllers"}) {
+      paths_[shipped] = std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints" /
+                        (shipped + ".safetensors");
+    }
     paths_["paper"] = folder_ / "paper.safetensors";
     WriteRandomCheckpoint(paths_["paper"], FlowConfig::Preset("paper"), Skeleton::Smpl24(), 1);
   }
@@ -67,8 +70,14 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.target = Target{key, {}};
   spec.seed = seed;
   spec.temperature = static_cast<float>(model.default_temperature);
-  spec.has_audio = true;
+  spec.has_audio = model.audio_features > 0;
   spec.audio_history = Eigen::MatrixXf::Zero(model.audio_features, model.history_frames);
+  if (model.root_path) {
+    const Eigen::Vector3f from = spec.history.back().root_position.cast<float>();
+    const Eigen::Vector3f way = key.root_position.cast<float>() - from;
+    spec.controls.root_path =
+        (way * Eigen::RowVectorXf::LinSpaced(kFrames, 1.0F / kFrames, 1)).colwise() + from;
+  }
   return spec;
 }
 
@@ -213,6 +222,13 @@ void Register(Models* models) {
     add("admission/torch",
         [=](benchmark::State& state) { Admissions(state, models->Engine(model, "torch")); });
   }
+  const auto add = [&](const char* name, auto run) {
+    benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond);
+  };
+  add("controllers/torch/1",
+      [=](benchmark::State& state) { Frames(state, models->Engine("controllers", "torch"), 1); });
+  add("controllers/admission/torch",
+      [=](benchmark::State& state) { Admissions(state, models->Engine("controllers", "torch")); });
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }
 

@@ -126,6 +126,10 @@ def bars(figures):
     ]
     if served[3] != "peer":
         rows.insert(1, ("`paper`, 1 stream ÷ eager PyTorch in the same bfloat16", figures[f"paper/{packed}/1"] / figures[f"paper/{served[3]}/1"], 8, 15, "x"))
+    if "controllers/torch/1" in figures:
+        # From network to rotations, with its share of the plan; the bar is paper C's own figure, on a GPU.
+        frame = 1e3 / figures["controllers/torch/1"] + 1e3 / figures["controllers/admission/torch"] / FRAMES_OF_PLAN
+        rows.append(("`controllers`: one frame, fit and its share of the plan included, 1 stream, ms", frame, 8.5, 1, "ms"))
     if "load/paper/closed/32" in figures:
         rows.append(("`paper` through gRPC ÷ engine alone, 32 streams, by CPU time",
                      figures["load/paper/closed/32"] / figures[f"paper/{packed}/32"], 0.9, 0.97, ""))

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Draws what controls do, as the figures 5 to 10 of paper C do: root paths, velocity factors, heights, and the model beside interpolation.
 #   scripts/controls_gallery.sh BIN_DIRECTORY OUT_DIRECTORY
-# writes controls_{paths,factors,heights,interpolation}.png. A row is a dance of 8 seconds; key poses are framed.
+# writes controls_{paths,factors,heights,interpolation}.png. A row is a dance of 8 seconds, with which the camera goes along; key poses are
+# framed. A chart has all dances of its picture in the one world frame.
 set -euo pipefail
 choreo=$1/choreo
 out=$2
@@ -54,8 +55,11 @@ for name in straight bow snake; do
   dance "$name" "$name"
   row "$name" "The same keys, another root path: $name"
 done
-height=800 chart paths path "$scratch"/{straight,bow,snake}.npz --label straight --label bow --label snake --path "$scratch/straight.json" \
-  --path "$scratch/bow.json" --path "$scratch/snake.json" --title "The root's way, from above; dashed: as asked"
+ways() {  # ways MOTIONS, LABELS, PATHS
+  chart ways path "$@" --title "The root's way, from above; dashed: as asked"
+}
+height=800 ways "$scratch"/{straight,bow,snake}.npz --label straight --label bow --label snake --path "$scratch/straight.json" \
+  --path "$scratch/bow.json" --path "$scratch/snake.json"
 sheet controls_paths
 
 # What x 1 is, cm a frame.
@@ -72,6 +76,7 @@ for part in left_arm right_leg; do
   for by in "${times[@]}"; do asked+=(--label "x $by" --asked "$(awk "BEGIN { print $by * $(usual $part) }")"); done
   height=420 chart "speed_$part" "$part" "$scratch"/by{0.5,1,1.5}.npz "${asked[@]}" --title "Speed of the ${part/_/ }; dashed: as asked"
 done
+ways "$scratch"/by{0.5,1,1.5}.npz --label "x 0.5" --label "x 1" --label "x 1.5" --path "$scratch/bow.json"
 sheet controls_factors
 
 # Between keys, whose postures stand: a squat at 1 s, a jump at 3 s, a low walk around 5 s.
@@ -85,6 +90,7 @@ dance heights heights
 frames=17 row heights "The same with heights: a squat, a jump, a low walk"
 chart height height "$scratch/heights.npz" "$scratch/level.npz" --label "with heights" --label "without" --path "$scratch/heights.json" \
   --title "Height of the root; dashed: as asked"
+ways "$scratch/heights.npz" "$scratch/level.npz" --label "with heights" --label "without" --path "$scratch/heights.json"
 sheet controls_heights
 
 # Of the key poses alone, which stand two seconds apart, slerp makes the rest.

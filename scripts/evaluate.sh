@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets, docs/tables_ablations.md, and the
-# figures that docs/results.md and README.md quote.
+# Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets, docs/tables_ablations.md, the same of
+# controls (docs/tables_controls*.md), and the figures that docs/results.md and README.md quote.
 #   scripts/evaluate.sh [--partial] [--out FOLDER] BIN_DIRECTORY RECORDINGS RUNS [EVAL_OPTION...]
-# RECORDINGS holds tang2018/, dancedb/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as
+# RECORDINGS holds tang2018/, dancedb/, cmu_dance/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as
 # scripts/train_baselines.sh leaves them. Where some are not there it fails and names them; --partial leaves their rows out instead.
 # --out writes elsewhere than docs/. Options of `choreo-lab eval` (--windows 1, to try this out) need it: docs/ has full settings.
 set -euo pipefail
@@ -31,17 +31,21 @@ baselines=("Harvey et al. 2020=recurrent")
 ablations=("no time embedding=ablation/no_time_embedding" "no key loss=ablation/no_key_loss" "frames from the start=ablation/forward_embedding"
   "no keys in training=ablation/no_keys")
 full=ablation/full
+controls_ablations=("one LSTM=controls/one_lstm" "fully connected controllers=controls/condition_fc" "one decoder=controls/one_decoder"
+  "no velocity factors=controls/no_velocity_factors" "no key loss=controls/no_key_loss")
+controls_full=controls/full
 missing=()
 others=()
+checkpoint() { echo "$runs/$1/checkpoint.safetensors"; }
+trained() { [[ -f $(checkpoint "$1") && ! -f $runs/$1/unfinished ]]; }  # trained RUN: to its end
 rows() {  # rows NAME=RUN...: --other options of those that are there
   others=()
   for row in "$@"; do
-    local checkpoint=$runs/${row#*=}/checkpoint.safetensors
-    if [[ -f $checkpoint ]]; then others+=(--other "${row%%=*}=$checkpoint"); fi
+    if trained "${row#*=}"; then others+=(--other "${row%%=*}=$(checkpoint "${row#*=}")"); fi
   done
 }
-for row in "${baselines[@]}" "full=$full" "${ablations[@]}"; do
-  [[ -f $runs/${row#*=}/checkpoint.safetensors ]] || missing+=("\"${row%%=*}\" ($runs/${row#*=}/checkpoint.safetensors)")
+for row in "${baselines[@]}" "full=$full" "${ablations[@]}" "full=$controls_full" "${controls_ablations[@]}"; do
+  trained "${row#*=}" || missing+=("\"${row%%=*}\" ($(checkpoint "${row#*=}"))")
 done
 if ((${#missing[@]})); then
   printf 'evaluate.sh: not there: %s\n' "${missing[@]}" >&2
@@ -50,14 +54,15 @@ fi
 
 # Prepared once, and again where the recordings or what prepares them has changed.
 stamp=$({
-  find -L "$recordings/tang2018" "$recordings/dancedb" -type f -printf '%P %s\n' | sort
+  find -L "$recordings/tang2018" "$recordings/dancedb" "$recordings/cmu_dance" -type f -printf '%P %s\n' | sort
   cat model/{audio,body,formats,motion}/*.{cpp,h} model/training/{*recording*,jolts,prepare,prepare_command,prepared_clip}.{cpp,h}
 } | sha256sum)
 if [[ $(cat "$data/stamp" 2>/dev/null) != "$stamp" ]]; then
-  rm -rf "$data/tang2018" "$data/dancedb"
+  rm -rf "$data/tang2018" "$data/dancedb" "$data/cmu"
   "$lab" prepare tang2018 "$recordings/tang2018" "$data/tang2018" \
     --terms "none stated, citation asked (Tang et al. 2018); commercial music: internal use only"
   "$lab" prepare bvh "$recordings/dancedb" "$data/dancedb" --terms "none stated (Aristidou et al. 2017)"
+  "$lab" prepare bvh "$recordings/cmu_dance" "$data/cmu" --frame-rate salsa 60 --terms "CMU Graphics Lab Motion Capture Database, free"
   echo "$stamp" >"$data/stamp"
 fi
 
@@ -65,23 +70,40 @@ measure() {  # measure NAME MODEL OPTIONS...
   local name=$1 model=$2
   shift 2
   # float32: bfloat16, which some CPUs have, gives other last digits.
-  "$lab" eval --engine packed --model "$model" --data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json" --split test \
-    --json "$out/images/$name.json" --markdown "$out/$name.md" ${others[@]+"${others[@]}"} "$@" ${options[@]+"${options[@]}"}
+  "$lab" eval --engine packed --model "$model" --split test --json "$out/images/$name.json" --markdown "$out/$name.md" \
+    ${others[@]+"${others[@]}"} "$@" ${options[@]+"${options[@]}"}
   rm "$out/images/$name.json"
 }
+sets=(--data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json")
 
 rm -f "$out"/images/tables_*.png  # of rows that are no more
 rows "${baselines[@]}"
 others+=(--other "free data=model/checkpoints/free.safetensors")
-measure tables model/checkpoints/default.safetensors --sheets
+measure tables model/checkpoints/default.safetensors "${sets[@]}" --sheets
 for sheet in "$out"/images/tables_sheet_*.png; do  # a quarter of the size
   ffmpeg -v error -y -i "$sheet" -vf "scale=800:-1,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none" "$sheet.small.png"
   mv "$sheet.small.png" "$sheet"
 done
 
 rows "${ablations[@]}"
-if [[ -f $runs/$full/checkpoint.safetensors ]]; then
-  measure tables_ablations "$runs/$full/checkpoint.safetensors" --name full --baseline real interpolation --long-dances 0 --best-of 0
+if trained "$full"; then
+  measure tables_ablations "$(checkpoint "$full")" "${sets[@]}" --name full --baseline real interpolation --long-dances 0 --best-of 0
+fi
+
+rows "${baselines[@]}"
+controls=(--baseline real interpolation --controls)
+measure tables_controls model/checkpoints/controllers.safetensors --data "$data/dancedb" --splits "$recordings/splits.json" "${controls[@]}" all \
+  --windows 4
+# They stand in for paper C's cyclic motion (docs/reproduce.md). The baseline has been trained on them, the model has not.
+martial=$(cd "$data/cmu" && printf '"%s", ' martial_*.clip | sed 's/\.clip//g; s/, $//')
+echo "{\"cmu\": {\"test\": [$martial]}}" >"$data/martial.json"
+measure tables_controls_martial model/checkpoints/controllers.safetensors --data "$data/cmu" --splits "$data/martial.json" "${controls[@]}" paper \
+  --windows 4
+rows "${controls_ablations[@]}"
+if trained "$controls_full"; then
+  scripts/random_split.sh "$data/dancedb" >"$data/random.json"
+  measure tables_controls_ablations "$(checkpoint "$controls_full")" --data "$data/dancedb" --splits "$data/random.json" "${controls[@]}" paper \
+    --name full --windows 1
 fi
 
 if [[ $out == "$root/docs" ]]; then scripts/quote_figures.py; fi

@@ -1,67 +1,31 @@
 #!/usr/bin/python3
-"""Writes what docs/results.md and README.md quote from docs/tables.md and docs/tables_ablations.md, so that it can't drift.
+"""Writes what docs/results.md and README.md quote from docs/tables*.md, so that it can't drift.
 
     scripts/quote_figures.py            writes
     scripts/quote_figures.py --check    changes nothing; fails where a page quotes something else
 
-A quotation stands between <!-- figures: NAME --> and <!-- end -->; NAME is a function below. Bold is a bar that is not reached. A figure
-that the tables don't have is a dash, and named on stderr.
+A quotation stands between <!-- figures: NAME --> and <!-- end -->; NAME is a function below, or of
+quote_controls.py. Bold is a bar that is not reached. A figure that the tables don't have is a dash, and named on stderr.
 """
 import math
 import re
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+from figure_tables import ROOT, figure, missing, over, read_tables, show, table
+from quote_controls import controls, controls_ablations, controls_martial, drawn  # noqa: F401: pages name them
+
 PAGES = ("docs/results.md", "README.md")
 SETS = ("dancedb", "tang2018")
 LENGTHS = ("10", "30", "60", "90")
 HARVEY = "Harvey et al. 2020"
 WANTED = {"dancedb": (0.95, 0.75, 0.75, 0.78), "tang2018": (0.90, 0.75, 0.80, 0.82)}  # L2P over interpolation's
-missing = set()
+TABLES = read_tables("tables.md")
+ABLATIONS = read_tables("tables_ablations.md")
 
 
-def read_tables(path):
-    """{title: {row's labels: {column: figure}}}; an interval is left out."""
-    tables, columns, title = {}, [], ""
-    for line in path.read_text().splitlines() if path.exists() else []:
-        if line.startswith("### "):
-            title, columns = line[4:], []
-            tables[title] = {}
-        elif line.startswith("|") and not columns:
-            columns = [cell.strip() for cell in line.strip("|").split("|")]
-        elif line.startswith("|:"):
-            labels = sum(rule.startswith(":") for rule in line.strip("|").split("|"))
-        elif line.startswith("|"):
-            cells = [cell.strip() for cell in line.strip("|").split("|")]
-            figures = dict(zip(columns[labels:], (cell.split(" ")[0] for cell in cells[labels:])))
-            tables[title][tuple(cells[:labels])] = figures
-    return tables
-
-
-TABLES = read_tables(ROOT / "docs/tables.md")
-ABLATIONS = read_tables(ROOT / "docs/tables_ablations.md")
-
-
-def figure(title, labels, column, tables=TABLES):
-    text = tables.get(title, {}).get(tuple(labels), {}).get(column)
-    try:
-        return float(text)
-    except (TypeError, ValueError):
-        if text is None:
-            missing.add(f"{title}: {', '.join(labels)}: {column}")
-        return None
-
-
-def show(value, digits=2, reached=lambda value: True, unit=""):
-    if value is None:
-        return "–"
-    text = f"{value:,.{digits}f}{unit}"
-    return text if reached(value) else f"**{text}**"
-
-
-def over(above, below):
-    return above / below if above is not None and below else None
+def of(title, labels, column, tables=TABLES):
+    return figure(tables, title, labels, column)
 
 
 def rows_of(title):
@@ -69,7 +33,7 @@ def rows_of(title):
 
 
 def transitions(which, method, column, lengths=LENGTHS):
-    return [figure(f"Transitions between real poses, {which}", (frames, method), column) for frames in lengths]
+    return [of(f"Transitions between real poses, {which}", (frames, method), column) for frames in lengths]
 
 
 def over_real(which, column, reached=lambda value: True):
@@ -91,23 +55,23 @@ def samples(which):
     names = [labels[0] for labels in rows_of(title)]
     best = next((name for name in names if name.startswith("best of")), "best of 10, T = 1")
     served = transitions(which, "model", "L2P / interpolation's", ("30",))[0]
-    near = figure(title, (best,), "30 frames")
-    return (show(figure(title, ("one, T = 1",), "30 frames"), 2, lambda v: v <= 1) + "; " +
+    near = of(title, (best,), "30 frames")
+    return (show(of(title, ("one, T = 1",), "30 frames"), 2, lambda v: v <= 1) + "; " +
             show(near, 2, lambda v: served is not None and v < served))
 
 
 def fid(which):
     title = f"FID, variability, diversity, {which}"
-    real = figure(title, ("real",), "FID")
+    real = of(title, ("real",), "FID")
     methods = ("model without keys", "interpolation, foot lock", HARVEY)
-    others = [over(figure(title, (name,), "FID"), real) for name in methods]
+    others = [over(of(title, (name,), "FID"), real) for name in methods]
     lowest = min((value for value in others if value is not None), default=0)
-    own = over(figure(title, ("model",), "FID"), real)
+    own = over(of(title, ("model",), "FID"), real)
     return ", ".join([show(value, 1) for value in others] + [show(own, 1, lambda v: v < lowest and v <= 2)])
 
 
 def beats(which, row, column):
-    return figure(f"Steps on beats, {which}", (row,), column)
+    return of(f"Steps on beats, {which}", (row,), column)
 
 
 def beats_hit(which):
@@ -132,12 +96,12 @@ def alignment(which):
 
 def variability(which):
     title = f"FID, variability, diversity, {which}"
-    free = figure(title, ("model without keys",), "variability")
-    return show(free, 0) + "; " + show(figure(title, ("model",), "variability"), 0, lambda v: free is not None and v < free)
+    free = of(title, ("model without keys",), "variability")
+    return show(free, 0) + "; " + show(of(title, ("model",), "variability"), 0, lambda v: free is not None and v < free)
 
 
 def long(which, row, column):
-    return figure(f"Long dances, {which}", (row,), column)
+    return of(f"Long dances, {which}", (row,), column)
 
 
 def broken(row):
@@ -156,25 +120,20 @@ def hinges(which):
 
 def final_keys(which):
     title = f"How keys are met, {which}"
-    worst = [[figure(title, (frames, "model"), column) for frames in LENGTHS] for column in ("final error worst mm", "worst degrees")]
+    worst = [[of(title, (frames, "model"), column) for frames in LENGTHS] for column in ("final error worst mm", "worst degrees")]
     most = [max((value for value in values if value is not None), default=None) for values in worst]
     return show(most[0], 4, lambda v: v <= 1, " mm") + "; " + show(most[1], 5, lambda v: v <= 0.1, "°")
 
 
 def influence(column):
     title = "What changes a dance, "
-    return lambda which: "; ".join(show(figure(title + which, (row,), column), 0, unit=" cm") for row in ("no keys", "keys each 2 s"))
+    return lambda which: "; ".join(show(of(title + which, (row,), column), 0, unit=" cm") for row in ("no keys", "keys each 2 s"))
 
 
 def stress(which):
     title = f"Keys that ask for too much or too little, {which}"
-    return ", ".join(show(figure(title, (way, frames), "frozen %"), 0, unit=" %")
+    return ", ".join(show(of(title, (way, frames), "frozen %"), 0, unit=" %")
                      for frames in ("30", "90") for way in ("almost the same pose", "real motion"))
-
-
-def table(head, rows):
-    lines = [head, [" --- "] * len(head)] + rows
-    return "\n\n" + "\n".join("|" + "|".join(cell if cell == " --- " else f" {cell} " for cell in line) + "|" for line in lines) + "\n\n"
 
 
 def served():
@@ -186,7 +145,7 @@ def served():
         for which in SETS:
             figures = genres[which].get((name,), {})
             title = f"L2P of the model over interpolation's, by genre, {which}"
-            cells.append(", ".join(show(figure(title, (name,), f"{frames} frames"), 2, lambda v, bar=bar: v <= bar)
+            cells.append(", ".join(show(of(title, (name,), f"{frames} frames"), 2, lambda v, bar=bar: v <= bar)
                                    for frames, bar in zip(LENGTHS, WANTED[which])) if figures else "–")
         rows.append([f"the same, {name}", *cells, ", ".join(f"{bar:.2f}" for bar in WANTED["tang2018"])])
 
@@ -217,7 +176,7 @@ def served():
 
 def free():
     rows = [["L2P over interpolation's at 10, 30, 60, 90 frames", *(ratios(which, "free data", [math.inf] * 4) for which in SETS)]]
-    fids = lambda which: [figure(f"FID, variability, diversity, {which}", (name,), "FID") for name in
+    fids = lambda which: [of(f"FID, variability, diversity, {which}", (name,), "FID") for name in
                           ("free data", "interpolation, foot lock", "real")]
     rows.append(["FID; interpolation's; real motion's", *("; ".join(show(value, 1) for value in fids(which)) for which in SETS)])
     return table(["figure", *SETS], rows)
@@ -228,7 +187,7 @@ def ablations():
     rows = []
     for which in SETS:
         for frames in LENGTHS:
-            figures = [figure(f"How keys are met, {which}", (frames, method), "raw KPD cm²", ABLATIONS) for method in methods]
+            figures = [of(f"How keys are met, {which}", (frames, method), "raw KPD cm²", ABLATIONS) for method in methods]
             rows.append([which, frames, *(show(value, 0) for value in figures)])
     return table(["set", "frames", *methods], rows)
 

@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Trains what docs/results.md compares the model with: the baseline of Harvey et al. 2020, and the ablations of paper F's Table 1.
+# Trains what docs/results.md compares the models with: the baseline of Harvey et al. 2020, the ablations of paper F's Table 1, and those of
+# paper C's Tables 2 to 4.
 #   scripts/train_baselines.sh BIN_DIRECTORY DATA SPLITS RUNS
-# DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/
-# and ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/, where scripts/evaluate.sh looks for them. Killed, it goes on
-# from where it was when it is started again; what is finished is not trained again.
+# DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/,
+# ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/ and controls/{full,one_lstm,condition_fc,one_decoder,
+# no_velocity_factors,no_key_loss}/, where scripts/evaluate.sh looks for them. Killed, it goes on from where it was when it is started again;
+# what is finished is not trained again.
 set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
 
 # Steps and peak rates: the baseline in two runs, the second from the first's end. An ablation is a small flow without a planner.
 recurrent_steps=(12000 18000)
@@ -12,6 +15,10 @@ recurrent_rates=(8e-4 5e-4)
 ablation_steps=3000
 ablation_rate=1e-3
 batch=32
+# Paper C's network without a plan, its lengths (5 to 70 frames), on its setting: scripts/random_split.sh.
+controls_steps=2000
+controls_rate=1e-3
+controls_batch=16
 
 (($# == 4)) || { echo "train_baselines.sh: BIN_DIRECTORY, DATA, SPLITS and RUNS are wanted; see the head of this file" >&2; exit 2; }
 lab=$(realpath "$1")/choreo-lab
@@ -25,18 +32,32 @@ export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM
 train() {  # train RUN OPTION...
   local run=$runs/$1
   shift
-  [[ -f $run/checkpoint.safetensors ]] && { echo "$run is finished"; return; }
-  "$lab" train --data "$data/tang2018" --data "$data/dancedb" --data "$data/cmu" --splits "$splits" --batch "$batch" --resume --run "$run" "$@"
+  [[ -f $run/checkpoint.safetensors && ! -f $run/unfinished ]] && { echo "$run is finished"; return; }
+  mkdir -p "$run"
+  touch "$run/unfinished"  # a run leaves checkpoints on its way
+  "$lab" train --run "$run" --resume "$@"
+  rm "$run/unfinished"
 }
 
-recurrent=(--preset recurrent --flow-steps 1)  # it has no flow: the one step does nothing
+all=(--data "$data/tang2018" --data "$data/dancedb" --data "$data/cmu" --splits "$splits" --batch "$batch")
+recurrent=("${all[@]}" --preset recurrent --flow-steps 1)  # it has no flow: the one step does nothing
 train recurrent_start "${recurrent[@]}" --planner-steps "${recurrent_steps[0]}" --planner-rate "${recurrent_rates[0]}"
 train recurrent "${recurrent[@]}" --planner "$runs/recurrent_start/checkpoint.safetensors" \
   --planner-steps "${recurrent_steps[1]}" --planner-rate "${recurrent_rates[1]}"
 
-ablation=(--preset ablation --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
+ablation=("${all[@]}" --preset ablation --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
 train ablation/full "${ablation[@]}"
 train ablation/no_key_loss "${ablation[@]}" --no-key-loss
 train ablation/no_time_embedding "${ablation[@]}" --no-time-embedding
 train ablation/forward_embedding "${ablation[@]}" --forward-embedding
 train ablation/no_keys "${ablation[@]}" --no-keys
+
+"$root/scripts/random_split.sh" "$data/dancedb" >"$runs/random_split.json"
+controls=(--data "$data/dancedb" --splits "$runs/random_split.json" --preset controllers-paper --longest 70 --batch "$controls_batch"
+  --flow-steps "$controls_steps" --flow-rate "$controls_rate")
+train controls/full "${controls[@]}"
+train controls/one_lstm "${controls[@]}" --one-lstm
+train controls/condition_fc "${controls[@]}" --condition-fc
+train controls/one_decoder "${controls[@]}" --one-decoder
+train controls/no_velocity_factors "${controls[@]}" --no-velocity-factors
+train controls/no_key_loss "${controls[@]}" --no-key-loss

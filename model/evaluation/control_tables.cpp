@@ -105,7 +105,8 @@ std::vector<Table> PaperTables(const ClipSet& set, const ModelInfo& model,
          return off < kRootTolerance ? 1.0 : 0.0;
        },
        true},
-      {LengthTable("control_skate", set, "Skating ratio", asked, 3, kLengths),
+      {LengthTable("control_skate", set, "Skating ratio",
+                   asked + "Share of the steps in which a foot skates.", 3, kLengths),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
          return SkateRatioOf(skeleton, model.fps, window.before, danced);
        },

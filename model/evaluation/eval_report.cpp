@@ -67,7 +67,13 @@ void WriteReport(const ReportPaths& paths, const ReportHead& head,
 
 void NameJudged(const std::string& name, std::vector<Table>* tables) {
   for (Table& table : *tables) {
-    for (TableRow& row : table.rows) std::ranges::replace(row.labels, std::string(kServed), name);
+    for (TableRow& row : table.rows) {
+      for (std::string& label : row.labels) {
+        // "model", and "model, network alone"
+        if (label == kServed || label.starts_with(std::string(kServed) + ", "))
+          label.replace(0, std::string(kServed).size(), name);
+      }
+    }
     if (!table.plot) continue;
     for (PlotSeries& series : table.plot->series)
       if (series.label == kServed) series.label = name;

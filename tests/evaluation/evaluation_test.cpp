@@ -220,7 +220,8 @@ TEST(NameJudged, RenamesRowsAndCurvesOfTheModelAlone) {
                                 .columns = {{"m", 2}},
                                 .rows = {{{"10", "real"}, {Cell{0, {}}}},
                                          {{"10", kServed}, {Cell{1, {}}}},
-                                         {{"10", "model without keys"}, {Cell{2, {}}}}},
+                                         {{"10", "model without keys"}, {Cell{2, {}}}},
+                                         {{"10", "model, network alone"}, {Cell{3, {}}}}},
                                 .plot = Plot{.title = "",
                                              .x_label = "",
                                              .y_label = "",
@@ -229,6 +230,7 @@ TEST(NameJudged, RenamesRowsAndCurvesOfTheModelAlone) {
   EXPECT_EQ(tables[0].rows[0].labels[1], "real");
   EXPECT_EQ(tables[0].rows[1].labels[1], "full");
   EXPECT_EQ(tables[0].rows[2].labels[1], "model without keys");
+  EXPECT_EQ(tables[0].rows[3].labels[1], "full, network alone");
   EXPECT_EQ(tables[0].plot->series[0].label, "full");
 }
 

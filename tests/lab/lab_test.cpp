@@ -76,7 +76,7 @@ TEST(LabTest, MisuseIsCodeTwo) {
 TEST(LabTest, KnowsTheCommandsOfReproduceMd) {
   const TemporaryFolder empty;
   const std::vector<std::string> commands = CommandsOf("reproduce.md");
-  EXPECT_EQ(commands.size(), 4U);
+  EXPECT_EQ(commands.size(), 6U);
   for (const std::string& command : commands) {
 #ifndef CHOREO_SERVICE
     if (command.starts_with("prepare")) continue;
