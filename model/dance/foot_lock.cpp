@@ -108,9 +108,10 @@ Eigen::Vector3d FootLock::Move(Foot* foot, const Eigen::Vector3d& raw) {
   Eigen::Vector3d at = foot->from + SmoothStep(u) * (goal - foot->from);
   const double arc = std::min(kHighestArc, kArc + kArcPerMetre * Apart(goal, foot->from));
   const double model_lift = std::max(0.0, raw.y() - rest_height_ - kLowToes);
-  // A quick step, between keys that stand close together, is a low one.
+  // A quick step, between keys that stand close together, is a low one. It leaves the floor and
+  // comes down softly: a parabola would jolt the knee, half of the times on a key.
   const double lift = foot->duration / (kStepSeconds * fps_) * std::max(0.0, arc - model_lift);
-  at.y() += lift * 4 * u * (1 - u);
+  at.y() += lift * 8 * std::pow(u * (1 - u), 1.5);
   if (!(foot->last_step && foot->landing)) at.y() = std::max(at.y(), rest_height_);
   // A step comes down where the floor is; a foot that the model moves by itself stands once it is
   // slow. A key that has the foot in the air, or leaves it open, takes it from the model's hand.
