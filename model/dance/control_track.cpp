@@ -54,9 +54,11 @@ const PathCurve* ControlTrack::CurveAt(int64_t frame) const {
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>& key_on_it) const {
   Pose stance = RestPose(model_->skeleton);
   const PathCurve* curve = CurveAt(first_frame);
+  // Before a key that she stands in, she does not move: feet that glide are never planted.
+  const int64_t there = key_on_it ? first_frame : first_frame - 1;
   if (curve != nullptr) {
     const double height = stance.root_position.y();
-    stance.root_position = curve->At(first_frame - 1).position;
+    stance.root_position = curve->At(there).position;
     stance.root_position.y() = height;
   }
   if (!key_on_it) return stance;
@@ -64,7 +66,7 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>&
   if (mask.root_position) {
     stance.root_position = pose.root_position;
   } else if (HasHeights(curve)) {
-    stance.root_position.y() = curve->At(first_frame - 1).position.y();
+    stance.root_position.y() = curve->At(there).position.y();
   } else if (const auto height = StandingHeight(model_->skeleton, pose, mask)) {
     stance.root_position.y() = *height;
   }

@@ -36,12 +36,15 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
-// Of a key that leaves its place open: where the path has it, or standing.
-std::optional<double> HeightAtKey(const ModelInfo& model, const TransitionRequest& request) {
-  const auto& [pose, mask] = *request.target;
-  const std::optional<double> standing = StandingHeight(model.skeleton, pose, mask);
-  const Eigen::Matrix3Xd& path = request.controls.root_path;
-  return standing && path.cols() > 0 ? path(1, path.cols() - 1) : standing;
+// Where a key leaves its place open, a path says where it is.
+std::optional<WorldTarget> Placed(std::optional<WorldTarget> target,
+                                  const WorldControls& controls) {
+  const Eigen::Matrix3Xd& path = controls.root_path;
+  if (target && !target->mask.root_position && path.cols() > 0) {
+    target->pose.root_position = path.col(path.cols() - 1);
+    target->mask.root_position = true;
+  }
+  return target;
 }
 
 Pose Near(Pose pose, const Pose& previous) {
@@ -88,7 +91,7 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
 }
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
-    : model_(&model), world_target_(request.target) {
+    : model_(&model), world_target_(Placed(request.target, request.controls)) {
   const int limit = std::min(model.max_transition_frames, kMaxTransitionFrames);
   if (request.frames < 1 || request.frames > limit) {
     throw InvalidArgument(
@@ -120,10 +123,10 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.candidate = request.candidate;
   spec_.first_frame = request.first_frame;
   spec_.temperature = request.temperature;
-  if (request.target) {
-    spec_.target = Target{Near(ground_.ToLocal(request.target->pose), spec_.history.back()),
-                          request.target->mask};
-    if (!spec_.target->mask.root_position) spec_.target->height = HeightAtKey(model, request);
+  if (world_target_) {
+    const auto& [pose, mask] = *world_target_;
+    spec_.target = Target{Near(ground_.ToLocal(pose), spec_.history.back()), mask};
+    if (!mask.root_position) spec_.target->height = StandingHeight(model.skeleton, pose, mask);
   }
   spec_.controls.root_path.resize(3, request.controls.root_path.cols());
   for (Eigen::Index frame = 0; frame < request.controls.root_path.cols(); ++frame) {
@@ -184,7 +187,8 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
   const Target& target = *spec_.target;
   const double seconds = spec_.frames / model_->fps;
   RequiredSpeed speed;
-  if (target.mask.root_position) {
+  // What a path asks for is told of the path.
+  if (target.mask.root_position && spec_.controls.root_path.cols() == 0) {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }
   for (int joint = 0; joint < from.rotations.cols(); ++joint) {

@@ -178,6 +178,26 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
   EXPECT_NEAR(high.poses[100].root_position.y(), 1.2, 1e-5);
 }
 
+// The foot lock plans a transition's last steps to where the key has its feet. A key that says
+// nothing of where it is stands where the path leads.
+TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  Pose soft = RestPose(skeleton);
+  for (const int hip : {skeleton.left_hip, skeleton.right_hip}) soft.rotations(0, hip) = -0.25;
+  for (const int knee : {skeleton.left_knee, skeleton.right_knee}) soft.rotations(0, knee) = 0.5;
+  for (const int ankle : {skeleton.feet[0], skeleton.feet[2]}) soft.rotations(0, ankle) = -0.25;
+  const Recording dance = Perform([&](DanceStream& s) {
+    s.SetControls(Way(0, 299, 0, 5));  // 0.7 m/s
+    for (const int64_t frame : {59, 119, 179, 239, 299})
+      s.SetKey("at " + std::to_string(frame), AtFrame{frame}, soft,
+               {.root_position = false, .joints = {}});
+  });
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  EXPECT_TRUE(dance.warnings.empty());
+  EXPECT_LT(dance.summary->skate_ratio, 0.15);
+  EXPECT_NEAR(dance.poses[179].root_position.x(), 5.0 * 179 / 299, 1e-3);
+}
+
 TEST_F(ControlledDanceTest, DoesNotDependOnWhenMessagesCome) {
   const auto messages = [](DanceStream& s, const std::function<void()>& between) {
     s.SetControls(Way(0, 200, 0, 1));
