@@ -7,24 +7,21 @@
 namespace choreo {
 
 // One list serves both directions, so that a field can't be written and not read.
-#define CHOREO_CONTROLLERS_FIELDS(apply)                                                          \
-  apply(history_frames) apply(max_transition_frames) apply(plan_width) apply(plan_layers)         \
-      apply(plan_heads) apply(plan_dropout) apply(window) apply(heads) apply(width) apply(layers) \
-          apply(feed_forward) apply(controller) apply(encoder_hidden) apply(encoding) apply(lstm) \
-              apply(decoder_hidden) apply(two_lstms) apply(transformers) apply(root_decoder)      \
-                  apply(velocity_factors) apply(key_loss)
+#define CHOREO_CONTROLLERS_FIELDS(apply)                                                         \
+  apply(name) apply(history_frames) apply(max_transition_frames) apply(plan_width)               \
+      apply(plan_layers) apply(plan_heads) apply(plan_dropout) apply(window) apply(heads)        \
+          apply(width) apply(layers) apply(feed_forward) apply(controller) apply(encoder_hidden) \
+              apply(encoding) apply(lstm) apply(decoder_hidden) apply(two_lstms)                 \
+                  apply(transformers) apply(root_decoder) apply(velocity_factors) apply(key_loss)
 
 void to_json(nlohmann::json& json, const ControllersConfig& config) {
   json = nlohmann::json::object();
-  json["name"] = config.name;
 #define CHOREO_WRITE(field) json[#field] = config.field;
   CHOREO_CONTROLLERS_FIELDS(CHOREO_WRITE)
 #undef CHOREO_WRITE
 }
 
 void from_json(const nlohmann::json& json, ControllersConfig& config) {
-  // The first checkpoint was named after its preset.
-  json.at(json.contains("name") ? "name" : "preset").get_to(config.name);
 #define CHOREO_READ(field) json.at(#field).get_to(config.field);
   CHOREO_CONTROLLERS_FIELDS(CHOREO_READ)
 #undef CHOREO_READ
