@@ -64,9 +64,10 @@ struct ModelDescription {
     std::vector<double> speeds = {};  ///< metres a frame, in the order of kBodyPartNames
   };
   std::vector<VelocityReference> velocity_references = {};
-  bool takes_music = true;        ///< false: it refuses audio
-  double audio_lead_s = 0;        ///< music that a transition wants before its first frame
-  int latency_frames = 0;         ///< how far the music must be ahead of the frame that is made
+  bool takes_music = true;     ///< false: it refuses audio
+  bool deterministic = false;  ///< seed and temperature change nothing; rests without a key ahead
+  double audio_lead_s = 0;     ///< music that a transition wants before its first frame
+  int latency_frames = 0;      ///< how far the music must be ahead of the frame that is made
   int max_transition_frames = 0;  ///< of one transition; the server's own limit is in it already
 };
 

@@ -33,7 +33,8 @@ class Dice {
 /// Seconds at which keys stand, the first at 0. On beats: every 1, 2, 4, 8 ... beats, the fewest
 /// that leave time to move. Before the first and after the last beat that is heard, the count goes
 /// on.
-std::vector<double> KeyTimes(double seconds, const std::vector<double>& beats) {
+std::vector<double> KeyTimes(const CompositionRequest& request) {
+  const auto& [seconds, beats, seed, end] = request;
   double period = kPlainInterval;
   std::vector<double> counts = {0};
   if (beats.size() >= 2) {
@@ -51,6 +52,8 @@ std::vector<double> KeyTimes(double seconds, const std::vector<double>& beats) {
     if (counts[i] - times.back() >= kShortestKeyInterval && counts[i] < seconds)
       times.push_back(counts[i]);
   }
+  if (end && *end - times.back() >= kShortestKeyInterval) times.push_back(*end);
+  if (end && times.size() > 1) times.back() = *end;  // where the count came near
   return times;
 }
 
@@ -93,7 +96,7 @@ std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
   std::vector<size_t> deck;  // a pose comes again when all have been danced
   size_t last = poses.size();
   double before = 0;
-  for (const double time : KeyTimes(request.seconds, request.beats)) {
+  for (const double time : KeyTimes(request)) {
     if (deck.empty()) {
       for (size_t i = 0; i < poses.size(); ++i) deck.push_back(i);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct CompositionRequest {
   double seconds = 0;
   std::vector<double> beats = {};  ///< seconds, ascending; may be empty
   uint64_t seed = 0;
+  /// Where the last key stands, at most `seconds`; none: wherever the count has its last.
+  std::optional<double> end_s = {};
 };
 
 /// Key poses of the library on beats of the music: one to begin with, at second 0, then about one

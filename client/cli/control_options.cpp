@@ -1,69 +1,18 @@
 #include "client/cli/control_options.h"
 
-#include <array>
 #include <charconv>
-#include <cmath>
-#include <optional>
 
 #include "client/cli/json_fields.h"
 #include "client/cli/options.h"
+#include "client/cli/velocity_options.h"
 
 namespace choreo::cli {
-namespace {
-
-constexpr double kMaxFactor = 10;
-
-/// The body parts that a name stands for: one, both arms or legs, or all.
-std::vector<BodyPart> PartsOf(std::string_view name) {
-  std::vector<BodyPart> parts;
-  for (int i = 0; i < kBodyParts; ++i) {
-    const std::string_view part = kBodyPartNames[static_cast<size_t>(i)];
-    if (name == "all" || name == part || (name == "arms" && part.ends_with("_arm")) ||
-        (name == "legs" && part.ends_with("_leg"))) {
-      parts.push_back(static_cast<BodyPart>(i));
-    }
-  }
-  return parts;
-}
-
-client::Controls::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
-                                                 const std::string& reference) {
-  std::array<std::optional<double>, kBodyParts> factors;
-  for (const std::string& source : sources) {
-    const size_t equals = source.find('=');
-    const std::vector<BodyPart> parts = PartsOf(source.substr(0, equals));
-    if (parts.empty()) {
-      throw InvalidArgument("--velocity", '"' + source.substr(0, equals) +
-                                              "\" is none of all, arms, "
-                                              "legs, " +
-                                              BodyPartNames());
-    }
-    const std::string text = equals == std::string::npos ? "" : source.substr(equals + 1);
-    double factor = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), factor);
-    // Written so that NaN fails too.
-    if (code != std::errc() || end != text.data() + text.size() ||
-        !(factor >= 0 && factor <= kMaxFactor)) {
-      throw InvalidArgument("--velocity",
-                            '"' + source + "\": \"" + text + "\" is not a number from 0 to 10");
-    }
-    for (const BodyPart part : parts) factors[static_cast<size_t>(part)] = factor;
-  }
-  client::Controls::VelocityFactors velocity;
-  velocity.reference = reference;
-  for (int part = 0; part < kBodyParts; ++part) {
-    if (!factors[static_cast<size_t>(part)]) continue;
-    velocity.parts.emplace_back(kBodyPartNames[static_cast<size_t>(part)]);
-    velocity.factors.push_back(*factors[static_cast<size_t>(part)]);
-  }
-  return velocity;
-}
-
-}  // namespace
 
 client::Controls::RootPath ParsePathFile(std::string_view text, const std::string& name,
                                          double fps) {
-  const nlohmann::json list = ParseList(text, name, "points");
+  const nlohmann::json file = ParseJson(text, name);
+  const nlohmann::json& list = ListIn(file, name, "points");
+  CheckFileMembers(file, name, {"points", "about"}, "a path file has points and perhaps about");
   if (list.size() < 2) {
     throw InvalidArgument(name + ":points", "has 1 point, a path needs at least 2");
   }
@@ -77,14 +26,7 @@ client::Controls::RootPath ParsePathFile(std::string_view text, const std::strin
       if (!point.contains(axis)) throw InvalidArgument(field + "." + axis, "is missing");
       return JsonNumber(point[axis], field + "." + axis);
     };
-    const Moment moment = ParseMoment(point, field);
-    path.frames.push_back(moment.frame.value_or(std::llround(moment.time_s * fps)));
-    if (i > 0 && path.frames[i] <= path.frames[i - 1]) {
-      throw InvalidArgument(field + (moment.frame ? ".frame" : ".time"),
-                            "is frame " + std::to_string(path.frames[i]) +
-                                ", not after that of the point before it, " +
-                                std::to_string(path.frames[i - 1]));
-    }
+    AppendFrame(point, field, fps, &path.frames);
     path.points.emplace_back(coordinate("x"), coordinate("z"));
     if (point.contains("y") != list[0].contains("y")) {
       throw InvalidArgument(field + ".y", "must be in all points or in none");
@@ -100,19 +42,29 @@ void ControlOptions::AddTo(CLI::App& command) {
                      "\"x\": 0, \"z\": 0}, ...]}, seconds and metres; y is the root's height. Keys "
                      "win over it. For models that have this control (`choreo info`).");
   AddRepeated(command, "--velocity", velocities,
-              "How lively a part of the body is, as in left_arm=1.5: trunk, left_arm, right_arm, "
-              "left_leg, right_leg, arms, legs or all, and a multiplier, 0 to 10, of the "
-              "reference. May be given more than once; the last one of a part counts.");
+              "How lively a part of the body is: trunk, left_arm, right_arm, left_leg, right_leg, "
+              "arms, legs or all; left_arm=1.5 is a multiplier, 0 to 10, of the reference, "
+              "left_arm=1.2cm a speed, 0 to 50 cm a frame. Or a JSON file, for what changes: "
+              "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
+              "\"speeds\". May be given more than once; the last one of a part counts.");
   command.add_option("--velocity-reference", reference,
                      "What --velocity multiplies, of those that `choreo info` lists; default: the "
                      "model's first.");
+}
+
+std::vector<NamedFile> ControlOptions::Files() const {
+  std::vector<NamedFile> files = {{"--path", path}};
+  for (const std::string& source : velocities) {
+    if (IsVelocityFile(source)) files.push_back({"--velocity", source});
+  }
+  return files;
 }
 
 client::Controls ControlOptions::Read(double fps) const {
   client::Controls controls;
   if (!path.empty()) controls.root_path = ParsePathFile(ReadText(path, "path file"), path, fps);
   if (!velocities.empty()) {
-    controls.velocity_factors = ReadVelocities(velocities, reference);
+    controls.velocity_factors = ReadVelocities(velocities, reference, fps);
   } else if (!reference.empty()) {
     throw InvalidArgument("--velocity-reference", "there is no --velocity");
   }
@@ -131,13 +83,18 @@ Error ControlOptions::InTermsOf(const Error& error) const {
     if (field.starts_with("velocity_factors")) return {error.code(), "--velocity", message};
     if (!field.starts_with("root_path")) break;
     if (field == "root_path") return {error.code(), "--path", message};
-    // root_path.points[3] is a number of the second point.
-    const bool two_a_point = field.starts_with("root_path.points[");
     const size_t bracket = field.find('[');
     size_t index = 0;
     if (bracket != std::string_view::npos)
       std::from_chars(field.data() + bracket + 1, field.data() + field.size(), index);
-    return {error.code(), path + ":points[" + std::to_string(two_a_point ? index / 2 : index) + "]",
+    // root_path.points[3] is z of the second point.
+    const bool two_a_point = field.starts_with("root_path.points[");
+    const char* member = field.starts_with("root_path.heights") ? ".y"
+                         : !two_a_point                         ? ""
+                         : index % 2 == 0                       ? ".x"
+                                                                : ".z";
+    return {error.code(),
+            path + ":points[" + std::to_string(two_a_point ? index / 2 : index) + "]" + member,
             message};
   }
   return error;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "client/cli/output_file.h"
 
 /// The controls of a dance as people write them down.
 namespace choreo::cli {
@@ -16,9 +17,9 @@ namespace choreo::cli {
 ///
 /// At least two points, in order of time: where the root should be, metres, in the world (x to the
 /// left of a dancer who faces the audience, z towards it). A smooth curve leads through them.
-/// `time` counts in seconds from the start of the music; `frame` may stand in its place. `y` is the
-/// height of the root above the floor, for jumps and squats: in all points or in none. Other
-/// members of the file's outermost object are ignored; within a point they are errors.
+/// `time` counts in seconds from the start of the music, up to an hour; `frame` may stand in its
+/// place. `y` is the height of the root above the floor, for jumps and squats: in all points or in
+/// none. `about`, beside the points, may say what the file is; any other member is an error.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:points[i].MEMBER, naming value and limit.
 /// Models run at `fps`.
@@ -28,12 +29,14 @@ client::Controls::RootPath ParsePathFile(std::string_view text, const std::strin
 /// The options of every command that dances.
 struct ControlOptions {
   std::string path;
-  std::vector<std::string> velocities;  ///< PART=FACTOR
+  std::vector<std::string> velocities;  ///< as ReadVelocities (velocity_options.h) takes them
   std::string reference;
 
   void AddTo(CLI::App& command);
-  /// Throws Error as ParsePathFile does, Error(kNotFound) for a file that is not there, and
-  /// Error(kInvalidArgument) whose field is "--velocity".
+  /// The files that they name.
+  std::vector<NamedFile> Files() const;
+  /// Throws Error as ParsePathFile and ReadVelocities do, and Error(kNotFound) for a path file that
+  /// is not there.
   client::Controls Read(double fps) const;
   /// An error about controls as they were sent in terms of these options; any other as it is.
   Error InTermsOf(const Error& error) const;

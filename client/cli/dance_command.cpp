@@ -46,7 +46,8 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
   RequireMotionFile(path);
   if (options.no_clobber && std::filesystem::exists(path))
     throw InvalidArgument("--no-clobber", path.string() + " is there already");
-  std::vector<NamedFile> inputs = {{"song", options.song}, {"--path", options.controls.path}};
+  std::vector<NamedFile> inputs = options.controls.Files();
+  inputs.push_back({"song", options.song});
   for (const std::string& keys : options.keys) inputs.push_back({"--keyframes", FileOf(keys)});
   RequireOutputs({{"--out", path}, {"--report", options.report}}, inputs);
   return path;
@@ -83,13 +84,14 @@ double ChooseSeconds(const DanceOptions& options, const Music& music) {
 }
 
 DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& music, double seconds,
-                     const DanceLength& length, const Skeleton& skeleton) {
-  if (!options.keys.empty()) return ReadDanceKeys(options.keys, length, skeleton);
+                     const DanceLength& length, const client::ModelDescription& model) {
+  if (!options.keys.empty()) return ReadDanceKeys(options.keys, length, model.skeleton);
+  CompositionRequest request{.seconds = seconds, .seed = options.seed.value_or(0)};
+  if (music) request.beats = music->track.Seconds();
+  // Its dancers come to rest where no key is ahead.
+  if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   DanceKeys keys;
-  keys.poses = ComposeKeys({.seconds = seconds,
-                            .beats = music ? music->track.Seconds() : std::vector<double>(),
-                            .seed = options.seed.value_or(0)},
-                           PoseLibrary(skeleton));
+  keys.poses = ComposeKeys(request, PoseLibrary(model.skeleton));
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
     // Where the dancer is then, the path says.
@@ -170,6 +172,7 @@ void Run(const DanceOptions& options) {
 
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
+  NoteDeterministic(model, options.temperature);
   const client::Controls controls = options.controls.Read(model.fps);
   const double seconds =
       music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
@@ -178,7 +181,12 @@ void Run(const DanceOptions& options) {
               << "\" takes no music; the song gives the dance its length and its beats\n";
   }
   const DanceLength length{std::llround(seconds * model.fps), model.fps};
-  const DanceKeys keys = ChooseKeys(options, music, seconds, length, model.skeleton);
+  if (controls.root_path && controls.root_path->frames.front() >= length.frames) {
+    throw InvalidArgument(
+        options.controls.path + ":points[0]",
+        "the path's first point " + SayBehindEnd(controls.root_path->frames.front(), length));
+  }
+  const DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
 
   client::DanceConfig config;
   config.model = options.model;
@@ -195,6 +203,7 @@ void Run(const DanceOptions& options) {
 
   WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
+  written.warnings = dance.warnings;
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
   if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
   std::cout << ReportText(written) << out.string() << std::endl;
@@ -224,9 +233,9 @@ void AddDanceCommand(CLI::App& program) {
                    "Length of the dance, which ends with the song at the latest; default: the "
                    "song's, or else up to the last key pose and point of the path.")
       ->check(AboveZero());
-  AddSeed(*command, options->seed, "Same seed, same dance. Default: 0.");
-  command->add_option("--temperature", options->temperature,
-                      "Variety, 0 (calm) to 2; default: the model's.");
+  AddSeed(*command, options->seed,
+          "Same seed, same dance; it also chooses among the library's key poses. Default: 0.");
+  AddTemperature(*command, options->temperature);
   command
       ->add_option("--fps", options->fps,
                    "Frames a second that are written, 1 to 120; default: the model's.")

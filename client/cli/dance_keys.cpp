@@ -16,15 +16,20 @@ namespace {
 void CheckInside(const client::KeyPose& key, const std::string& place, const DanceLength& length) {
   const int64_t frame = FrameOf(key, length.fps);
   if (frame < length.frames) return;
-  std::ostringstream message;
-  message << "key \"" << key.id << "\" at " << static_cast<double>(frame) / length.fps
-          << " s lies behind the dance's end: it lasts "
-          << static_cast<double>(length.frames) / length.fps << " s, its last frame is at "
-          << static_cast<double>(length.frames - 1) / length.fps << " s";
-  throw InvalidArgument(place + (key.frame ? ".frame" : ".time"), message.str());
+  throw InvalidArgument(place + (key.frame ? ".frame" : ".time"),
+                        "key \"" + key.id + "\" " + SayBehindEnd(frame, length));
 }
 
 }  // namespace
+
+std::string SayBehindEnd(int64_t frame, const DanceLength& length) {
+  std::ostringstream message;
+  message << "at " << static_cast<double>(frame) / length.fps
+          << " s lies behind the dance's end: it lasts "
+          << static_cast<double>(length.frames) / length.fps << " s, its last frame is at "
+          << static_cast<double>(length.frames - 1) / length.fps << " s";
+  return message.str();
+}
 
 int64_t FrameOf(const client::KeyPose& key, double fps) {
   return key.frame.value_or(std::llround(key.time_s * fps));

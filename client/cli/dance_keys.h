@@ -19,6 +19,10 @@ struct DanceLength {
   double fps = 30;  ///< the model's
 };
 
+/// Of something at a frame that the dance does not reach: "at 20 s lies behind the dance's end: it
+/// lasts 10 s, ...".
+std::string SayBehindEnd(int64_t frame, const DanceLength& length);
+
 /// The frame that a key asks for, at the model's rate.
 int64_t FrameOf(const client::KeyPose& key, double fps);
 

@@ -55,10 +55,10 @@ void CheckOptions(const EditOptions& options) {
                                       " keys; each --key needs one");
   }
   RequireMotionFile(options.out);
-  std::vector<NamedFile> inputs = {{"dance", options.dance},
-                                   {"--report", options.report},
-                                   {"--song", options.song},
-                                   {"--path", options.controls.path}};
+  std::vector<NamedFile> inputs = options.controls.Files();
+  inputs.push_back({"dance", options.dance});
+  inputs.push_back({"--report", options.report});
+  inputs.push_back({"--song", options.song});
   for (const std::string& key : options.keys) inputs.push_back({"--key", FileOf(key)});
   RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
   if (options.report.empty() && !options.new_report.empty()) {
@@ -94,6 +94,7 @@ class Session {
     edit_.seed = options.seed.value_or(0);
     edit_.temperature = options.temperature;
     edit_.controls = options.controls.Read(edit_.model.fps);
+    NoteDeterministic(edit_.model, edit_.temperature);
     longest_ = edit_.model.max_transition_frames - 1;
     if (options.around_s) CheckAround(*options.around_s);
     CheckKeys();
@@ -286,8 +287,7 @@ void AddEditCommand(CLI::App& program) {
   command->add_option("--new-report", options->new_report,
                       "JSON file to write the keys of the new dance to, for the next edit.");
   AddSeed(*command, options->seed, "Same seed, same edit. Default: 0.");
-  command->add_option("--temperature", options->temperature,
-                      "Variety, 0 (calm) to 2; default: the model's.");
+  AddTemperature(*command, options->temperature);
   options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")

@@ -37,6 +37,7 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   json["latency_frames"] = model.latency_frames;
   json["controls"] = model.controls;
   json["takes_music"] = model.takes_music;
+  json["deterministic"] = model.deterministic;
   json["velocity_references"] = nlohmann::ordered_json::array();
   for (const auto& reference : model.velocity_references)
     json["velocity_references"].push_back(ToJson(reference));
@@ -83,6 +84,8 @@ void PrintCard(const std::string& card) {
 
 void PrintControls(const client::ModelDescription& model) {
   if (!model.takes_music) std::printf("  takes no music\n");
+  if (model.deterministic)
+    std::printf("  deterministic: --seed, --temperature and --candidates change nothing\n");
   for (const std::string& control : model.controls)
     std::printf("  control: %s\n", control == "root_path"          ? "root path (--path)"
                                    : control == "velocity_factors" ? "velocity factors (--velocity)"

@@ -1,8 +1,11 @@
 #include "client/cli/json_fields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <sstream>
 
 #include "model/core/error.h"
 #include "model/core/json_depth.h"
@@ -10,6 +13,76 @@
 namespace choreo::cli {
 
 using nlohmann::json;
+
+namespace {
+
+/// How far a text has been read.
+class Place {
+ public:
+  explicit Place(const std::string& name) : name_(name) {}
+
+  /// Throws Error(kInvalidArgument) for a member that its object has already.
+  void Follow(json::parse_event_t event, const json& parsed) {
+    switch (event) {
+      case json::parse_event_t::object_start:
+      case json::parse_event_t::array_start:
+        levels_.emplace_back().is_list = event == json::parse_event_t::array_start;
+        return;
+      case json::parse_event_t::key:
+        levels_.back().member = parsed.get<std::string>();
+        if (!levels_.back().seen.insert(levels_.back().member).second)
+          throw InvalidArgument(Text(), "is there twice");
+        return;
+      case json::parse_event_t::object_end:
+      case json::parse_event_t::array_end:
+        levels_.pop_back();
+        break;
+      case json::parse_event_t::value:
+        break;
+    }
+    if (!levels_.empty()) ++levels_.back().index;
+  }
+
+  std::string Text() const {
+    std::string text = name_;
+    for (const Level& level : levels_) {
+      if (level.is_list) {
+        text += "[" + std::to_string(level.index) + "]";
+      } else if (!level.member.empty()) {
+        text += (&level == &levels_.front() ? ":" : ".") + level.member;
+      }
+    }
+    return text;
+  }
+
+ private:
+  struct Level {
+    bool is_list = false;
+    size_t index = 0;    // of a list's entry
+    std::string member;  // of an object
+    std::set<std::string> seen;
+  };
+  const std::string& name_;
+  std::vector<Level> levels_;
+};
+
+/// Where the `byte`th character of a text stands, from 1 on.
+std::string At(std::string_view text, size_t byte) {
+  const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
+  const size_t line = before.rfind('\n');
+  return "line " + std::to_string(std::ranges::count(before, '\n') + 1) + ", column " +
+         std::to_string(before.size() - (line == std::string_view::npos ? 0 : line + 1) + 1);
+}
+
+void RefuseOthers(const json& object, const std::string& prefix,
+                  std::initializer_list<std::string_view> members, const std::string& described) {
+  for (const auto& [member, ignored] : object.items()) {
+    if (std::find(members.begin(), members.end(), member) == members.end())
+      throw InvalidArgument(prefix + member, "is not known; " + described);
+  }
+}
+
+}  // namespace
 
 std::string Shown(const json& value) {
   std::string text = value.dump();
@@ -31,29 +104,43 @@ std::string ReadText(const std::filesystem::path& path, const std::string& kind)
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-json ParseList(std::string_view text, const std::string& name, const std::string& list) {
+json ParseJson(std::string_view text, const std::string& name) {
   CheckJsonDepth(text, name);
+  Place place(name);
   json root;
   try {
-    root = json::parse(text);
-  } catch (const json::exception& error) {  // numbers too large for any, too
-    throw InvalidArgument(name, "is not JSON: " + std::string(error.what()));
+    root = json::parse(text, [&](int, json::parse_event_t event, const json& parsed) {
+      place.Follow(event, parsed);
+      return true;
+    });
+  } catch (const json::parse_error& error) {
+    throw InvalidArgument(place.Text(), "is not JSON: it breaks off at " + At(text, error.byte));
+  } catch (const json::exception& error) {  // "... number overflow parsing '1e999'"
+    const std::string message = error.what();
+    const size_t from = message.find('\''), to = message.rfind('\'');
+    const std::string number = from < to ? message.substr(from + 1, to - from - 1) : "a number";
+    throw InvalidArgument(place.Text(), number + " is larger than any number");
   }
-  if (!root.is_object() || !root.contains(list) || !root[list].is_array()) {
+  return root;
+}
+
+const json& ListIn(const json& file, const std::string& name, const std::string& list) {
+  if (!file.is_object() || !file.contains(list) || !file[list].is_array())
     throw InvalidArgument(name, "has no list \"" + list + '"');
-  }
-  if (root[list].empty()) throw InvalidArgument(name + ":" + list, "is empty");
-  return root[list];
+  if (file[list].empty()) throw InvalidArgument(name + ":" + list, "is empty");
+  return file[list];
 }
 
 void CheckMembers(const json& value, const std::string& field,
                   std::initializer_list<std::string_view> members, const std::string& described) {
   if (!value.is_object()) throw InvalidArgument(field, Shown(value) + " is not an object");
-  for (const auto& [member, ignored] : value.items()) {
-    if (std::find(members.begin(), members.end(), member) == members.end()) {
-      throw InvalidArgument(field + "." + member, "is not known; " + described);
-    }
-  }
+  RefuseOthers(value, field + ".", members, described);
+}
+
+void CheckFileMembers(const json& file, const std::string& name,
+                      std::initializer_list<std::string_view> members,
+                      const std::string& described) {
+  if (file.is_object()) RefuseOthers(file, name + ":", members, described);
 }
 
 Moment ParseMoment(const json& value, const std::string& field) {
@@ -78,6 +165,25 @@ Moment ParseMoment(const json& value, const std::string& field) {
   if (moment.time_s > kMaxSeconds)
     throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is beyond 1e9 s");
   return moment;
+}
+
+void AppendFrame(const json& value, const std::string& field, double fps,
+                 std::vector<int64_t>* frames) {
+  const Moment moment = ParseMoment(value, field);
+  const int64_t frame = moment.frame.value_or(std::llround(moment.time_s * fps));
+  const std::string when = field + (moment.frame ? ".frame" : ".time");
+  const double seconds = static_cast<double>(frame) / fps;
+  if (seconds > kLongestDance) {
+    std::ostringstream message;
+    message << seconds << " s is beyond " << kLongestDance << " s, the longest dance";
+    throw InvalidArgument(when, message.str());
+  }
+  if (!frames->empty() && frame <= frames->back()) {
+    throw InvalidArgument(when, "is frame " + std::to_string(frame) +
+                                    ", not after that of the point before it, " +
+                                    std::to_string(frames->back()));
+  }
+  frames->push_back(frame);
 }
 
 }  // namespace choreo::cli

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// How the files that people write (key files, path files) are read. Errors are
 /// Error(kInvalidArgument) whose field is NAME:LIST[i].MEMBER, naming value and limit.
@@ -21,6 +22,8 @@ bool IsFrameNumber(const Json& value) {
 }
 /// Behind the end of any dance, and far from where numbers of frames end.
 inline constexpr double kMaxSeconds = 1e9;
+/// Seconds of the longest dance.
+inline constexpr double kLongestDance = 3600;
 
 /// A value as messages show it: at most 40 characters.
 std::string Shown(const nlohmann::json& value);
@@ -31,13 +34,23 @@ double JsonNumber(const nlohmann::json& value, const std::string& field);
 /// have been, "key file".
 std::string ReadText(const std::filesystem::path& path, const std::string& kind);
 
-/// The list of this name in the outermost object of a text; at least one entry.
-nlohmann::json ParseList(std::string_view text, const std::string& name, const std::string& list);
+/// A text as JSON. Where it is no JSON, and for a member that is there twice, the
+/// field says how far the text could be read: NAME:LIST[i].MEMBER.
+nlohmann::json ParseJson(std::string_view text, const std::string& name);
+
+/// The list of this name in the outermost object of the file `name`; at least one entry.
+const nlohmann::json& ListIn(const nlohmann::json& file, const std::string& name,
+                             const std::string& list);
 
 /// Checks that the value is an object with no member but these; `described` is how the message says
 /// what it may have.
 void CheckMembers(const nlohmann::json& value, const std::string& field,
                   std::initializer_list<std::string_view> members, const std::string& described);
+
+/// The same of the outermost object of the file `name`.
+void CheckFileMembers(const nlohmann::json& file, const std::string& name,
+                      std::initializer_list<std::string_view> members,
+                      const std::string& described);
 
 /// When: `time`, in seconds, or `frame`, exactly one of them.
 struct Moment {
@@ -45,5 +58,10 @@ struct Moment {
   std::optional<int64_t> frame = {};
 };
 Moment ParseMoment(const nlohmann::json& value, const std::string& field);
+
+/// Appends the frame, at `fps`, of a point in time: behind those before it, within the longest
+/// dance.
+void AppendFrame(const nlohmann::json& value, const std::string& field, double fps,
+                 std::vector<int64_t>* frames);
 
 }  // namespace choreo::cli

@@ -222,7 +222,8 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
 
 std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                   const Skeleton& skeleton) {
-  const json list = ParseList(text, name, "keyframes");
+  const json file = ParseJson(text, name);
+  const json& list = ListIn(file, name, "keyframes");
   std::vector<KeyPose> keys;
   std::set<std::string> ids;
   for (size_t i = 0; i < list.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 namespace choreo::cli {
@@ -42,6 +43,19 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
                       return value == std::floor(value) && value >= static_cast<double>(low) &&
                              value <= static_cast<double>(high);
                     });
+}
+
+void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
+  command.add_option("--temperature", temperature,
+                     "Variety, 0 (calm) to 2; default: the model's. Changes nothing where `choreo "
+                     "info` calls the model deterministic.");
+}
+
+void NoteDeterministic(const client::ModelDescription& model,
+                       const std::optional<double>& temperature) {
+  if (!model.deterministic || temperature.value_or(0) == 0) return;
+  std::cerr << "note: the model \"" << model.name
+            << "\" is deterministic; --temperature changes nothing\n";
 }
 
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help) {

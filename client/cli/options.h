@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "client/choreo_client.h"
+
 /// Options that several commands have, and checks whose words people understand.
 namespace choreo::cli {
 
@@ -17,6 +19,12 @@ CLI::Validator TimeInSeconds();
 /// A number within these limits, and a whole one.
 CLI::Validator NumberFrom(double low, double high);
 CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
+
+/// `--temperature`.
+void AddTemperature(CLI::App& command, std::optional<double>& temperature);
+/// Tells whoever asks a deterministic model for variety that there is none.
+void NoteDeterministic(const client::ModelDescription& model,
+                       const std::optional<double>& temperature);
 
 /// `--seed`: a whole number of 64 bits, never negative.
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);

@@ -88,6 +88,9 @@ std::string ReportJson(const WrittenDance& dance) {
     written["output_error_m"] = key.error.position_m;
     written["output_error_deg"] = key.error.angle_deg;
   }
+  json["warnings"] = nlohmann::ordered_json::array();
+  for (const client::Warning& warning : dance.warnings)
+    json["warnings"].push_back({{"frame", warning.frame}, {"message", warning.message}});
   json["measured_from"] = report.measured_from;
   json["log_likelihood"] = report.log_likelihood;
   json["beat_hit_rate"] = or_null(report.beat_hit_rate);

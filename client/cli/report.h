@@ -17,6 +17,7 @@ namespace choreo::cli {
 ///                              far joints were moved on the way), final_error_m, final_error_deg;
 ///                              output_frame (the file's nearest), on_output_frame (it stands at
 ///                              the key's time), output_error_m, output_error_deg (measured there)
+///   warnings                   frame, message of each
 ///   measured_from              frame from which on the rest is measured: 0, or where the last
 ///   server
 ///                              took over

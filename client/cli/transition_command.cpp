@@ -59,13 +59,15 @@ void Run(const TransitionOptions& options) {
   std::vector<NamedFile> outputs = {{"--report", options.report}};
   for (size_t rank = 0; rank < static_cast<size_t>(options.candidates); ++rank)
     outputs.push_back({"--out", CandidatePath(options.out, rank)});
-  RequireOutputs(outputs, {{"--from", FileOf(options.from)},
-                           {"--to", FileOf(options.to)},
-                           {"--song", options.song},
-                           {"--path", options.controls.path}});
+  std::vector<NamedFile> inputs = options.controls.Files();
+  inputs.push_back({"--from", FileOf(options.from)});
+  inputs.push_back({"--to", FileOf(options.to)});
+  inputs.push_back({"--song", options.song});
+  RequireOutputs(outputs, inputs);
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
 
+  NoteDeterministic(model, options.temperature);
   client::TransitionRequest request;
   request.config.model = options.model;
   request.config.seed = options.seed.value_or(0);
@@ -93,14 +95,14 @@ void Run(const TransitionOptions& options) {
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
   for (const client::Warning& warning : result.warnings)
-    std::cerr << "warning: " << warning.message << '\n';
+    std::cerr << "warning: frame " << warning.frame << ": " << warning.message << '\n';
 
   for (size_t rank = 0; rank < result.candidates.size(); ++rank) {
     const std::filesystem::path path = CandidatePath(options.out, rank);
     const client::TransitionCandidate& candidate = result.candidates[rank];
     WriteMotion(path, result.header.skeleton, candidate.motion, &candidate.contacts);
-    const WrittenDance written =
-        Examine(result.header, candidate.report, candidate.motion, {target});
+    WrittenDance written = Examine(result.header, candidate.report, candidate.motion, {target});
+    written.warnings = result.warnings;
     std::cout << ReportText(written) << path.string() << std::endl;
     if (rank == 0 && !options.report.empty()) WriteFile(options.report, ReportJson(written));
     CheckKeys(written);
@@ -129,8 +131,7 @@ void AddTransitionCommand(CLI::App& program) {
       ->check(WholeNumberFrom(1, 32))
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0.");
-  command->add_option("--temperature", options->temperature,
-                      "Variety, 0 (calm) to 2; default: the model's.");
+  AddTemperature(*command, options->temperature);
   options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")

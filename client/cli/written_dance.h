@@ -24,6 +24,7 @@ struct WrittenDance {
   int64_t frames = 0;  ///< of the file
   double fps = 30;     ///< of the file
   std::vector<WrittenKey> keys = {};
+  std::vector<client::Warning> warnings = {};  ///< of the server; Examine leaves them empty
   /// The beat hit rate of a dance whose beats fall anywhere: the share of frames within two frames
   /// of a beat. Empty where there are no beats.
   std::optional<double> beat_hit_chance = {};

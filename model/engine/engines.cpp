@@ -125,6 +125,7 @@ Loaded LoadControllers(const Safetensors& content, const std::filesystem::path& 
                  .max_transition_frames = config.max_transition_frames,
                  .default_temperature = 0,
                  .hears_music = false,
+                 .deterministic = true,
                  .root_path = true,
                  .velocity_factors = config.velocity_factors,
                  .velocity_references = {median}};

@@ -38,6 +38,7 @@ struct ModelInfo {
   bool hears_music = true;      ///< false: learnt without; music changes when it dances, not what
   double fine_temperature = 1;  ///< share of the temperature that a frame's own noise has
   double follow = 1;  ///< share of the way that what leaves the plan goes to the flow's proposal
+  bool deterministic = false;     ///< seed, candidate and temperature change nothing
   bool root_path = false;         ///< takes Controls::root_path
   bool velocity_factors = false;  ///< takes Controls::velocity_factors
   /// The first one, "median", is the default. At least one where velocity factors are taken.

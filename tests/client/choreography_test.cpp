@@ -41,6 +41,21 @@ TEST(ChoreographyTest, CountsOnBeforeTheFirstBeatAndWithoutAny) {
   EXPECT_EQ(silent.size(), 6U);
 }
 
+TEST(ChoreographyTest, EndsInAPoseWhereItIsTold) {
+  for (const double end_s : {1.97, 9.97, 10.0, 11.0, 11.3, 12.5, 13.97}) {
+    for (const bool beats : {false, true}) {
+      CompositionRequest request{.seconds = end_s + 0.04, .seed = 5, .end_s = end_s};
+      if (beats) request.beats = EvenBeats(0.3, 0.5, static_cast<int>(2 * end_s));
+      const auto keys = ComposeKeys(request, PoseLibrary());
+      EXPECT_EQ(keys.back().time_s, end_s);
+      for (size_t i = 1; i < keys.size(); ++i) {
+        EXPECT_GE(keys[i].time_s - keys[i - 1].time_s, 1.2) << end_s;
+        EXPECT_LE(keys[i].time_s - keys[i - 1].time_s, 3.5) << end_s;
+      }
+    }
+  }
+}
+
 TEST(ChoreographyTest, LeavesTimeBetweenKeysAtAnyTempo) {
   for (const double period : {0.2, 0.33, 0.44, 0.7, 1.1, 1.9}) {
     const auto keys = ComposeKeys(

@@ -20,6 +20,12 @@ class DeafEngine final : public ControlledEngine {
   DeafEngine() { model_.audio_features = 0; }
 };
 
+/// One that draws nothing.
+class DeterministicEngine final : public ControlledEngine {
+ public:
+  DeterministicEngine() { model_.deterministic = true; }
+};
+
 class ControlledCommandTest : public CommandTest {
  protected:
   void Write(const std::string& name, const std::string& text) const {
@@ -37,7 +43,7 @@ class ControlledCommandTest : public CommandTest {
   const TestServer walker_{std::make_unique<ControlledEngine>()};
 };
 
-constexpr const char* kPath = R"({"title": "a bow", "points": [
+constexpr const char* kPath = R"({"about": "a bow", "points": [
   {"time": 0, "x": 0, "z": 0}, {"frame": 60, "x": 1, "z": 0}, {"time": 4, "x": 1, "z": 2}]})";
 
 TEST_F(ControlledCommandTest, DancesAlongAPathWithoutASong) {
@@ -71,6 +77,83 @@ TEST_F(ControlledCommandTest, AsksWhatItIsToldOfEachPart) {
   EXPECT_NEAR(left_hand("--velocity all=0.5 --velocity arms=3"), 0.06, 1e-5);
   EXPECT_NEAR(left_hand("--velocity legs=0"), 0.02, 1e-5);
   EXPECT_NEAR(left_hand("--velocity arms=2 --velocity-reference calm"), 0.004, 1e-5);
+}
+
+TEST_F(ControlledCommandTest, AsksForSpeedsAndForWhatChanges) {
+  const auto hands = [&](const std::string& options, size_t frame) {
+    const Outcome outcome =
+        Choreo("dance" + Walker() + "--seconds 4 " + options + " -o " + At("d.npz"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    const Pose pose = Read("d.npz").frames[frame];
+    return std::pair(pose.rotations(0, Body().Find(kTellingJoints[1])),
+                     pose.rotations(0, Body().Find(kTellingJoints[2])));
+  };
+  EXPECT_NEAR(hands("--velocity left_arm=7.5cm", 30).first, 0.075, 1e-5);
+  EXPECT_NEAR(hands("--velocity left_arm=7.5cm", 30).second, 0.03, 1e-5) << "as usual";
+  Write("v.json", R"({"about": "louder", "factors": [{"time": 1, "arms": 1, "trunk": 1},
+                      {"frame": 90, "arms": 3, "trunk": 1}]})");
+  const std::string file = "--velocity " + At("v.json");
+  EXPECT_NEAR(hands(file, 15).first, 0.02, 1e-5);
+  EXPECT_NEAR(hands(file, 45).first, 0.03, 1e-5);
+  EXPECT_NEAR(hands(file + " --velocity right_arm=2", 100).first, 0.06, 1e-5);
+  EXPECT_NEAR(hands(file + " --velocity right_arm=2", 100).second, 0.06, 1e-5);
+  Write("v.json", R"({"speeds": [{"frame": 0, "all": 5}]})");
+  EXPECT_NEAR(hands(file, 45).second, 0.05, 1e-5);
+}
+
+TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    Write("v.json", text);
+    ExpectRefused("--seconds 4 --velocity " + At("v.json"), message);
+  };
+  refused(R"({"factors": [{"time": 0, "tail": 1}]})",
+          "v.json:factors[0].tail: is none of all, arms, legs, trunk, left_arm");
+  refused(R"({"factors": [{"time": 0, "arms": 11}]})",
+          "v.json:factors[0].arms: 11 is not a number from 0 to 10");
+  refused(R"({"speeds": [{"time": 0, "arms": -1}]})",
+          "v.json:speeds[0].arms: -1 is not a speed from 0 to 50 cm a frame");
+  refused(R"({"factors": [{"time": 0, "arms": 1}, {"time": 1, "legs": 1}]})",
+          "v.json:factors[1]: each point must name the same parts, and not all name left_arm");
+  refused(R"({"factors": [{"time": 0, "arms": 1, "left_arm": 1}]})",
+          "v.json:factors[0].left_arm: names a part that is there already");
+  refused(R"({"factors": [{"time": 1, "arms": 1}, {"time": 0.5, "arms": 1}]})",
+          "v.json:factors[1].time: is frame 15, not after that of the point before it, 30");
+  refused(R"({"factors": [{"time": 0, "arms": 1}], "speeds": []})",
+          "v.json:speeds: stands beside factors");
+  refused(R"({"factors": [{"time": 0, "arms": 1}], "unit": "m"})", "v.json:unit: is not known");
+  refused("{}", "v.json: has no list \"factors\"");
+  Write("v.json", R"({"factors": [{"time": 0, "arms": 1}]})");
+  const std::string file = "--seconds 4 --velocity " + At("v.json");
+  ExpectRefused(file + " --velocity " + At("v.json"), "v.json is a second file");
+  ExpectRefused(file + " --velocity legs=1cm", "legs=1cm: multipliers and cm exclude each other");
+  ExpectRefused("--seconds 4 --velocity legs=60cm",
+                "\"legs=60cm\": \"60cm\" is not a speed from 0 to 50 cm a frame");
+  ExpectRefused("--seconds 4 --velocity legs=1cm --velocity-reference calm",
+                "--velocity-reference: is for multipliers, not for speeds");
+  const Outcome outcome = Choreo("dance" + Walker() + file + " -o " + At("v.json"));
+  EXPECT_EQ(outcome.code, 1) << "no output destroys an input";
+}
+
+TEST_F(ControlledCommandTest, AnEditTakesThemToo) {
+  ASSERT_EQ(Choreo("dance" + Walker() + "--seconds 6 -o " + At("d.npz")).code, 0);
+  Write("path.json", R"({"points": [{"time": 1, "x": 0, "z": 0}, {"time": 5, "x": 2, "z": 0}]})");
+  const Outcome outcome =
+      Choreo("edit" + Walker() + At("d.npz") + " --key kick --at 3 --around 1.5 --path " +
+             At("path.json") + " --velocity left_arm=7.5cm -o " + At("e.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_NEAR(Read("e.npz").frames[75].rotations(0, Body().Find(kTellingJoints[1])), 0.075, 1e-5);
+}
+
+TEST_F(ControlledCommandTest, ADeterministicModelIsDancedToItsLastFrame) {
+  const TestServer server(std::make_unique<DeterministicEngine>());
+  const Outcome outcome =
+      Choreo("dance --server " + server.address() + " --seconds 12 --temperature 1 -o " +
+             At("d.npz") + " --report " + At("d.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("is deterministic; --temperature changes nothing"));
+  const auto report = ReadJson(folder_ / "d.json");
+  EXPECT_EQ(report["keyframes"].back()["frame"], 359);
+  EXPECT_THAT(Choreo("info --server " + server.address()).said, HasSubstr("deterministic: --seed"));
 }
 
 TEST_F(ControlledCommandTest, ATransitionGoesAlongAPathToo) {
@@ -129,9 +212,14 @@ TEST_F(ControlledCommandTest, BadPathsAreRefused) {
   // What only the server knows to be wrong is told in terms of the file, too.
   refused(
       R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 0, "z": 0}, {"time": 2, "x": 0, "z": 20000}])",
-      "points[2]: 20000 m is not within 10000 m of 0");
-  Write("path.json", "{\"points\": [NaN]}");
-  ExpectRefused("--path " + At("path.json"), "path.json: is not JSON");
+      "points[2].z: 20000 m is not within 10000 m of 0");
+  refused(R"([{"time": 0, "x": 0, "z": 0, "y": 1}, {"time": 3, "x": 0, "z": 0, "y": 3}])",
+          "points[1].y: 3 m above the floor is not in [0, 2]");
+  // As is what is no JSON, and how far it could be read.
+  refused("[{\"time\": 0, \"x\": 0,\n \"z\": 0}, {\"time\": 1, \"x\": NaN}]",
+          "points[1].x: is not JSON: it breaks off at line 2, column 28");
+  refused(R"([{"time": 0, "x": 1e999, "z": 0}])", "points[0].x: 1e999 is larger than any number");
+  refused(R"([{"time": 0, "x": 1, "x": 2, "z": 0}])", "points[0].x: is there twice");
   ExpectRefused("--path " + At("none.json"), "none.json: cannot be opened");
 }
 
@@ -139,7 +227,34 @@ TEST_F(ControlledCommandTest, APathOfTenHoursIsRefused) {
   Write("path.json",
         R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 36000, "x": 1, "z": 0}]})");
   ExpectRefused("--seconds 10 --path " + At("path.json"),
-                "path.json:points[1]: 1080000 is not in [0, 108000]");
+                "path.json:points[1].time: 36000 s is beyond 3600 s, the longest dance");
+  ExpectRefused("--path " + At("path.json"), "path.json:points[1].time: 36000 s is beyond 3600 s");
+}
+
+TEST_F(ControlledCommandTest, WhatIsNoPathFileIsRefused) {
+  const std::string points =
+      R"("points": [{"time": 20, "x": 0, "z": 0}, {"time": 21, "x": 1, "z": 0}])";
+  Write("path.json", "{" + points + R"(, "velocity": 2})");
+  ExpectRefused("--path " + At("path.json"),
+                "path.json:velocity: is not known; a path file has points and perhaps about");
+  Write("path.json", "{" + points + ", " + points + "}");
+  ExpectRefused("--path " + At("path.json"), "path.json:points: is there twice");
+  Write("path.json", "{" + points + "}");
+  ExpectRefused("--seconds 10 --path " + At("path.json"),
+                "path.json:points[0]: the path's first point at 20 s lies behind the dance's end: "
+                "it lasts 10 s");
+}
+
+TEST_F(ControlledCommandTest, TheReportHasTheWarnings) {
+  Write("path.json", R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 9, "z": 0}]})");
+  const Outcome outcome = Choreo("dance" + Walker() + "--seconds 4 --path " + At("path.json") +
+                                 " -o " + At("d.npz") + " --report " + At("d.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("m/s; people reach 5"));
+  const auto warnings = ReadJson(folder_ / "d.json")["warnings"];
+  ASSERT_GE(warnings.size(), 1U);
+  EXPECT_LE(warnings[0]["frame"], 30);
+  EXPECT_THAT(warnings[0]["message"].get<std::string>(), HasSubstr("people reach 5"));
 }
 
 TEST_F(ControlledCommandTest, BadVelocitiesAreRefused) {

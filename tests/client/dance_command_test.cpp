@@ -35,11 +35,12 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   const nlohmann::json report = ReadJson(folder_ / "report.json");
   std::vector<std::string> members;
   for (const auto& [member, value] : report.items()) members.push_back(member);
-  EXPECT_THAT(members, testing::UnorderedElementsAre(
-                           "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
-                           "keyframes", "measured_from", "log_likelihood", "beat_hit_rate",
-                           "beat_hit_chance", "skate_ratio", "max_key_acceleration",
-                           "p95_acceleration", "first_frame_latency_s", "real_time_factor"));
+  EXPECT_THAT(members,
+              testing::UnorderedElementsAre(
+                  "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
+                  "keyframes", "warnings", "measured_from", "log_likelihood", "beat_hit_rate",
+                  "beat_hit_chance", "skate_ratio", "max_key_acceleration", "p95_acceleration",
+                  "first_frame_latency_s", "real_time_factor"));
   EXPECT_EQ(report["frames"], 300);
   EXPECT_EQ(report["seed"], 3);
   EXPECT_EQ(report["fingerprint"], "fake-1");

@@ -84,6 +84,7 @@ TEST_F(ControlsServerTest, InfoTellsWhichModelTakesWhich) {
   EXPECT_THAT(info.models(0).velocity_references(0).speeds(),
               testing::ElementsAre(0.01F, 0.02F, 0.03F, 0.04F, 0.05F));
   EXPECT_FALSE(info.models(0).takes_no_music());
+  EXPECT_FALSE(info.models(0).deterministic());
   EXPECT_EQ(info.models(1).controls_size(), 0);
   EXPECT_EQ(info.models(1).velocity_references_size(), 0);
 }

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "client/choreo_client.h"
+#include "client/cli/local_server.h"
+#include "client/cli/pose_library.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/velocity_factors.h"
+#include "tests/support/sanitizers.h"
+
+/// What the controllers network that ships does with controls, in the server that people run.
+namespace choreo::client {
+namespace {
+
+constexpr int kFrames = 241;
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+class ShippedControllersTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (kSanitized) return;  // choreod runs LibTorch
+    server_ = std::make_unique<cli::LocalServer>(CHOREOD_PROGRAM);
+    client_ = std::make_unique<Client>(Options{.addresses = {server_->address()}});
+  }
+  static void TearDownTestSuite() {
+    client_.reset();
+    server_.reset();
+  }
+  void SetUp() override {
+    if (!client_) GTEST_SKIP() << "choreod runs LibTorch";
+  }
+
+  /// An arc of two metres' radius, a point in each frame, away from the origin, 0.4 m/s.
+  static Controls::RootPath Arc() {
+    Controls::RootPath path;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      const double angle = 0.4 * frame / 30 / 2;
+      path.frames.push_back(frame);
+      path.points.emplace_back(5 - 2 * std::cos(angle), 2 * std::sin(angle) - 3);
+    }
+    return path;
+  }
+  /// Through four poses of the library, which say nothing of where they are.
+  static DanceResult Dance(const Controls& controls, uint64_t seed = 0) {
+    std::vector<KeyPose> keys;
+    for (const auto& [id, frame] :
+         {std::pair("groove", 60), {"side_reach", 120}, {"disco_point", 180}, {"groove", 240}}) {
+      KeyPose& key = keys.emplace_back();
+      key.id = id + std::to_string(frame);
+      key.frame = frame;
+      key.pose = cli::FindLibraryPose(id).pose;
+      key.mask.root_position = false;
+    }
+    return client_->Dance(
+        {.model = "controllers", .seed = seed, .frames = kFrames, .controls = controls}, keys, {});
+  }
+  /// Mean velocity factors, metres a frame.
+  static std::array<double, kBodyParts> Liveliness(const Motion& motion) {
+    const BodyPartWeights weights = WeighBodyParts(Body());
+    std::array<double, kBodyParts> mean = {};
+    for (size_t i = 1; i < motion.frames.size(); ++i) {
+      const auto factors = VelocityFactors(weights, JointPositions(Body(), motion.frames[i - 1]),
+                                           JointPositions(Body(), motion.frames[i]));
+      for (size_t part = 0; part < kBodyParts; ++part)
+        mean[part] += factors[part] / static_cast<double>(motion.frames.size() - 1);
+    }
+    return mean;
+  }
+
+  static inline std::unique_ptr<cli::LocalServer> server_;
+  static inline std::unique_ptr<Client> client_;
+};
+
+TEST_F(ShippedControllersTest, SaysWhatItTakes) {
+  const ServerDescription server = client_->GetServerInfo();
+  const auto model = std::ranges::find(server.models, "controllers", &ModelDescription::name);
+  ASSERT_NE(model, server.models.end());
+  EXPECT_EQ(model->controls, (std::vector<std::string>{"root_path", "velocity_factors"}));
+  EXPECT_TRUE(model->deterministic);
+  EXPECT_FALSE(model->takes_music);
+  EXPECT_FALSE(server.models.front().deterministic) << "the flow draws";
+}
+
+TEST_F(ShippedControllersTest, KeepsToADrawnPathThroughKeys) {
+  const Controls controls{.root_path = Arc()};
+  const DanceResult dance = Dance(controls);
+  ASSERT_EQ(dance.motion.frames.size(), static_cast<size_t>(kFrames));
+  EXPECT_TRUE(dance.warnings.empty()) << dance.warnings[0].message;
+  double furthest = 0;
+  for (size_t i = 0; i < dance.motion.frames.size(); ++i) {
+    const Eigen::Vector3d root = dance.motion.frames[i].root_position;
+    furthest = std::max(
+        furthest, (Eigen::Vector2d(root.x(), root.z()) - controls.root_path->points[i]).norm());
+  }
+  EXPECT_LT(furthest, 0.05);
+  ASSERT_EQ(dance.report.keys.size(), 4U);
+  for (const KeyReached& key : dance.report.keys) {
+    EXPECT_LT(key.final_error_m, 1e-3) << key.id;
+    EXPECT_LT(key.final_error_deg, 0.1) << key.id;
+  }
+  EXPECT_LT(dance.report.skate_ratio, 0.25);
+  // It draws nothing.
+  const DanceResult again = Dance(controls, /*seed=*/8);
+  EXPECT_EQ(again.motion.frames.back().rotations, dance.motion.frames.back().rotations);
+  EXPECT_EQ(again.motion.frames[100].rotations, dance.motion.frames[100].rotations);
+}
+
+TEST_F(ShippedControllersTest, MakesAnArmLivelierAndLeavesTheOther) {
+  Controls controls{.root_path = Arc()};
+  const auto usual = Liveliness(Dance(controls).motion);
+  controls.velocity_factors = {.parts = {"left_arm"}, .factors = {1.8}};
+  const auto lively = Liveliness(Dance(controls).motion);
+  EXPECT_GT(lively[1] / usual[1], 1.3);
+  EXPECT_NEAR(lively[2] / usual[2], 1, 0.15);
+}
+
+TEST_F(ShippedControllersTest, GoesDownWhereThePathDoes) {
+  Controls controls{.root_path = Arc()};
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const double u = std::clamp((frame - 60) / 60.0, 0.0, 1.0);  // down and up again before key 2
+    controls.root_path->heights.push_back(0.95 - 0.3 * std::pow(std::sin(u * M_PI), 2));
+  }
+  const DanceResult dance = Dance(controls);
+  for (const size_t frame : {75, 90, 105}) {
+    EXPECT_NEAR(dance.motion.frames[frame].root_position.y(), controls.root_path->heights[frame],
+                0.05);
+  }
+}
+
+}  // namespace
+}  // namespace choreo::client
