@@ -194,7 +194,7 @@ TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
   });
   ASSERT_TRUE(dance.summary) << dance.error->what();
   EXPECT_TRUE(dance.warnings.empty());
-  EXPECT_LT(dance.summary->skate_ratio, 0.15);
+  EXPECT_LT(dance.summary->skate_ratio, 0.2);  // 0.7 where they glide
   EXPECT_NEAR(dance.poses[179].root_position.x(), 5.0 * 179 / 299, 1e-3);
 }
 
