@@ -14,13 +14,6 @@ namespace {
 
 constexpr double kPlanSmoothness = 1;  // frames
 
-// Low-pass along [batch, N, features].
-Tensor SmoothInTime(const Tensor& x) {
-  const Tensor at = torch::arange(x.size(1), x.options());
-  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / kPlanSmoothness;
-  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
-}
-
 }  // namespace
 
 Tensor ControlledScale::Unit(const Tensor& joints) const {
@@ -94,7 +87,7 @@ ControlledPlan::Result ControlledPlan::Make(const ControlledTransition& transiti
   const Tensor distance = TimeDistances(x.size(1), x.device());
   for (const auto& block : *blocks_) x = block->as<TimeBlock>()->forward(x, distance);
   const Tensor hidden = norm_->forward(x).narrow(1, transition.history.size(), transition.frames);
-  return {SmoothInTime(head_->forward(hidden)), hidden};
+  return {SmoothInTime(head_->forward(hidden), kPlanSmoothness), hidden};
 }
 
 }  // namespace choreo

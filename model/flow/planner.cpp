@@ -21,10 +21,12 @@ constexpr double kRampFrames = 6;        // frames over which the residual grows
 constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's spread counts as one
 constexpr double kBasis = 10000;         // Eq. 9
 constexpr double kLeastAlong = 0.25, kAlongSoftness = 0.1;  // of BoundedSixD
-constexpr double kFreeTurn = 0.625;   // of BoundedSixD's root: share of its bound that is free
-constexpr double kTurnHorizon = 12;   // frames that a dancer goes on turning as she does
-constexpr double kResidualSigma = 2;  // frames, of SmoothInTime
-constexpr double kEaseFrames = 30;    // over which WithoutWalk begins
+constexpr double kFreeTurn = 0.625;  // of BoundedSixD's root: share of its bound that is free
+constexpr double kTurnHorizon = 12;  // frames that a dancer goes on turning as she does
+constexpr double kEaseFrames = 30;   // over which WithoutWalk begins
+// Frames of the residual's low-pass: a plan that changes its mind about the way round does so over
+// some frames, with limbs that can follow; what is quicker than that is the flow's.
+constexpr double kResidualSigma = 2;
 
 // The way round that the dancer is known to turn, or is already turning. A key half a turn away can
 // be reached both ways, and slerp's shorter one is the wrong one about as often as not: of two
@@ -46,14 +48,6 @@ Tensor WayRound(const Tensor& turn, const TransitionTensors& transition) {
       LogMapBatch(torch::matmul(root(history - 3).transpose(-1, -2), root(history - 1))) / 2;
   const double ahead = std::min(kTurnHorizon, static_cast<double>(transition.frames));
   return nearer(ahead * rate);
-}
-
-// Low-pass along [batch, N, features]: a plan that changes its mind about the way round does so
-// over some frames, with limbs that can follow; what is quicker than that is the flow's.
-Tensor SmoothInTime(const Tensor& x) {
-  const Tensor at = torch::arange(x.size(1), x.options());
-  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / kResidualSigma;
-  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
 }
 
 // `line` plus `turn`, both [batch, N, joints, 6]. The mean of two ways round (left or right?)
@@ -261,7 +255,7 @@ PlannerImpl::Plan TransformerPlanner::forward(const TransitionTensors& transitio
   const Tensor mask = transition.target_mask.unsqueeze(1);  // [batch, 1, joints + 1]
   const Tensor ramp = from_start.unsqueeze(-1) *
                       (1 - mask + mask * to_key.unsqueeze(-1));  // [batch, N, joints + 1]
-  const Tensor residual = SmoothInTime(head_(hidden)) * pose_std_;
+  const Tensor residual = SmoothInTime(head_(hidden), kResidualSigma) * pose_std_;
   const Tensor move = residual.narrow(2, 0, 3) * ramp.narrow(2, joints_, 1);
   const Tensor turn = residual.narrow(2, 3, 6 * joints_).view({batch, frames, joints_, 6}) *
                       ramp.narrow(2, 0, joints_).unsqueeze(-1);

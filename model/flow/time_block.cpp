@@ -52,4 +52,10 @@ Tensor TimeDistances(int64_t time, torch::Device device) {
          kMaxDistance;
 }
 
+Tensor SmoothInTime(const Tensor& x, double sigma) {
+  const Tensor at = torch::arange(x.size(-2), x.options());
+  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / sigma;
+  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
+}
+
 }  // namespace choreo

@@ -27,4 +27,8 @@ TORCH_MODULE(TimeBlock);
 /// [time, time] indices into the blocks' bias tables.
 torch::Tensor TimeDistances(int64_t time, torch::Device device);
 
+/// Low-pass of x [..., time, features] over time: a Gaussian of `sigma` frames, its weights' sum
+/// one near both ends too.
+torch::Tensor SmoothInTime(const torch::Tensor& x, double sigma);
+
 }  // namespace choreo

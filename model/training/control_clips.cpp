@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "model/core/error.h"
+#include "model/flow/time_block.h"
 #include "model/motion/facing_pose.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
@@ -23,17 +24,11 @@ constexpr double kHandSmoothness = 9;  // frames: what a drawn path leaves out
 constexpr double kLeastScale = 0.5, kMostScale = 1.5;
 constexpr float kScaledWeight = 0.15F;  // of real motion where the factors are not its own
 
-Tensor Blur(const Tensor& x, double sigma) {  // along [N, features]
-  const Tensor at = torch::arange(x.size(0), x.options());
-  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / sigma;
-  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
-}
-
 // The path [N, 3] blurred, its ends where they were; it starts from `before` [3].
 Tensor DrawnPath(const Tensor& path, const Tensor& before) {
   const Tensor all = torch::cat({before.unsqueeze(0), path}, 0);
   const int64_t last = all.size(0) - 1;
-  const Tensor blurred = Blur(all, kHandSmoothness);
+  const Tensor blurred = SmoothInTime(all, kHandSmoothness);
   const Tensor u = torch::arange(last + 1, all.options()).unsqueeze(1) / static_cast<double>(last);
   const Tensor mended = blurred + (1 - u) * (all[0] - blurred[0]) + u * (all[last] - blurred[last]);
   return mended.narrow(0, 1, last);
@@ -173,7 +168,7 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
     paths.push_back(path);
     Tensor real = factors[b].narrow(0, history, frames), control = real;
     if (random->Uniform() < variation.smooth_factors)
-      control = Blur(real, std::exp(random->Uniform(std::log(5), std::log(200))));
+      control = SmoothInTime(real, std::exp(random->Uniform(std::log(5), std::log(200))));
     if (random->Uniform() < variation.scale_factors) {
       Tensor scale = torch::empty({kBodyParts});
       const bool alike = random->Uniform() < 0.5;
