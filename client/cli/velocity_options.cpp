@@ -82,6 +82,7 @@ class Asked {
     for (size_t i = 0; i < points.size(); ++i) {
       const std::string field = name + ":" + list_name + "[" + std::to_string(i) + "]";
       AppendFrame(points[i], field, fps_, &frames_);
+      if (points[i].size() < 2) throw InvalidArgument(field, "names no part of the body");
       for (const auto& [member, value] : points[i].items()) {
         if (member == "time" || member == "frame") continue;
         const std::vector<size_t> parts = PartsOf(member);

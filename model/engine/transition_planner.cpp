@@ -10,10 +10,12 @@ namespace {
 
 constexpr double kTurnHorizon = 12;  // frames that a dancer goes on turning as she does
 constexpr double kSwing = 0.14;      // radians a frame: a turn of the whole body in 1.5 s
+constexpr double kLeastTurn = 1e-3;  // radians
 
-// The other of the two turns that end alike.
+// The other of the two turns that end alike; there is none to next to no turn, whose axis is noise.
 Eigen::Vector3d OtherWay(const Eigen::Vector3d& turn) {
-  return turn * (1 - 2 * std::numbers::pi / std::max(turn.norm(), 1e-6));
+  const double angle = turn.norm();
+  return angle < kLeastTurn ? turn : turn * (1 - 2 * std::numbers::pi / angle);
 }
 
 // Of the two ways round the one that the history's turning leads to; `turn` where it says nothing.

@@ -122,6 +122,7 @@ TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
           "v.json:speeds: stands beside factors");
   refused(R"({"factors": [{"time": 0, "arms": 1}], "unit": "m"})", "v.json:unit: is not known");
   refused("{}", "v.json: has no list \"factors\"");
+  refused(R"({"factors": [{"time": 0}]})", "v.json:factors[0]: names no part of the body");
   Write("v.json", R"({"factors": [{"time": 0, "arms": 1}]})");
   const std::string file = "--seconds 4 --velocity " + At("v.json");
   ExpectRefused(file + " --velocity " + At("v.json"), "v.json is a second file");
@@ -221,6 +222,9 @@ TEST_F(ControlledCommandTest, BadPathsAreRefused) {
   refused(R"([{"time": 0, "x": 1e999, "z": 0}])", "points[0].x: 1e999 is larger than any number");
   refused(R"([{"time": 0, "x": 1, "x": 2, "z": 0}])", "points[0].x: is there twice");
   ExpectRefused("--path " + At("none.json"), "none.json: cannot be opened");
+  const Outcome unset = Choreo("dance" + Walker() + "--seconds 4 --path ''");
+  EXPECT_EQ(unset.code, 2) << "a script's variable that is not set";
+  EXPECT_THAT(unset.said, HasSubstr("--path: it names no file"));
 }
 
 TEST_F(ControlledCommandTest, APathOfTenHoursIsRefused) {

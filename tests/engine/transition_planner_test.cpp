@@ -80,6 +80,16 @@ TEST(TransitionPlanner, KeepsItsWayWhereTheOtherSwingsMore) {
   EXPECT_NEAR(plan.poses.back().rotations(1, 0), 1, 1e-9);
 }
 
+// Two keys that face the same way, to what computing leaves over: a whole turn about such an axis
+// would end elsewhere.
+TEST(TransitionPlanner, NextToNoTurnHasNoOtherWay) {
+  for (const double angle : {0.0, 5e-7, -2e-5}) {
+    const TurningPlanner planner(kCalm);
+    planner.Plan(Turning(0.3, angle));
+    EXPECT_NEAR(planner.asked[0], angle, 1e-12);
+  }
+}
+
 TEST(TransitionPlanner, WhoIsAskedForNoTurnIsAskedOnce) {
   for (const bool key : {false, true}) {
     TransitionSpec spec = Turning(0.1, 2);
