@@ -8,7 +8,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kTurnHorizon = 12;  // frames that a dancer goes on turning as she does
+// Frames that a dancer goes on turning as she does; training plans by the same rule where nobody
+// tells the way (WayRound in model/flow/planner.cpp).
+constexpr double kTurnHorizon = 12;
 constexpr double kSwing = 0.14;      // radians a frame: a turn of the whole body in 1.5 s
 constexpr double kLeastTurn = 1e-3;  // radians
 
