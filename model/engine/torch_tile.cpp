@@ -107,8 +107,11 @@ bool TorchTile::RowsAreIndependent() {
 }
 
 int TorchTile::VerifiedRows(const std::shared_ptr<TorchWeights>& weights) {
-  constexpr int kRows = 16;
-  return TorchTile(weights, kRows, 1).RowsAreIndependent() ? kRows : 1;
+  // OpenBLAS's AVX2 kernel takes up to 12 rows at once and the rest otherwise.
+  for (const int rows : {16, 12, 8, 4}) {
+    if (TorchTile(weights, rows, 1).RowsAreIndependent()) return rows;
+  }
+  return 1;
 }
 
 }  // namespace choreo
