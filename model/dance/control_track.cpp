@@ -101,7 +101,9 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   }
   const std::optional<double> standing =
       target ? StandingHeight(model_->skeleton, target->pose, target->mask) : std::nullopt;
-  if (!request.end && request.curves.back() == nullptr)
+  const bool has_place = request.end.has_value();
+  request.end_wins = has_place;
+  if (!has_place && request.curves.back() == nullptr)
     request.end.emplace().position.y() = standing.value_or(model_->skeleton.pelvis_height);
   const Lead height = LeadPath(request);
 
@@ -110,7 +112,7 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   const int64_t last = first_frame + frames - 1;
   const double missed = (floor.missed + height.missed).norm();
   if (missed > kKeyTolerance) out->warnings.push_back(KeyOffPath(key_id, last, missed));
-  if (standing && !request.end && std::abs(path(1, frames - 1) - *standing) > kKeyTolerance)
+  if (standing && !has_place && std::abs(path(1, frames - 1) - *standing) > kKeyTolerance)
     out->warnings.push_back(KeyOffHeight(key_id, last, *standing, path(1, frames - 1)));
   double fastest = 0;
   int where = 0;

@@ -42,7 +42,8 @@ struct TransitionControls {
 /// Root path, in frames from its first point to its last: the curve of PathCurve. Where it passes
 /// the dancer by at the transition's start, or the key at its end, it is bent smoothly to them: the
 /// key wins, and a warning tells by how much. From the dancer to a first point further ahead, and
-/// from a last point to the key, a cubic leads; without a key the last point holds. A height that
+/// from a last point to the key, a cubic leads; to a key too soon behind it the path is bent as to
+/// one on it. Without a key the last point holds. A height that
 /// nobody asks for leads from the dancer's to the key's: the one it states, or that at which its
 /// pose stands on the floor (StandingHeight); without a key, to standing at rest. Where a path with
 /// heights has such a pose elsewhere, the path wins, and a warning tells by how much. A transition

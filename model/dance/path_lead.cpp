@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kDetourSpeed = 1.0;  // m/s, at its fastest
 constexpr double kLeastDetour = 0.5;  // seconds
+constexpr double kPushOff = 10;       // m/s^2; nobody pushes off much harder than she weighs
 
 double Smooth(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -75,15 +76,44 @@ class Leader {
     } else if (request_.end) {
       goal = Led(*request_.end);
     }
+    const PathPoint leaving = here_;
     // A dancer in full run turns before she has swung out far.
     const double most = 3 * (goal.position - here_.position).norm() / duration;
     if (here_.velocity.norm() > most) here_.velocity *= most / here_.velocity.norm();
+    if (to == frames_ && from > 0 && PushOff(goal, duration) > kPushOff) return GoOn(from, leaving);
     PathPoint point;
     for (int frame = from; frame < to; ++frame) {
       point = CubicBetween(here_, goal, duration, frame - from + 1);
       lead_.path.col(frame) = point.position;
     }
     here_ = point;
+  }
+
+  /// The largest acceleration on the cubic from here, m/s^2: at one of its ends.
+  double PushOff(const PathPoint& goal, double duration) const {
+    const Eigen::Vector3d leg = 6 * (goal.position - here_.position);
+    const Eigen::Vector3d leave = 2 * duration * here_.velocity;
+    const Eigen::Vector3d arrive = 2 * duration * goal.velocity;
+    const double largest =
+        std::max((leg - 2 * leave - arrive).norm(), (leg - leave - 2 * arrive).norm());
+    return largest * request_.fps * request_.fps / (duration * duration);
+  }
+
+  /// Where the end is too near in time to be led to from the last curve: as if that curve had gone
+  /// straight on, and were bent to it. An end on the way there needs no bending: she comes so far.
+  void GoOn(int from, const PathPoint& leaving) {
+    if (!request_.end_wins) {
+      lead_.path.rightCols(frames_ - from).colwise() = leaving.position;
+      return;
+    }
+    const int left = frames_ - from;
+    const Eigen::Vector3d way = left * leaving.velocity;
+    const Eigen::Vector3d wanted = Led(*request_.end).position - leaving.position;
+    double share = way.isZero() ? 1 : std::clamp(wanted.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    if ((wanted - share * way).norm() > way.norm()) share = 1;
+    for (int frame = 0; frame < left; ++frame)
+      lead_.path.col(from + frame) = leaving.position + share * (frame + 1) / left * way;
+    BendToEnd();
   }
 
   void BendToEnd() {

@@ -174,6 +174,28 @@ TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
   EXPECT_NEAR(For(0, 90).controls.root_path(0, 89), 0.89, 1e-9);
 }
 
+TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
+  track_.Set(Way({0, 88}, {0, 2}), 0, "controls");
+  AimAt(2.5);
+  for (const int frames : {90, 91}) {
+    const TransitionControls asked = For(0, frames);
+    ASSERT_EQ(asked.warnings.size(), 1u) << asked.warnings[1].message;
+    EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
+    EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.4"));
+    const Eigen::Matrix3Xd& path = asked.controls.root_path;
+    for (int frame = 1; frame < frames; ++frame)
+      EXPECT_LT(30 * (path.col(frame) - path.col(frame - 1)).norm(), 2) << frame;
+  }
+  // Where there is no key, and no time to stand up, nobody jumps up.
+  track_.Set(Way({0, 88}, {0, 2}, {0.5, 0.5}), 0, "controls");
+  target_->mask.root_position = false;
+  ASSERT_EQ(For(0, 90).warnings.size(), 1u);
+  EXPECT_EQ(For(0, 90).warnings[0].kind, DanceWarning::Kind::kKeyOffHeight);
+  target_.reset();
+  EXPECT_TRUE(For(0, 90).warnings.empty());
+  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), 0.5, 1e-9);
+}
+
 TEST_F(ControlTrackTest, APathThatNobodyCanWalkIsSaidToBeTooFast) {
   track_.Set(Way({0, 30}, {0, 4.5}), 0, "controls");
   EXPECT_TRUE(For(0, 31).warnings.empty());

@@ -172,6 +172,32 @@ TEST_F(LeadTest, BridgesWhatNoCurveSpeaksOf) {
   EXPECT_TRUE(lead.missed.isZero());  // nobody said where to be there
 }
 
+// A key right behind the curve's end is no reason to jump, and asks what one on its end would.
+TEST_F(LeadTest, BendsTheCurveToAnEndTooSoonBehindIt) {
+  const Eigen::Vector3d beside(0.3, 0, -0.4);
+  for (const int gap : {1, 2, 9}) {
+    std::fill(request_.curves.end() - gap, request_.curves.end(), nullptr);
+    request_.end = PathPoint{curve_.At(189).position + beside, {0, 0, 0}};
+    const Lead lead = LeadPath(request_);
+    EXPECT_LT((lead.path.col(89) - request_.end->position).norm(), 1e-12);
+    EXPECT_LT((lead.path.col(60) - curve_.At(160).position).norm(), 1e-12);
+    EXPECT_NEAR(lead.missed.norm(), 0.5, 0.05) << gap;
+    ExpectSmooth(lead, 0.01);
+  }
+}
+
+TEST_F(LeadTest, AnEndOnTheWayOnContradictsNothing) {
+  std::fill(request_.curves.end() - 3, request_.curves.end(), nullptr);
+  for (const int further : {0, 1, 3}) {
+    request_.end =
+        PathPoint{curve_.At(186).position + further * curve_.At(186).velocity, {0, 0, 0}};
+    const Lead lead = LeadPath(request_);
+    EXPECT_LT(lead.missed.norm(), 1e-12) << further;
+    EXPECT_LT((lead.path.col(86) - curve_.At(186).position).norm(), 1e-12);
+    EXPECT_LT((lead.path.col(89) - request_.end->position).norm(), 1e-12);
+  }
+}
+
 TEST_F(LeadTest, HoldsThePlaceWhereNothingIsAsked) {
   std::fill(request_.curves.begin() + 30, request_.curves.end(), nullptr);
   const Lead lead = LeadPath(request_);
