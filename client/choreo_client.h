@@ -305,10 +305,11 @@ struct DanceResult {
 
 /// One transition, alone.
 struct TransitionRequest {
-  DanceConfig config = {};          ///< its audio format is taken from `audio`
-  int frames = 0;                   ///< at the model's rate, 2 to 1800
+  DanceConfig config = {};  ///< its audio format is taken from `audio`
+  int frames = 0;           ///< at the model's rate, 1 to ModelDescription::max_transition_frames
   std::optional<Pose> target = {};  ///< of the last frame
   PoseMask target_mask = {};
+  std::string target_id = {};  ///< how warnings and the report call it; empty: "target"
   Audio audio = {};
   int64_t audio_first_sample =
       0;  ///< number of its first sample, counted from the start of the music

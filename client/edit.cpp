@@ -140,8 +140,10 @@ class Edit {
   EditedDance result_;
 };
 
+std::string NameOfFrame(int64_t frame) { return "frame " + std::to_string(frame); }
+
 void CheckKeyEdit(int64_t frame, int64_t from, int64_t to, int64_t frames) {
-  const std::string at = "frame " + std::to_string(frame);
+  const std::string at = NameOfFrame(frame);
   if (frame < 0 || frame >= frames) {
     throw InvalidArgument("key.frame", std::to_string(frame) + " is not in the dance, [0, " +
                                            std::to_string(frames - 1) + "]");
@@ -196,15 +198,26 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
   const int64_t frame = edit.key.frame.value_or(std::llround(edit.key.time_s * work.fps()));
   CheckKeyEdit(frame, edit.from, edit.to, work.frames());
 
+  const bool leads_on = edit.to < work.frames();
+  // Of a path that has no frame of one half, but of the other, that half would say that nothing
+  // comes of it.
+  const auto& path = options.controls.root_path;
+  const bool has_points = path && !path->frames.empty();
+
   TransitionRequest request = work.After(edit.from, frame - edit.from);
   request.target = edit.key.pose;
   request.target_mask = edit.key.mask;
+  request.target_id = edit.key.id;
+  if (leads_on && has_points && path->frames.front() > frame)
+    request.config.controls.root_path.reset();
   const TransitionCandidate onto = work.Generate(request);
   Part part{edit.from + 1, onto.motion.frames, onto.contacts};
   std::optional<Pose> next;
-  if (edit.to < work.frames()) {
+  if (leads_on) {
     request = work.Behind(onto, edit.to - frame);
     next = request.target = work.pose(edit.to);
+    request.target_id = edit.to_id.empty() ? NameOfFrame(edit.to) : edit.to_id;
+    if (has_points && path->frames.back() <= frame) request.config.controls.root_path.reset();
     request.after = work.From(edit.to + 1);
     const TransitionCandidate away = work.Generate(request);
     // The last one is the frame that stays.
@@ -212,10 +225,7 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
     part.contacts.insert(part.contacts.end(), away.contacts.begin(), away.contacts.end() - 1);
   }
   work.Splice(part, next);
-  for (KeyReached key : onto.report.keys) {
-    key.id = edit.key.id;
-    work.result().keys.push_back(key);
-  }
+  work.result().keys = onto.report.keys;
   return work.Take();
 }
 
@@ -230,6 +240,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
   // The first frame once more, behind the last.
   TransitionRequest request = work.After(from, work.frames() - from);
   request.target = work.pose(0);
+  request.target_id = NameOfFrame(0);
   request.after = work.From(1);
   const TransitionCandidate back = work.Generate(request);
   work.Splice({from + 1,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "client/choreo_client.h"
@@ -38,6 +39,7 @@ struct KeyEdit {
   /// The first that stays behind it, at least 2 after it; the number of the dance's frames for a
   /// key at its last.
   int64_t to = 0;
+  std::string to_id = {};  ///< how warnings call what stands at `to`; empty: "frame N"
 };
 
 /// What became of a dance.

@@ -42,6 +42,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     ValidatePose(model.skeleton, target->pose, "target");
     ValidateMask(model.skeleton, target->mask, "target.mask");
   }
+  ValidateKeyId(target_id, "target_id");
   if (after) {
     if (!target) throw InvalidArgument("after", "needs a target");
     ValidatePose(model.skeleton, *after, "after");

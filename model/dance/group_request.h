@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "model/dance/control_track.h"
@@ -23,6 +24,7 @@ struct GroupRequest {
   bool allow_inexact_resume = false;
   int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
   std::optional<WorldTarget> target;
+  std::string target_id = "target";  ///< how warnings and the report call it
   std::optional<Pose> after;
   ControlRequest controls;
 

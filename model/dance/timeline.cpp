@@ -11,8 +11,6 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kMaxIdLength = 256;
-
 std::string Frames(int64_t frames) { return std::to_string(frames); }
 
 double FiniteSeconds(double seconds, const std::string& field) {
@@ -88,10 +86,7 @@ std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment
                                           const Pose& pose, const PoseMask& mask,
                                           const std::string& field) {
   CheckOpen(field);
-  if (id.empty() || id.size() > kMaxIdLength) {
-    throw InvalidArgument(field + ".id", "has " + std::to_string(id.size()) + " bytes, not 1 to " +
-                                             std::to_string(kMaxIdLength));
-  }
+  ValidateKeyId(id, field + ".id");
   const int64_t frame = Resolve(when, field);
   if (options_.end_frame && frame >= *options_.end_frame) {
     throw InvalidArgument(

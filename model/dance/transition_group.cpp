@@ -100,7 +100,7 @@ class TransitionGroup::Impl::Job : public StepJob {
     meter_.Add(frame);
     history_.erase(history_.begin());
     history_.push_back(frame.pose);
-    if (run_.arrival()) meter_.AddKey("target", *run_.arrival());
+    if (run_.arrival()) meter_.AddKey(group_->request_.target_id, *run_.arrival());
     OutputFrames frames = output_.Push(frame);
     if (!frames.poses.empty()) {
       group_->mailbox_.Post([candidate = candidate_, frames = std::move(frames)](GroupSink& sink) {
@@ -203,7 +203,7 @@ void TransitionGroup::Impl::Begin() {
   transition.history =
       FillHistory(model_, given.empty() ? std::span(&stance, 1) : std::span(given));
   TransitionControls asked = controls.For(first_frame_, transition.frames, transition.history,
-                                          transition.target, "target");
+                                          transition.target, request_.target_id);
   transition.controls = std::move(asked.controls);
   const int64_t end = first_frame_ + transition.frames;
   if (const auto warning = controls.BehindEnd(end)) asked.warnings.push_back(*warning);
@@ -223,8 +223,8 @@ void TransitionGroup::Impl::Begin() {
   }
   const std::optional<RequiredSpeed> speed = jobs.front()->run().required_speed();
   if (speed && speed->TooFast()) {
-    asked.warnings.push_back(
-        IntervalTooShort(model_.skeleton, "target", first_frame_, request_.frames, *speed));
+    asked.warnings.push_back(IntervalTooShort(model_.skeleton, request_.target_id, first_frame_,
+                                              request_.frames, *speed));
   }
   for (const DanceWarning& warning : asked.warnings) {
     mailbox_.Post([warning](GroupSink& sink) { sink.OnWarning(warning); });

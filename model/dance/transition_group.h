@@ -16,7 +16,7 @@ namespace choreo {
 /// How one candidate came out.
 struct CandidateReport {
   int candidate = 0;
-  QualityReport quality;  ///< keys: one, with id "target", if there was a target
+  QualityReport quality;  ///< keys: one if there was a target
   Continuation continuation;
 };
 

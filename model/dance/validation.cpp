@@ -44,6 +44,12 @@ void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
   }
 }
 
+void ValidateKeyId(const std::string& id, const std::string& field) {
+  if (!id.empty() && id.size() <= kMaxIdLength) return;
+  throw InvalidArgument(field, "has " + std::to_string(id.size()) + " bytes, not 1 to " +
+                                   std::to_string(kMaxIdLength));
+}
+
 void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field) {
   if (mask.joints.empty()) return;
   if (static_cast<int>(mask.joints.size()) != skeleton.joints()) {

@@ -19,6 +19,7 @@ inline constexpr double kMaxRotation =
     6.2832;  ///< radians: 2π, rounded up for senders that compute in floats
 inline constexpr double kMaxTemperature = 2.0;
 inline constexpr int kMaxCandidates = 32;
+inline constexpr size_t kMaxIdLength = 256;  ///< bytes
 inline constexpr double kMinOutputFps = 1;
 inline constexpr double kMaxOutputFps = 120;
 
@@ -26,6 +27,9 @@ inline constexpr double kMaxOutputFps = 120;
 /// kMaxRotation. Degrees of freedom that the mask leaves free are checked alike. `field` is the
 /// path of the pose: "keyframes[3]".
 void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field);
+
+/// What a key is called: 1 to kMaxIdLength bytes.
+void ValidateKeyId(const std::string& id, const std::string& field);
 
 /// A mask for this skeleton that asks for something.
 void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field);

@@ -178,6 +178,20 @@ TEST_F(ControlsServerTest, ContradictionsAreWarningsWithTheAmount) {
   EXPECT_LT(answer.summary->report().keyframes(0).errors().final_error_m(), 1e-3);
 }
 
+TEST_F(ControlsServerTest, ATransitionCallsItsTargetAsItWasTold) {
+  for (const std::string id : {"", "landing"}) {
+    v1::GenerateTransitionRequest request = Transition(Path({0, 59}, {0, 0, 1, 0}));
+    *request.mutable_target() = Key("", 0, /*x=*/2, /*z=*/0).pose();
+    request.set_target_id(id);
+    const Answer answer = Generate(request);
+    ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+    const std::string name = id.empty() ? "target" : id;
+    ASSERT_GE(answer.events.size(), 1u);
+    EXPECT_THAT(answer.events[0].warning().message(), HasSubstr("key \"" + name + "\" lies 1 m"));
+    EXPECT_EQ(answer.transition_summary->candidates(0).report().keyframes(0).id(), name);
+  }
+}
+
 TEST_F(ControlsServerTest, AKeyThatStandsElsewhereThanThePathHasItIsToldOf) {
   v1::StreamDanceRequest config, key;
   *config.mutable_config() = Config();

@@ -156,6 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
               r.mutable_config()->mutable_history()->mutable_poses(0)->clear_root_position();
             },
             kInvalid, "config.history.poses[0].root_position", "missing"},
+        BadRequestCase{"LongTargetId", [](R& r) { r.set_target_id(std::string(257, 'x')); },
+                       kInvalid, "target_id", "257 bytes, not 1 to 256"},
         BadRequestCase{"AfterWithoutTarget",
                        [](R& r) {
                          *r.add_after() = r.target();
