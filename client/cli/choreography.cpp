@@ -87,7 +87,7 @@ std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
                                          std::span<const LibraryPose> poses) {
   if (!(request.seconds >= 2)) {
     std::ostringstream message;
-    message << request.seconds << " is less than 2: too short for key poses";
+    message << request.seconds << " s is shorter than 2 s, the least for key poses of the library";
     throw InvalidArgument("--seconds", message.str());
   }
   Dice dice(request.seed);

@@ -1,5 +1,6 @@
 #include "client/cli/control_options.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "client/cli/json_fields.h"
@@ -7,6 +8,26 @@
 #include "client/cli/velocity_options.h"
 
 namespace choreo::cli {
+namespace {
+
+bool Has(const client::ModelDescription& model, const std::string& control) {
+  return std::ranges::find(model.controls, control) != model.controls.end();
+}
+
+void RequireControl(const std::string& control, const std::string& option,
+                    const client::ModelDescription& model,
+                    const client::ServerDescription& server) {
+  if (Has(model, control)) return;
+  std::string others;
+  for (const client::ModelDescription& other : server.models) {
+    if (Has(other, control)) others += (others.empty() ? "" : ", ") + ("--model " + other.name);
+  }
+  throw InvalidArgument(option,
+                        "the model \"" + model.name + "\" does not have this control, " +
+                            (others.empty() ? "nor has any other of the server" : "but " + others));
+}
+
+}  // namespace
 
 client::Controls::RootPath ParsePathFile(std::string_view text, const std::string& name,
                                          double fps) {
@@ -62,15 +83,34 @@ std::vector<NamedFile> ControlOptions::Files() const {
   return files;
 }
 
-client::Controls ControlOptions::Read(double fps) const {
+client::Controls ControlOptions::Read(const client::ModelDescription& model,
+                                      const client::ServerDescription& server) const {
   client::Controls controls;
-  if (!path.empty()) controls.root_path = ParsePathFile(ReadText(path, "path file"), path, fps);
+  if (!path.empty()) {
+    RequireControl("root_path", "--path", model, server);
+    controls.root_path = ParsePathFile(ReadText(path, "path file"), path, model.fps);
+  }
   if (!velocities.empty()) {
-    controls.velocity_factors = ReadVelocities(velocities, reference, fps);
+    RequireControl("velocity_factors", "--velocity", model, server);
+    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps);
   } else if (!reference.empty()) {
     throw InvalidArgument("--velocity-reference", "there is no --velocity");
   }
   return controls;
+}
+
+void ControlOptions::RequireBegun(const client::Controls& controls,
+                                  const DanceLength& length) const {
+  if (const auto& asked = controls.root_path; asked && asked->frames.front() >= length.frames) {
+    throw InvalidArgument(path + ":points[0]",
+                          "the path's first point " + SayBehindEnd(asked->frames.front(), length));
+  }
+  const auto& asked = controls.velocity_factors;
+  if (!asked || asked->frames.empty() || asked->frames.front() < length.frames) return;
+  const std::string& file = *std::ranges::find_if(velocities, IsVelocityFile);
+  throw InvalidArgument(
+      file + (asked->speeds.empty() ? ":factors[0]" : ":speeds[0]"),
+      "the velocities' first point " + SayBehindEnd(asked->frames.front(), length));
 }
 
 Error ControlOptions::InTermsOf(const Error& error) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "client/cli/dance_keys.h"
 #include "client/cli/output_file.h"
 
 /// The controls of a dance as people write them down.
@@ -35,9 +36,14 @@ struct ControlOptions {
   void AddTo(CLI::App& command);
   /// The files that they name.
   std::vector<NamedFile> Files() const;
-  /// Throws Error as ParsePathFile and ReadVelocities do, and Error(kNotFound) for a path file that
-  /// is not there.
-  client::Controls Read(double fps) const;
+  /// Throws Error as ParsePathFile and ReadVelocities do, Error(kNotFound) for a path file that
+  /// is not there, and Error(kInvalidArgument) for a control that the model does not have, naming
+  /// those of the server that do.
+  client::Controls Read(const client::ModelDescription& model,
+                        const client::ServerDescription& server) const;
+  /// Throws Error(kInvalidArgument) naming the first point of a path or of a velocity file that
+  /// begins behind the end of a dance: whoever wrote it meant another one.
+  void RequireBegun(const client::Controls& controls, const DanceLength& length) const;
   /// An error about controls as they were sent in terms of these options; any other as it is.
   Error InTermsOf(const Error& error) const;
 };

@@ -18,6 +18,7 @@
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
 #include "model/core/progress.h"
+#include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
@@ -77,7 +78,7 @@ double ChooseSeconds(const DanceOptions& options, const Music& music) {
   if (*options.seconds > song) {
     std::ostringstream message;
     message << "warning: --seconds " << *options.seconds << " is beyond the song, which ends at "
-            << song << " s; the dance ends with it\n";
+            << Rounded(song) << " s; the dance ends with it\n";
     std::cerr << message.str();
   }
   return std::min(*options.seconds, song);
@@ -85,7 +86,15 @@ double ChooseSeconds(const DanceOptions& options, const Music& music) {
 
 DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& music, double seconds,
                      const DanceLength& length, const client::ModelDescription& model) {
-  if (!options.keys.empty()) return ReadDanceKeys(options.keys, length, model.skeleton);
+  if (!options.keys.empty()) {
+    if (length.frames < 1) {
+      std::ostringstream message;
+      message << seconds << " s is shorter than a frame of the model, " << Rounded(1 / length.fps)
+              << " s, the least";
+      throw InvalidArgument("--seconds", message.str());
+    }
+    return ReadDanceKeys(options.keys, length, model.skeleton);
+  }
   CompositionRequest request{.seconds = seconds, .seed = options.seed.value_or(0)};
   if (music) request.beats = music->track.Seconds();
   // Its dancers come to rest where no key is ahead.
@@ -153,8 +162,8 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
       WriteMotion(partial, dance.header.skeleton, dance.motion, &dance.contacts);
       std::ostringstream message;
       message << "the dance was cut off; its first " << dance.motion.frames.size() << " frames ("
-              << static_cast<double>(dance.motion.frames.size()) / dance.motion.fps << " s) are in "
-              << partial.string() << '\n';
+              << Rounded(static_cast<double>(dance.motion.frames.size()) / dance.motion.fps)
+              << " s) are in " << partial.string() << '\n';
       std::cerr << message.str();
     }
     throw InTermsOf(keys, options.controls.InTermsOf(error));
@@ -172,8 +181,11 @@ void Run(const DanceOptions& options) {
 
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
-  NoteDeterministic(model, options.temperature);
-  const client::Controls controls = options.controls.Read(model.fps);
+  // It chooses among the library's key poses, whatever the model.
+  const bool is_seed_for_model = options.seed && !options.keys.empty();
+  NoteDeterministic(model, {{"--seed", is_seed_for_model},
+                            {"--temperature", options.temperature.value_or(0) != 0}});
+  const client::Controls controls = options.controls.Read(model, connection.server());
   const double seconds =
       music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
   if (music && !model.takes_music) {
@@ -181,12 +193,8 @@ void Run(const DanceOptions& options) {
               << "\" takes no music; the song gives the dance its length and its beats\n";
   }
   const DanceLength length{std::llround(seconds * model.fps), model.fps};
-  if (controls.root_path && controls.root_path->frames.front() >= length.frames) {
-    throw InvalidArgument(
-        options.controls.path + ":points[0]",
-        "the path's first point " + SayBehindEnd(controls.root_path->frames.front(), length));
-  }
   const DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
+  options.controls.RequireBegun(controls, length);
 
   client::DanceConfig config;
   config.model = options.model;

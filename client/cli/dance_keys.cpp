@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <sstream>
 #include <string_view>
 
 #include "client/cli/key_file.h"
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
 namespace {
@@ -23,12 +23,11 @@ void CheckInside(const client::KeyPose& key, const std::string& place, const Dan
 }  // namespace
 
 std::string SayBehindEnd(int64_t frame, const DanceLength& length) {
-  std::ostringstream message;
-  message << "at " << static_cast<double>(frame) / length.fps
-          << " s lies behind the dance's end: it lasts "
-          << static_cast<double>(length.frames) / length.fps << " s, its last frame is at "
-          << static_cast<double>(length.frames - 1) / length.fps << " s";
-  return message.str();
+  const auto at = [&](int64_t count) {
+    return Rounded(static_cast<double>(count) / length.fps) + " s";
+  };
+  return "at " + at(frame) + " lies behind the dance's end: it lasts " + at(length.frames) +
+         ", its last frame is at " + at(length.frames - 1);
 }
 
 int64_t FrameOf(const client::KeyPose& key, double fps) {

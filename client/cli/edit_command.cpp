@@ -17,6 +17,7 @@
 #include "client/cli/report.h"
 #include "client/edit.h"
 #include "model/core/atomic_file.h"
+#include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
 #include "model/motion/canonical.h"
@@ -93,8 +94,9 @@ class Session {
     edit_.model = connection.model(options.model);
     edit_.seed = options.seed.value_or(0);
     edit_.temperature = options.temperature;
-    edit_.controls = options.controls.Read(edit_.model.fps);
-    NoteDeterministic(edit_.model, edit_.temperature);
+    edit_.controls = options.controls.Read(edit_.model, connection.server());
+    NoteDeterministic(edit_.model, {{"--seed", options.seed.has_value()},
+                                    {"--temperature", edit_.temperature.value_or(0) != 0}});
     longest_ = edit_.model.max_transition_frames - 1;
     if (options.around_s) CheckAround(*options.around_s);
     CheckKeys();
@@ -112,10 +114,9 @@ class Session {
     const NamedPose named = ReadPose(source, edit_.model.skeleton);
     const int64_t frame = Frame(at_s);
     if (frame >= frames_) {
-      std::ostringstream message;
-      message << at_s << " s lies behind the dance, which has its last frame at "
-              << Seconds(frames_ - 1) << " s";
-      throw InvalidArgument("--at", message.str());
+      throw InvalidArgument("--at", Rounded(at_s) +
+                                        " s lies behind the dance, which has its last frame at " +
+                                        Rounded(Seconds(frames_ - 1)) + " s");
     }
     client::KeyEdit edit;
     edit.key = named.key;
@@ -128,6 +129,8 @@ class Session {
     }
     edit.from = frame == 0 ? -1 : Before(frame);
     edit.to = frame == frames_ - 1 ? frames_ : Behind(frame);
+    if (const auto next = keys_.find(edit.to); next != keys_.end())
+      edit.to_id = next->second["id"].get<std::string>();
     Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
   }
 
@@ -135,7 +138,7 @@ class Session {
     const int64_t from = std::max<int64_t>(0, frames_ - 1 - Around());
     for (auto key = keys_.upper_bound(from); key != keys_.end(); key = keys_.erase(key)) {
       std::cerr << "warning: key " << key->second["id"].get<std::string>() << " at "
-                << Seconds(key->first) << " s makes way for the loop\n";
+                << Rounded(Seconds(key->first)) << " s makes way for the loop\n";
     }
     Take(client::CloseLoop(client_, dance_, edit_, from), "loop");
   }
@@ -149,6 +152,7 @@ class Session {
     nlohmann::ordered_json report = {{"frames", frames_}, {"fps", edit_.model.fps}};
     report["keyframes"] = nlohmann::ordered_json::array();
     for (const auto& [frame, key] : keys_) report["keyframes"].push_back(key);
+    report["warnings"] = WarningsJson(warnings_);
     WriteFile(options_.new_report, report.dump(2) + "\n");
   }
 
@@ -190,8 +194,8 @@ class Session {
     const double frames = std::round(seconds * edit_.model.fps);
     if (frames >= kLeast && frames <= static_cast<double>(longest_)) return;
     std::ostringstream message;
-    message << seconds << " s, must be " << kLeast / edit_.model.fps << " to " << Seconds(longest_)
-            << " s: " << kLeast << " to " << longest_ << " frames";
+    message << seconds << " s, must be " << Rounded(kLeast / edit_.model.fps) << " to "
+            << Rounded(Seconds(longest_)) << " s: " << kLeast << " to " << longest_ << " frames";
     throw InvalidArgument("--around", message.str());
   }
   int64_t Around() const {
@@ -217,15 +221,16 @@ class Session {
   }
 
   void Take(client::EditedDance edited, const std::string& what) {
-    for (const client::Warning& warning : edited.warnings)
-      std::cerr << "warning: frame " << warning.frame << ": " << warning.message << '\n';
+    ShowWarnings(edited.warnings);
+    warnings_.insert(warnings_.end(), edited.warnings.begin(), edited.warnings.end());
     dance_ = std::move(edited.dance);
     std::cout << what << ": frames " << edited.first_changed << " to " << edited.end_changed - 1
               << " of " << dance_.motion.frames.size() << " are new";
     for (const client::KeyReached& key : edited.keys) {
       keys_[key.frame] = KeyJson(key);
-      std::cout << "; hit at " << Seconds(key.frame) << " s within " << 1000 * key.final_error_m
-                << " mm and " << key.final_error_deg << " degrees";
+      std::cout << "; hit at " << Rounded(Seconds(key.frame)) << " s within "
+                << Rounded(1000 * key.final_error_m) << " mm and " << Rounded(key.final_error_deg)
+                << " degrees";
     }
     std::cout << std::endl;
   }
@@ -237,6 +242,7 @@ class Session {
   client::FinishedDance dance_;
   int64_t frames_ = 0;                              // at the model's rate
   std::map<int64_t, nlohmann::ordered_json> keys_;  // those known, by frame
+  std::vector<client::Warning> warnings_;           // of the edits
 };
 
 void Run(const EditOptions& options) {
@@ -285,8 +291,9 @@ void AddEditCommand(CLI::App& program) {
   command->add_option("--report", options->report, "Report of the dance, which names its keys.")
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,
-                      "JSON file to write the keys of the new dance to, for the next edit.");
-  AddSeed(*command, options->seed, "Same seed, same edit. Default: 0.");
+                      "JSON file to write the keys of the new dance to, for the next edit, and the "
+                      "warnings of this one.");
+  AddSeed(*command, options->seed, "Same seed, same edit. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");

@@ -35,6 +35,7 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   json["history_frames"] = model.history_frames;
   json["default_temperature"] = model.default_temperature;
   json["latency_frames"] = model.latency_frames;
+  json["max_transition_frames"] = model.max_transition_frames;
   json["controls"] = model.controls;
   json["takes_music"] = model.takes_music;
   json["deterministic"] = model.deterministic;
@@ -123,11 +124,12 @@ void PrintServer(const client::ServerDescription& server, bool as_json) {
   std::printf("\n");
   for (const client::ModelDescription& model : server.models) {
     std::printf(
-        "model %s: %s at %g fps, history %d frames, latency %d frames, temperature %g\n  "
+        "model %s: %s at %g fps, history %d frames, latency %d frames, transitions of "
+        "up to %d frames, temperature %g\n  "
         "fingerprint %s\n  licence: %s\n",
         model.name.c_str(), model.skeleton.name.c_str(), model.fps, model.history_frames,
-        model.latency_frames, model.default_temperature, model.fingerprint.c_str(),
-        model.licence.c_str());
+        model.latency_frames, model.max_transition_frames, model.default_temperature,
+        model.fingerprint.c_str(), model.licence.c_str());
     PrintControls(model);
     PrintCard(model.card);
   }

@@ -47,15 +47,17 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
 
 void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
   command.add_option("--temperature", temperature,
-                     "Variety, 0 (calm) to 2; default: the model's. Changes nothing where `choreo "
-                     "info` calls the model deterministic.");
+                     "Variety, 0 (calm) to 2; default: the model's. " + kOfChance);
 }
 
 void NoteDeterministic(const client::ModelDescription& model,
-                       const std::optional<double>& temperature) {
-  if (!model.deterministic || temperature.value_or(0) == 0) return;
-  std::cerr << "note: the model \"" << model.name
-            << "\" is deterministic; --temperature changes nothing\n";
+                       std::initializer_list<std::pair<std::string_view, bool>> options) {
+  if (!model.deterministic) return;
+  for (const auto& [name, is_given] : options) {
+    if (!is_given) continue;
+    std::cerr << "note: the model \"" << model.name << "\" is deterministic; " << name
+              << " changes nothing\n";
+  }
 }
 
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help) {

@@ -2,8 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "client/choreo_client.h"
@@ -22,9 +25,12 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 
 /// `--temperature`.
 void AddTemperature(CLI::App& command, std::optional<double>& temperature);
-/// Tells whoever asks a deterministic model for variety that there is none.
+/// What the help of every option says that chooses among dances.
+inline const std::string kOfChance =
+    "Changes nothing where `choreo info` calls the model deterministic.";
+/// Tells whoever gives such an option, each with whether it is given, to a deterministic model.
 void NoteDeterministic(const client::ModelDescription& model,
-                       const std::optional<double>& temperature);
+                       std::initializer_list<std::pair<std::string_view, bool>> options);
 
 /// `--seed`: a whole number of 64 bits, never negative.
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);

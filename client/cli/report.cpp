@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -88,9 +89,7 @@ std::string ReportJson(const WrittenDance& dance) {
     written["output_error_m"] = key.error.position_m;
     written["output_error_deg"] = key.error.angle_deg;
   }
-  json["warnings"] = nlohmann::ordered_json::array();
-  for (const client::Warning& warning : dance.warnings)
-    json["warnings"].push_back({{"frame", warning.frame}, {"message", warning.message}});
+  json["warnings"] = WarningsJson(dance.warnings);
   json["measured_from"] = report.measured_from;
   json["log_likelihood"] = report.log_likelihood;
   json["beat_hit_rate"] = or_null(report.beat_hit_rate);
@@ -110,6 +109,18 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key) {
           {"correction_m", key.correction_m},
           {"final_error_m", key.final_error_m},
           {"final_error_deg", key.final_error_deg}};
+}
+
+nlohmann::ordered_json WarningsJson(const std::vector<client::Warning>& warnings) {
+  auto json = nlohmann::ordered_json::array();
+  for (const client::Warning& warning : warnings)
+    json.push_back({{"frame", warning.frame}, {"message", warning.message}});
+  return json;
+}
+
+void ShowWarnings(const std::vector<client::Warning>& warnings) {
+  for (const client::Warning& warning : warnings)
+    std::cerr << "warning: frame " << warning.frame << ": " << warning.message << '\n';
 }
 
 nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {

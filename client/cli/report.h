@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "client/cli/written_dance.h"
 
@@ -29,6 +30,11 @@ std::string ReportJson(const WrittenDance& dance);
 
 /// One key of such a report, without what is measured in the file.
 nlohmann::ordered_json KeyJson(const client::KeyReached& key);
+
+/// The warnings of such a report.
+nlohmann::ordered_json WarningsJson(const std::vector<client::Warning>& warnings);
+/// The same on stderr, a line each.
+void ShowWarnings(const std::vector<client::Warning>& warnings);
 
 /// A report that ReportJson wrote: its fps and keyframes are as they should be. Throws
 /// Error(kInvalidArgument) whose field begins with the path.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
-#include <sstream>
 
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
@@ -15,6 +15,7 @@
 #include "client/cli/report.h"
 #include "client/edit.h"
 #include "model/core/atomic_file.h"
+#include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
@@ -67,12 +68,19 @@ void Run(const TransitionOptions& options) {
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
 
-  NoteDeterministic(model, options.temperature);
+  if (options.frames > model.max_transition_frames) {
+    throw InvalidArgument("--frames", std::to_string(options.frames) + " is not in [1, " +
+                                          std::to_string(model.max_transition_frames) +
+                                          "], what the model \"" + model.name + "\" can make");
+  }
+  NoteDeterministic(model, {{"--seed", options.seed.has_value()},
+                            {"--temperature", options.temperature.value_or(0) != 0},
+                            {"--candidates", options.candidates > 1}});
   client::TransitionRequest request;
   request.config.model = options.model;
   request.config.seed = options.seed.value_or(0);
   request.config.temperature = options.temperature;
-  request.config.controls = options.controls.Read(model.fps);
+  request.config.controls = options.controls.Read(model, connection.server());
   request.config.first_frame = std::llround(options.at_s * model.fps);
   request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
@@ -86,16 +94,14 @@ void Run(const TransitionOptions& options) {
     const Music music = ReadMusic(options.song, end_s);
     const client::Audio song = AudioFor(music.audio, end_s);
     if (options.at_s >= Seconds(song)) {
-      std::ostringstream message;
-      message << options.at_s << " s lies behind the song's end at " << Seconds(song) << " s";
-      throw InvalidArgument("--at", message.str());
+      throw InvalidArgument("--at", Rounded(options.at_s) + " s lies behind the song's end at " +
+                                        Rounded(Seconds(song)) + " s");
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
     request.config.music_beats = BeatsBefore(music, end_s);
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
-  for (const client::Warning& warning : result.warnings)
-    std::cerr << "warning: frame " << warning.frame << ": " << warning.message << '\n';
+  ShowWarnings(result.warnings);
 
   for (size_t rank = 0; rank < result.candidates.size(); ++rank) {
     const std::filesystem::path path = CandidatePath(options.out, rank);
@@ -118,8 +124,11 @@ void AddTransitionCommand(CLI::App& program) {
   const std::string pose = "a pose of the library (contrapposto, ...), key file, or MOTION@SECOND.";
   command->add_option("--from", options->from, "Where to begin: " + pose)->required();
   command->add_option("--to", options->to, "Where to end: " + pose)->required();
-  command->add_option("-n,--frames", options->frames, "Length, in frames of the model, 1 to 1800.")
-      ->check(WholeNumberFrom(1, 1800))
+  command
+      ->add_option("-n,--frames", options->frames,
+                   "Length, in frames of the model, up to the longest that it can make (`choreo "
+                   "info`).")
+      ->check(WholeNumberFrom(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command->add_option("--song", options->song, "Music to move to.")->check(CLI::ExistingFile);
   command->add_option("--at", options->at_s, "Second of the song at which it begins.")
@@ -127,10 +136,10 @@ void AddTransitionCommand(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--candidates", options->candidates,
-                   "Alternatives, 1 to 32; the best is FILE, the others FILE.2, ...")
+                   "Alternatives, 1 to 32; the best is FILE, the others FILE.2, ... " + kOfChance)
       ->check(WholeNumberFrom(1, 32))
       ->capture_default_str();
-  AddSeed(*command, options->seed, "Same seed, same motion. Default: 0.");
+  AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
 namespace {
@@ -70,10 +71,9 @@ void CheckKeys(const WrittenDance& dance) {
       angle = std::max(angle, key.error.angle_deg);
     }
     if (distance <= kDistance && angle <= kAngle) continue;
-    std::ostringstream message;
-    message << "was missed by " << 1000 * distance << " mm and " << angle
-            << " degrees, more than 1 mm or 0.1 degrees";
-    throw Error(ErrorCode::kInternal, key.reached.id, message.str());
+    throw Error(ErrorCode::kInternal, key.reached.id,
+                "was missed by " + Rounded(1000 * distance) + " mm and " + Rounded(angle) +
+                    " degrees, more than 1 mm or 0.1 degrees");
   }
 }
 

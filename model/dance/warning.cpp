@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/dance/validation.h"
+#include "model/core/rounded.h"
 
 namespace choreo {
 
@@ -11,12 +11,12 @@ DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, i
   std::string message =
       "the way to key \"" + id + "\" in " + std::to_string(frames) + " frames asks for ";
   if (speed.root_m_per_s > RequiredSpeed::kRootLimit) {
-    message += Show(speed.root_m_per_s) + " m/s of the root; people reach " +
-               Show(RequiredSpeed::kRootLimit);
+    message += Rounded(speed.root_m_per_s) + " m/s of the root; people reach " +
+               Rounded(RequiredSpeed::kRootLimit);
   } else {
-    message += Show(speed.joint_rad_per_s) + " rad/s of " +
+    message += Rounded(speed.joint_rad_per_s) + " rad/s of " +
                skeleton.joint_names[static_cast<size_t>(speed.joint)] + "; people reach " +
-               Show(RequiredSpeed::kJointLimit);
+               Rounded(RequiredSpeed::kJointLimit);
   }
   return {DanceWarning::Kind::kIntervalTooShort, first_frame + frames - 1, std::move(message)};
 }
@@ -29,13 +29,13 @@ DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& mo
 
 DanceWarning PathTooFast(int64_t frame, double m_per_s) {
   return {DanceWarning::Kind::kPathTooFast, frame,
-          "the root path asks for " + Show(m_per_s) + " m/s; people reach " +
-              Show(RequiredSpeed::kRootLimit)};
+          "the root path asks for " + Rounded(m_per_s) + " m/s; people reach " +
+              Rounded(RequiredSpeed::kRootLimit)};
 }
 
 DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres) {
   return {DanceWarning::Kind::kKeyOffPath, frame,
-          "key \"" + id + "\" lies " + Show(metres) + " m off the root path; the key wins"};
+          "key \"" + id + "\" lies " + Rounded(metres) + " m off the root path; the key wins"};
 }
 
 DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest) {
@@ -51,14 +51,12 @@ DanceWarning PathBehindEnd(int64_t first_frame, int64_t end) {
 }
 
 DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height) {
-  const auto centimetres = [](double metres) {
-    return Show(std::round(100 * metres) / 100) + " m";
-  };
   return {DanceWarning::Kind::kKeyOffHeight, frame,
-          "key \"" + id + "\" stands on the floor with its root at " + centimetres(standing) +
-              ", the root path has " + centimetres(height) + ": it is " +
-              centimetres(std::abs(height - standing)) +
-              (height > standing ? " in the air" : " too low for its feet") + "; the path wins"};
+          "key \"" + id + "\" stands on the floor with its root at " + Rounded(standing) +
+              " m, the root path has " + Rounded(height) + " m: it is " +
+              Rounded(std::abs(height - standing)) +
+              (height > standing ? " m in the air" : " m too low for its feet") +
+              "; the path wins"};
 }
 
 }  // namespace choreo

@@ -123,6 +123,10 @@ TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
   refused(R"({"factors": [{"time": 0, "arms": 1}], "unit": "m"})", "v.json:unit: is not known");
   refused("{}", "v.json: has no list \"factors\"");
   refused(R"({"factors": [{"time": 0}]})", "v.json:factors[0]: names no part of the body");
+  refused(R"({"factors": [{"time": 20, "arms": 1}]})",
+          "v.json:factors[0]: the velocities' first point at 20 s lies behind the dance's end: it "
+          "lasts 4 s, its last frame is at 3.97 s");
+  refused(R"({"speeds": [{"frame": 120, "arms": 1}]})", "v.json:speeds[0]: the velocities' first");
   Write("v.json", R"({"factors": [{"time": 0, "arms": 1}]})");
   const std::string file = "--seconds 4 --velocity " + At("v.json");
   ExpectRefused(file + " --velocity " + At("v.json"), "v.json is a second file");
@@ -155,6 +159,60 @@ TEST_F(ControlledCommandTest, ADeterministicModelIsDancedToItsLastFrame) {
   const auto report = ReadJson(folder_ / "d.json");
   EXPECT_EQ(report["keyframes"].back()["frame"], 359);
   EXPECT_THAT(Choreo("info --server " + server.address()).said, HasSubstr("deterministic: --seed"));
+}
+
+TEST_F(ControlledCommandTest, ADeterministicModelHasNoOtherDance) {
+  const TestServer server(std::make_unique<DeterministicEngine>());
+  const std::string to = " --server " + server.address() + " -o " + At("t.npz") + " ";
+  const auto changes_nothing = [](const char* option) {
+    return HasSubstr("is deterministic; " + std::string(option) + " changes nothing");
+  };
+  Outcome outcome = Choreo("transition --from kick --to groove --seed 3 --candidates 2 -n 40" + to);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said,
+              testing::AllOf(changes_nothing("--seed"), changes_nothing("--candidates")));
+  outcome = Choreo("edit " + At("t.npz") + " --key kick --at 0.6 --seed 3 --server " +
+                   server.address() + " -o " + At("e.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, changes_nothing("--seed"));
+  // There it chooses among the library's key poses.
+  outcome = Choreo("dance --seconds 4 --seed 3" + to);
+  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("changes nothing")));
+}
+
+TEST_F(ControlledCommandTest, AnEditWarnsAsAWholeAndNamesItsKeys) {
+  ASSERT_EQ(
+      Choreo("dance" + Walker() + "--seconds 8 -o " + At("d.npz") + " --report " + At("d.json"))
+          .code,
+      0);
+  const auto keys = ReadJson(folder_ / "d.json")["keyframes"];
+  const auto frame = [&](size_t key) { return keys[key]["frame"].get<int64_t>(); };
+  const auto warned = [&](int64_t from, int64_t to) {
+    Write("path.json", R"({"points": [{"frame": )" + std::to_string(from) +
+                           R"(, "x": 3, "z": 0}, {"frame": )" + std::to_string(to) +
+                           R"(, "x": 3, "z": 0.1}]})");
+    const Outcome outcome = Choreo("edit" + Walker() + At("d.npz") + " --key groove --at " +
+                                   std::to_string(static_cast<double>(frame(1)) / 30) +
+                                   " --report " + At("d.json") + " --path " + At("path.json") +
+                                   " -o " + At("e.npz") + " --new-report " + At("e.json"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    std::string messages;
+    const auto report = ReadJson(folder_ / "e.json");
+    for (const auto& warning : report["warnings"]) {
+      messages += warning["message"].get<std::string>() + "\n";
+      EXPECT_THAT(outcome.said, HasSubstr(warning["message"].get<std::string>()));
+    }
+    return messages;
+  };
+  const std::string nothing = "nothing comes of it";
+  const std::string first = warned(frame(0) + 5, frame(1));
+  EXPECT_THAT(first,
+              testing::AllOf(HasSubstr("key \"groove\" lies"), testing::Not(HasSubstr(nothing))));
+  const std::string second = warned(frame(1) + 5, frame(2));
+  const auto next = keys[2]["id"].get<std::string>();
+  EXPECT_THAT(second, testing::AllOf(HasSubstr("key \"" + next + "\" lies"),
+                                     testing::Not(HasSubstr(nothing))));
+  EXPECT_THAT(warned(frame(2) + 5, frame(2) + 20), HasSubstr(nothing));
 }
 
 TEST_F(ControlledCommandTest, ATransitionGoesAlongAPathToo) {
@@ -283,7 +341,9 @@ TEST_F(ControlledCommandTest, AModelWithoutThemRefusesThem) {
   Write("path.json", kPath);
   Outcome outcome = Choreo("dance" + Server() + "--path " + At("path.json") + " -o " + At("x.npz"));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("--path: the model \"fake\" does not have this control"));
+  EXPECT_THAT(
+      outcome.said,
+      HasSubstr("--path: the model \"fake\" does not have this control, nor has any other"));
   outcome = Choreo("transition" + Server() + "--from kick --to groove --velocity all=2 -o " +
                    At("x.npz"));
   EXPECT_EQ(outcome.code, 1);

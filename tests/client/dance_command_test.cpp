@@ -254,13 +254,22 @@ TEST_F(CommandTest, RefusesNumbersThatAreNone) {
   refused("dance --seed -1 " + At("song.wav"), "-1 is not a whole number from 0");
   const std::string transition = "transition --from kick --to groove -o " + At("t.npz");
   refused(transition + " --at -1", "-1 is not a number from 0 to 1e+09");
-  refused(transition + " -n 9999999999999", "is not a whole number from 1 to 1800");
-  refused(transition + " -n 99999999999999999999999", "is not a whole number from 1 to 1800");
+  refused(transition + " -n 9999999999999", "is not a whole number from 1 to 2147483647");
+  refused(transition + " -n 99999999999999999999999", "is not a whole number from 1 to 2147483647");
   refused(transition + " --candidates 33", "33 is not a whole number from 1 to 32");
   refused("dance --fps 0 " + At("song.wav"), "0 is not a number from 1 to 120");
   const Outcome brief = Choreo("dance --seconds 1e-9 " + At("song.wav") + Server());
   EXPECT_EQ(brief.code, 1);
-  EXPECT_THAT(brief.said, HasSubstr("--seconds: 1e-09 is less than 2"));
+  EXPECT_THAT(brief.said, HasSubstr("--seconds: 1e-09 s is shorter than 2 s, the least for"));
+  const Outcome framed =
+      Choreo("dance --seconds 0.01 -k '" SOURCE_FOLDER "/examples/keys.json'" + Server());
+  EXPECT_EQ(framed.code, 1);
+  EXPECT_THAT(framed.said, HasSubstr("--seconds: 0.01 s is shorter than a frame of the model, "
+                                     "0.033 s, the least"));
+  const Outcome endless = Choreo(transition + " -n 2000" + Server());
+  EXPECT_EQ(endless.code, 1);
+  EXPECT_THAT(endless.said,
+              HasSubstr("--frames: 2000 is not in [1, 1800], what the model \"fake\" can make"));
   const Outcome late = Choreo(transition + " --at 100 --song " + At("song.wav") + Server());
   EXPECT_EQ(late.code, 1);
   EXPECT_THAT(late.said, HasSubstr("--at: 100 s lies behind the song's end at 3 s"));

@@ -231,10 +231,10 @@ TEST_F(EditTest, SaysWhatCannotBe) {
                  "--key: kick and groove both ask for frame 90");
   for (const std::string around : {"1e300", "0.01", "60"}) {
     expect_failure("--key kick --at 5 --around " + around,
-                   "s, must be 0.0666667 to 59.9667 s: 2 to 1799 frames");
+                   "s, must be 0.067 to 59.97 s: 2 to 1799 frames");
   }
   expect_failure("--key kick --at 11",
-                 "11 s lies behind the dance, which has its last frame at 9.96");
+                 "11 s lies behind the dance, which has its last frame at 9.97 s");
   expect_failure("--key kick --at " + Seconds(keys_[1] + 1) + " --report " + At("report.json"),
                  "from: " + std::to_string(keys_[1]) + " with a key at frame " +
                      std::to_string(keys_[1] + 1) + ": must be at least 2 before it");

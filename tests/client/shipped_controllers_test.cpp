@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +10,9 @@
 #include "client/cli/pose_library.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
+#include "tests/client/command_fixture.h"
 #include "tests/support/sanitizers.h"
+#include "tests/support/temporary_folder.h"
 
 /// What the controllers network that ships does with controls, in the server that people run.
 namespace choreo::client {
@@ -82,6 +85,15 @@ TEST_F(ShippedControllersTest, SaysWhatItTakes) {
   EXPECT_TRUE(model->deterministic);
   EXPECT_FALSE(model->takes_music);
   EXPECT_FALSE(server.models.front().deterministic) << "the flow draws";
+}
+
+TEST_F(ShippedControllersTest, AModelWithoutAControlNamesThatWhichHasIt) {
+  const TemporaryFolder folder;
+  const Outcome outcome = Choreo("dance --seconds 4 --velocity all=2 --server " +
+                                 server_->address() + " -o " + (folder / "d.npz").string());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said,
+              testing::HasSubstr("does not have this control, but --model controllers"));
 }
 
 TEST_F(ShippedControllersTest, KeepsToADrawnPathThroughKeys) {

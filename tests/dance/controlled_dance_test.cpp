@@ -129,7 +129,7 @@ TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
   for (const KeyReached& key : dance.reached) EXPECT_LT(key.arrival.final_error_m, 1e-3);
   ASSERT_EQ(dance.warnings.size(), 1u);
   EXPECT_EQ(dance.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
-  EXPECT_THAT(dance.warnings[0].message, HasSubstr("key \"beside\" lies 0.49"));
+  EXPECT_THAT(dance.warnings[0].message, HasSubstr("key \"beside\" lies 0.5"));
   // No jump on the way there and back.
   for (size_t i = 1; i < dance.poses.size(); ++i) {
     EXPECT_LT((dance.poses[i].root_position - dance.poses[i - 1].root_position).norm(), 0.05) << i;
