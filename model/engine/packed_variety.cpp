@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/core/random.h"
+#include "model/engine/temperature.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -22,13 +23,6 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 bool Asks(const PoseMask& mask, int joint) {
   return mask.joints.empty() || mask.joints[static_cast<size_t>(joint)];
-}
-
-bool Keyed(const TransitionSpec& spec) {
-  if (!spec.target) return false;
-  const PoseMask& mask = spec.target->mask;
-  return mask.root_position || mask.joints.empty() ||
-         std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
 }
 
 }  // namespace
@@ -74,9 +68,6 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
   s->noise.Resize(1, count);
   FillNormal(spec.seed, spec.candidate, spec.first_frame,
              {s->noise.Row(0), static_cast<size_t>(count)});
-  // Where no key holds a dance, its fourth root: at the temperatures that serve keys well it would
-  // all but stand.
-  const float temperature = spec.target ? spec.temperature : std::sqrt(std::sqrt(spec.temperature));
   const bool keyed = Keyed(spec);
   const RowMajorMatrix& spread = spread_[keyed ? 1 : 0];
   const float factor = Factor(spec);
@@ -92,6 +83,7 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
     const auto part = static_cast<float>(bounded - bin);
     auto row = s->waves.Part(wave, 0, width);
     row.setZero();
+    const float temperature = WaveTemperature(spec, wave);
     for (long i = 0; i < components; ++i) {
       const float size = std::exp((1 - part) * spread(bin, i) + part * spread(bin + 1, i) + factor);
       const float drawn = s->noise.Row(0)[skipped + wave * components + i];

@@ -2,10 +2,10 @@
 
 #include <torch/torch.h>
 
-#include <cmath>
 #include <utility>
 
 #include "model/core/random.h"
+#include "model/engine/temperature.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -49,9 +49,8 @@ Tensor Mask(const TransitionSpec& spec, int joints) {
   return mask;
 }
 
-// Noise of the plan: [1, waves, components], times the temperature. Where no key holds a dance,
-// times its fourth root: at the temperatures that serve keys well it would all but stand. It lies
-// behind the noise of the first frame's own features, so the two are unrelated.
+// Noise of the plan: [1, waves, components], times each wave's temperature. It lies behind the
+// noise of the first frame's own features, so the two are unrelated.
 Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
   const int64_t waves = VarietyImpl::Waves(spec.frames);
   const int64_t components = model->variety()->components();
@@ -59,9 +58,12 @@ Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
   std::vector<float> noise(used + static_cast<size_t>(waves * components));
   FillNormal(spec.seed, spec.candidate, spec.first_frame, noise);
   Tensor variety = torch::empty({1, waves, components});
-  const float scale = spec.target ? spec.temperature : std::sqrt(std::sqrt(spec.temperature));
   float* out = variety.data_ptr<float>();
-  for (size_t i = used; i < noise.size(); ++i) *out++ = scale * noise[i];
+  const float* in = noise.data() + used;
+  for (int wave = 0; wave < waves; ++wave) {
+    const float temperature = WaveTemperature(spec, wave);
+    for (int64_t i = 0; i < components; ++i) *out++ = temperature * *in++;
+  }
   return variety;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/core/random.h"
+#include "model/engine/temperature.h"
 
 namespace choreo {
 
@@ -27,7 +28,6 @@ void TransitionWindow::Begin(const TransitionSpec& spec, std::span<const Pose> p
   seed_ = spec.seed;
   candidate_ = spec.candidate;
   first_frame_ = spec.first_frame;
-  temperature_ = spec.temperature;
   has_audio_ = spec.has_audio && hears_music_;
   plan_.resize(plan.size() * static_cast<size_t>(3 + 3 * skeleton_.joints()));
   float* out = plan_.data();
@@ -52,6 +52,8 @@ void TransitionWindow::Begin(const TransitionSpec& spec, std::span<const Pose> p
   if (tau_ > 1) {
     PastRow(0).segment<3>(codec_.velocity_at()) = PastRow(1).segment<3>(codec_.velocity_at());
   }
+  noise_ = spec.temperature * fine_temperature_;
+  if (!plan_.empty()) noise_ *= NoiseShare(spec, placements, fps_);
   last_placement_ = std::move(placements.back());
   last_ = spec.history.back();
 
@@ -89,7 +91,7 @@ void TransitionWindow::Advance(const StepInput& input) {
 
 void TransitionWindow::FillNoise(std::span<float> noise) const {
   FillNormal(seed_, candidate_, first_frame_ + frame_, noise);
-  for (float& value : noise) value *= fine_temperature_ * temperature_;
+  for (float& value : noise) value *= noise_;
 }
 
 void TransitionWindow::Finish(std::span<const float> features, StepOutput* output) {

@@ -63,7 +63,7 @@ class TransitionWindow {
   uint64_t seed_ = 0;
   uint32_t candidate_ = 0;
   int64_t first_frame_ = 0;
-  float temperature_ = 0;
+  float noise_ = 0;  // standard deviation
   bool has_audio_ = false;
   std::vector<float> plan_;  // [frames, 3 + 3 joints], or empty: a third of the poses' own memory
   Pose reference_;           // of the plan

@@ -80,6 +80,13 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
   return plans;
 }
 
+std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set) {
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < plan.chain.frames; ++frame)
+    poses.push_back(WalkedPose(set.clips[plan.clip], plan.start + frame));
+  return poses;
+}
+
 std::vector<Chain> DanceLong(StepEngine& engine, const std::vector<LongPlan>& plans,
                              const ClipSet& set, ProgressBar* progress) {
   std::vector<ChainPlan> chains;

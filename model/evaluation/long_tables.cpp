@@ -108,7 +108,9 @@ Table LongHeadings(const ClipSet& set) {
       "by more than in any real clip, and than 3 m/min, 15 cm, a factor of 2. Medians of these "
       "three; heights are the extremes of all dances; a joint is at real speed if its median lies "
       "between the 5th and 95th percentile of real motion's; real motion's \"keys\" are its frames "
-      "each 2 s.";
+      "each 2 s; the real motion of the keys is what lies between them, which a clip that is "
+      "shorter "
+      "than the dance has forwards, backwards, forwards.";
   table.label_headings = {"dance"};
   table.columns = {{"dances", 0},
                    {"seconds median", 0},
@@ -160,19 +162,22 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
     const std::vector<LongPlan> plans =
         PlanLongDances(model, set, times, options.long_seeds, options);
     const std::vector<Chain> chains = DanceLong(engine, plans, set, progress);
-    std::vector<LongFigures> dances;
+    const bool keyed = times == KeyTimes::kEachTwoSeconds;
+    std::vector<LongFigures> dances, beside;
     double worst_key = 0;
     for (size_t i = 0; i < chains.size(); ++i) {
+      const auto measure = [&](const std::vector<Pose>& poses) {
+        return MeasureLong(model.skeleton, model.fps, poses, KeyFramesOf(plans[i].chain));
+      };
       for (const auto& [frame, error] : chains[i].keys) worst_key = std::max(worst_key, error);
-      if (times == KeyTimes::kNone || times == KeyTimes::kEachTwoSeconds) {
-        dances.push_back(
-            MeasureLong(model.skeleton, model.fps, chains[i].poses, KeyFramesOf(plans[i].chain)));
-      }
+      if (keyed || times == KeyTimes::kNone) dances.push_back(measure(chains[i].poses));
+      if (keyed) beside.push_back(measure(RealMotionBeside(plans[i], set)));
       beat_table.Add(NameOf(times), plans[i].clip, plans[i].start,
                      MeanSpeeds(TrackJoints(model.skeleton, chains[i].poses), model.fps));
     }
     if (dances.empty()) continue;
     table.rows.push_back(LongRow(NameOf(times), dances, range, worst_key));
+    if (keyed) table.rows.push_back(LongRow("real motion of these keys", beside, range, 0));
     table.plot->series.push_back(SpeedCurve(NameOf(times), dances, model.fps, options.long_frames));
   }
   std::vector<Table> tables = {table};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/motion/velocity.h"
+
 namespace choreo {
 
 void Pace::Add(const JointTrack& track, double fps) {
@@ -10,9 +12,8 @@ void Pace::Add(const JointTrack& track, double fps) {
     for (Eigen::Index j = 0; j < track[t].cols(); ++j) {
       speeds.push_back(static_cast<float>((track[t].col(j) - track[t - 1].col(j)).norm() * fps));
       if (t < 3) continue;
-      const Eigen::Vector3d third =
-          track[t].col(j) - 3 * track[t - 1].col(j) + 3 * track[t - 2].col(j) - track[t - 3].col(j);
-      jerks.push_back(static_cast<float>(third.norm() * fps * fps * fps));
+      const auto at = [&](size_t back) { return track[t - back].col(j); };
+      jerks.push_back(static_cast<float>(JointJerk(at(3), at(2), at(1), at(0), fps)));
     }
   }
 }

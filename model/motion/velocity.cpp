@@ -17,4 +17,9 @@ Eigen::Matrix3Xd JointVelocities(const Eigen::Matrix3Xd& earlier, const Eigen::M
   return (later - earlier) * fps;
 }
 
+double JointJerk(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
+                 const Eigen::Vector3d& third, const Eigen::Vector3d& fourth, double fps) {
+  return (fourth - 3 * third + 3 * second - first).norm() * fps * fps * fps;
+}
+
 }  // namespace choreo

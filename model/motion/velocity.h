@@ -21,4 +21,8 @@ RootVelocity RootVelocityBetween(const Pose& earlier, const Pose& later, double 
 Eigen::Matrix3Xd JointVelocities(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later,
                                  double fps);
 
+/// Jerk of a joint, the third difference of its positions in four consecutive frames, m/s^3.
+double JointJerk(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
+                 const Eigen::Vector3d& third, const Eigen::Vector3d& fourth, double fps);
+
 }  // namespace choreo

@@ -5,6 +5,7 @@
 
 #include "model/core/random.h"
 #include "model/engine/engines.h"
+#include "model/engine/temperature.h"
 #include "model/engine/torch_planner.h"
 #include "model/engine/torch_tile.h"
 #include "model/flow/checkpoint.h"
@@ -158,6 +159,12 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
     }
     const torch::Tensor has_audio = torch::full({1, 1}, spec.has_audio ? 1.0F : 0.0F);
     const auto inverse_weights = model_->InverseWeights();
+    double noise_share = model_->config().fine_temperature * spec.temperature;
+    if (!plan.empty()) {
+      std::vector<JointPlacement> placements;
+      for (const Pose& pose : spec.history) placements.push_back(ForwardKinematics(skeleton, pose));
+      noise_share *= NoiseShare(spec, placements, 30);
+    }
     FlowState state = torch::zeros({1, model_->StateWidth()});
     double largest_effect_of_state = 0;
     for (int t = 0; t < spec.frames; ++t) {
@@ -166,8 +173,7 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
       const auto result = model_->Step(
           features.narrow(0, t, tau).unsqueeze(0), audio.narrow(0, t, tau + 1).unsqueeze(0),
           has_audio, context.static_condition.select(1, t),
-          model_->config().fine_temperature * spec.temperature * torch::tensor(noise).unsqueeze(0),
-          inverse_weights, &state);
+          noise_share * torch::tensor(noise).unsqueeze(0), inverse_weights, &state);
       if (state.numel() > 0) {
         largest_effect_of_state =
             std::max<double>(largest_effect_of_state, state.abs().max().item<float>());

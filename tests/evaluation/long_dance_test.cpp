@@ -69,6 +69,20 @@ TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
   }
 }
 
+TEST(PlanLongDances, KeysAreOfTheRealMotionBesideADance) {
+  const ClipSet set = Clips(false);
+  for (const LongPlan& plan :
+       PlanLongDances(FakeEngine(1).model(), set, KeyTimes::kEachTwoSeconds, 4, Short())) {
+    const std::vector<Pose> beside = RealMotionBeside(plan, set);
+    ASSERT_EQ(beside.size(), 300U);
+    for (const auto& [frame, pose] : plan.chain.keys)
+      EXPECT_EQ(beside[static_cast<size_t>(frame)].root_position, pose.root_position);
+    // Where the clip is over it is walked back: no step is longer than the clip's own.
+    for (size_t t = 1; t < beside.size(); ++t)
+      EXPECT_LT((beside[t].root_position - beside[t - 1].root_position).norm(), 0.2) << t;
+  }
+}
+
 TEST(PlanLongDances, KeysOnBeatsStandOnTheBeatNearestToTheEqualOnes) {
   ClipSet set = Clips(true);
   std::vector<double> beats;
@@ -211,7 +225,7 @@ TEST(EvaluateLongDances, TellsTheSameStoryTwiceAndCountsItsFrames) {
     const auto again = EvaluateLongDances(set, engine, Short(), nullptr);
     ASSERT_EQ(tables.size(), again.size());
     for (size_t i = 0; i < tables.size(); ++i) EXPECT_EQ(ToJson(tables[i]), ToJson(again[i]));
-    EXPECT_EQ(tables[0].rows.size(), 3U);
+    EXPECT_EQ(tables[0].rows.size(), 4U);
     const Table& influence = tables.back();
     // Without keys another seed leads elsewhere; the fake dancer hears the song, too.
     EXPECT_GT(influence.rows[0].cells[1].value, 0);

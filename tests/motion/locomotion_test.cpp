@@ -195,5 +195,10 @@ TEST(Resample, HoldsItsEndsAndRefusesNonsense) {
   EXPECT_TRUE(Resample(Motion{}, 60).frames.empty());
 }
 
+TEST(JointJerkTest, IsTheThirdDerivative) {
+  const auto at = [](double s) { return Eigen::Vector3d(s * s * s, 5 * s * s, 7 - 2 * s * s * s); };
+  EXPECT_NEAR(JointJerk(at(0), at(0.1), at(0.2), at(0.3), 10), 6 * std::sqrt(5.0), 1e-9);
+}
+
 }  // namespace
 }  // namespace choreo

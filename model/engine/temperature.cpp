@@ -1,0 +1,56 @@
+#include "model/engine/temperature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/motion/velocity.h"
+
+namespace choreo {
+namespace {
+
+// Powers of the temperature, and between which waves and ways they lie (docs/decisions.md, 49).
+constexpr double kSlowPower = 1.5, kQuickGain = 1.3;
+constexpr double kSlowest = 1.0 / 300, kQuickest = 1.0 / 30;  // cycles a frame
+constexpr double kShort = 25, kLong = 75;                     // frames
+
+constexpr double kSmooth = 50;     // m/s^3: a plan's own median jerk, its feet locked
+constexpr double kUnitNoise = 65;  // m/s^3 beyond that: the noise that the model learnt suits
+constexpr double kRoughest = 3;
+
+}  // namespace
+
+bool Keyed(const TransitionSpec& spec) {
+  if (!spec.target) return false;
+  const PoseMask& mask = spec.target->mask;
+  return mask.root_position || mask.joints.empty() ||
+         std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
+}
+
+float WaveTemperature(const TransitionSpec& spec, int wave) {
+  const double temperature = spec.temperature;
+  if (!Keyed(spec)) return static_cast<float>(std::sqrt(std::sqrt(temperature)));
+  if (temperature >= 1) return spec.temperature;  // it can't favour slow ones
+  const double frequency = (wave + 1) / (2.0 * spec.frames);
+  const double quick = std::log(frequency / kSlowest) / std::log(kQuickest / kSlowest);
+  const double longer = (spec.frames - kShort) / (kLong - kShort);
+  const double gain = std::clamp(quick, 0.0, 1.0) * std::clamp(longer, 0.0, 1.0);
+  return static_cast<float>(std::pow(temperature, kSlowPower - kQuickGain * gain));
+}
+
+float NoiseShare(const TransitionSpec& spec, std::span<const JointPlacement> history, double fps) {
+  if (!Keyed(spec) || history.size() < 4) return 1;
+  std::vector<double> jerks;
+  for (size_t t = 3; t < history.size(); ++t) {
+    for (Eigen::Index joint = 0; joint < history[t].positions.cols(); ++joint) {
+      const auto at = [&](size_t back) { return history[t - back].positions.col(joint); };
+      jerks.push_back(JointJerk(at(3), at(2), at(1), at(0), fps));
+    }
+  }
+  const auto middle = jerks.begin() + static_cast<std::ptrdiff_t>(jerks.size() / 2);
+  std::ranges::nth_element(jerks, middle);
+  const double beyond = std::sqrt(std::max(0.0, *middle * *middle - kSmooth * kSmooth));
+  return static_cast<float>(std::min(kRoughest, beyond / kUnitNoise));
+}
+
+}  // namespace choreo

@@ -1,0 +1,88 @@
+#include "model/engine/temperature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace choreo {
+namespace {
+
+TransitionSpec Spec(int frames, float temperature, bool keyed = true) {
+  TransitionSpec spec;
+  spec.frames = frames;
+  spec.temperature = temperature;
+  if (keyed) spec.target.emplace();
+  return spec;
+}
+
+TEST(WaveTemperatureTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
+  for (const int frames : {10, 30, 60, 90, 1800}) {
+    const TransitionSpec spec = Spec(frames, 0.25F);
+    float slower = 0;
+    for (int wave = 0; wave < frames / 5; ++wave) {
+      const float here = WaveTemperature(spec, wave);
+      EXPECT_GE(here, slower) << frames << " " << wave;
+      EXPECT_GE(here, 0.125F) << frames << " " << wave;  // 0.25 to the power of 1.5
+      EXPECT_LE(here, 0.9F) << frames << " " << wave;
+      slower = here;
+    }
+  }
+  // The same tenth of a frame's cycle in ways of three lengths.
+  const auto quick = [](int frames) {
+    return WaveTemperature(Spec(frames, 0.25F), frames / 5 - 1);
+  };
+  EXPECT_FLOAT_EQ(quick(20), 0.125F);
+  EXPECT_LT(quick(30), quick(60));
+  EXPECT_LT(quick(60), quick(90));
+  EXPECT_FLOAT_EQ(quick(90), quick(300));
+}
+
+TEST(WaveTemperatureTest, IsTheTemperatureAtZeroAndFromOneOn) {
+  for (const int wave : {0, 3, 17}) {
+    EXPECT_EQ(WaveTemperature(Spec(90, 0), wave), 0);
+    EXPECT_EQ(WaveTemperature(Spec(90, 1), wave), 1);
+    EXPECT_EQ(WaveTemperature(Spec(90, 1.7F), wave), 1.7F);
+    EXPECT_NEAR(WaveTemperature(Spec(90, 0.9999F), wave), 1, 1e-3);
+  }
+}
+
+TEST(WaveTemperatureTest, IsTheFourthRootWhereNoKeyHoldsTheDance) {
+  TransitionSpec nothing = Spec(60, 0.0625F);
+  nothing.target->mask = {.root_position = false, .joints = std::vector<bool>(24, false)};
+  for (const int wave : {0, 5, 11}) {
+    EXPECT_FLOAT_EQ(WaveTemperature(Spec(60, 0.0625F, false), wave), 0.5F);
+    EXPECT_FLOAT_EQ(WaveTemperature(nothing, wave), 0.5F);
+  }
+}
+
+// Placements of ten frames whose joints have the jerk `jerk` m/s^3 along X, and move besides.
+std::vector<JointPlacement> WithJerk(double jerk) {
+  std::vector<JointPlacement> history(10);
+  for (int t = 0; t < 10; ++t) {
+    const double s = t / 30.0;
+    history[static_cast<size_t>(t)].positions = Eigen::Matrix3Xd::Zero(3, 24);
+    history[static_cast<size_t>(t)].positions.row(0).setConstant(jerk * s * s * s / 6 + 2 * s);
+    history[static_cast<size_t>(t)].positions.row(1).setConstant(0.3 * s * s);
+  }
+  return history;
+}
+
+TEST(NoiseShareTest, IsAsRoughAsTheDancer) {
+  const TransitionSpec spec = Spec(60, 0.25F);
+  const auto share = [&](double jerk) { return NoiseShare(spec, WithJerk(jerk), 30); };
+  EXPECT_EQ(share(0), 0);
+  EXPECT_EQ(share(49), 0);  // plans have that themselves
+  EXPECT_NEAR(share(std::hypot(50, 65)), 1, 1e-4);
+  EXPECT_NEAR(share(std::hypot(50, 130)), 2, 1e-4);
+  EXPECT_EQ(share(1e5), 3);
+}
+
+TEST(NoiseShareTest, IsOneWhereNothingIsKnown) {
+  EXPECT_EQ(NoiseShare(Spec(60, 0.25F, false), WithJerk(200), 30), 1);
+  const std::vector<JointPlacement> history = WithJerk(200);
+  EXPECT_EQ(NoiseShare(Spec(60, 0.25F), {history.data(), 3}, 30), 1);
+}
+
+}  // namespace
+}  // namespace choreo
