@@ -14,7 +14,8 @@ recurrent_steps=(12000 18000)
 recurrent_rates=(8e-4 5e-4)
 ablation_steps=3000
 ablation_rate=1e-3
-batch=32
+ablation_batch=64
+recurrent_batch=32
 # Paper C's network without a plan, its lengths (5 to 70 frames), on its setting: scripts/random_split.sh.
 controls_steps=2000
 controls_rate=1e-3
@@ -39,13 +40,13 @@ train() {  # train RUN OPTION...
   rm "$run/unfinished"
 }
 
-all=(--data "$data/tang2018" --data "$data/dancedb" --data "$data/cmu" --splits "$splits" --batch "$batch")
-recurrent=("${all[@]}" --preset recurrent --flow-steps 1)  # it has no flow: the one step does nothing
+all=(--data "$data/tang2018" --data "$data/dancedb" --data "$data/cmu" --splits "$splits")
+recurrent=("${all[@]}" --preset recurrent --batch "$recurrent_batch" --flow-steps 1)  # it has no flow: the one step does nothing
 train recurrent_start "${recurrent[@]}" --planner-steps "${recurrent_steps[0]}" --planner-rate "${recurrent_rates[0]}"
 train recurrent "${recurrent[@]}" --planner "$runs/recurrent_start/checkpoint.safetensors" \
   --planner-steps "${recurrent_steps[1]}" --planner-rate "${recurrent_rates[1]}"
 
-ablation=("${all[@]}" --preset ablation --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
+ablation=("${all[@]}" --preset ablation --batch "$ablation_batch" --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
 train ablation/full "${ablation[@]}"
 train ablation/no_key_loss "${ablation[@]}" --no-key-loss
 train ablation/no_time_embedding "${ablation[@]}" --no-time-embedding

@@ -217,7 +217,10 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   } else if (message.has_target_mask()) {
     throw InvalidArgument("target_mask", "there is no target");
   }
-  if (!message.target_id().empty()) request.target_id = message.target_id();
+  if (!message.target_id().empty()) {
+    if (!message.has_target()) throw InvalidArgument("target_id", "there is no target");
+    request.target_id = message.target_id();
+  }
   if (message.after_size() > kMaxAfterPoses) {
     throw InvalidArgument("after", std::to_string(message.after_size()) + " poses, more than " +
                                        std::to_string(kMaxAfterPoses));

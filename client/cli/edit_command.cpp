@@ -114,7 +114,7 @@ class Session {
     const NamedPose named = ReadPose(source, edit_.model.skeleton);
     const int64_t frame = Frame(at_s);
     if (frame >= frames_) {
-      throw InvalidArgument("--at", Rounded(at_s) +
+      throw InvalidArgument("--at", InFull(at_s) +
                                         " s lies behind the dance, which has its last frame at " +
                                         Rounded(Seconds(frames_ - 1)) + " s");
     }

@@ -94,8 +94,8 @@ void Run(const TransitionOptions& options) {
     const Music music = ReadMusic(options.song, end_s);
     const client::Audio song = AudioFor(music.audio, end_s);
     if (options.at_s >= Seconds(song)) {
-      throw InvalidArgument("--at", Rounded(options.at_s) + " s lies behind the song's end at " +
-                                        Rounded(Seconds(song)) + " s");
+      throw InvalidArgument("--at", InFull(options.at_s) + " s lies behind the song's end at " +
+                                        InFull(Seconds(song)) + " s");
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
     request.config.music_beats = BeatsBefore(music, end_s);

@@ -1,13 +1,16 @@
 #include "model/core/rounded.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 namespace choreo {
 
 std::string Rounded(double value) {
   constexpr int kDecimals = 2;
-  constexpr double kTiny = 1e-6;  // no quantity of a dance
+  constexpr double kTiny = 5e-4;  // of metres, millimetres or degrees: nothing to a person
+  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
   if (std::abs(value) < kTiny) value = 0;
   const int zeros = value == 0 || std::abs(value) >= 0.1
                         ? 0
@@ -17,10 +20,15 @@ std::string Rounded(double value) {
   std::string text(static_cast<size_t>(size) + 1, '\0');
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
   text.pop_back();
-  if (!std::isfinite(value)) return text;
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text;
+}
+
+std::string InFull(double value) {
+  char text[32];  // the longest double has 24 characters
+  const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+  return {text, end};
 }
 
 }  // namespace choreo

@@ -5,8 +5,10 @@
 namespace choreo {
 
 /// A measured number as messages show it to people: to hundredths or, below a tenth, to two
-/// significant digits; without trailing zeros. (What is refused is shown in full: rounded it might
-/// look allowed.)
+/// significant digits; without trailing zeros, and 0 below half a thousandth.
 std::string Rounded(double value);
+
+/// A number with all its digits: what is refused, and its limit. Rounded it might look allowed.
+std::string InFull(double value);
 
 }  // namespace choreo

@@ -36,7 +36,7 @@ struct ModelInfo {
   int max_transition_frames = 1800;
   double default_temperature = 0.3;
   bool hears_music = true;      ///< false: learnt without; music changes when it dances, not what
-  double fine_temperature = 1;  ///< share of the temperature that a frame's own noise has
+  double fine_temperature = 1;  ///< share of a frame's own noise; times NoiseShare (temperature.h)
   double follow = 1;  ///< share of the way that what leaves the plan goes to the flow's proposal
   bool deterministic = false;     ///< seed, candidate and temperature change nothing
   bool root_path = false;         ///< takes Controls::root_path

@@ -14,9 +14,10 @@ constexpr double kSlowPower = 1.5, kQuickGain = 1.3;
 constexpr double kSlowest = 1.0 / 300, kQuickest = 1.0 / 30;  // cycles a frame
 constexpr double kShort = 25, kLong = 75;                     // frames
 
-constexpr double kSmooth = 50;     // m/s^3: a plan's own median jerk, its feet locked
-constexpr double kUnitNoise = 65;  // m/s^3 beyond that: the noise that the model learnt suits
-constexpr double kRoughest = 3;
+constexpr double kSmooth = 50;        // m/s^3: a plan's own median jerk, its feet locked
+constexpr double kUnitNoise = 65;     // m/s^3 beyond that: the noise that the model learnt suits
+constexpr double kStandstill = 1e-3;  // m/s^3: the same pose again, but for rounding
+constexpr double kRoughest = 3, kRoughestTemperature = 0.75;
 
 }  // namespace
 
@@ -49,8 +50,10 @@ float NoiseShare(const TransitionSpec& spec, std::span<const JointPlacement> his
   }
   const auto middle = jerks.begin() + static_cast<std::ptrdiff_t>(jerks.size() / 2);
   std::ranges::nth_element(jerks, middle);
+  if (*middle < kStandstill) return 1;
   const double beyond = std::sqrt(std::max(0.0, *middle * *middle - kSmooth * kSmooth));
-  return static_cast<float>(std::min(kRoughest, beyond / kUnitNoise));
+  const double bound = std::max(1.0, kRoughestTemperature / std::max(spec.temperature, 1e-3F));
+  return static_cast<float>(std::min({kRoughest, bound, beyond / kUnitNoise}));
 }
 
 }  // namespace choreo

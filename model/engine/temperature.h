@@ -22,8 +22,10 @@ float WaveTemperature(const TransitionSpec& spec, int wave);
 
 /// The share of its temperature that frames' own noise has on the way to a key: as rough as the
 /// dancer is whose last poses these are, by the median jerk of all joints beyond what a plan with
-/// locked feet has itself. From 0 (smooth) to 3; 1 without a key and where `history`, the
-/// placements of the spec's, has less than four poses.
+/// locked feet has itself. From 0 (smooth) to 3, but no more than leads to the noise of temperature
+/// 0.75, or of its own: roughness is handed on from transition to transition, and must not grow. 1
+/// where nothing is known: without a key, from a standstill, and where `history`, the placements of
+/// the spec's, has less than four poses.
 float NoiseShare(const TransitionSpec& spec, std::span<const JointPlacement> history, double fps);
 
 }  // namespace choreo

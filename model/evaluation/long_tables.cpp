@@ -109,8 +109,7 @@ Table LongHeadings(const ClipSet& set) {
       "three; heights are the extremes of all dances; a joint is at real speed if its median lies "
       "between the 5th and 95th percentile of real motion's; real motion's \"keys\" are its frames "
       "each 2 s; the real motion of the keys is what lies between them, which a clip that is "
-      "shorter "
-      "than the dance has forwards, backwards, forwards.";
+      "shorter than the dance has forwards, backwards, forwards.";
   table.label_headings = {"dance"};
   table.columns = {{"dances", 0},
                    {"seconds median", 0},

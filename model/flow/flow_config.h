@@ -40,9 +40,9 @@ struct FlowConfig {
   PlannerConfig planner;
   int max_transition_frames = 1800;
   double temperature = 1.0;  ///< served by default
-  /// Of sampling. Around a varied plan, a frame's own noise is this share of the temperature, and
-  /// what leaves the plan goes this share of the way to what the flow proposes in each frame: a low
-  /// pass, without which frames shake.
+  /// Of sampling. Around a varied plan, a frame's own noise is this share of the temperature (times
+  /// NoiseShare of engine/temperature.h), and what leaves the plan goes this share of the way to
+  /// what the flow proposes in each frame: a low pass, without which frames shake.
   double fine_temperature = 1.0, follow = 1.0;
 
   /// Switches of the ablations.

@@ -35,7 +35,7 @@ class FlowModelImpl : public torch::nn::Module {
   int StateWidth() const { return flow_->StateWidth(); }
 
   /// Plans a batch of transitions and hoists their static condition. `variety` [batch,
-  /// Variety::Waves(N), components] of unit spread, times the temperature, varies the plan;
+  /// Variety::Waves(N), components] of unit spread, times each wave's temperature, varies the plan;
   /// undefined: its mean.
   TransitionContext Begin(const TransitionTensors& transition, const torch::Tensor& variety = {});
   /// The same around the plan that comes nearest to `truth`, as training has it.

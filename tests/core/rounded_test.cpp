@@ -19,7 +19,16 @@ TEST(RoundedTest, ShowsWhatPeopleReadAndNoMore) {
   EXPECT_EQ(Rounded(12345.678), "12345.68");
   EXPECT_EQ(Rounded(0), "0");
   EXPECT_EQ(Rounded(-1e-12), "0");
+  EXPECT_EQ(Rounded(0.0000098), "0");
+  EXPECT_EQ(Rounded(std::numeric_limits<double>::quiet_NaN()), "nan");
+  EXPECT_EQ(Rounded(-std::numeric_limits<double>::infinity()), "-inf");
   EXPECT_EQ(Rounded(std::numeric_limits<double>::infinity()), "inf");
+}
+
+TEST(InFullTest, ShowsEveryDigitAndNoMore) {
+  EXPECT_EQ(InFull(3.0025), "3.0025");
+  EXPECT_EQ(InFull(7), "7");
+  EXPECT_EQ(InFull(0.1), "0.1");
 }
 
 }  // namespace

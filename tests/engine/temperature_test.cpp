@@ -28,7 +28,7 @@ TEST(WaveTemperatureTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
       slower = here;
     }
   }
-  // The same tenth of a frame's cycle in ways of three lengths.
+  // Waves of a tenth of a cycle a frame in ways of several lengths.
   const auto quick = [](int frames) {
     return WaveTemperature(Spec(frames, 0.25F), frames / 5 - 1);
   };
@@ -71,17 +71,29 @@ std::vector<JointPlacement> WithJerk(double jerk) {
 TEST(NoiseShareTest, IsAsRoughAsTheDancer) {
   const TransitionSpec spec = Spec(60, 0.25F);
   const auto share = [&](double jerk) { return NoiseShare(spec, WithJerk(jerk), 30); };
-  EXPECT_EQ(share(0), 0);
+  EXPECT_EQ(share(1), 0);
   EXPECT_EQ(share(49), 0);  // plans have that themselves
   EXPECT_NEAR(share(std::hypot(50, 65)), 1, 1e-4);
   EXPECT_NEAR(share(std::hypot(50, 130)), 2, 1e-4);
   EXPECT_EQ(share(1e5), 3);
 }
 
+TEST(NoiseShareTest, OfHighTemperaturesDoesNotGrowFromTransitionToTransition) {
+  const auto share = [&](float temperature) {
+    return NoiseShare(Spec(60, temperature), WithJerk(1e5), 30);
+  };
+  EXPECT_FLOAT_EQ(share(0.5F), 1.5F);
+  EXPECT_EQ(share(1), 1);
+  EXPECT_EQ(share(2), 1);
+  EXPECT_EQ(NoiseShare(Spec(60, 1), WithJerk(10), 30), 0);
+}
+
 TEST(NoiseShareTest, IsOneWhereNothingIsKnown) {
   EXPECT_EQ(NoiseShare(Spec(60, 0.25F, false), WithJerk(200), 30), 1);
   const std::vector<JointPlacement> history = WithJerk(200);
   EXPECT_EQ(NoiseShare(Spec(60, 0.25F), {history.data(), 3}, 30), 1);
+  // One pose, ten times: a standstill, or a past of which nothing else is said.
+  EXPECT_EQ(NoiseShare(Spec(60, 0.25F), std::vector(10, history[7]), 30), 1);
 }
 
 }  // namespace

@@ -199,6 +199,12 @@ INSTANTIATE_TEST_SUITE_P(
                          r.mutable_target_mask();
                        },
                        kInvalid, "target_mask", "nothing"},
+        BadRequestCase{"AnIdOfNoTarget",
+                       [](R& r) {
+                         r.clear_target();
+                         r.set_target_id("landing");
+                       },
+                       kInvalid, "target_id", "no target"},
         BadRequestCase{"NotAFile",
                        [](R& r) {
                          r.mutable_config()->mutable_audio_format()->set_encoding(
