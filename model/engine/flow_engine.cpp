@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/engine/plan_pace.h"
 #include "model/engine/plan_timing.h"
+#include "model/engine/temperature.h"
 #include "model/motion/pose_codec.h"
 
 namespace choreo {
@@ -41,8 +43,11 @@ int FlowEngine::Admit(const TransitionSpec& spec) {
   const int slot = static_cast<int>(free - slots_.begin());
   TransitionPlan plan = planner_->Plan(spec);
   tile_->Begin(slot, std::move(plan.static_condition));
-  if (!spec.beats.empty() && !plan.poses.empty())
-    plan.poses = TimeToBeats(spec.history, plan.poses, spec.beats);
+  if (!plan.poses.empty()) {
+    if (!spec.beats.empty())
+      plan.poses = TimeToBeats(spec.history, plan.poses, spec.beats, Keyed(spec));
+    plan.poses = EvenPace(info_.skeleton, spec.history, std::move(plan.poses), info_.fps);
+  }
   free->window.Begin(spec, plan.poses);
   free->taken = true;
   return slot;

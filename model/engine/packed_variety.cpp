@@ -83,11 +83,11 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
     const auto part = static_cast<float>(bounded - bin);
     auto row = s->waves.Part(wave, 0, width);
     row.setZero();
-    const float temperature = WaveTemperature(spec, wave);
-    for (long i = 0; i < components; ++i) {
+    const WaveShare share = ShareOf(spec, wave, static_cast<int>(components));
+    for (long i = 0; i < share.components; ++i) {
       const float size = std::exp((1 - part) * spread(bin, i) + part * spread(bin + 1, i) + factor);
       const float drawn = s->noise.Row(0)[skipped + wave * components + i];
-      row += temperature * drawn * size * basis_.row(i);
+      row += share.temperature * drawn * size * basis_.row(i);
     }
   }
   s->difference.Resize(frames, width);

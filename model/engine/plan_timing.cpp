@@ -1,10 +1,9 @@
 #include "model/engine/plan_timing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "model/motion/rotation.h"
+#include "model/engine/retime.h"
 
 namespace choreo {
 namespace {
@@ -13,6 +12,11 @@ constexpr double kAccent = 0.25;     // A: the share of its speed that a dancer 
 constexpr double kWholeAccent = 30;  // frames: shorter transitions, which keys rule, have less
 constexpr double kFastest = 10;      // frames between beats; faster ones are accented less
 constexpr double kSlowest = 45;      // frames between beats; beyond, the music pauses
+
+constexpr double kKeyAccent = 0.6;  // the same on a key that stands on a beat
+constexpr double kKeyReach = 24;    // frames of which it takes its time
+constexpr double kOnBeat = 2.5;     // frames between key and beat
+constexpr double kNoKeyAccent = 30, kWholeKeyAccent = 60;  // frames of a transition
 
 // The shift of time at t, of which PlanTime takes away what the ends have.
 double Shift(std::span<const double> beats, double t) {
@@ -24,97 +28,38 @@ double Shift(std::span<const double> beats, double t) {
   return accent * period / (2 * M_PI) * std::sin(2 * M_PI * (t - before) / period);
 }
 
-// Catmull-Rom weights at `u` in [0, 1] between the second and the third of four values.
-std::array<double, 4> CubicWeights(double u) {
-  const double u2 = u * u, u3 = u2 * u;
-  return {0.5 * (-u3 + 2 * u2 - u), 0.5 * (3 * u3 - 5 * u2 + 2), 0.5 * (-3 * u3 + 4 * u2 + u),
-          0.5 * (u3 - u2)};
+// The shift of time `away` frames before or behind (negative) a key: none at the key nor where its
+// reach ends.
+double KeyShift(double away) {
+  if (std::abs(away) >= kKeyReach) return 0;
+  return -kKeyAccent * (1 - std::abs(away) / kKeyReach) * kKeyReach / (2 * M_PI) *
+         std::sin(2 * M_PI * away / kKeyReach);
 }
 
-// Poses in a row as quaternions, and what leads from each to the next: each is needed by four
-// frames, and a logarithm costs more than all else.
-struct Curve {
-  explicit Curve(Eigen::Index joint_count) : joints(joint_count) {}
-
-  void Append(const Pose& pose) {
-    positions.push_back(pose.root_position);
-    for (Eigen::Index joint = 0; joint < joints; ++joint)
-      rotations.push_back(QuaternionFromExp(pose.rotations.col(joint)));
-  }
-  /// A pose as far behind the last one as that is behind the one before it.
-  void GoOn() {
-    const size_t last = positions.size() - 1;
-    positions.push_back(2 * positions[last] - positions[last - 1]);
-    for (Eigen::Index joint = 0; joint < joints; ++joint)
-      rotations.push_back(Rotation(last, joint) * Rotation(last - 1, joint).conjugate() *
-                          Rotation(last, joint));
-  }
-  void Connect() {
-    for (size_t at = 0; at + 1 < positions.size(); ++at) {
-      for (Eigen::Index joint = 0; joint < joints; ++joint)
-        steps.push_back(Between(at, at + 1, joint));
-    }
-  }
-  const Eigen::Quaterniond& Rotation(size_t at, Eigen::Index joint) const {
-    return rotations[at * static_cast<size_t>(joints) + static_cast<size_t>(joint)];
-  }
-  /// From pose `at` to the next.
-  const Eigen::Vector3d& Step(size_t at, Eigen::Index joint) const {
-    return steps[at * static_cast<size_t>(joints) + static_cast<size_t>(joint)];
-  }
-  Eigen::Vector3d Between(size_t from, size_t to, Eigen::Index joint) const {
-    return ExpFromQuaternion(Rotation(from, joint).conjugate() * Rotation(to, joint));
-  }
-
-  Eigen::Index joints;
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<Eigen::Quaterniond> rotations;  // [poses, joints]
-  std::vector<Eigen::Vector3d> steps;         // [poses - 1, joints]
-};
+bool OnBeat(std::span<const double> beats, double key) {
+  return std::ranges::any_of(beats, [key](double beat) { return std::abs(beat - key) < kOnBeat; });
+}
 
 }  // namespace
 
-double PlanTime(std::span<const double> beats, int frames, double t) {
+double PlanTime(std::span<const double> beats, int frames, bool keyed, double t) {
   const double last = frames - 1, share = (t + 1) / frames;
-  const double shift =
-      Shift(beats, t) - (1 - share) * Shift(beats, -1) - share * Shift(beats, last);
+  double shift = Shift(beats, t) - (1 - share) * Shift(beats, -1) - share * Shift(beats, last);
+  const double room = (frames - kNoKeyAccent) / (kWholeKeyAccent - kNoKeyAccent);
+  if (keyed && room > 0) {
+    for (const double key : {-1.0, last})
+      if (OnBeat(beats, key)) shift += std::min(room, 1.0) * KeyShift(key - t);
+  }
   return t + std::min(1.0, frames / kWholeAccent) * shift;
 }
 
-std::vector<Pose> TimeToBeats(std::span<const Pose> history, const std::vector<Pose>& plan,
-                              std::span<const double> beats) {
+std::vector<Pose> TimeToBeats(std::span<const Pose> history, std::span<const Pose> plan,
+                              std::span<const double> beats, bool keyed) {
   const auto frames = static_cast<int>(plan.size());
-  const Eigen::Index joints = history.back().rotations.cols();
-  // Two poses in front, and one behind that goes on as the last two go.
-  Curve curve(joints);
-  curve.Append(history[history.size() > 1 ? history.size() - 2 : 0]);
-  curve.Append(history.back());
-  for (const Pose& pose : plan) curve.Append(pose);
-  curve.GoOn();
-  curve.Connect();
-  std::vector<Pose> timed(plan.size());
-  const Pose* last = &history.back();
-  for (int frame = 0; frame < frames; ++frame) {
-    const double time = std::clamp(PlanTime(beats, frames, frame), -1.0, frames - 1.0);
-    const int from = std::min(static_cast<int>(std::floor(time)), frames - 2);
-    const std::array<double, 4> weights = CubicWeights(time - from);
-    const auto at = static_cast<size_t>(from + 2);
-    Pose& pose = timed[static_cast<size_t>(frame)];
-    pose.root_position.setZero();
-    for (size_t i = 0; i < 4; ++i) pose.root_position += weights[i] * curve.positions[at - 1 + i];
-    pose.rotations.resize(3, joints);
-    for (Eigen::Index joint = 0; joint < joints; ++joint) {
-      // In the tangent space of the nearest pose; back from it leads the step before, turned round.
-      const Eigen::Vector3d turn = -weights[0] * curve.Step(at - 1, joint) +
-                                   weights[2] * curve.Step(at, joint) +
-                                   weights[3] * curve.Between(at, at + 2, joint);
-      pose.rotations.col(joint) =
-          NearestBranch(ExpFromQuaternion(curve.Rotation(at, joint) * QuaternionFromExp(turn)),
-                        last->rotations.col(joint));
-    }
-    last = &pose;
-  }
-  return timed;
+  std::vector<double> times(plan.size());
+  for (int frame = 0; frame < frames; ++frame)
+    times[static_cast<size_t>(frame)] = PlanTime(beats, frames, keyed, frame);
+  return Retime(history, plan, times);
 }
 
 }  // namespace choreo

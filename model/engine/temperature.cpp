@@ -12,7 +12,8 @@ namespace {
 // Powers of the temperature, and between which waves and ways they lie (docs/decisions.md, 49).
 constexpr double kSlowPower = 1.5, kQuickGain = 1.3;
 constexpr double kSlowest = 1.0 / 300, kQuickest = 1.0 / 30;  // cycles a frame
-constexpr double kShort = 25, kLong = 75;                     // frames
+constexpr double kShort = 25, kLong = 64;                     // frames
+constexpr double kSlowShare = 0.25;                           // of the components
 
 constexpr double kSmooth = 50;        // m/s^3: a plan's own median jerk, its feet locked
 constexpr double kUnitNoise = 65;     // m/s^3 beyond that: the noise that the model learnt suits
@@ -28,15 +29,17 @@ bool Keyed(const TransitionSpec& spec) {
          std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
 }
 
-float WaveTemperature(const TransitionSpec& spec, int wave) {
+WaveShare ShareOf(const TransitionSpec& spec, int wave, int components) {
   const double temperature = spec.temperature;
-  if (!Keyed(spec)) return static_cast<float>(std::sqrt(std::sqrt(temperature)));
-  if (temperature >= 1) return spec.temperature;  // it can't favour slow ones
+  if (!Keyed(spec)) return {static_cast<float>(std::sqrt(std::sqrt(temperature))), components};
   const double frequency = (wave + 1) / (2.0 * spec.frames);
   const double quick = std::log(frequency / kSlowest) / std::log(kQuickest / kSlowest);
   const double longer = (spec.frames - kShort) / (kLong - kShort);
-  const double gain = std::clamp(quick, 0.0, 1.0) * std::clamp(longer, 0.0, 1.0);
-  return static_cast<float>(std::pow(temperature, kSlowPower - kQuickGain * gain));
+  const double cooled = std::clamp(2 - 2 * temperature, 0.0, 1.0);
+  const double gain = std::clamp(quick, 0.0, 1.0) * std::clamp(longer, 0.0, 1.0) * cooled;
+  const double power = temperature < 1 ? kSlowPower - kQuickGain * gain : 1;
+  return {static_cast<float>(std::pow(temperature, power)),
+          static_cast<int>(std::ceil((kSlowShare + (1 - kSlowShare) * gain) * components))};
 }
 
 float NoiseShare(const TransitionSpec& spec, std::span<const JointPlacement> history, double fps) {

@@ -13,12 +13,20 @@ namespace choreo {
 /// True where the transition has a key that names a joint or the root's position.
 bool Keyed(const TransitionSpec& spec);
 
-/// Times what the spread of wave `wave` (0: the slowest) of the plan is sampled. On the way to a
-/// key the temperature to a power: slow waves, which lead away from the way that is most probable,
-/// take little; quick ones make a dance as lively as dancers are, which the mean of all ways is the
-/// less the longer the way is. Without a key the fourth root of the temperature for all waves: at
-/// the temperatures that serve keys well such a dance would all but stand.
-float WaveTemperature(const TransitionSpec& spec, int wave);
+/// How much of one wave of a plan's variety is sampled.
+struct WaveShare {
+  float temperature;  ///< times what its spread is
+  int components;     ///< how many of variety's principal components, the first ones
+};
+
+/// Of wave `wave` (0: the slowest), of variety with `components`. On the way to a key the
+/// temperature to a power: slow waves, which lead away from the way that is most probable, take
+/// little; quick ones make a dance as lively as dancers are, which the mean of all ways is the less
+/// the longer the way is. Slow waves have a third of the components, those in which ways differ
+/// most: ten dances that differ in few things come nearer to what was danced than ten that differ
+/// in everything. Without a key the fourth root of the temperature for all waves: at the
+/// temperatures that serve keys well such a dance would all but stand.
+WaveShare ShareOf(const TransitionSpec& spec, int wave, int components);
 
 /// The share of its temperature that frames' own noise has on the way to a key: as rough as the
 /// dancer is whose last poses these are, by the median jerk of all joints beyond what a plan with

@@ -49,8 +49,8 @@ Tensor Mask(const TransitionSpec& spec, int joints) {
   return mask;
 }
 
-// Noise of the plan: [1, waves, components], times each wave's temperature. It lies behind the
-// noise of the first frame's own features, so the two are unrelated.
+// Noise of the plan: [1, waves, components], of each wave its share. It lies behind the noise of
+// the first frame's own features, so the two are unrelated.
 Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
   const int64_t waves = VarietyImpl::Waves(spec.frames);
   const int64_t components = model->variety()->components();
@@ -61,8 +61,9 @@ Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
   float* out = variety.data_ptr<float>();
   const float* in = noise.data() + used;
   for (int wave = 0; wave < waves; ++wave) {
-    const float temperature = WaveTemperature(spec, wave);
-    for (int64_t i = 0; i < components; ++i) *out++ = temperature * *in++;
+    const WaveShare share = ShareOf(spec, wave, static_cast<int>(components));
+    for (int64_t i = 0; i < components; ++i, ++in)
+      *out++ = i < share.components ? share.temperature * *in : 0.0F;
   }
   return variety;
 }

@@ -29,28 +29,46 @@ std::vector<double> EveryFifteen(double first, double last) {
 }
 
 TEST(PlanTime, KeepsTheEndsAndNeverRunsBackwards) {
-  for (const int frames : {2, 7, 30, 90}) {
-    const std::vector<double> beats = EveryFifteen(-11, frames + 15);
-    EXPECT_NEAR(PlanTime(beats, frames, -1), -1, 1e-12);
-    EXPECT_NEAR(PlanTime(beats, frames, frames - 1), frames - 1, 1e-12);
-    for (double t = -1; t < frames - 1; t += 0.1) {
-      EXPECT_LT(PlanTime(beats, frames, t), PlanTime(beats, frames, t + 0.1));
-      EXPECT_LT(std::abs(PlanTime(beats, frames, t) - t), 3);
+  for (const int frames : {2, 7, 30, 32, 45, 60, 75, 90}) {
+    for (const double first : {-11.0, -16.0}) {  // the second: on all keys of whole seconds' ways
+      for (const bool keyed : {false, true}) {
+        const std::vector<double> beats = EveryFifteen(first, frames + 15);
+        const auto time = [&](double t) { return PlanTime(beats, frames, keyed, t); };
+        EXPECT_NEAR(time(-1), -1, 1e-12);
+        EXPECT_NEAR(time(frames - 1), frames - 1, 1e-12);
+        for (double t = -1; t < frames - 1; t += 0.1) {
+          EXPECT_LT(time(t), time(t + 0.1)) << frames << " " << first << " " << t;
+          EXPECT_LT(std::abs(time(t) - t), 4) << frames << " " << first << " " << t;
+        }
+      }
     }
   }
 }
 
 TEST(PlanTime, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(PlanTime({}, 31, t), t);
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(PlanTime({}, 31, true, t), t);
   const std::vector<double> pause = {-100, 200};
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(PlanTime(pause, 31, t), t);
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(PlanTime(pause, 31, true, t), t);
+}
+
+TEST(PlanTime, RunsFastestAtKeysThatStandOnBeats) {
+  const auto pace = [](std::span<const double> beats, int frames, bool keyed, double t) {
+    return (PlanTime(beats, frames, keyed, t + 0.05) - PlanTime(beats, frames, keyed, t)) / 0.05;
+  };
+  const std::vector<double> on = EveryFifteen(-16, 100), off = EveryFifteen(-9, 100);
+  // 60 frames from key to key, both on a beat: 1 + 0.25 + 0.6 at each.
+  EXPECT_NEAR(pace(on, 60, true, 58.95), 1.85, 0.05);
+  EXPECT_NEAR(pace(on, 60, true, -1), 1.85, 0.05);
+  EXPECT_NEAR(pace(on, 60, false, 58.95), 1.25, 0.05);
+  EXPECT_LT(pace(off, 60, true, 58.95), 1.25);
+  EXPECT_NEAR(pace(on, 30, true, 28.95), 1.25, 0.05);  // there is no room
 }
 
 TEST(TimeToBeats, SpeedPeaksOnTheBeats) {
   const std::vector<Pose> plan = EvenWalk(90);
   const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
   const std::vector<double> beats = EveryFifteen(-8, 110);
-  const std::vector<Pose> timed = TimeToBeats(before, plan, beats);
+  const std::vector<Pose> timed = TimeToBeats(before, plan, beats, false);
   ASSERT_EQ(timed.size(), plan.size());
   std::vector<float> speeds;
   for (size_t t = 1; t < timed.size(); ++t) {
@@ -72,7 +90,7 @@ TEST(TimeToBeats, SpeedPeaksOnTheBeats) {
 TEST(TimeToBeats, AnEvenCurveStaysOnItself) {
   const std::vector<Pose> plan = EvenWalk(40);
   const std::vector<Pose> timed =
-      TimeToBeats(std::vector{RestPose(Skeleton::Smpl24())}, plan, EveryFifteen(-8, 60));
+      TimeToBeats(std::vector{RestPose(Skeleton::Smpl24())}, plan, EveryFifteen(-8, 60), true);
   for (const Pose& pose : timed) {
     // Arm and feet keep step: both are a hundredth and two of the same time.
     EXPECT_NEAR(pose.rotations(2, 16) / 0.01, (pose.root_position.x()) / 0.02, 1e-2);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -16,43 +17,59 @@ TransitionSpec Spec(int frames, float temperature, bool keyed = true) {
   return spec;
 }
 
-TEST(WaveTemperatureTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
+TEST(ShareOfTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
   for (const int frames : {10, 30, 60, 90, 1800}) {
     const TransitionSpec spec = Spec(frames, 0.25F);
-    float slower = 0;
+    WaveShare slower{0, 0};
     for (int wave = 0; wave < frames / 5; ++wave) {
-      const float here = WaveTemperature(spec, wave);
-      EXPECT_GE(here, slower) << frames << " " << wave;
-      EXPECT_GE(here, 0.125F) << frames << " " << wave;  // 0.25 to the power of 1.5
-      EXPECT_LE(here, 0.9F) << frames << " " << wave;
+      const WaveShare here = ShareOf(spec, wave, 24);
+      EXPECT_GE(here.temperature, slower.temperature) << frames << " " << wave;
+      EXPECT_GE(here.temperature, 0.125F) << frames << " " << wave;  // 0.25 to the power of 1.5
+      EXPECT_LE(here.temperature, 0.9F) << frames << " " << wave;
+      EXPECT_GE(here.components, std::max(slower.components, 6)) << frames << " " << wave;
+      EXPECT_LE(here.components, 24) << frames << " " << wave;
       slower = here;
     }
   }
   // Waves of a tenth of a cycle a frame in ways of several lengths.
   const auto quick = [](int frames) {
-    return WaveTemperature(Spec(frames, 0.25F), frames / 5 - 1);
+    return ShareOf(Spec(frames, 0.25F), frames / 5 - 1, 24).temperature;
   };
   EXPECT_FLOAT_EQ(quick(20), 0.125F);
   EXPECT_LT(quick(30), quick(60));
   EXPECT_LT(quick(60), quick(90));
   EXPECT_FLOAT_EQ(quick(90), quick(300));
+  EXPECT_EQ(ShareOf(Spec(90, 0.25F), 17, 24).components, 24);
 }
 
-TEST(WaveTemperatureTest, IsTheTemperatureAtZeroAndFromOneOn) {
+TEST(ShareOfTest, IsTheTemperatureAtZeroAndFromOneOn) {
   for (const int wave : {0, 3, 17}) {
-    EXPECT_EQ(WaveTemperature(Spec(90, 0), wave), 0);
-    EXPECT_EQ(WaveTemperature(Spec(90, 1), wave), 1);
-    EXPECT_EQ(WaveTemperature(Spec(90, 1.7F), wave), 1.7F);
-    EXPECT_NEAR(WaveTemperature(Spec(90, 0.9999F), wave), 1, 1e-3);
+    const auto share = [wave](float temperature) {
+      return ShareOf(Spec(90, temperature), wave, 24).temperature;
+    };
+    EXPECT_EQ(share(0), 0);
+    EXPECT_EQ(share(1), 1);
+    EXPECT_EQ(share(1.7F), 1.7F);
+    EXPECT_NEAR(share(0.9999F), 1, 1e-3);
   }
 }
 
-TEST(WaveTemperatureTest, IsTheFourthRootWhereNoKeyHoldsTheDance) {
+TEST(ShareOfTest, WhatHasItsWholeSpreadDiffersInFewThings) {
+  for (const int wave : {0, 3, 17}) {
+    EXPECT_EQ(ShareOf(Spec(90, 1), wave, 24).components, 6);
+    EXPECT_EQ(ShareOf(Spec(90, 2), wave, 24).components, 6);
+    EXPECT_EQ(ShareOf(Spec(90, 1), wave, 3).components, 1);  // rounded up
+  }
+}
+
+TEST(ShareOfTest, IsTheFourthRootOfAllWhereNoKeyHoldsTheDance) {
   TransitionSpec nothing = Spec(60, 0.0625F);
   nothing.target->mask = {.root_position = false, .joints = std::vector<bool>(24, false)};
-  for (const int wave : {0, 5, 11}) {
-    EXPECT_FLOAT_EQ(WaveTemperature(Spec(60, 0.0625F, false), wave), 0.5F);
-    EXPECT_FLOAT_EQ(WaveTemperature(nothing, wave), 0.5F);
+  for (const TransitionSpec& spec : {Spec(60, 0.0625F, false), nothing}) {
+    for (const int wave : {0, 5, 11}) {
+      EXPECT_FLOAT_EQ(ShareOf(spec, wave, 24).temperature, 0.5F);
+      EXPECT_EQ(ShareOf(spec, wave, 24).components, 24);
+    }
   }
 }
 

@@ -2,9 +2,11 @@
 #include <torch/torch.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "model/core/random.h"
 #include "model/engine/engines.h"
+#include "model/engine/plan_pace.h"
 #include "model/engine/temperature.h"
 #include "model/engine/torch_planner.h"
 #include "model/engine/torch_tile.h"
@@ -127,6 +129,7 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
         before = pose;
       }
       EXPECT_GT(variety, 0.01);
+      plan = EvenPace(skeleton, spec.history, std::move(plan), 30);  // as whoever admits it does
     }
     const int width = codec.width();
     torch::Tensor features = torch::empty({tau + spec.frames, width});
