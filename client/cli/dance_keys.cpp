@@ -26,8 +26,8 @@ std::string SayBehindEnd(int64_t frame, const DanceLength& length) {
   const auto at = [&](int64_t count) {
     return Rounded(static_cast<double>(count) / length.fps) + " s";
   };
-  return "at " + at(frame) + " lies behind the dance's end: it lasts " + at(length.frames) +
-         ", its last frame is at " + at(length.frames - 1);
+  return "at " + at(frame) + " lies behind the dance's end: its last frame is at " +
+         at(length.frames - 1);
 }
 
 int64_t FrameOf(const client::KeyPose& key, double fps) {

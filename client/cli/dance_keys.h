@@ -19,8 +19,8 @@ struct DanceLength {
   double fps = 30;  ///< the model's
 };
 
-/// Of something at a frame that the dance does not reach: "at 20 s lies behind the dance's end: it
-/// lasts 10 s, ...".
+/// Of something at a frame that the dance does not reach: "at 20 s lies behind the dance's end:
+/// its last frame is at 9.97 s".
 std::string SayBehindEnd(int64_t frame, const DanceLength& length);
 
 /// The frame that a key asks for, at the model's rate.

@@ -102,6 +102,7 @@ class Session {
     CheckKeys();
     dance_ = ReadDance(options.dance, edit_.model.skeleton);
     frames_ = CountModelFrames(dance_, edit_.model);
+    options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
     if (!options.song.empty()) {
       const Music music = ReadMusic(options.song, Seconds(frames_));
       edit_.audio = AudioFor(music.audio, Seconds(frames_));
@@ -131,6 +132,7 @@ class Session {
     edit.to = frame == frames_ - 1 ? frames_ : Behind(frame);
     if (const auto next = keys_.find(edit.to); next != keys_.end())
       edit.to_id = next->second["id"].get<std::string>();
+    DropWarnings(edit.from, edit.to);
     Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
   }
 
@@ -140,6 +142,7 @@ class Session {
       std::cerr << "warning: key " << key->second["id"].get<std::string>() << " at "
                 << Rounded(Seconds(key->first)) << " s makes way for the loop\n";
     }
+    DropWarnings(from, frames_);
     Take(client::CloseLoop(client_, dance_, edit_, from), "loop");
   }
 
@@ -177,6 +180,7 @@ class Session {
       }
       keys_[frame] = key;
     }
+    warnings_ = ReadWarnings(report, options_.report);
   }
 
   void CheckKeys() const {
@@ -220,6 +224,13 @@ class Session {
     return std::min({frames_ - 1, key, frame + Reach()});
   }
 
+  /// What was said of the frames behind `from`, up to and with `to`: they are danced anew.
+  void DropWarnings(int64_t from, int64_t to) {
+    std::erase_if(warnings_, [&](const client::Warning& warning) {
+      return warning.frame > from && warning.frame <= to;
+    });
+  }
+
   void Take(client::EditedDance edited, const std::string& what) {
     ShowWarnings(edited.warnings);
     warnings_.insert(warnings_.end(), edited.warnings.begin(), edited.warnings.end());
@@ -242,7 +253,7 @@ class Session {
   client::FinishedDance dance_;
   int64_t frames_ = 0;                              // at the model's rate
   std::map<int64_t, nlohmann::ordered_json> keys_;  // those known, by frame
-  std::vector<client::Warning> warnings_;           // of the edits
+  std::vector<client::Warning> warnings_;           // of the report and of the edits
 };
 
 void Run(const EditOptions& options) {
@@ -292,7 +303,7 @@ void AddEditCommand(CLI::App& program) {
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,
                       "JSON file to write the keys of the new dance to, for the next edit, and the "
-                      "warnings of this one.");
+                      "warnings that hold.");
   AddSeed(*command, options->seed, "Same seed, same edit. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   options->controls.AddTo(*command);

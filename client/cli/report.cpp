@@ -111,7 +111,8 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key) {
           {"final_error_deg", key.final_error_deg}};
 }
 
-nlohmann::ordered_json WarningsJson(const std::vector<client::Warning>& warnings) {
+nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings) {
+  std::ranges::stable_sort(warnings, {}, &client::Warning::frame);
   auto json = nlohmann::ordered_json::array();
   for (const client::Warning& warning : warnings)
     json.push_back({{"frame", warning.frame}, {"message", warning.message}});
@@ -142,6 +143,22 @@ nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
     }
   }
   return report;
+}
+
+std::vector<client::Warning> ReadWarnings(const nlohmann::ordered_json& report,
+                                          const std::filesystem::path& path) {
+  std::vector<client::Warning> warnings;
+  if (!report.contains("warnings")) return warnings;
+  for (const auto& warning : report["warnings"]) {
+    if (!warning.is_object() || !warning.contains("frame") || !IsFrameNumber(warning["frame"]) ||
+        !warning.contains("message") || !warning["message"].is_string()) {
+      throw InvalidArgument(path.string() + ":warnings[" + std::to_string(warnings.size()) + "]",
+                            "has no message, or no frame that is a whole number from 0 to " +
+                                std::to_string(kMaxFrameNumber));
+    }
+    warnings.push_back({.frame = warning["frame"], .message = warning["message"]});
+  }
+  return warnings;
 }
 
 std::string ReportText(const WrittenDance& dance) {

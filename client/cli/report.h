@@ -31,14 +31,17 @@ std::string ReportJson(const WrittenDance& dance);
 /// One key of such a report, without what is measured in the file.
 nlohmann::ordered_json KeyJson(const client::KeyReached& key);
 
-/// The warnings of such a report.
-nlohmann::ordered_json WarningsJson(const std::vector<client::Warning>& warnings);
+/// The warnings of such a report, by frame.
+nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings);
 /// The same on stderr, a line each.
 void ShowWarnings(const std::vector<client::Warning>& warnings);
 
 /// A report that ReportJson wrote: its fps and keyframes are as they should be. Throws
 /// Error(kInvalidArgument) whose field begins with the path.
 nlohmann::ordered_json ReadReport(const std::filesystem::path& path);
+/// What such a report, that of `path`, warns of. Throws Error(kInvalidArgument) likewise.
+std::vector<client::Warning> ReadWarnings(const nlohmann::ordered_json& report,
+                                          const std::filesystem::path& path);
 
 /// A few lines for people.
 std::string ReportText(const WrittenDance& dance);

@@ -82,6 +82,8 @@ void Run(const TransitionOptions& options) {
   request.config.temperature = options.temperature;
   request.config.controls = options.controls.Read(model, connection.server());
   request.config.first_frame = std::llround(options.at_s * model.fps);
+  options.controls.RequireBegun(request.config.controls,
+                                {request.config.first_frame + options.frames, model.fps});
   request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
   request.candidates = options.candidates;

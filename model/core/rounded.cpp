@@ -25,6 +25,11 @@ std::string Rounded(double value) {
   return text;
 }
 
+std::string RoundedBeyond(double value, double limit) {
+  std::string text = Rounded(value);
+  return text == Rounded(limit) ? InFull(value) : text;
+}
+
 std::string InFull(double value) {
   char text[32];  // the longest double has 24 characters
   const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;

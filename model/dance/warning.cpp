@@ -11,10 +11,10 @@ DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, i
   std::string message =
       "the way to key \"" + id + "\" in " + std::to_string(frames) + " frames asks for ";
   if (speed.root_m_per_s > RequiredSpeed::kRootLimit) {
-    message += Rounded(speed.root_m_per_s) + " m/s of the root; people reach " +
-               Rounded(RequiredSpeed::kRootLimit);
+    message += RoundedBeyond(speed.root_m_per_s, RequiredSpeed::kRootLimit) +
+               " m/s of the root; people reach " + Rounded(RequiredSpeed::kRootLimit);
   } else {
-    message += Rounded(speed.joint_rad_per_s) + " rad/s of " +
+    message += RoundedBeyond(speed.joint_rad_per_s, RequiredSpeed::kJointLimit) + " rad/s of " +
                skeleton.joint_names[static_cast<size_t>(speed.joint)] + "; people reach " +
                Rounded(RequiredSpeed::kJointLimit);
   }
@@ -29,8 +29,8 @@ DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& mo
 
 DanceWarning PathTooFast(int64_t frame, double m_per_s) {
   return {DanceWarning::Kind::kPathTooFast, frame,
-          "the root path asks for " + Rounded(m_per_s) + " m/s; people reach " +
-              Rounded(RequiredSpeed::kRootLimit)};
+          "the root path asks for " + RoundedBeyond(m_per_s, RequiredSpeed::kRootLimit) +
+              " m/s; people reach " + Rounded(RequiredSpeed::kRootLimit)};
 }
 
 DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres) {

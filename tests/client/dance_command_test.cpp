@@ -161,7 +161,7 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   write("beyond.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 12)");
   refused(
       "-k " + At("beyond.json"),
-      "beyond.json:keyframes[1].time: key \"b\" at 12 s lies behind the dance's end: it lasts 4 s");
+      "beyond.json:keyframes[1].time: key \"b\" at 12 s lies behind the dance's end: its last frame is at 3.97 s");
   write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
   write("two.json", R"("id": "c", "time": 3)", R"("id": "a", "time": 3.5)");
   refused("-k " + At("one.json") + " -k " + At("two.json"),

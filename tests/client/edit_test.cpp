@@ -116,6 +116,32 @@ TEST_F(EditTest, AKeyChangesTheTwoIntervalsAroundItAlone) {
   EXPECT_LE(reported[2]["final_error_m"], 0.001);
 }
 
+TEST_F(EditTest, TheNewReportKeepsTheWarningsOfWhatStays) {
+  nlohmann::json report = ReadJson(folder_ / "report.json");
+  report["warnings"] = nlohmann::json::array();
+  for (const size_t frame : {keys_[3] + 1, keys_[3], keys_[1] + 1, keys_[1]})
+    report["warnings"].push_back({{"frame", frame}, {"message", std::to_string(frame)}});
+  std::ofstream(folder_ / "warned.json") << report;
+  const std::string edit = "--key kick --at " + Seconds(keys_[2]) + " --report " +
+                           At("warned.json") + " -o " + At("new.npz") + " --new-report ";
+  const Outcome outcome = Edit(edit + At("new.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  // The way to keys_[3] is another one now.
+  std::vector<size_t> frames;
+  const nlohmann::json edited = ReadJson(folder_ / "new.json");
+  for (const auto& warning : edited["warnings"]) {
+    if (warning["message"] == std::to_string(warning["frame"].get<size_t>()))
+      frames.push_back(warning["frame"]);
+  }
+  EXPECT_EQ(frames, (std::vector{keys_[1], keys_[3] + 1}));
+
+  report["warnings"][1].erase("message");
+  std::ofstream(folder_ / "warned.json") << report;
+  const Outcome bad = Edit(edit + At("bad.json"));
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_THAT(bad.said, HasSubstr("warned.json:warnings[1]: has no message, or no frame"));
+}
+
 // The engine of this test begins every transition from standstill: joins can't be smoother than the
 // keys of an undisturbed dance, and must not be rougher.
 TEST_F(EditTest, JoinsAreAsSmoothAsTheDance) {

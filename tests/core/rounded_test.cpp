@@ -15,6 +15,8 @@ TEST(RoundedTest, ShowsWhatPeopleReadAndNoMore) {
   EXPECT_EQ(Rounded(0.3), "0.3");
   EXPECT_EQ(Rounded(5), "5");
   EXPECT_EQ(Rounded(0.99999), "1");
+  EXPECT_EQ(RoundedBeyond(5.004, 5), "5.004");
+  EXPECT_EQ(RoundedBeyond(5.123456, 5), "5.12");
   EXPECT_EQ(Rounded(1200), "1200");
   EXPECT_EQ(Rounded(12345.678), "12345.68");
   EXPECT_EQ(Rounded(0), "0");
