@@ -13,8 +13,8 @@ namespace choreo {
 /// frames - 1], where -1 is the last pose of the history. Between two beats the plan's time runs
 /// as t + A P / 2 pi sin(2 pi (t - beat) / P), so at 1 + A on each beat and at 1 - A half way
 /// between: poses move by a frame or two, and speed peaks where the music does. Where a way between
-/// keys (`keyed`) begins or ends on a beat, time runs fastest there, and slower before and behind:
-/// dancers are slow at key poses, which is not what a beat asks for. The ends stay where they are,
+/// keys (`keyed`) begins or ends on a beat, A is larger there: dancers are slow at key poses, which
+/// is not what a beat asks for. The ends stay where they are,
 /// so history and key do; transitions of less than 30 frames have a smaller A, and only those of
 /// more than that an accent on their keys. `beats`: ascending, in frames from frame 0; before the
 /// first, behind the last and where the music pauses time runs evenly.

@@ -56,9 +56,9 @@ TEST(PlanTime, RunsFastestAtKeysThatStandOnBeats) {
     return (PlanTime(beats, frames, keyed, t + 0.05) - PlanTime(beats, frames, keyed, t)) / 0.05;
   };
   const std::vector<double> on = EveryFifteen(-16, 100), off = EveryFifteen(-9, 100);
-  // 60 frames from key to key, both on a beat: 1 + 0.25 + 0.6 at each.
-  EXPECT_NEAR(pace(on, 60, true, 58.95), 1.85, 0.05);
-  EXPECT_NEAR(pace(on, 60, true, -1), 1.85, 0.05);
+  // 60 frames from key to key, both on a beat: 1 + 0.25 + 0.75 at each.
+  EXPECT_NEAR(pace(on, 60, true, 58.95), 2, 0.05);
+  EXPECT_NEAR(pace(on, 60, true, -1), 2, 0.05);
   EXPECT_NEAR(pace(on, 60, false, 58.95), 1.25, 0.05);
   EXPECT_LT(pace(off, 60, true, 58.95), 1.25);
   EXPECT_NEAR(pace(on, 30, true, 28.95), 1.25, 0.05);  // there is no room
