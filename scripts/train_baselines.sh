@@ -9,13 +9,13 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-# Steps and peak rates: the baseline in two runs, the second from the first's end. An ablation is a small flow without a planner.
-recurrent_steps=(12000 18000)
-recurrent_rates=(8e-4 5e-4)
+# Steps, windows a step and peak rates. An ablation is a small flow without a planner.
+recurrent_steps=20000
+recurrent_rate=8e-4
+recurrent_batch=64
 ablation_steps=3000
 ablation_rate=1e-3
 ablation_batch=64
-recurrent_batch=32
 # Paper C's network without a plan, its lengths (5 to 70 frames), on its setting: scripts/random_split.sh.
 controls_steps=2000
 controls_rate=1e-3
@@ -42,9 +42,7 @@ train() {  # train RUN OPTION...
 
 all=(--data "$data/tang2018" --data "$data/dancedb" --data "$data/cmu" --splits "$splits")
 recurrent=("${all[@]}" --preset recurrent --batch "$recurrent_batch" --flow-steps 1)  # it has no flow: the one step does nothing
-train recurrent_start "${recurrent[@]}" --planner-steps "${recurrent_steps[0]}" --planner-rate "${recurrent_rates[0]}"
-train recurrent "${recurrent[@]}" --planner "$runs/recurrent_start/checkpoint.safetensors" \
-  --planner-steps "${recurrent_steps[1]}" --planner-rate "${recurrent_rates[1]}"
+train recurrent "${recurrent[@]}" --planner-steps "$recurrent_steps" --planner-rate "$recurrent_rate"
 
 ablation=("${all[@]}" --preset ablation --batch "$ablation_batch" --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
 train ablation/full "${ablation[@]}"

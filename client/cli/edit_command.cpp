@@ -224,10 +224,12 @@ class Session {
     return std::min({frames_ - 1, key, frame + Reach()});
   }
 
-  /// What was said of the frames behind `from`, up to and with `to`: they are danced anew.
+  /// What was said of frames that are danced anew, and of the way to `to`: of a loop, too, where
+  /// the first frame is another one now.
   void DropWarnings(int64_t from, int64_t to) {
     std::erase_if(warnings_, [&](const client::Warning& warning) {
-      return warning.frame > from && warning.frame <= to;
+      const bool anew = warning.frame > from && warning.frame <= to;
+      return anew || (from < 0 && warning.frame >= frames_);
     });
   }
 
@@ -303,7 +305,7 @@ void AddEditCommand(CLI::App& program) {
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,
                       "JSON file to write the keys of the new dance to, for the next edit, and the "
-                      "warnings that hold.");
+                      "warnings of its edits and of frames that stay.");
   AddSeed(*command, options->seed, "Same seed, same edit. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   options->controls.AddTo(*command);

@@ -149,6 +149,8 @@ std::vector<client::Warning> ReadWarnings(const nlohmann::ordered_json& report,
                                           const std::filesystem::path& path) {
   std::vector<client::Warning> warnings;
   if (!report.contains("warnings")) return warnings;
+  if (!report["warnings"].is_array())
+    throw InvalidArgument(path.string() + ":warnings", "is not a list");
   for (const auto& warning : report["warnings"]) {
     if (!warning.is_object() || !warning.contains("frame") || !IsFrameNumber(warning["frame"]) ||
         !warning.contains("message") || !warning["message"].is_string()) {

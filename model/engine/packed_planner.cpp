@@ -39,7 +39,7 @@ PackedPlanner::PackedPlanner(const Safetensors& content, const FlowConfig& confi
   const int key = 3 + 6 * joints_ + joints_ + 1, hidden = config.planner.width;
   if (hidden > 0) transformer_.emplace(tensors, joints_, config, kernels, products);
   if (hidden > 0 && config.planner.variety > 0)
-    variety_.emplace(tensors, joints_, config.planner.variety);
+    variety_.emplace(tensors, skeleton, config.planner.variety);
   counts_ = TimeEmbeddings(0, config.max_transition_frames, feature_width_);
   if (!config.time_embedding) counts_.setZero();
   if (config.condition_width == 0) return;

@@ -27,8 +27,9 @@ bool Asks(const PoseMask& mask, int joint) {
 
 }  // namespace
 
-PackedVariety::PackedVariety(const PackedTensors& tensors, int joints, int components)
-    : basis_(tensors.Get("variety.basis", components, 3 + 3 * joints)) {
+PackedVariety::PackedVariety(const PackedTensors& tensors, const Skeleton& skeleton, int components)
+    : skeleton_(skeleton),
+      basis_(tensors.Get("variety.basis", components, 3 + 3 * skeleton.joints())) {
   const float* spread = tensors.Get("variety.spread", {2, kBins, components}).data();
   const auto activity = tensors.Get("variety.activity", 2, 3);
   for (int kind = 0; kind < 2; ++kind, spread += static_cast<long>(kBins) * components) {
@@ -71,6 +72,7 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
   const bool keyed = Keyed(spec);
   const RowMajorMatrix& spread = spread_[keyed ? 1 : 0];
   const float factor = Factor(spec);
+  const double roughness = Roughness(skeleton_, spec.history);
   const auto half_waves = [&](int wave) { return wave + (keyed ? 1.0 : 0.5); };
 
   s->waves.Resize(waves, width);
@@ -83,7 +85,7 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
     const auto part = static_cast<float>(bounded - bin);
     auto row = s->waves.Part(wave, 0, width);
     row.setZero();
-    const WaveShare share = ShareOf(spec, wave, static_cast<int>(components));
+    const WaveShare share = ShareOf(spec, roughness, wave, static_cast<int>(components));
     for (long i = 0; i < share.components; ++i) {
       const float size = std::exp((1 - part) * spread(bin, i) + part * spread(bin + 1, i) + factor);
       const float drawn = s->noise.Row(0)[skipped + wave * components + i];

@@ -5,6 +5,7 @@
 #include "model/engine/packed_matrix.h"
 #include "model/engine/packed_tensors.h"
 #include "model/engine/step_engine.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 
@@ -18,7 +19,7 @@ class PackedVariety {
   };
 
   /// Throws as PackedTensors does.
-  PackedVariety(const PackedTensors& tensors, int joints, int components);
+  PackedVariety(const PackedTensors& tensors, const Skeleton& skeleton, int components);
 
   /// False: nothing varies, there is no difference. `skipped`: noise of the first frame's own
   /// features, behind which the plan's lies.
@@ -27,6 +28,7 @@ class PackedVariety {
  private:
   float Factor(const TransitionSpec& spec) const;
 
+  Skeleton skeleton_;
   RowMajorMatrix basis_;      // [components, 3 + 3 joints]
   RowMajorMatrix spread_[2];  // [free, keyed][frequency bins, components] logarithms
   Eigen::Vector3f activity_[2];

@@ -12,8 +12,9 @@ namespace choreo {
 
 /// Where on a plan the pose of each frame is taken from (retime.h) so that no step is longer than
 /// `longest`, or than 1.3 times their mean, where the way as a whole asks for more. What is too
-/// fast takes its time, what is not gives it, a little more slowly near both ends, which go on as
-/// history and key do. `steps`: how far it is from each pose to the next, the first one from the
+/// fast takes its time, what is not gives it, less of it near both ends, which go on as history and
+/// key do. In ways of less than some 30 frames, where these leave too little, all goes faster than
+/// that, by half at most. `steps`: how far it is from each pose to the next, the first one from the
 /// history's last, in any unit.
 std::vector<double> EvenTimes(std::span<const double> steps, double longest);
 

@@ -4,17 +4,21 @@
 #include <cmath>
 #include <vector>
 
+#include "model/motion/kinematics.h"
 #include "model/motion/velocity.h"
 
 namespace choreo {
 namespace {
 
-// Powers of the temperature, and between which waves and ways they lie (docs/decisions.md, 49).
-constexpr double kSlowPower = 1.5, kQuickGain = 1.3;
+constexpr double kSlowPower = 1.5;   // of the temperature
+constexpr double kLiveliest = 8;     // times as much has the quickest wave of the longest way
+constexpr double kSlowShare = 0.25;  // of the components has the slowest
+// Between which waves, ways and dancers that lies (docs/decisions.md, 49, 52, 53).
 constexpr double kSlowest = 1.0 / 300, kQuickest = 1.0 / 30;  // cycles a frame
 constexpr double kShort = 25, kLong = 64;                     // frames
-constexpr double kSlowShare = 0.25;                           // of the components
+constexpr double kCalm = 5, kRough = 200;                     // m/s^3
 
+constexpr double kFramesPerSecond = 30;
 constexpr double kSmooth = 50;        // m/s^3: a plan's own median jerk, its feet locked
 constexpr double kUnitNoise = 65;     // m/s^3 beyond that: the noise that the model learnt suits
 constexpr double kStandstill = 1e-3;  // m/s^3: the same pose again, but for rounding
@@ -29,32 +33,41 @@ bool Keyed(const TransitionSpec& spec) {
          std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
 }
 
-WaveShare ShareOf(const TransitionSpec& spec, int wave, int components) {
-  const double temperature = spec.temperature;
-  if (!Keyed(spec)) return {static_cast<float>(std::sqrt(std::sqrt(temperature))), components};
-  const double frequency = (wave + 1) / (2.0 * spec.frames);
-  const double quick = std::log(frequency / kSlowest) / std::log(kQuickest / kSlowest);
-  const double longer = (spec.frames - kShort) / (kLong - kShort);
-  const double cooled = std::clamp(2 - 2 * temperature, 0.0, 1.0);
-  const double gain = std::clamp(quick, 0.0, 1.0) * std::clamp(longer, 0.0, 1.0) * cooled;
-  const double power = temperature < 1 ? kSlowPower - kQuickGain * gain : 1;
-  return {static_cast<float>(std::pow(temperature, power)),
-          static_cast<int>(std::ceil((kSlowShare + (1 - kSlowShare) * gain) * components))};
-}
-
-float NoiseShare(const TransitionSpec& spec, std::span<const JointPlacement> history, double fps) {
-  if (!Keyed(spec) || history.size() < 4) return 1;
+double Roughness(const Skeleton& skeleton, std::span<const Pose> history) {
+  const double unknown = std::hypot(kSmooth, kUnitNoise);
+  if (history.size() < 4) return unknown;
+  std::vector<Eigen::Matrix3Xd> positions;
+  for (const Pose& pose : history) positions.push_back(JointPositions(skeleton, pose));
   std::vector<double> jerks;
-  for (size_t t = 3; t < history.size(); ++t) {
-    for (Eigen::Index joint = 0; joint < history[t].positions.cols(); ++joint) {
-      const auto at = [&](size_t back) { return history[t - back].positions.col(joint); };
-      jerks.push_back(JointJerk(at(3), at(2), at(1), at(0), fps));
+  for (size_t t = 3; t < positions.size(); ++t) {
+    for (Eigen::Index joint = 0; joint < positions[t].cols(); ++joint) {
+      const auto at = [&](size_t back) { return positions[t - back].col(joint); };
+      jerks.push_back(JointJerk(at(3), at(2), at(1), at(0), kFramesPerSecond));
     }
   }
   const auto middle = jerks.begin() + static_cast<std::ptrdiff_t>(jerks.size() / 2);
   std::ranges::nth_element(jerks, middle);
-  if (*middle < kStandstill) return 1;
-  const double beyond = std::sqrt(std::max(0.0, *middle * *middle - kSmooth * kSmooth));
+  return *middle < kStandstill ? unknown : *middle;
+}
+
+WaveShare ShareOf(const TransitionSpec& spec, double roughness, int wave, int components) {
+  const double temperature = spec.temperature;
+  if (!Keyed(spec)) return {static_cast<float>(std::sqrt(std::sqrt(temperature))), components};
+  const auto share = [](double value, double none, double all) {
+    return std::clamp((value - none) / (all - none), 0.0, 1.0);
+  };
+  const double frequency = (wave + 1) / (2.0 * spec.frames);
+  const double gain = share(std::log(frequency), std::log(kSlowest), std::log(kQuickest)) *
+                      share(spec.frames, kShort, kLong) * share(temperature, 1, 0.5);
+  const double lively = gain * share(std::log(roughness), std::log(kCalm), std::log(kRough));
+  const double cooled = std::pow(temperature, kSlowPower) * std::pow(kLiveliest, lively);
+  return {static_cast<float>(temperature < 1 ? std::min(1.0, cooled) : temperature),
+          static_cast<int>(std::ceil((kSlowShare + (1 - kSlowShare) * gain) * components))};
+}
+
+float NoiseShare(const TransitionSpec& spec, double roughness) {
+  if (!Keyed(spec)) return 1;
+  const double beyond = std::sqrt(std::max(0.0, roughness * roughness - kSmooth * kSmooth));
   const double bound = std::max(1.0, kRoughestTemperature / std::max(spec.temperature, 1e-3F));
   return static_cast<float>(std::min({kRoughest, bound, beyond / kUnitNoise}));
 }

@@ -53,7 +53,7 @@ void TransitionWindow::Begin(const TransitionSpec& spec, std::span<const Pose> p
     PastRow(0).segment<3>(codec_.velocity_at()) = PastRow(1).segment<3>(codec_.velocity_at());
   }
   noise_ = spec.temperature * fine_temperature_;
-  if (!plan_.empty()) noise_ *= NoiseShare(spec, placements, fps_);
+  if (!plan_.empty()) noise_ *= NoiseShare(spec, Roughness(skeleton_, spec.history));
   last_placement_ = std::move(placements.back());
   last_ = spec.history.back();
 

@@ -159,9 +159,9 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   refused("-k " + At("close.json"), "close.json:keyframes[0]");
   refused("-k " + At("close.json"), "key \"late\"");
   write("beyond.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 12)");
-  refused(
-      "-k " + At("beyond.json"),
-      "beyond.json:keyframes[1].time: key \"b\" at 12 s lies behind the dance's end: its last frame is at 3.97 s");
+  refused("-k " + At("beyond.json"),
+          "beyond.json:keyframes[1].time: key \"b\" at 12 s lies behind the dance's end: its last "
+          "frame is at 3.97 s");
   write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
   write("two.json", R"("id": "c", "time": 3)", R"("id": "a", "time": 3.5)");
   refused("-k " + At("one.json") + " -k " + At("two.json"),

@@ -135,11 +135,18 @@ TEST_F(EditTest, TheNewReportKeepsTheWarningsOfWhatStays) {
   }
   EXPECT_EQ(frames, (std::vector{keys_[1], keys_[3] + 1}));
 
+  const auto refused = [&](const std::string& message) {
+    std::ofstream(folder_ / "warned.json") << report;
+    const Outcome bad = Edit(edit + At("bad.json"));
+    EXPECT_EQ(bad.code, 1);
+    EXPECT_THAT(bad.said, HasSubstr(message));
+  };
   report["warnings"][1].erase("message");
-  std::ofstream(folder_ / "warned.json") << report;
-  const Outcome bad = Edit(edit + At("bad.json"));
-  EXPECT_EQ(bad.code, 1);
-  EXPECT_THAT(bad.said, HasSubstr("warned.json:warnings[1]: has no message, or no frame"));
+  refused("warned.json:warnings[1]: has no message, or no frame");
+  for (const nlohmann::json& no_list : {nlohmann::json(), nlohmann::json::object()}) {
+    report["warnings"] = no_list;
+    refused("warned.json:warnings: is not a list");
+  }
 }
 
 // The engine of this test begins every transition from standstill: joins can't be smoother than the

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "model/motion/kinematics.h"
+
 namespace choreo {
 namespace {
+
+constexpr double kRough = 200;  // m/s^3
 
 TransitionSpec Spec(int frames, float temperature, bool keyed = true) {
   TransitionSpec spec;
@@ -22,10 +26,10 @@ TEST(ShareOfTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
     const TransitionSpec spec = Spec(frames, 0.25F);
     WaveShare slower{0, 0};
     for (int wave = 0; wave < frames / 5; ++wave) {
-      const WaveShare here = ShareOf(spec, wave, 24);
+      const WaveShare here = ShareOf(spec, kRough, wave, 24);
       EXPECT_GE(here.temperature, slower.temperature) << frames << " " << wave;
       EXPECT_GE(here.temperature, 0.125F) << frames << " " << wave;  // 0.25 to the power of 1.5
-      EXPECT_LE(here.temperature, 0.9F) << frames << " " << wave;
+      EXPECT_LE(here.temperature, 1.0F) << frames << " " << wave;
       EXPECT_GE(here.components, std::max(slower.components, 6)) << frames << " " << wave;
       EXPECT_LE(here.components, 24) << frames << " " << wave;
       slower = here;
@@ -33,32 +37,59 @@ TEST(ShareOfTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
   }
   // Waves of a tenth of a cycle a frame in ways of several lengths.
   const auto quick = [](int frames) {
-    return ShareOf(Spec(frames, 0.25F), frames / 5 - 1, 24).temperature;
+    return ShareOf(Spec(frames, 0.25F), kRough, frames / 5 - 1, 24).temperature;
   };
   EXPECT_FLOAT_EQ(quick(20), 0.125F);
   EXPECT_LT(quick(30), quick(60));
   EXPECT_LT(quick(60), quick(90));
   EXPECT_FLOAT_EQ(quick(90), quick(300));
-  EXPECT_EQ(ShareOf(Spec(90, 0.25F), 17, 24).components, 24);
+}
+
+TEST(ShareOfTest, QuickWavesAreAsLivelyAsTheDancerIsRough) {
+  const auto share = [](double roughness, int wave) {
+    return ShareOf(Spec(90, 0.25F), roughness, wave, 24).temperature;
+  };
+  EXPECT_FLOAT_EQ(share(200, 17), 1);  // 0.25 to the power of 0
+  EXPECT_FLOAT_EQ(share(1000, 17), 1);
+  EXPECT_FLOAT_EQ(share(5, 17), 0.125F);  // as slow ones
+  EXPECT_FLOAT_EQ(share(1, 17), 0.125F);
+  EXPECT_NEAR(share(std::sqrt(1000.0), 17), 0.125 * std::sqrt(8.0), 1e-6);
+  EXPECT_LT(share(30, 5), share(60, 5));
+}
+
+TEST(ShareOfTest, QuickWavesOfLongWaysHaveMostComponents) {
+  const auto components = [](int frames, int wave, float temperature) {
+    return ShareOf(Spec(frames, temperature), kRough, wave, 24).components;
+  };
+  EXPECT_EQ(components(25, 4, 0.25F), 6);
+  EXPECT_EQ(components(60, 0, 0.25F), 13);
+  EXPECT_EQ(components(90, 0, 0.25F), 10);
+  EXPECT_EQ(components(90, 17, 0.25F), 24);
+  EXPECT_EQ(components(90, 17, 0.5F), 24);
+  EXPECT_EQ(components(90, 17, 0.75F), 15);
+  EXPECT_EQ(components(90, 17, 1), 6);
 }
 
 TEST(ShareOfTest, IsTheTemperatureAtZeroAndFromOneOn) {
   for (const int wave : {0, 3, 17}) {
     const auto share = [wave](float temperature) {
-      return ShareOf(Spec(90, temperature), wave, 24).temperature;
+      return ShareOf(Spec(90, temperature), kRough, wave, 24).temperature;
     };
     EXPECT_EQ(share(0), 0);
     EXPECT_EQ(share(1), 1);
     EXPECT_EQ(share(1.7F), 1.7F);
     EXPECT_NEAR(share(0.9999F), 1, 1e-3);
+    for (float temperature = 0.01F; temperature < 1; temperature += 0.01F)
+      EXPECT_GE(share(temperature), share(temperature - 0.01F)) << temperature;
+    EXPECT_LT(share(0.01F), 0.01F);
   }
 }
 
 TEST(ShareOfTest, WhatHasItsWholeSpreadDiffersInFewThings) {
   for (const int wave : {0, 3, 17}) {
-    EXPECT_EQ(ShareOf(Spec(90, 1), wave, 24).components, 6);
-    EXPECT_EQ(ShareOf(Spec(90, 2), wave, 24).components, 6);
-    EXPECT_EQ(ShareOf(Spec(90, 1), wave, 3).components, 1);  // rounded up
+    EXPECT_EQ(ShareOf(Spec(90, 1), kRough, wave, 24).components, 6);
+    EXPECT_EQ(ShareOf(Spec(90, 2), kRough, wave, 24).components, 6);
+    EXPECT_EQ(ShareOf(Spec(90, 1), kRough, wave, 3).components, 1);  // rounded up
   }
 }
 
@@ -67,51 +98,57 @@ TEST(ShareOfTest, IsTheFourthRootOfAllWhereNoKeyHoldsTheDance) {
   nothing.target->mask = {.root_position = false, .joints = std::vector<bool>(24, false)};
   for (const TransitionSpec& spec : {Spec(60, 0.0625F, false), nothing}) {
     for (const int wave : {0, 5, 11}) {
-      EXPECT_FLOAT_EQ(ShareOf(spec, wave, 24).temperature, 0.5F);
-      EXPECT_EQ(ShareOf(spec, wave, 24).components, 24);
+      EXPECT_FLOAT_EQ(ShareOf(spec, kRough, wave, 24).temperature, 0.5F);
+      EXPECT_EQ(ShareOf(spec, kRough, wave, 24).components, 24);
     }
   }
 }
 
-// Placements of ten frames whose joints have the jerk `jerk` m/s^3 along X, and move besides.
-std::vector<JointPlacement> WithJerk(double jerk) {
-  std::vector<JointPlacement> history(10);
+// Ten poses whose joints have the jerk `jerk` m/s^3 along X, and move besides.
+std::vector<Pose> WithJerk(double jerk) {
+  std::vector<Pose> history(10, RestPose(Skeleton::Smpl24()));
   for (int t = 0; t < 10; ++t) {
     const double s = t / 30.0;
-    history[static_cast<size_t>(t)].positions = Eigen::Matrix3Xd::Zero(3, 24);
-    history[static_cast<size_t>(t)].positions.row(0).setConstant(jerk * s * s * s / 6 + 2 * s);
-    history[static_cast<size_t>(t)].positions.row(1).setConstant(0.3 * s * s);
+    history[static_cast<size_t>(t)].root_position +=
+        Eigen::Vector3d(jerk * s * s * s / 6 + 2 * s, 0.3 * s * s, 0);
   }
   return history;
 }
 
+TEST(RoughnessTest, IsTheMedianJerk) {
+  EXPECT_NEAR(Roughness(Skeleton::Smpl24(), WithJerk(80)), 80, 1e-6);
+  // Both hands alone: most joints are smooth.
+  std::vector<Pose> history = WithJerk(10);
+  for (size_t t = 0; t < history.size(); t += 2) history[t].rotations.col(20).setConstant(0.5);
+  EXPECT_NEAR(Roughness(Skeleton::Smpl24(), history), 10, 1e-6);
+}
+
+TEST(RoughnessTest, IsThatOfTheModelsOwnNoiseWhereNothingIsKnown) {
+  const double own = std::hypot(50, 65);
+  const std::vector<Pose> history = WithJerk(200);
+  EXPECT_DOUBLE_EQ(Roughness(Skeleton::Smpl24(), {history.data(), 3}), own);
+  // One pose, ten times: a standstill, or a past of which nothing else is said.
+  EXPECT_DOUBLE_EQ(Roughness(Skeleton::Smpl24(), std::vector(10, history[7])), own);
+  EXPECT_NEAR(NoiseShare(Spec(60, 0.25F), own), 1, 1e-6);
+}
+
 TEST(NoiseShareTest, IsAsRoughAsTheDancer) {
-  const TransitionSpec spec = Spec(60, 0.25F);
-  const auto share = [&](double jerk) { return NoiseShare(spec, WithJerk(jerk), 30); };
+  const auto share = [](double jerk) { return NoiseShare(Spec(60, 0.25F), jerk); };
   EXPECT_EQ(share(1), 0);
   EXPECT_EQ(share(49), 0);  // plans have that themselves
-  EXPECT_NEAR(share(std::hypot(50, 65)), 1, 1e-4);
   EXPECT_NEAR(share(std::hypot(50, 130)), 2, 1e-4);
   EXPECT_EQ(share(1e5), 3);
 }
 
 TEST(NoiseShareTest, OfHighTemperaturesDoesNotGrowFromTransitionToTransition) {
-  const auto share = [&](float temperature) {
-    return NoiseShare(Spec(60, temperature), WithJerk(1e5), 30);
-  };
+  const auto share = [](float temperature) { return NoiseShare(Spec(60, temperature), 1e5); };
   EXPECT_FLOAT_EQ(share(0.5F), 1.5F);
   EXPECT_EQ(share(1), 1);
   EXPECT_EQ(share(2), 1);
-  EXPECT_EQ(NoiseShare(Spec(60, 1), WithJerk(10), 30), 0);
+  EXPECT_EQ(NoiseShare(Spec(60, 1), 10), 0);
 }
 
-TEST(NoiseShareTest, IsOneWhereNothingIsKnown) {
-  EXPECT_EQ(NoiseShare(Spec(60, 0.25F, false), WithJerk(200), 30), 1);
-  const std::vector<JointPlacement> history = WithJerk(200);
-  EXPECT_EQ(NoiseShare(Spec(60, 0.25F), {history.data(), 3}, 30), 1);
-  // One pose, ten times: a standstill, or a past of which nothing else is said.
-  EXPECT_EQ(NoiseShare(Spec(60, 0.25F), std::vector(10, history[7]), 30), 1);
-}
+TEST(NoiseShareTest, IsOneWithoutAKey) { EXPECT_EQ(NoiseShare(Spec(60, 0.25F, false), 1000), 1); }
 
 }  // namespace
 }  // namespace choreo

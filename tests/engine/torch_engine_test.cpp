@@ -163,11 +163,7 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
     const torch::Tensor has_audio = torch::full({1, 1}, spec.has_audio ? 1.0F : 0.0F);
     const auto inverse_weights = model_->InverseWeights();
     double noise_share = model_->config().fine_temperature * spec.temperature;
-    if (!plan.empty()) {
-      std::vector<JointPlacement> placements;
-      for (const Pose& pose : spec.history) placements.push_back(ForwardKinematics(skeleton, pose));
-      noise_share *= NoiseShare(spec, placements, 30);
-    }
+    if (!plan.empty()) noise_share *= NoiseShare(spec, Roughness(skeleton, spec.history));
     FlowState state = torch::zeros({1, model_->StateWidth()});
     double largest_effect_of_state = 0;
     for (int t = 0; t < spec.frames; ++t) {

@@ -105,8 +105,8 @@ TEST_F(DeterminismTest, SameBitsAloneAndAmong31Others) {
     ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
     EXPECT_EQ(answer.Join() == (i % 2 == 0 ? stream : transition).Join(), i / 2 == 5) << i;
   }
-  // Transitions have all their music; a stream's may still be on its way on a busy machine.
-  EXPECT_GT(probe->largest_batch, kCalls / 2) << "calls are not stepped together";
+  // Transitions have all their music; a stream's may still come in on a busy machine.
+  EXPECT_GE(probe->largest_batch, 3 * kCalls / 4) << "calls are not stepped together";
   ExpectIdle();
 }
 
