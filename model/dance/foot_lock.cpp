@@ -109,9 +109,10 @@ Eigen::Vector3d FootLock::Move(Foot* foot, const Eigen::Vector3d& raw) {
   const double arc = std::min(kHighestArc, kArc + kArcPerMetre * Apart(goal, foot->from));
   const double model_lift = std::max(0.0, raw.y() - rest_height_ - kLowToes);
   // A quick step, between keys that stand close together, is a low one. It leaves the floor and
-  // comes down softly: a parabola would jolt the knee, half of the times on a key.
-  const double lift = foot->duration / (kStepSeconds * fps_) * std::max(0.0, arc - model_lift);
-  at.y() += lift * 8 * std::pow(u * (1 - u), 1.5);
+  // comes down softly: a parabola would jolt the knee, half of the times on a key. It is higher
+  // where the model lifts the foot, and never lower.
+  const double shape = foot->duration / (kStepSeconds * fps_) * 8 * std::pow(u * (1 - u), 1.5);
+  at.y() = std::max(at.y() + std::max(0.0, arc - model_lift) * shape, rest_height_ + arc * shape);
   if (!(foot->last_step && foot->landing)) at.y() = std::max(at.y(), rest_height_);
   // A step comes down where the floor is; a foot that the model moves by itself stands once it is
   // slow. A key that has the foot in the air, or leaves it open, takes it from the model's hand.

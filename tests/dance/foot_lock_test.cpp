@@ -131,6 +131,22 @@ TEST(FootLock, AFootThatTheModelLiftsIsTheModels) {
   EXPECT_EQ(lock.contacts()[3], 1);
 }
 
+// A foot that the model has in the air leaves the floor as soon as any other.
+TEST(FootLock, AStepIsNoLowerWhereTheModelLiftsTheFoot) {
+  const Leg left = Leg::Of(Body())[0];
+  const double standing = JointPositions(Body(), At(0))(1, left.toes);
+  FootLock lock(Body(), kFps, 90, Standing(), std::nullopt);
+  Pose model, emitted;
+  for (int t = 0; t < 3; ++t) {  // a third of a step
+    model = At(0.06 * (t + 1));
+    model.rotations.col(left.hip).x() -= 0.5;
+    model.rotations.col(left.knee).x() += 0.5;
+    emitted = lock.Apply(model);
+  }
+  EXPECT_GT(JointPositions(Body(), model)(1, left.toes) - standing, 0.08);
+  EXPECT_GT(JointPositions(Body(), emitted)(1, left.toes) - standing, 0.035);
+}
+
 TEST(FootLock, ToesStayAboveTheFloor) {
   FootLock lock(Body(), kFps, 60, Standing(), std::nullopt);
   double lowest = 1;
