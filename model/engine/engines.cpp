@@ -181,6 +181,8 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
     kernels += ", tile " + std::to_string(loaded.torch_rows);
   }
   if (!loaded.planner) loaded.planner = std::make_shared<TorchPlanner>(model, there);
+  // Without a flow the plan is what is danced: frames have no noise of their own.
+  const bool flow = config.flow_steps > 0;
   loaded.info = {.name = config.name,
                  .fingerprint = Fingerprint(config.name, checkpoint.hash, kernels),
                  .licence = LicenceOf(checkpoint.card),
@@ -192,8 +194,9 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
                  .max_transition_frames = config.max_transition_frames,
                  .default_temperature = config.temperature,
                  .hears_music = config.hears_music,
-                 .fine_temperature = config.fine_temperature,
+                 .fine_temperature = flow ? config.fine_temperature : 0,
                  .follow = config.follow,
+                 .deterministic = !flow && config.planner.variety == 0,
                  .velocity_references = {}};
   return loaded;
 }

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <tuple>
 
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
 #include "model/core/threads.h"
 #include "model/engine/build_identity.h"
+#include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
 
@@ -52,9 +54,27 @@ TEST_P(EnginesTest, TellsWhatItIs) {
   EXPECT_EQ(info.skeleton.joint_names, Skeleton::Smpl24().joint_names);
   EXPECT_EQ(info.max_transition_frames, 200);
   EXPECT_EQ(info.default_temperature, 0.4);
+  EXPECT_FALSE(info.deterministic);
   EXPECT_EQ(engine->device(), "cpu");
   EXPECT_EQ(engine->slots(), 3);
   EXPECT_EQ(engine->free_slots(), 3);
+}
+
+// The baseline of Harvey et al. has neither flow nor variety: it would but shake.
+TEST(Engines, AModelWithoutAFlowIsDeterministic) {
+  SetTorchThreads(1);
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / "without_a_flow.safetensors";
+  WriteRandomCheckpoint(path, FlowConfig::Preset("recurrent"), Skeleton::Smpl24(), 3);
+  const auto engine = MakeEngine(path, {}, 1, EngineKind::kTorch);
+  std::filesystem::remove(path);
+  EXPECT_TRUE(engine->model().deterministic);
+  TransitionSpec spec = RandomSpec(engine->model(), 7);
+  spec.temperature = 0;
+  const auto calm = DanceAlone(engine.get(), spec);
+  spec.temperature = 1;
+  ++spec.seed;
+  ExpectSameBits(DanceAlone(engine.get(), spec), calm);
 }
 
 TEST_P(EnginesTest, GivesTheSameBitsAloneAndAmongFifteenOthers) {
