@@ -58,10 +58,12 @@ TEST_F(AtomicFileTest, AWriteThatFailsLeavesWhatWasThere) {
     const FullDisk full(5000);
     ExpectError(ErrorCode::kInternal, "file: cannot be written: File too large",
                 [&] { WriteFile(path_, long_text); });
-    ExpectError(ErrorCode::kInternal, "file: cannot be written",
-                [&] { WriteNpy(path_, {{10'000}, values}); });
-    ExpectError(ErrorCode::kInternal, "file: can't be written",
-                [&] { WriteSafetensors(path_, {{{"a", {{10'000}, values}}}, {}}); });
+    ExpectError(ErrorCode::kInternal, "file: cannot be written", [&] {
+      WriteNpy(path_, {{10'000}, values});
+    });
+    ExpectError(ErrorCode::kInternal, "file: can't be written", [&] {
+      WriteSafetensors(path_, {{{"a", {{10'000}, values}}}, {}});
+    });
   }
   EXPECT_EQ(Text(path_), "good");
   EXPECT_EQ(Files(), 1U);
