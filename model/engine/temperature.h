@@ -29,12 +29,12 @@ struct WaveShare {
 /// which lead away from the way that is most probable, have the temperature to the power of 1.5;
 /// quick ones up to eight times that, at most all of their spread: they make a dance as lively as
 /// dancers are, which the mean of all ways is the less the longer the way is and the rougher the
-/// dancer. Waves of a second and less in ways of two have
-/// all components, slower ones and those of shorter ways fewer of them, down to a quarter, those in
-/// which ways differ most. From a temperature of a half to one that, too, becomes a quarter for
-/// all: ten dances that differ in few things come nearer to what was danced than ten that differ in
-/// everything. Without a key all components, and the fourth root of the temperature for all waves:
-/// at the temperatures that serve keys well such a dance would all but stand.
+/// dancer. Waves of a second and less in ways of two have all components, slower ones and those of
+/// shorter ways fewer of them, down to a quarter, those in which ways differ most. From a
+/// temperature of a half to one that, too, becomes a quarter for all: ten dances that differ in few
+/// things come nearer to what was danced than ten that differ in everything. Without a key all
+/// components, and the fourth root of the temperature for all waves: at the temperatures that serve
+/// keys well such a dance would all but stand.
 WaveShare ShareOf(const TransitionSpec& spec, double roughness, int wave, int components);
 
 /// The share of its temperature that frames' own noise has on the way to a key: as rough as the
