@@ -2,16 +2,17 @@
 # Trains what docs/results.md compares the models with: the baseline of Harvey et al. 2020, the ablations of paper F's Table 1, and those of
 # paper C's Tables 2 to 4.
 #   scripts/train_baselines.sh BIN_DIRECTORY DATA SPLITS RUNS
-# DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/,
-# ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/ and controls/{full,one_lstm,condition_fc,one_decoder,
+# DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/
+# (and recurrent_start/, from which it goes on), ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/ and controls/{full,one_lstm,condition_fc,one_decoder,
 # no_velocity_factors,no_key_loss}/, where scripts/evaluate.sh looks for them. Killed, it goes on from where it was when it is started again;
 # what is finished is not trained again.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-# Steps, windows a step and peak rates. An ablation is a small flow without a planner.
-recurrent_steps=20000
-recurrent_rate=8e-4
+# Steps, windows a step and peak rates. The baseline sees as many windows as the planner that ships; rates fall to nothing in each of its two
+# runs. An ablation is a small flow without a planner.
+recurrent_steps=(20000 13750)
+recurrent_rates=(8e-4 5e-4)
 recurrent_batch=64
 ablation_steps=3000
 ablation_rate=1e-3
@@ -42,7 +43,9 @@ train() {  # train RUN OPTION...
 
 all=(--data "$data/tang2018" --data "$data/dancedb" --data "$data/cmu" --splits "$splits")
 recurrent=("${all[@]}" --preset recurrent --batch "$recurrent_batch" --flow-steps 1)  # it has no flow: the one step does nothing
-train recurrent "${recurrent[@]}" --planner-steps "$recurrent_steps" --planner-rate "$recurrent_rate"
+train recurrent_start "${recurrent[@]}" --planner-steps "${recurrent_steps[0]}" --planner-rate "${recurrent_rates[0]}"
+train recurrent "${recurrent[@]}" --planner "$runs/recurrent_start/checkpoint.safetensors" --planner-steps "${recurrent_steps[1]}" \
+  --planner-rate "${recurrent_rates[1]}"
 
 ablation=("${all[@]}" --preset ablation --batch "$ablation_batch" --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
 train ablation/full "${ablation[@]}"

@@ -72,7 +72,7 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
   const bool keyed = Keyed(spec);
   const RowMajorMatrix& spread = spread_[keyed ? 1 : 0];
   const float factor = Factor(spec);
-  const double roughness = Roughness(skeleton_, spec.history);
+  const Liveliness liveliness{Roughness(skeleton_, spec.history), Idleness(skeleton_, spec)};
   const auto half_waves = [&](int wave) { return wave + (keyed ? 1.0 : 0.5); };
 
   s->waves.Resize(waves, width);
@@ -85,7 +85,7 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
     const auto part = static_cast<float>(bounded - bin);
     auto row = s->waves.Part(wave, 0, width);
     row.setZero();
-    const WaveShare share = ShareOf(spec, roughness, wave, static_cast<int>(components));
+    const WaveShare share = ShareOf(spec, liveliness, wave, static_cast<int>(components));
     for (long i = 0; i < share.components; ++i) {
       const float size = std::exp((1 - part) * spread(bin, i) + part * spread(bin + 1, i) + factor);
       const float drawn = s->noise.Row(0)[skipped + wave * components + i];

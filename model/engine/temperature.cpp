@@ -10,13 +10,15 @@
 namespace choreo {
 namespace {
 
-constexpr double kSlowPower = 1.5;   // of the temperature
+constexpr double kFreePower = 0.25;  // of the temperature, without a key
+constexpr double kSlowPower = 1.5;   // with one
 constexpr double kLiveliest = 8;     // times as much has the quickest wave of the longest way
 constexpr double kSlowShare = 0.25;  // of the components has the slowest
-// Between which waves, ways and dancers that lies (docs/decisions.md, 49, 52, 53).
+// Between which waves, ways and dancers that lies (docs/decisions.md, 49, 52, 53, 55).
 constexpr double kSlowest = 1.0 / 300, kQuickest = 1.0 / 30;  // cycles a frame
 constexpr double kShort = 25, kLong = 64;                     // frames
 constexpr double kCalm = 5, kRough = 200;                     // m/s^3
+constexpr double kBusy = 0.1;                                 // m/s (55)
 
 constexpr double kFramesPerSecond = 30;
 constexpr double kSmooth = 50;        // m/s^3: a plan's own median jerk, its feet locked
@@ -50,19 +52,39 @@ double Roughness(const Skeleton& skeleton, std::span<const Pose> history) {
   return *middle < kStandstill ? unknown : *middle;
 }
 
-WaveShare ShareOf(const TransitionSpec& spec, double roughness, int wave, int components) {
+double Idleness(const Skeleton& skeleton, const TransitionSpec& spec) {
+  if (!Keyed(spec)) return 0;
+  const Pose& last = spec.history.back();
+  const auto& [pose, mask, height] = *spec.target;
+  Pose key = last;
+  if (mask.root_position) key.root_position = pose.root_position;
+  for (Eigen::Index joint = 0; joint < key.rotations.cols(); ++joint) {
+    if (mask.joints.empty() || mask.joints[static_cast<size_t>(joint)])
+      key.rotations.col(joint) = pose.rotations.col(joint);
+  }
+  const double way =
+      (JointPositions(skeleton, key) - JointPositions(skeleton, last)).colwise().norm().mean();
+  return std::max(0.0, 1 - way * kFramesPerSecond / (spec.frames * kBusy));
+}
+
+WaveShare ShareOf(const TransitionSpec& spec, const Liveliness& liveliness, int wave,
+                  int components) {
   const double temperature = spec.temperature;
-  if (!Keyed(spec)) return {static_cast<float>(std::sqrt(std::sqrt(temperature))), components};
+  if (!Keyed(spec)) return {static_cast<float>(std::pow(temperature, kFreePower)), components};
   const auto share = [](double value, double none, double all) {
     return std::clamp((value - none) / (all - none), 0.0, 1.0);
   };
   const double frequency = (wave + 1) / (2.0 * spec.frames);
+  const double various = share(temperature, 1, 0.5);
   const double gain = share(std::log(frequency), std::log(kSlowest), std::log(kQuickest)) *
-                      share(spec.frames, kShort, kLong) * share(temperature, 1, 0.5);
-  const double lively = gain * share(std::log(roughness), std::log(kCalm), std::log(kRough));
-  const double cooled = std::pow(temperature, kSlowPower) * std::pow(kLiveliest, lively);
-  return {static_cast<float>(temperature < 1 ? std::min(1.0, cooled) : temperature),
-          static_cast<int>(std::ceil((kSlowShare + (1 - kSlowShare) * gain) * components))};
+                      share(spec.frames, kShort, kLong) * various;
+  const double lively =
+      gain * share(std::log(liveliness.roughness), std::log(kCalm), std::log(kRough));
+  const double power = std::lerp(kSlowPower, kFreePower, liveliness.idleness);
+  const double warmed = std::pow(temperature, power) * std::pow(kLiveliest, lively);
+  const double many = std::lerp(kSlowShare, 1.0, std::max(gain, various * liveliness.idleness));
+  return {static_cast<float>(temperature < 1 ? std::min(1.0, warmed) : temperature),
+          static_cast<int>(std::ceil(many * components))};
 }
 
 float NoiseShare(const TransitionSpec& spec, double roughness) {

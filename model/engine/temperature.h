@@ -19,6 +19,17 @@ bool Keyed(const TransitionSpec& spec);
 /// noise suits.
 double Roughness(const Skeleton& skeleton, std::span<const Pose> history);
 
+/// How little the key asks of the dancer: 1 where it is the pose that stands before frame 0, less
+/// the farther away it is, 0 where the way there takes a mean speed of all joints of 0.1 m/s. What
+/// the key leaves open stays as it is. 0 without a key.
+double Idleness(const Skeleton& skeleton, const TransitionSpec& spec);
+
+/// What history and key tell of how lively a way to a key should be.
+struct Liveliness {
+  double roughness;     ///< of the history (Roughness), m/s^3
+  double idleness = 0;  ///< of the way (Idleness)
+};
+
 /// How much of one wave of a plan's variety is sampled.
 struct WaveShare {
   float temperature;  ///< times what its spread is
@@ -34,8 +45,10 @@ struct WaveShare {
 /// temperature of a half to one that, too, becomes a quarter for all: ten dances that differ in few
 /// things come nearer to what was danced than ten that differ in everything. Without a key all
 /// components, and the fourth root of the temperature for all waves: at the temperatures that serve
-/// keys well such a dance would all but stand.
-WaveShare ShareOf(const TransitionSpec& spec, double roughness, int wave, int components);
+/// keys well such a dance would all but stand. The more idle the way, the more it is like one
+/// without a key.
+WaveShare ShareOf(const TransitionSpec& spec, const Liveliness& liveliness, int wave,
+                  int components);
 
 /// The share of its temperature that frames' own noise has on the way to a key: as rough as the
 /// dancer, beyond what a plan with locked feet has itself. From 0 (smooth) to 3, but no more than

@@ -52,7 +52,8 @@ Tensor Mask(const TransitionSpec& spec, int joints) {
 // Noise of the plan: [1, waves, components], of each wave its share. It lies behind the noise of
 // the first frame's own features, so the two are unrelated.
 Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
-  const double roughness = Roughness(model->skeleton(), spec.history);
+  const Liveliness liveliness{Roughness(model->skeleton(), spec.history),
+                              Idleness(model->skeleton(), spec)};
   const int64_t waves = VarietyImpl::Waves(spec.frames);
   const int64_t components = model->variety()->components();
   const auto used = static_cast<size_t>(model->feature_width());
@@ -62,7 +63,7 @@ Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
   float* out = variety.data_ptr<float>();
   const float* in = noise.data() + used;
   for (int wave = 0; wave < waves; ++wave) {
-    const WaveShare share = ShareOf(spec, roughness, wave, static_cast<int>(components));
+    const WaveShare share = ShareOf(spec, liveliness, wave, static_cast<int>(components));
     for (int64_t i = 0; i < components; ++i, ++in)
       *out++ = i < share.components ? share.temperature * *in : 0.0F;
   }

@@ -26,7 +26,7 @@ TEST(ShareOfTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
     const TransitionSpec spec = Spec(frames, 0.25F);
     WaveShare slower{0, 0};
     for (int wave = 0; wave < frames / 5; ++wave) {
-      const WaveShare here = ShareOf(spec, kRough, wave, 24);
+      const WaveShare here = ShareOf(spec, {kRough}, wave, 24);
       EXPECT_GE(here.temperature, slower.temperature) << frames << " " << wave;
       EXPECT_GE(here.temperature, 0.125F) << frames << " " << wave;  // 0.25 to the power of 1.5
       EXPECT_LE(here.temperature, 1.0F) << frames << " " << wave;
@@ -37,7 +37,7 @@ TEST(ShareOfTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
   }
   // Waves of a tenth of a cycle a frame in ways of several lengths.
   const auto quick = [](int frames) {
-    return ShareOf(Spec(frames, 0.25F), kRough, frames / 5 - 1, 24).temperature;
+    return ShareOf(Spec(frames, 0.25F), {kRough}, frames / 5 - 1, 24).temperature;
   };
   EXPECT_FLOAT_EQ(quick(20), 0.125F);
   EXPECT_LT(quick(30), quick(60));
@@ -47,7 +47,7 @@ TEST(ShareOfTest, QuickWavesOfLongWaysAreWarmestSlowOnesCool) {
 
 TEST(ShareOfTest, QuickWavesAreAsLivelyAsTheDancerIsRough) {
   const auto share = [](double roughness, int wave) {
-    return ShareOf(Spec(90, 0.25F), roughness, wave, 24).temperature;
+    return ShareOf(Spec(90, 0.25F), {roughness}, wave, 24).temperature;
   };
   EXPECT_FLOAT_EQ(share(200, 17), 1);  // 0.25 to the power of 0
   EXPECT_FLOAT_EQ(share(1000, 17), 1);
@@ -59,7 +59,7 @@ TEST(ShareOfTest, QuickWavesAreAsLivelyAsTheDancerIsRough) {
 
 TEST(ShareOfTest, QuickWavesOfLongWaysHaveMostComponents) {
   const auto components = [](int frames, int wave, float temperature) {
-    return ShareOf(Spec(frames, temperature), kRough, wave, 24).components;
+    return ShareOf(Spec(frames, temperature), {kRough}, wave, 24).components;
   };
   EXPECT_EQ(components(25, 4, 0.25F), 6);
   EXPECT_EQ(components(60, 0, 0.25F), 13);
@@ -73,7 +73,7 @@ TEST(ShareOfTest, QuickWavesOfLongWaysHaveMostComponents) {
 TEST(ShareOfTest, IsTheTemperatureAtZeroAndFromOneOn) {
   for (const int wave : {0, 3, 17}) {
     const auto share = [wave](float temperature) {
-      return ShareOf(Spec(90, temperature), kRough, wave, 24).temperature;
+      return ShareOf(Spec(90, temperature), {kRough}, wave, 24).temperature;
     };
     EXPECT_EQ(share(0), 0);
     EXPECT_EQ(share(1), 1);
@@ -87,9 +87,9 @@ TEST(ShareOfTest, IsTheTemperatureAtZeroAndFromOneOn) {
 
 TEST(ShareOfTest, WhatHasItsWholeSpreadDiffersInFewThings) {
   for (const int wave : {0, 3, 17}) {
-    EXPECT_EQ(ShareOf(Spec(90, 1), kRough, wave, 24).components, 6);
-    EXPECT_EQ(ShareOf(Spec(90, 2), kRough, wave, 24).components, 6);
-    EXPECT_EQ(ShareOf(Spec(90, 1), kRough, wave, 3).components, 1);  // rounded up
+    EXPECT_EQ(ShareOf(Spec(90, 1), {kRough}, wave, 24).components, 6);
+    EXPECT_EQ(ShareOf(Spec(90, 2), {kRough}, wave, 24).components, 6);
+    EXPECT_EQ(ShareOf(Spec(90, 1), {kRough}, wave, 3).components, 1);  // rounded up
   }
 }
 
@@ -98,10 +98,65 @@ TEST(ShareOfTest, IsTheFourthRootOfAllWhereNoKeyHoldsTheDance) {
   nothing.target->mask = {.root_position = false, .joints = std::vector<bool>(24, false)};
   for (const TransitionSpec& spec : {Spec(60, 0.0625F, false), nothing}) {
     for (const int wave : {0, 5, 11}) {
-      EXPECT_FLOAT_EQ(ShareOf(spec, kRough, wave, 24).temperature, 0.5F);
-      EXPECT_EQ(ShareOf(spec, kRough, wave, 24).components, 24);
+      EXPECT_FLOAT_EQ(ShareOf(spec, {kRough}, wave, 24).temperature, 0.5F);
+      EXPECT_EQ(ShareOf(spec, {kRough}, wave, 24).components, 24);
     }
   }
+}
+
+TEST(ShareOfTest, IdleWaysAreLikeThoseWithoutAKey) {
+  const TransitionSpec free = Spec(30, 0.25F, false), keyed = Spec(30, 0.25F);
+  for (const int wave : {0, 5}) {
+    const auto idle = [&](double idleness) {
+      return ShareOf(keyed, {.roughness = 5, .idleness = idleness}, wave, 24);
+    };
+    const WaveShare share = ShareOf(free, {kRough}, wave, 24);
+    EXPECT_FLOAT_EQ(idle(1).temperature, share.temperature);
+    EXPECT_EQ(idle(1).components, share.components);
+    EXPECT_LT(idle(0).temperature, idle(0.5).temperature);
+    EXPECT_LT(idle(0.5).temperature, idle(1).temperature);
+    EXPECT_EQ(idle(0.5).components, 15);
+  }
+  // A temperature of one means the same to all keys.
+  EXPECT_EQ(ShareOf(Spec(30, 1), {kRough, 1}, 0, 24).temperature, 1);
+  EXPECT_EQ(ShareOf(Spec(30, 1), {kRough, 1}, 0, 24).components, 6);
+  EXPECT_EQ(ShareOf(Spec(30, 0), {kRough, 1}, 0, 24).temperature, 0);
+}
+
+TEST(IdlenessTest, IsOneAtTheSamePoseAndFallsWithTheSpeedAsked) {
+  const Skeleton skeleton = Skeleton::Smpl24();
+  TransitionSpec spec = Spec(60, 0.25F);
+  spec.history = {RestPose(skeleton)};
+  spec.target->pose = spec.history[0];
+  EXPECT_EQ(Idleness(skeleton, spec), 1);
+  spec.target->pose.root_position.x() += 0.05;  // 2.5 cm/s
+  EXPECT_NEAR(Idleness(skeleton, spec), 0.75, 1e-9);
+  spec.frames = 15;  // 10 cm/s
+  EXPECT_NEAR(Idleness(skeleton, spec), 0, 1e-9);
+  spec.frames = 1;
+  EXPECT_EQ(Idleness(skeleton, spec), 0);
+  spec.target.reset();
+  EXPECT_EQ(Idleness(skeleton, spec), 0);
+}
+
+TEST(IdlenessTest, LooksAtWhatTheKeyNames) {
+  const Skeleton skeleton = Skeleton::Smpl24();
+  TransitionSpec spec = Spec(60, 0.25F);
+  spec.history = {RestPose(skeleton)};
+  spec.target->pose = spec.history[0];
+  spec.target->pose.root_position.y() += 1;
+  spec.target->pose.rotations.col(16).z() += 1.5;  // an arm
+  EXPECT_EQ(Idleness(skeleton, spec), 0);
+  spec.target->mask = {.root_position = false, .joints = std::vector<bool>(24, false)};
+  spec.target->mask.joints[12] = true;  // as it is
+  EXPECT_EQ(Idleness(skeleton, spec), 1);
+  spec.target->mask.joints[16] = true;
+  const double arm = Idleness(skeleton, spec);
+  EXPECT_GT(arm, 0);
+  EXPECT_LT(arm, 1);
+  // A key that names nothing is none.
+  spec.target->mask.joints = std::vector<bool>(24, false);
+  EXPECT_EQ(Idleness(skeleton, spec), 0);
 }
 
 // Ten poses whose joints have the jerk `jerk` m/s^3 along X, and move besides.
