@@ -6,7 +6,6 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "model/formats/bvh.h"
@@ -14,6 +13,7 @@
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/mixamo_names.h"
 #include "tests/support/temporary_folder.h"
 
 namespace choreo {
@@ -199,33 +199,11 @@ TEST_F(GltfTest, BonesMayHaveAnyFrameAtRest) {
 
 TEST_F(GltfTest, FitsAnotherSkeleton) {
   // Mixamo's names, twice as large, under a node that turns and scales.
-  const std::map<std::string, std::string> names = {{"pelvis", "Hips"},
-                                                    {"left_hip", "LeftUpLeg"},
-                                                    {"left_knee", "LeftLeg"},
-                                                    {"left_ankle", "LeftFoot"},
-                                                    {"left_foot", "LeftToeBase"},
-                                                    {"right_hip", "RightUpLeg"},
-                                                    {"right_knee", "RightLeg"},
-                                                    {"right_ankle", "RightFoot"},
-                                                    {"right_foot", "RightToeBase"},
-                                                    {"spine1", "Spine"},
-                                                    {"spine2", "Spine1"},
-                                                    {"spine3", "Spine2"},
-                                                    {"neck", "Neck"},
-                                                    {"head", "Head"},
-                                                    {"left_collar", "LeftShoulder"},
-                                                    {"left_shoulder", "LeftArm"},
-                                                    {"left_elbow", "LeftForeArm"},
-                                                    {"left_wrist", "LeftHand"},
-                                                    {"right_collar", "RightShoulder"},
-                                                    {"right_shoulder", "RightArm"},
-                                                    {"right_elbow", "RightForeArm"},
-                                                    {"right_wrist", "RightHand"}};
   const Motion back = ReadChanged([&](Glb& glb) {
     json& nodes = glb.document["nodes"];
     for (json& node : nodes) {
-      const auto found = names.find(node["name"].get<std::string>());
-      if (found != names.end()) node["name"] = "mixamorig:" + found->second;
+      const auto found = kMixamoNames.find(node["name"].get<std::string>());
+      if (found != kMixamoNames.end()) node["name"] = "mixamorig:" + found->second;
     }
     nodes.push_back({{"name", "Armature"},
                      {"children", {0}},

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <map>
 
 #include "model/core/atomic_file.h"
 #include "model/formats/bvh.h"
@@ -12,6 +11,7 @@
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/full_disk.h"
+#include "tests/support/mixamo_names.h"
 #include "tests/support/native_tang2018.h"
 #include "tests/support/temporary_folder.h"
 
@@ -113,34 +113,10 @@ TEST(MotionFile, RefusesGltfThatIsNestedTooDeeply) {
 // Our motion as a capture studio would hand it over: other names, inches, no hands, no collars'
 // rotations lost, and 12 cm above the floor.
 BvhFile StudioBvh(const Motion& motion) {
-  const std::map<std::string, std::string> names = {{"pelvis", "Hips"},
-                                                    {"left_hip", "LeftUpLeg"},
-                                                    {"left_knee", "LeftLeg"},
-                                                    {"left_ankle", "LeftFoot"},
-                                                    {"left_foot", "LeftToeBase"},
-                                                    {"right_hip", "RightUpLeg"},
-                                                    {"right_knee", "RightLeg"},
-                                                    {"right_ankle", "RightFoot"},
-                                                    {"right_foot", "RightToeBase"},
-                                                    {"spine1", "Spine"},
-                                                    {"spine2", "Spine1"},
-                                                    {"spine3", "Spine2"},
-                                                    {"neck", "Neck"},
-                                                    {"head", "Head"},
-                                                    {"left_collar", "LeftShoulder"},
-                                                    {"left_shoulder", "LeftArm"},
-                                                    {"left_elbow", "LeftForeArm"},
-                                                    {"left_wrist", "LeftHand"},
-                                                    {"right_collar", "RightShoulder"},
-                                                    {"right_shoulder", "RightArm"},
-                                                    {"right_elbow", "RightForeArm"},
-                                                    {"right_wrist", "RightHand"},
-                                                    {"left_hand", "LeftHandMiddle1"},
-                                                    {"right_hand", "RightHandMiddle1"}};
   BvhFile file = MotionToBvh(kSmpl, motion);
   for (BvhJoint& joint : file.joints) {
     joint.offset /= 2.54;
-    if (!joint.end_site) joint.name = names.at(joint.name);
+    if (!joint.end_site) joint.name = kMixamoNames.at(joint.name);
   }
   file.values.topRows(3) /= 2.54;
   file.values.row(1).array() += 12 / 2.54;
