@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets, docs/tables_ablations.md, the same of
-# controls (docs/tables_controls*.md), and the figures that docs/results.md and README.md quote.
+# Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets, the same of a genre in no training clip
+# (docs/tables_unseen_genre.md), of ablations (docs/tables_ablations.md) and of controls (docs/tables_controls*.md), and the figures that
+# docs/results.md and README.md quote.
 #   scripts/evaluate.sh [--partial] [--out FOLDER] BIN_DIRECTORY RECORDINGS RUNS [EVAL_OPTION...]
 # RECORDINGS holds tang2018/, dancedb/, cmu_dance/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as
 # scripts/train_baselines.sh leaves them. Where some are not there it fails and names them; --partial leaves their rows out instead.
@@ -12,7 +13,9 @@ partial='' out=$root/docs
 while [[ ${1:-} == --* ]]; do
   case $1 in
     --partial) partial=1; shift ;;
-    --out) mkdir -p "$2"; out=$(realpath "$2"); shift 2 ;;
+    --out)
+      [[ ${2:--} != -* ]] || fail "--out wants a folder"
+      mkdir -p "$2"; out=$(realpath "$2"); shift 2 ;;
     *) fail "unknown option '$1'" ;;
   esac
 done
@@ -70,11 +73,11 @@ measure() {  # measure NAME MODEL OPTIONS...
   local name=$1 model=$2
   shift 2
   # float32: bfloat16, which some CPUs have, gives other last digits.
-  "$lab" eval --engine packed --model "$model" --split test --json "$out/images/$name.json" --markdown "$out/$name.md" \
+  "$lab" eval --engine packed --model "$model" --json "$out/images/$name.json" --markdown "$out/$name.md" \
     ${others[@]+"${others[@]}"} "$@" ${options[@]+"${options[@]}"}
   rm "$out/images/$name.json"
 }
-sets=(--data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json")
+sets=(--split test --data "$data/dancedb" --data "$data/tang2018" --splits "$recordings/splits.json")
 
 rm -f "$out"/images/tables_*.png  # of rows that are no more
 rows "${baselines[@]}"
@@ -84,6 +87,8 @@ for sheet in "$out"/images/tables_sheet_*.png; do  # a quarter of the size
   ffmpeg -v error -y -i "$sheet" -vf "scale=800:-1,split[a][b];[a]palettegen=max_colors=64[p];[b][p]paletteuse=dither=none" "$sheet.small.png"
   mv "$sheet.small.png" "$sheet"
 done
+measure tables_unseen_genre model/checkpoints/default.safetensors --split test_unseen_genre --data "$data/tang2018" \
+  --splits "$recordings/splits.json" --long-dances 0 --best-of 0
 
 rows "${ablations[@]}"
 if trained "$full"; then
@@ -91,7 +96,7 @@ if trained "$full"; then
 fi
 
 rows "${baselines[@]}"
-controls=(--baseline real interpolation --controls)
+controls=(--split test --baseline real interpolation --controls)
 measure tables_controls model/checkpoints/controllers.safetensors --data "$data/dancedb" --splits "$recordings/splits.json" "${controls[@]}" all \
   --windows 4
 # They stand in for paper C's cyclic motion (docs/reproduce.md). The baseline has been trained on them, the model has not.
@@ -107,3 +112,4 @@ if trained "$controls_full"; then
 fi
 
 if [[ $out == "$root/docs" ]]; then scripts/quote_figures.py; fi
+echo "evaluate.sh: $((SECONDS / 60)) minutes"

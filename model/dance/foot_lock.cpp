@@ -18,6 +18,7 @@ constexpr double kFarthestReach = 1.02;  // of the leg's length: a toe drawn two
 constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metres
 constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
 constexpr int kFewestStepFrames = 4;
+constexpr double kLandsAhead = 0.1;  // seconds before the key, which a landing would jolt
 
 double SmoothStep(double u) { return u * u * (3 - 2 * u); }
 
@@ -81,8 +82,10 @@ void FootLock::PlanLastSteps(const Target& target) {
   }
   // The foot with the longer way steps last, so that the other one carries it.
   const size_t last = way[0] > way[1] ? 0 : 1;
-  feet_[last].last_start = frames_ - 1 - step_frames_;
-  feet_[1 - last].last_start = frames_ - 1 - 2 * step_frames_;
+  const int room = (frames_ - 1 - 2 * step_frames_) / 2;
+  const int landed = frames_ - 1 - std::clamp(static_cast<int>(kLandsAhead * fps_), 0, room);
+  feet_[last].last_start = landed - step_frames_;
+  feet_[1 - last].last_start = landed - 2 * step_frames_;
 }
 
 void FootLock::Lift(Foot* foot, int duration) {

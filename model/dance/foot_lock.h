@@ -19,7 +19,8 @@ namespace choreo {
 /// all else stays.
 ///
 /// Frame by frame, without look-ahead, after arrival. A transition's last steps are planned from
-/// its beginning: they land where the key pose has its feet, so the correction is zero at the key.
+/// its beginning: they land where the key pose has its feet, a tenth of a second ahead of it where
+/// there is time, so the correction is zero at the key and nothing jolts it.
 /// The state at the beginning follows from the history, and the transition stays a pure function.
 ///
 /// All poses stand in one frame, whose floor is y = 0. Not thread-safe.

@@ -132,17 +132,25 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
     canvas.SetColour(kKey);
     cairo_set_line_width(cr, 3);
     cairo_stroke(cr);
-    const double width = canvas.TextWidth("key", kFont, true) + 14;
-    RoundedRectangle(canvas, x + 9, y + 9, width, 20, 6);
-    cairo_fill(cr);
-    canvas.SetColour(kPaper);
-    canvas.Text("key", x + 16, y + 19, kFont, Align::kLeft, true);
   }
   canvas.SetColour(shown.key ? kInk : kFaint);
   canvas.Text(time, x + 4, text_y, kFont, Align::kLeft, shown.key);
-  if (!numbered) return;
-  canvas.SetColour(kFaint);
-  canvas.Text(std::to_string(shown.frame), x + picture.width - 4, text_y, kFont - 2, Align::kRight);
+  double right = x + picture.width - 4;
+  if (numbered) {
+    const std::string number = std::to_string(shown.frame);
+    canvas.SetColour(kFaint);
+    canvas.Text(number, right, text_y, kFont - 2, Align::kRight);
+    right -= canvas.TextWidth(number, kFont - 2) + 4;
+  }
+  // Beside the time, where it hides nobody; a narrow tile has its frame alone.
+  const double badge = x + 12 + canvas.TextWidth(time, kFont, true);
+  const double width = canvas.TextWidth("key", kFont - 1, true) + 12;
+  if (!shown.key || badge + width > right) return;
+  RoundedRectangle(canvas, badge, text_y - 9, width, 18, 6);
+  canvas.SetColour(kKey);
+  cairo_fill(cr);
+  canvas.SetColour(kPaper);
+  canvas.Text("key", badge + 6, text_y, kFont - 1, Align::kLeft, true);
 }
 
 }  // namespace

@@ -58,6 +58,14 @@ class Axis {
   double At(double value) const { return from_ + (value - low_) / (high_ - low_) * (to_ - from_); }
   const std::vector<Tick>& ticks() const { return ticks_; }
 
+  // Names of 0, 1, ... instead of numbers, each so far from the one before that `widest` has room.
+  void Name(const std::vector<std::string>& names, double widest) {
+    const auto stride = static_cast<size_t>(std::ceil(widest / (At(1) - At(0))));
+    ticks_.clear();
+    for (size_t i = 0; i < names.size(); i += std::max<size_t>(1, stride))
+      ticks_.push_back({static_cast<double>(i), names[i]});
+  }
+
  private:
   void PlaceLinear(double wanted) {
     const double raw = (high_ - low_) / wanted;
@@ -149,23 +157,75 @@ void DrawLine(const Canvas& canvas, double x1, double y1, double x2, double y2) 
   cairo_stroke(canvas.cr());
 }
 
-// More series than colours: the second round is dashed.
-void SelectLine(const Canvas& canvas, const Plot& plot, size_t index) {
-  const auto end = plot.series.begin() + static_cast<std::ptrdiff_t>(index) + 1;
-  const auto number = static_cast<size_t>(std::count_if(
-      plot.series.begin(), end, [](const PlotSeries& series) { return !series.asked; }));
-  canvas.SetColour(number == 0 ? kInk : kLines[(number - 1) % kColours]);
-  cairo_set_line_width(canvas.cr(), 2);
-  const double dashes[] = {6, 4};
-  const bool dashed = plot.series[index].asked || (number - 1) / kColours % 2 == 1;
-  cairo_set_dash(canvas.cr(), dashes, dashed ? 2 : 0, 0);
+// Whether most points of a line lie on an earlier one, on an axis of `extent`.
+bool HidesAnother(const Plot& plot, size_t index, double extent) {
+  if (!plot.x_names.empty()) return false;  // bars stand side by side
+  const PlotSeries& line = plot.series[index];
+  for (size_t i = 0; i < index; ++i) {
+    const PlotSeries& earlier = plot.series[i];
+    if (earlier.asked) continue;
+    size_t same = 0;
+    for (size_t k = 0; k < std::min(line.x.size(), earlier.x.size()); ++k) {
+      const double apart = OnAxis(line.y[k], plot.log_y) - OnAxis(earlier.y[k], plot.log_y);
+      same += line.x[k] == earlier.x[k] && std::abs(apart) < 0.005 * extent;
+    }
+    if (2 * same > line.x.size()) return true;
+  }
+  return false;
 }
 
-void DrawSeries(const Canvas& canvas, const Plot& plot, const Axis& x_axis, const Axis& y_axis) {
+struct Stroke {
+  Colour colour = kInk;
+  bool dashed = false;
+};
+
+std::vector<Stroke> ChooseStrokes(const Plot& plot, double extent) {
+  std::vector<Stroke> strokes;
+  size_t number = 0;
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    const bool asked = plot.series[i].asked;
+    number += !asked;
+    Stroke stroke{.dashed = asked};
+    if (number > 0) stroke.colour = kLines[(number - 1) % kColours];
+    // More series than colours: the second round is dashed.
+    if (!asked && number > 0)
+      stroke.dashed = (number - 1) / kColours % 2 == 1 || HidesAnother(plot, i, extent);
+    strokes.push_back(stroke);
+  }
+  return strokes;
+}
+
+void Select(const Canvas& canvas, const Stroke& stroke) {
+  canvas.SetColour(stroke.colour);
+  cairo_set_line_width(canvas.cr(), 2);
+  const double dashes[] = {6, 4};
+  cairo_set_dash(canvas.cr(), dashes, stroke.dashed ? 2 : 0, 0);
+}
+
+// The series side by side at each x, standing on 0.
+void DrawBars(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
+              const Axis& x_axis, const Axis& y_axis) {
+  const double width = 0.8 / static_cast<double>(plot.series.size());
+  for (size_t i = 0; i < plot.series.size(); ++i) {
+    const PlotSeries& series = plot.series[i];
+    canvas.SetColour(strokes[i].colour);
+    for (size_t k = 0; k < series.x.size(); ++k) {
+      if (!std::isfinite(series.x[k]) || !std::isfinite(series.y[k])) continue;
+      const double left = series.x[k] - 0.4 + width * static_cast<double>(i);
+      cairo_rectangle(canvas.cr(), x_axis.At(left), y_axis.At(0),
+                      x_axis.At(left + width) - x_axis.At(left),
+                      y_axis.At(series.y[k]) - y_axis.At(0));
+      cairo_fill(canvas.cr());
+    }
+  }
+}
+
+void DrawSeries(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
+                const Axis& x_axis, const Axis& y_axis) {
   cairo_t* cr = canvas.cr();
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
-    SelectLine(canvas, plot, i);
+    Select(canvas, strokes[i]);
     const bool few = series.x.size() <= 40;
     int run = 0;
     double last_x = 0, last_y = 0;
@@ -195,14 +255,16 @@ void DrawSeries(const Canvas& canvas, const Plot& plot, const Axis& x_axis, cons
 }
 
 // Under the title, in as many lines as it takes; `top` is moved below it.
-void DrawLegend(const Canvas& canvas, const Plot& plot, double left, double right, double& top) {
+void DrawLegend(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
+                double left, double right, double& top) {
   constexpr double kSample = 26, kGap = 22, kLine = 20;
   double x = left;
   double y = top + kLine / 2;
   for (size_t i = 0; i < plot.series.size(); ++i) {
     const double width = kSample + 6 + canvas.TextWidth(plot.series[i].label, kFont) + kGap;
     if (x > left && x + width > right) x = left, y += kLine;
-    SelectLine(canvas, plot, i);
+    Select(canvas, strokes[i]);
+    if (!plot.x_names.empty()) cairo_set_line_width(canvas.cr(), 10);  // a bar's colour
     DrawLine(canvas, x, y, x + kSample, y);
     cairo_set_dash(canvas.cr(), nullptr, 0, 0);
     canvas.SetColour(kInk);
@@ -225,8 +287,15 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
       ys.Add(value);
     }
   }
+  const bool bars = !plot.x_names.empty();
+  if (bars) xs.Add(-0.5), xs.Add(static_cast<double>(plot.x_names.size()) - 0.5);
+  const bool from_zero = bars || plot.from_zero;
+  if (from_zero) ys.Add(0);
+  const double floor = ys.low;
   xs.Settle(plot.map ? 0.04 : 0);
   ys.Settle(0.04);
+  if (from_zero) ys.low = floor;
+  const std::vector<Stroke> strokes = ChooseStrokes(plot, ys.high - ys.low);
 
   const Canvas canvas(plot.width, plot.height, kPaper);
   cairo_t* cr = canvas.cr();
@@ -237,7 +306,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
     canvas.Text(plot.title, 24, top + kTitleFont / 2, kTitleFont, Align::kLeft, true);
     top += kTitleFont + 14;
   }
-  DrawLegend(canvas, plot, 24, right, top);
+  DrawLegend(canvas, plot, strokes, 24, right, top);
   top += 10;
 
   Axis y_axis(ys.low, ys.high, bottom, top, plot.log_y, 56);
@@ -253,7 +322,13 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
     ys.WidenTo(unit * (bottom - top));
     y_axis = Axis(ys.low, ys.high, bottom, top, false, 56);
   }
-  const Axis x_axis(xs.low, xs.high, left, right, false, 90);
+  Axis x_axis(xs.low, xs.high, left, right, false, 90);
+  if (bars) {
+    double widest_name = 0;
+    for (const std::string& name : plot.x_names)
+      widest_name = std::max(widest_name, canvas.TextWidth(name, kFont));
+    x_axis.Name(plot.x_names, widest_name + 8);
+  }
 
   cairo_set_line_width(cr, 1);
   for (const Tick& tick : y_axis.ticks()) {
@@ -284,7 +359,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   cairo_rectangle(cr, left - 4, top - 4, right - left + 8, bottom - top + 8);
   cairo_clip(cr);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  DrawSeries(canvas, plot, x_axis, y_axis);
+  (bars ? DrawBars : DrawSeries)(canvas, plot, strokes, x_axis, y_axis);
   cairo_restore(cr);
   canvas.WritePng(png);
 }

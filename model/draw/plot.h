@@ -16,14 +16,19 @@ struct PlotSeries {
   bool asked = false;
 };
 
-/// A line chart.
+/// A line chart. A line that lies on an earlier one for the most part is dashed, so that both are
+/// seen. With `x_names` a bar chart.
 struct Plot {
   std::string title;
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
   bool log_y = false;
-  bool map = false;  ///< a unit is as long up as to the right
+  bool map = false;        ///< a unit is as long up as to the right
+  bool from_zero = false;  ///< the vertical axis has 0, as that of bars always has
+  /// Names of x = 0, 1, ..., as many of them as fit; there the series' bars stand side by side.
+  /// Not with log_y or map.
+  std::vector<std::string> x_names = {};
   int width = 1000;  ///< pixels, 200 to 8192
   int height = 600;
 };

@@ -82,7 +82,7 @@ std::vector<Pose> Retime(std::span<const Pose> history, std::span<const Pose> pl
     for (size_t i = 0; i < 4; ++i) pose.root_position += weights[i] * curve.positions[at - 1 + i];
     pose.rotations.resize(3, joints);
     for (Eigen::Index joint = 0; joint < joints; ++joint) {
-      // In the tangent space of the nearest pose; back from it leads the step before, turned round.
+      // In the tangent space of the pose before; back from it leads the step before, turned round.
       const Eigen::Vector3d turn = -weights[0] * curve.Step(at - 1, joint) +
                                    weights[2] * curve.Step(at, joint) +
                                    weights[3] * curve.Between(at, at + 2, joint);

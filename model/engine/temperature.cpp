@@ -25,6 +25,8 @@ constexpr double kSmooth = 50;        // m/s^3: a plan's own median jerk, its fe
 constexpr double kUnitNoise = 65;     // m/s^3 beyond that: the noise that the model learnt suits
 constexpr double kStandstill = 1e-3;  // m/s^3: the same pose again, but for rounding
 constexpr double kRoughest = 3, kRoughestTemperature = 0.75;
+// On shorter ways, frames, the share counts to a power of up to 2.25 (56).
+constexpr double kUnsmoothed = 60, kShortest = 10, kShortPower = 1.25;
 
 }  // namespace
 
@@ -91,7 +93,10 @@ float NoiseShare(const TransitionSpec& spec, double roughness) {
   if (!Keyed(spec)) return 1;
   const double beyond = std::sqrt(std::max(0.0, roughness * roughness - kSmooth * kSmooth));
   const double bound = std::max(1.0, kRoughestTemperature / std::max(spec.temperature, 1e-3F));
-  return static_cast<float>(std::min({kRoughest, bound, beyond / kUnitNoise}));
+  const double share = std::min({kRoughest, bound, beyond / kUnitNoise});
+  const double brevity =
+      std::clamp((kUnsmoothed - spec.frames) / (kUnsmoothed - kShortest), 0.0, 1.0);
+  return static_cast<float>(std::pow(share, 1 + kShortPower * brevity * brevity));
 }
 
 }  // namespace choreo

@@ -46,14 +46,16 @@ struct WaveShare {
 /// things come nearer to what was danced than ten that differ in everything. Without a key all
 /// components, and the fourth root of the temperature for all waves: at the temperatures that serve
 /// keys well such a dance would all but stand. The more idle the way, the more it is like one
-/// without a key.
+/// without a key, but for temperatures above a half, whose components fade to a quarter here, too.
 WaveShare ShareOf(const TransitionSpec& spec, const Liveliness& liveliness, int wave,
                   int components);
 
 /// The share of its temperature that frames' own noise has on the way to a key: as rough as the
 /// dancer, beyond what a plan with locked feet has itself. From 0 (smooth) to 3, but no more than
 /// leads to the noise of temperature 0.75, or of its own: roughness is handed on from transition to
-/// transition, and must not grow. 1 without a key, and where nothing is known.
+/// transition, and must not grow. On ways of less than 60 frames, which arrival smooths, that
+/// counts to a power of up to 2.25 (10 frames and less). 1 without a key, and where nothing is
+/// known.
 float NoiseShare(const TransitionSpec& spec, double roughness);
 
 }  // namespace choreo

@@ -13,6 +13,8 @@ namespace {
 constexpr double kTurnHorizon = 12;
 constexpr double kSwing = 0.14;      // radians a frame: a turn of the whole body in 1.5 s
 constexpr double kLeastTurn = 1e-3;  // radians
+// Who swings round on a turn of less has no calmer other way, but a somersault or a spin.
+constexpr double kLeastSwung = std::numbers::pi / 2;
 
 // The other of the two turns that end alike; there is none to next to no turn, whose axis is noise.
 Eigen::Vector3d OtherWay(const Eigen::Vector3d& turn) {
@@ -54,7 +56,7 @@ TransitionPlan TransitionPlanner::Plan(const TransitionSpec& spec) const {
       spec);
   TransitionPlan plan = PlanTurning(spec, turn);
   const double fastest = FastestTurn(plan, spec);
-  if (fastest < kSwing) return plan;
+  if (fastest < kSwing || turn.norm() < kLeastSwung) return plan;
   TransitionPlan other = PlanTurning(spec, OtherWay(turn));
   return FastestTurn(other, spec) < fastest ? other : plan;
 }

@@ -19,8 +19,8 @@ class TransitionPlanner {
  public:
   virtual ~TransitionPlanner() = default;
   /// The spec is valid (ValidateSpec). A key can be reached by turning either way round: the plan
-  /// goes on turning as the last frames do, unless it swings round in a few frames so and the plan
-  /// of the other way does so less.
+  /// goes on turning as the last frames do, unless it swings round in a few frames so, on a turn of
+  /// a quarter or more, and the plan of the other way does so less.
   TransitionPlan Plan(const TransitionSpec& spec) const;
 
  private:

@@ -11,11 +11,11 @@
 namespace choreo {
 
 /// How many of the kinematic beats fall on the music's (paper F, 4.5.1: maxima of the mean joint
-/// speed, at most two frames away), and how many music beats have one. `music`: frames, ascending;
-/// those outside the dance do not count.
+/// speed, at most two frames away), and how many there are for each music beat, wherever they fall.
+/// `music`: frames, ascending; those outside the dance do not count.
 struct BeatFigures {
-  double hit_rate = 0;   ///< B_a / B_k
-  double coverage = 0;   ///< B_k / B_m
+  double hit_rate = 0;   ///< B_a / B_k: aligned ones over kinematic beats
+  double coverage = 0;   ///< B_k / B_m: kinematic beats over music beats
   double alignment = 0;  ///< BeatAlignmentScore
 };
 BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music, double fps);

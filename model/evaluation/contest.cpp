@@ -101,7 +101,7 @@ std::vector<std::string> SetNames(const std::vector<std::filesystem::path>& fold
 }
 
 std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
-                              const std::filesystem::path& splits, Split split,
+                              const std::filesystem::path& splits, const std::string& split,
                               const Skeleton& skeleton) {
   const std::vector<std::string> names = SetNames(folders);
   std::vector<ClipSet> sets;

@@ -34,11 +34,11 @@ struct Contest {
 /// does. Names are looked at before anything is loaded.
 Contest MakeContest(const ContestOptions& options);
 
-/// The clips of each folder that belong to `split`, with their beats: a set that is named after the
-/// folder. Throws Error(kInvalidArgument, "--data") for two folders of one name, or another
-/// skeleton than `skeleton`; otherwise as LoadClips does.
+/// The clips of each folder that belong to the group `split`, with their beats: a set that is named
+/// after the folder. Throws Error(kInvalidArgument, "--data") for two folders of one name, or
+/// another skeleton than `skeleton`; otherwise as LoadClips does.
 std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
-                              const std::filesystem::path& splits, Split split,
+                              const std::filesystem::path& splits, const std::string& split,
                               const Skeleton& skeleton);
 /// The names of those sets, checked alike, without a look at the folders.
 std::vector<std::string> SetNames(const std::vector<std::filesystem::path>& folders);

@@ -11,20 +11,14 @@ namespace {
 constexpr int kBlock = 150;   // frames
 constexpr int kInputs = 8;    // of variability and diversity
 constexpr int kSamples = 15;  // of an input, as in the paper
-constexpr int kFrames = 300;  // of each dance
-
-EvalOptions Shorter(const EvalOptions& options) {
-  EvalOptions shorter = options;
-  shorter.long_frames = std::min(options.long_frames, kFrames);
-  return shorter;
-}
+constexpr int kFrames = 300;  // of each dance, at most
 
 // Inputs one after another, the samples of each together.
 std::vector<LongPlan> Plans(const ClipSet& set, const Method& method, const EvalOptions& options) {
   const KeyTimes times = method.keys ? KeyTimes::kEachTwoSeconds : KeyTimes::kNone;
   std::vector<LongPlan> plans;
   for (const LongPlan& input :
-       PlanLongDances(method.engine->model(), set, times, kInputs, Shorter(options))) {
+       PlanLongDances(method.engine->model(), set, times, kInputs, Shorter(options, kFrames))) {
     for (int sample = 0; sample < kSamples; ++sample) {
       plans.push_back(input);
       plans.back().chain.seed += static_cast<uint64_t>(1000 * sample);

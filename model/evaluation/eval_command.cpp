@@ -46,15 +46,24 @@ void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
 }
 
 void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& lengths) {
+  const int longest = std::ranges::max(lengths);
   for (const Method& method : methods) {
-    if (method.kind != Method::Kind::kEngine) continue;
-    const int most = method.engine->model().max_transition_frames;
-    for (const int frames : lengths) {
-      if (frames <= most) continue;
-      throw InvalidArgument("--lengths", std::to_string(frames) + " frames are more than the " +
-                                             std::to_string(most) + " of " + method.name);
-    }
+    // The other engines have the limit of the judged one, and names that nobody gave them.
+    if (method.kind != Method::Kind::kEngine || !method.network || !method.keys) continue;
+    const ModelInfo& model = method.engine->model();
+    if (longest <= model.max_transition_frames) continue;
+    const std::string option = method.name == kServed ? "--model" : "--other " + method.name;
+    throw InvalidArgument("--lengths", std::to_string(longest) + " frames are more than the " +
+                                           std::to_string(model.max_transition_frames) + " that " +
+                                           option + " (" + model.name + ") takes");
   }
+}
+
+// CLI::Range lets NaN pass.
+std::string CheckTemperature(const std::string& text) {
+  float value = 0;
+  if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 2) return "";
+  return "'" + text + "' is not a number from 0 to 2";
 }
 
 std::string Summary(const Arguments& arguments, const Contest& contest) {
@@ -110,16 +119,15 @@ void Evaluate(Arguments arguments) {
   EvalOptions& options = arguments.options;
   if (arguments.controls_only && !model.root_path)
     throw InvalidArgument("--controls", model.name + " takes none");
-  CheckLengths(contest.methods, options.lengths);
+  if (!arguments.controls_only) CheckLengths(contest.methods, options.lengths);
   options.temperature = arguments.temperature >= 0 ? arguments.temperature
                                                    : static_cast<float>(model.default_temperature);
-  const Split split = arguments.split == "test" ? Split::kTest : Split::kValidation;
-  const auto sets = LoadSets(arguments.data, arguments.splits, split, model.skeleton);
+  const auto sets = LoadSets(arguments.data, arguments.splits, arguments.split, model.skeleton);
   if (!arguments.controls_only) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
   std::optional<MotionEncoder> encoder;
   if (arguments.encode && !arguments.controls_only) {
     encoder = MotionEncoder::Train(
-        LoadSets(arguments.data, arguments.splits, Split::kTrain, model.skeleton));
+        LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton));
   }
   std::vector<Table> tables = MakeTables(sets, contest, encoder, arguments.controls_only, options);
   NameJudged(arguments.contest.name, &tables);
@@ -153,12 +161,16 @@ void AddEvalCommand(CLI::App& app) {
       ->required();
   command->add_option("--splits", arguments->splits, "Which clip trains, validates, tests (JSON)")
       ->required();
-  command->add_option("--split", arguments->split, "validation | test")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"validation", "test"}));
+  command
+      ->add_option("--split", arguments->split,
+                   "Which of them is measured: validation | test | any other group of clips that "
+                   "the file names, such as test_unseen_genre")
+      ->capture_default_str();
   command
       ->add_option("--baseline", arguments->contest.baselines,
-                   "Further rows of the tables of transitions")
+                   "Further rows of the tables: \"real\" by real, "
+                   "\"interpolation\" and \"interpolation, foot lock\" by interpolation, "
+                   "\"model without keys\" by music_only")
       ->capture_default_str()
       ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
   command->add_option("--other", arguments->contest.others,
@@ -179,7 +191,10 @@ void AddEvalCommand(CLI::App& app) {
       ->needs("--json");
   command->add_option("--markdown", arguments->paths.markdown,
                       "Also write the tables here; they show plots if there is a --json");
-  command->add_option("--lengths", options.lengths, "Frames of the transitions")
+  command
+      ->add_option("--lengths", options.lengths,
+                   "Frames of the transitions, at most as many as every model takes: 150 of the "
+                   "presets default and recurrent")
       ->capture_default_str()
       ->check(CLI::Range(1, 1800));
   command->add_option("--windows", options.windows_per_clip, "Transitions a clip and length")
@@ -213,8 +228,10 @@ void AddEvalCommand(CLI::App& app) {
           "lengths "
           "of their own")
       ->check(CLI::IsMember({"all", "paper"}));
-  command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
-      ->check(CLI::Range(0.0, 2.0));
+  command
+      ->add_option("--temperature", arguments->temperature,
+                   "From 0 to 2, instead of the model's own")
+      ->check(CheckTemperature);
   command->callback([arguments] { Evaluate(*arguments); });
 }
 

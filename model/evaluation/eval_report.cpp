@@ -38,6 +38,15 @@ std::filesystem::path ReportPaths::Picture(std::string name) const {
 void CheckReportPaths(const ReportPaths& paths) {
   CheckWritable("--json", paths.json);
   CheckWritable("--markdown", paths.markdown);
+  // Folders are there by now, so that links and dots can be followed.
+  const auto place = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  if (!paths.json.empty() && !paths.markdown.empty() &&
+      place(paths.json) == place(paths.markdown)) {
+    throw InvalidArgument("--markdown", "'" + paths.markdown.string() +
+                                            "' is the same file as --json, which would be lost");
+  }
 }
 
 void WriteReport(const ReportPaths& paths, const ReportHead& head,

@@ -18,7 +18,8 @@ struct ReportPaths {
 };
 
 /// Makes missing folders, and throws Error(kInvalidArgument) that names the option (--json,
-/// --markdown) and the path where a file could not be written: before the long work, not after.
+/// --markdown) and the path where a file could not be written, or both are the same file: before
+/// the long work, not after.
 void CheckReportPaths(const ReportPaths& paths);
 
 /// What all tables have in common.

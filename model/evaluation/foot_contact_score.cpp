@@ -1,6 +1,7 @@
 #include "model/evaluation/foot_contact_score.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/error.h"
 
@@ -16,7 +17,8 @@ double PhysicalFootContact(const Skeleton& skeleton, const JointTrack& track) {
     Eigen::Vector3d acceleration = track[t + 1].col(0) - 2 * track[t].col(0) + track[t - 1].col(0);
     acceleration.y() = std::max(acceleration.y(), 0.0);
     const auto way = [&](int joint) {
-      return (track[t + 1].col(joint) - track[t].col(joint)).norm();
+      const Eigen::Vector3d step = track[t + 1].col(joint) - track[t].col(joint);
+      return std::hypot(step.x(), step.z());
     };
     const double left = std::min(way(skeleton.feet[0]), way(skeleton.feet[1]));
     const double right = std::min(way(skeleton.feet[2]), way(skeleton.feet[3]));

@@ -11,12 +11,6 @@ namespace {
 constexpr int kDances = 8;
 constexpr int kFrames = 600;  // of each, at most
 
-EvalOptions Shorter(const EvalOptions& options) {
-  EvalOptions shorter = options;
-  shorter.long_frames = std::min(options.long_frames, kFrames);
-  return shorter;
-}
-
 // Mean distance of the same frames of two dances, cm.
 double Distance(const Skeleton& skeleton, const Chain& a, const Chain& b) {
   return 100 * L2P(TrackJoints(skeleton, a.poses), TrackJoints(skeleton, b.poses));
@@ -54,7 +48,7 @@ Table EvaluateInfluence(const ClipSet& set, StepEngine& engine, const EvalOption
   table.columns = {{"another seed", 2}, {"another seed, T = 1", 2}};
   const bool music = set.HasMusic();
   if (music) table.columns.insert(table.columns.end(), {{"another song", 2}, {"no song", 2}});
-  const EvalOptions shorter = Shorter(options);
+  const EvalOptions shorter = Shorter(options, kFrames);
   for (const KeyTimes times : {KeyTimes::kNone, KeyTimes::kEachTwoSeconds}) {
     const std::vector<LongPlan> plans =
         PlanLongDances(engine.model(), set, times, kDances, shorter);
@@ -95,7 +89,7 @@ int64_t CountInfluenceFrames(const ClipSet& set, const ModelInfo& model,
                              const EvalOptions& options) {
   int64_t frames = 0;
   for (const LongPlan& plan :
-       PlanLongDances(model, set, KeyTimes::kNone, kDances, Shorter(options)))
+       PlanLongDances(model, set, KeyTimes::kNone, kDances, Shorter(options, kFrames)))
     frames += plan.chain.frames * (set.HasMusic() ? 12 : 8);
   return frames;
 }

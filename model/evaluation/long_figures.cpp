@@ -45,6 +45,19 @@ std::pair<double, double> MeansOfEnds(const std::vector<Value>& values, size_t l
   return {mean(values.begin(), values.begin() + part), mean(values.end() - part, values.end())};
 }
 
+// The least median of `length` values in a row; 0 for none.
+double LeastMedian(const std::vector<float>& values, size_t length) {
+  if (length == 0) return 0;
+  double least = INFINITY;
+  const size_t last = values.size() - length;
+  const size_t step = std::max<size_t>(1, length / 10);
+  for (size_t tried = 0; tried < last + step; tried += step) {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(std::min(tried, last));
+    least = std::min(least, Percentile({from, from + static_cast<std::ptrdiff_t>(length)}, 0.5));
+  }
+  return least;
+}
+
 // How many times as fast, or as slow.
 double PaceFactor(const LongFigures& dance) {
   return std::max(dance.pace_change, 1 / dance.pace_change);
@@ -97,8 +110,10 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
   if (early > 0) figures.pace_change = late / early;
   figures.median_speed = Percentile(figures.speeds, 0.5);
   figures.top_speed = Percentile(figures.speeds, 1);
-  const auto fifth = static_cast<std::ptrdiff_t>(figures.speeds.size() / 5);
-  figures.late_speed = Percentile({figures.speeds.end() - fifth, figures.speeds.end()}, 0.5);
+  const size_t fifth = figures.speeds.size() / 5;
+  figures.late_speed = Percentile(
+      {figures.speeds.end() - static_cast<std::ptrdiff_t>(fifth), figures.speeds.end()}, 0.5);
+  figures.stillest = LeastMedian(figures.speeds, fifth);
   for (Eigen::Index joint = 0; joint < skeleton.joints(); ++joint) {
     std::vector<float> speeds;
     AddJointSpeeds(track, joint, fps, &speeds);
@@ -142,6 +157,19 @@ RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointT
     range.high.push_back(Percentile(std::move(speeds), 0.95));
   }
   return range;
+}
+
+RealDances MeasureReal(const ClipSet& set, const ModelInfo& model) {
+  RealDances real;
+  std::vector<JointTrack> tracks;
+  for (const PreparedClip& clip : set.clips) {
+    std::vector<int> keys;
+    for (int f = 59; f < static_cast<int>(clip.motion.frames.size()); f += 60) keys.push_back(f);
+    real.clips.push_back(MeasureLong(model.skeleton, model.fps, clip.motion.frames, keys));
+    tracks.push_back(TrackJoints(model.skeleton, clip.motion.frames));
+  }
+  real.range = RangeOf(real.clips, tracks, model.fps);
+  return real;
 }
 
 }  // namespace choreo

@@ -3,8 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "model/engine/step_engine.h"
 #include "model/evaluation/joint_track.h"
 #include "model/evaluation/pace.h"
+#include "model/evaluation/windows.h"
 
 namespace choreo {
 
@@ -14,8 +16,9 @@ struct LongFigures {
   double seconds = 0;
   double median_speed = 0;  ///< of the mean joint speed, m/s
   double late_speed = 0;    ///< the same over its last fifth: freezing shows here
-  double top_speed = 0;     ///< of any frame: explosion shows here
-  double reach_m = 0;       ///< furthest that the root goes from its start, on the floor
+  double stillest = 0;   ///< the least that it is over any fifth, tried each fiftieth of the dance
+  double top_speed = 0;  ///< of any frame: explosion shows here
+  double reach_m = 0;    ///< furthest that the root goes from its start, on the floor
   /// Slope of the least-squares line through the root's distance from its start on the floor,
   /// metres a minute: above zero for who walks away, near it for who comes back or stays.
   double away_m_per_min = 0;
@@ -48,7 +51,8 @@ struct RealRange {
   /// clips.
   double away_m_per_min = 3, rise_m = 0.15, pace_change = 2;
 
-  /// A dance whose last fifth is slower than a quarter of real motion has frozen.
+  /// A dance whose last fifth is slower than a quarter of real motion has frozen. One that stands
+  /// in its middle and moves again at its end has not: that shows in LongFigures::stillest alone.
   bool Frozen(const LongFigures& dance) const { return dance.late_speed < 0.25 * median_speed; }
   bool Exploded(const LongFigures& dance) const { return dance.top_speed > top_speed; }
   /// It leaves its place, its height or its pace by more than real motion does.
@@ -60,5 +64,12 @@ struct RealRange {
 /// `real`: figures of the clips `tracks`, one each.
 RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointTrack>& tracks,
                   double fps);
+
+/// The clips of a set as dances whose keys are their frames each 2 s, and what they allow.
+struct RealDances {
+  std::vector<LongFigures> clips;
+  RealRange range;
+};
+RealDances MeasureReal(const ClipSet& set, const ModelInfo& model);
 
 }  // namespace choreo

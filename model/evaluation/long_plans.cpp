@@ -80,6 +80,11 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
   return plans;
 }
 
+EvalOptions Shorter(EvalOptions options, int frames) {
+  options.long_frames = std::min(options.long_frames, frames);
+  return options;
+}
+
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set) {
   std::vector<Pose> poses;
   for (int frame = 0; frame < plan.chain.frames; ++frame)

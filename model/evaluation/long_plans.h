@@ -32,6 +32,9 @@ struct LongPlan {
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
                                      int count, const EvalOptions& options);
 
+/// The same with long dances of at most `frames`.
+EvalOptions Shorter(EvalOptions options, int frames);
+
 /// The real motion beside a long dance, of which its keys are frames: [chain.frames] poses.
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set);
 

@@ -55,6 +55,7 @@ TableRow LongRow(const std::string& name, const std::vector<LongFigures>& dances
            median([](const LongFigures& dance) { return dance.seconds; }),
            median([](const LongFigures& dance) { return dance.median_speed; }),
            median([](const LongFigures& dance) { return dance.late_speed; }),
+           median([](const LongFigures& dance) { return dance.stillest; }),
            share([&](const LongFigures& dance) { return real.Frozen(dance); }),
            share([&](const LongFigures& dance) { return real.Exploded(dance); }),
            share([&](const LongFigures& dance) { return real.Drifted(dance); }),
@@ -100,8 +101,9 @@ Table LongHeadings(const ClipSet& set) {
   table.title = "Long dances, " + set.name;
   table.note =
       "Keys are poses of the clips, whose songs end a dance. Frozen: the last fifth is slower than "
-      "a quarter of real "
-      "motion's median; exploded: a frame's mean joint speed is above all of real motion's; "
+      "a quarter of real motion's median; who stands before that and moves again shows in the "
+      "slowest fifth anywhere (stillest) alone; exploded: a frame's mean joint speed is above all "
+      "of real motion's; "
       "drifted: the root goes away from its start (slope of a line through its distances), or is "
       "higher or lower in the last 10 s than in the first, or the mean joint speed is another "
       "there, "
@@ -115,6 +117,7 @@ Table LongHeadings(const ClipSet& set) {
                    {"seconds median", 0},
                    {"speed median m/s", 2},
                    {"last fifth m/s", 2},
+                   {"stillest fifth m/s", 2},
                    {"frozen %", 0},
                    {"exploded %", 0},
                    {"drifted %", 0},
@@ -141,21 +144,14 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
                                       const EvalOptions& options, ProgressBar* progress) {
   if (options.long_seeds == 0) return {};
   const ModelInfo& model = engine.model();
-  std::vector<LongFigures> real;
-  std::vector<JointTrack> tracks;
-  for (const PreparedClip& clip : set.clips) {
-    std::vector<int> frames;
-    for (int f = 59; f < static_cast<int>(clip.motion.frames.size()); f += 60) frames.push_back(f);
-    real.push_back(MeasureLong(model.skeleton, model.fps, clip.motion.frames, frames));
-    tracks.push_back(TrackJoints(model.skeleton, clip.motion.frames));
-  }
-  const RealRange range = RangeOf(real, tracks, model.fps);
+  const RealDances real = MeasureReal(set, model);
   Table table = LongHeadings(set);
-  table.rows.push_back(LongRow("real motion", real, range, 0));
-  table.plot = Plot{.title = "Mean joint speed through long dances, " + set.name,
-                    .x_label = "seconds",
-                    .y_label = "m/s",
-                    .series = {SpeedCurve("real motion", real, model.fps, options.long_frames)}};
+  table.rows.push_back(LongRow("real motion", real.clips, real.range, 0));
+  table.plot =
+      Plot{.title = "Mean joint speed through long dances, " + set.name,
+           .x_label = "seconds",
+           .y_label = "m/s",
+           .series = {SpeedCurve("real motion", real.clips, model.fps, options.long_frames)}};
   BeatTable beat_table(set);
   for (const KeyTimes times : KindsFor(set)) {
     const std::vector<LongPlan> plans =
@@ -175,14 +171,14 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
                      MeanSpeeds(TrackJoints(model.skeleton, chains[i].poses), model.fps));
     }
     if (dances.empty()) continue;
-    table.rows.push_back(LongRow(NameOf(times), dances, range, worst_key));
-    if (keyed) table.rows.push_back(LongRow("real motion of these keys", beside, range, 0));
+    table.rows.push_back(LongRow(NameOf(times), dances, real.range, worst_key));
+    if (keyed) table.rows.push_back(LongRow("real motion of these keys", beside, real.range, 0));
     table.plot->series.push_back(SpeedCurve(NameOf(times), dances, model.fps, options.long_frames));
   }
   std::vector<Table> tables = {table};
   if (set.HasMusic()) {
     for (size_t clip = 0; clip < set.clips.size(); ++clip)
-      beat_table.Add("real", clip, 0, real[clip].speeds);
+      beat_table.Add("real", clip, 0, real.clips[clip].speeds);
     tables.push_back(beat_table.Finish());
   }
   tables.push_back(EvaluateInfluence(set, engine, options, progress));

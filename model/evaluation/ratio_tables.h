@@ -28,7 +28,8 @@ void AddPoint(Plot* plot, const std::string& label, double x, double y);
 /// The judged model's ratio, genre by genre; drawn where there is more than one.
 Table GenreTable(const ClipSet& set, const std::vector<LengthFigures>& lengths);
 
-/// The ratios of real motion, of the model as served, at temperature 1, and of the best samples.
+/// The ratios of real motion, of the model as served, at temperature 1, and of the best samples
+/// there, which vary in a quarter of what variety has (model/engine/temperature.h).
 Table SampleTable(const ClipSet& set, const std::vector<LengthFigures>& lengths,
                   const EvalOptions& options);
 

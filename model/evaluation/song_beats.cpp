@@ -6,13 +6,13 @@
 #include "model/audio/beats.h"
 #include "model/audio/mel.h"
 #include "model/audio/onset.h"
-#include "model/dance/quality_report.h"
 
 namespace choreo {
 namespace {
 
 constexpr double kSampleRate = 22050;
-constexpr double kSigma = 3;  // frames
+constexpr double kSigma = 3.0 / 60;    // seconds
+constexpr double kAround = 10.0 / 60;  // seconds on each side of which a motion beat is the slowest
 // librosa's onset frames lie half an analysis window behind the windows' centres.
 constexpr double kOnsetDelay = kFftSize / 2 / kSampleRate;  // seconds
 
@@ -34,6 +34,21 @@ std::vector<double> Rises(const Eigen::MatrixXf& rows) {
   for (Eigen::Index t = 1; t < rows.cols(); ++t)
     rises[static_cast<size_t>(t)] = (mel.col(t) - mel.col(t - 1)).cwiseMax(0).mean();
   return rises;
+}
+
+// Frames of the strict minima among the steps within kAround; neither the first nor the last step.
+std::vector<int64_t> MotionBeats(std::span<const float> speeds, double fps) {
+  const auto count = static_cast<int64_t>(speeds.size());
+  const int64_t order = std::max(int64_t{1}, static_cast<int64_t>(std::lround(kAround * fps)));
+  std::vector<int64_t> frames;
+  for (int64_t i = 1; i + 1 < count; ++i) {
+    const auto from = speeds.begin() + std::max(int64_t{0}, i - order);
+    const auto to = speeds.begin() + std::min(count, i + order + 1);
+    const float speed = speeds[static_cast<size_t>(i)];
+    if (std::count_if(from, to, [=](float other) { return other <= speed; }) == 1)
+      frames.push_back(i + 1);
+  }
+  return frames;
 }
 
 }  // namespace
@@ -59,18 +74,16 @@ std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps) {
 
 double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
                           double fps) {
-  std::vector<float> slowness(speeds.begin(), speeds.end());
-  for (float& value : slowness) value = -value;
-  const std::vector<int64_t> minima = KinematicBeats(slowness, fps);
-  if (minima.empty() || music_beats.empty()) return 0;
+  const std::vector<int64_t> motion_beats = MotionBeats(speeds, fps);
+  if (motion_beats.empty() || music_beats.empty()) return 0;
   double sum = 0;
-  for (const int64_t frame : minima) {
-    double nearest = INFINITY;
+  for (const int64_t frame : motion_beats) {
+    double nearest = INFINITY;  // seconds
     for (const double beat : music_beats)
-      nearest = std::min(nearest, std::abs(beat - static_cast<double>(frame)));
+      nearest = std::min(nearest, std::abs(beat - static_cast<double>(frame)) / fps);
     sum += std::exp(-nearest * nearest / (2 * kSigma * kSigma));
   }
-  return sum / static_cast<double>(minima.size());
+  return sum / static_cast<double>(motion_beats.size());
 }
 
 }  // namespace choreo

@@ -14,9 +14,13 @@ namespace choreo {
 /// librosa, which paper F uses). `rows`: [coefficients, frames], 30 a second. Empty for silence.
 std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 
-/// Beat alignment score (Li et al. 2021, AIST++, Section 5): mean over kinematic beats, which are
-/// the *minima* of the smoothed mean joint speed there, of exp(-d^2 / 2 sigma^2), d frames to the
-/// nearest music beat, sigma 3 frames. 1 is perfect. 0 without beats of either kind.
+/// Beat alignment score of AIST++ (Li et al. 2021, Section 5), as its published evaluation has it
+/// (google-research/mint, calculate_beat_scores.py): mean over motion beats of
+/// exp(-d^2 / 2 sigma^2), d seconds to the nearest music beat, sigma 0.05 s (3 frames at 60 fps). A
+/// motion beat is a frame whose mean joint speed is *below* that of all others within 1/6 s on each
+/// side (10 frames at 60 fps). Nothing is smoothed there, unlike for KinematicBeats, which are
+/// maxima. 1 is perfect. 0 without beats of either kind. `speeds[i]` belongs to frame i + 1, music
+/// beats are in frames; `fps` > 0.
 double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
                           double fps);
 

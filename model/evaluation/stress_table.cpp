@@ -100,13 +100,7 @@ std::vector<Danced> DanceCase(const Case& one, const ClipSet& set, StepEngine& e
 
 Table EvaluateStress(const ClipSet& set, StepEngine& engine, const EvalOptions& options) {
   const ModelInfo& model = engine.model();
-  std::vector<LongFigures> real;
-  std::vector<JointTrack> tracks;
-  for (const PreparedClip& clip : set.clips) {
-    real.push_back(MeasureLong(model.skeleton, model.fps, clip.motion.frames, {}));
-    tracks.push_back(TrackJoints(model.skeleton, clip.motion.frames));
-  }
-  const RealRange range = RangeOf(real, tracks, model.fps);
+  const RealRange range = MeasureReal(set, model).range;
   Table table;
   table.name = "stress_" + set.name;
   table.title = "Keys that ask for too much or too little, " + set.name;

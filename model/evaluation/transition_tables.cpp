@@ -67,7 +67,8 @@ Table TransitionTable(const ClipSet& set, const std::vector<Method>& methods,
     const RealFeatures real = GatherRealFeatures(set, length.frames);
     for (const Method& method : methods) {
       table.rows.push_back(MethodRow(method.name, length, real));
-      if (method.kind != Method::Kind::kReal)
+      // Without keys all are far away, and would press the others together.
+      if (method.kind != Method::Kind::kReal && method.keys)
         AddPoint(&plot, method.name, length.frames, table.rows.back().cells[1].value);
     }
   }

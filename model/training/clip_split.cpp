@@ -1,9 +1,10 @@
 #include "model/training/clip_split.h"
 
-#include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "model/core/error.h"
@@ -13,43 +14,51 @@ namespace {
 
 using nlohmann::json;
 
-// "train", "validation", "test...", or anything else ("unused") for a clip that the file names;
-// nothing for one it does not.
-std::optional<std::string> NamedSplit(const json& splits, const std::string& clip) {
-  for (const auto& [set, parts] : splits.items()) {
-    for (const auto& [part, names] : parts.items()) {
-      if (std::find(names.begin(), names.end(), clip) != names.end()) return part;
-    }
-  }
-  return std::nullopt;
-}
-
-bool Belongs(const std::optional<std::string>& part, Split split) {
-  switch (split) {
-    case Split::kTrain:
-      return !part || *part == "train";
-    case Split::kValidation:
-      return part && *part == "validation";
-    case Split::kTest:
-      return part && *part == "test";
-    case Split::kTrainAndValidation:
-      return Belongs(part, Split::kTrain) || Belongs(part, Split::kValidation);
-  }
-  return false;
-}
-
-}  // namespace
-
-std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
-                                    const std::filesystem::path& splits_file, Split split) {
+// Clip by clip the group that the file has it in. One that were in two could train and test.
+std::map<std::string, std::string> ReadGroups(const std::filesystem::path& splits_file) {
   std::ifstream file(splits_file);
   if (!file) throw Error(ErrorCode::kNotFound, splits_file.string(), "no such splits file");
   const json splits = json::parse(file, nullptr, false);
   if (!splits.is_object()) throw InvalidArgument(splits_file.string(), "not a JSON object");
+  std::map<std::string, std::string> groups;
+  for (const auto& [set, parts] : splits.items()) {
+    for (const auto& [group, names] : parts.items()) {
+      for (const json& name : names) {
+        if (!name.is_string()) continue;
+        const auto [known, added] = groups.emplace(name.get<std::string>(), group);
+        if (added || known->second == group) continue;
+        throw InvalidArgument(splits_file.string(), "'" + known->first + "' is both in '" +
+                                                        known->second + "' and in '" + group + "'");
+      }
+    }
+  }
+  return groups;
+}
+
+std::vector<std::filesystem::path> ListFolder(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder))
+    throw Error(ErrorCode::kNotFound, folder.string(), "no such folder");
+  if (!std::filesystem::is_directory(folder))
+    throw InvalidArgument(folder.string(), "not a folder");
+  return ListPreparedClips(folder);
+}
+
+// "'a', 'b'"
+std::string Quote(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+std::vector<PreparedClip> LoadGroups(const std::vector<std::filesystem::path>& folders,
+                                     const std::filesystem::path& splits_file,
+                                     const std::set<std::string>& wanted) {
+  const std::map<std::string, std::string> groups = ReadGroups(splits_file);
   std::vector<PreparedClip> clips;
+  std::set<std::string> there;
   std::optional<std::pair<std::filesystem::path, Skeleton>> first;
   for (const auto& folder : folders) {
-    for (const auto& path : ListPreparedClips(folder)) {
+    for (const auto& path : ListFolder(folder)) {
       PreparedClip clip = ReadPreparedClip(path);
       if (!first) first.emplace(path, clip.skeleton);
       if (!(clip.skeleton == first->second)) {
@@ -58,14 +67,36 @@ std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& fo
                                   first->first.string() + " " + first->second.Describe() +
                                   "; a model has one skeleton, bone lengths included");
       }
-      if (Belongs(NamedSplit(splits, clip.name), split)) clips.push_back(std::move(clip));
+      const auto named = groups.find(clip.name);
+      const std::string& group =
+          *there.insert(named == groups.end() ? kTrainGroup : named->second).first;
+      if (wanted.contains(group)) clips.push_back(std::move(clip));
     }
   }
   if (clips.empty()) {
-    throw InvalidArgument(splits_file.string(),
-                          "no prepared clip of the data belongs to this split");
+    std::set<std::string> data;
+    for (const auto& folder : folders) data.insert(folder.string());
+    throw InvalidArgument(
+        splits_file.string(),
+        "no clip of " + Quote(data) + " is in " + Quote(wanted) + "; they are in " + Quote(there));
   }
   return clips;
+}
+
+}  // namespace
+
+std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
+                                    const std::filesystem::path& splits_file, Split split) {
+  std::set<std::string> wanted;
+  if (split != Split::kValidation) wanted.insert(kTrainGroup);
+  if (split != Split::kTrain) wanted.insert("validation");
+  return LoadGroups(folders, splits_file, wanted);
+}
+
+std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
+                                    const std::filesystem::path& splits_file,
+                                    const std::string& group) {
+  return LoadGroups(folders, splits_file, {group});
 }
 
 }  // namespace choreo

@@ -68,6 +68,25 @@ TEST(ContactSheet, IsAPictureOfTheMotion) {
   EXPECT_GT(key.Count(kKeyColour), 200);
 }
 
+TEST(ContactSheet, TheWordKeyStandsBelowItsTileAndHidesNobody) {
+  const TemporaryFolder folder;
+  ContactSheetOptions options = Small({0});
+  options.frames = options.columns = 1;
+  options.tile_width = 120;
+  DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31), options, folder / "a.png");
+  const DecodedPng png(folder / "a.png");
+  const int bottom = png.height - 24 - 24;  // the margin, and the line below the tile
+  const auto count = [&](int left, int top, int right, int end) {
+    int found = 0;
+    for (int y = top; y < end; ++y)
+      for (int x = left; x < right; ++x) found += png.At(x, y) == kKeyColour;
+    return found;
+  };
+  EXPECT_GT(count(24, bottom - 80, 24 + 120, bottom), 500);  // the frame
+  EXPECT_EQ(count(24 + 8, bottom - 72, 24 + 112, bottom - 8), 0);
+  EXPECT_GT(count(24, bottom, 24 + 120, png.height), 200);
+}
+
 TEST(ContactSheet, BreaksIntoRows) {
   const TemporaryFolder folder;
   ContactSheetOptions options = Small();

@@ -103,6 +103,65 @@ TEST(Plot, WhatWasAskedIsDashedInTheColourOfWhatCame) {
   EXPECT_LT(DecodedPng(folder / "first.png").Count(kFirstLine), asked.Count(kFirstLine) - 100);
 }
 
+TEST(Plot, ALineThatLiesOnAnEarlierOneIsDashedAndBothAreSeen) {
+  const TemporaryFolder folder;
+  Plot plot = Example();
+  plot.series[0].y = plot.series[1].y;
+  DrawPlot(plot, folder / "a.png");
+  const DecodedPng png(folder / "a.png");
+  EXPECT_GT(png.Count(kFirstLine), 200);
+  EXPECT_GT(png.Count(kSecondLine), 200);
+}
+
+TEST(Plot, TheAxisCanBeginAtZero) {
+  const TemporaryFolder folder;
+  Plot plot;
+  plot.series = {{"low", {0, 1}, {1, 1}}, {"middle", {0, 1}, {1.4, 1.4}}, {"high", {0, 1}, {2, 2}}};
+  const auto apart = [&] {
+    DrawPlot(plot, folder / "a.png");
+    const DecodedPng png(folder / "a.png");
+    return Rows(png, 500, kFirstLine).front() - Rows(png, 500, kSecondLine).back();
+  };
+  EXPECT_GT(apart(), 150);
+  plot.from_zero = true;
+  EXPECT_LT(apart(), 110);
+}
+
+TEST(Plot, BarsOfNamedPlacesStandSideBySideOnZero) {
+  const TemporaryFolder folder;
+  Plot plot;
+  plot.x_names = {"one song", "another song", "a third"};
+  plot.series = {{"low", {0, 1}, {5, 5}}, {"high", {0, 1}, {10, NAN}}, {"highest", {2}, {20}}};
+  DrawPlot(plot, folder / "bars.png");
+  const DecodedPng png(folder / "bars.png");
+  // Columns and rows of a colour, the legend left out.
+  const auto extent = [&](uint32_t colour) {
+    int columns = 0, tallest = 0;
+    for (int x = 0; x < png.width; ++x) {
+      const auto rows = static_cast<int>(Rows(png, x, colour).size());
+      columns += rows > 0, tallest = std::max(tallest, rows);
+    }
+    return std::pair(columns, tallest);
+  };
+  const auto [low_width, low] = extent(kFirstLine);
+  const auto [high_width, high] = extent(kSecondLine);
+  EXPECT_NEAR(low_width, 2 * high_width, 6);  // one of the high ones is not there
+  EXPECT_NEAR(2 * low, high, 4);
+  EXPECT_GT(high, 200);
+}
+
+TEST(Plot, ManyNamesAreLeftOutRatherThanWrittenOverEachOther) {
+  const TemporaryFolder folder;
+  Plot plot;
+  plot.series = {{"one", {0}, {1}}};
+  const auto dark = [&](size_t count) {
+    plot.x_names = std::vector<std::string>(count, "the name of a song");
+    DrawPlot(plot, folder / "names.png");
+    return DecodedPng(folder / "names.png").Count(0x24292f);
+  };
+  EXPECT_LT(dark(200), 2 * dark(5));
+}
+
 TEST(Plot, OnAMapAUnitIsAsLongUpAsToTheRight) {
   const TemporaryFolder folder;
   Plot plot;

@@ -203,6 +203,20 @@ TEST(NoiseShareTest, OfHighTemperaturesDoesNotGrowFromTransitionToTransition) {
   EXPECT_EQ(NoiseShare(Spec(60, 1), 10), 0);
 }
 
+TEST(NoiseShareTest, CountsToAPowerOnShortWays) {
+  const auto share = [](int frames, double jerk) {
+    return NoiseShare(Spec(frames, 0.25F), std::hypot(50, 65 * jerk));
+  };
+  for (const double jerk : {0.3, 1.0, 2.5}) {
+    EXPECT_NEAR(share(10, jerk), std::pow(jerk, 2.25), 1e-5);
+    EXPECT_NEAR(share(2, jerk), std::pow(jerk, 2.25), 1e-5);
+    EXPECT_NEAR(share(35, jerk), std::pow(jerk, 1.3125), 1e-5);
+    EXPECT_NEAR(share(60, jerk), jerk, 1e-5);
+    EXPECT_NEAR(share(300, jerk), jerk, 1e-5);
+  }
+  EXPECT_NEAR(share(10, 100), std::pow(3, 2.25), 1e-4);
+}
+
 TEST(NoiseShareTest, IsOneWithoutAKey) { EXPECT_EQ(NoiseShare(Spec(60, 0.25F, false), 1000), 1); }
 
 }  // namespace

@@ -67,17 +67,27 @@ TEST(TransitionPlanner, GoesTheShorterWayUnlessTheDancerTurnsTheOther) {
 
 TEST(TransitionPlanner, GoesTheOtherWayWhereThatSwingsLess) {
   const TurningPlanner planner([](const Eigen::Vector3d& turn) { return turn.y() > 0; });
-  const TransitionPlan plan = planner.Plan(Turning(0, 1));
+  const TransitionPlan plan = planner.Plan(Turning(0, 1.6));
   ASSERT_EQ(planner.asked.size(), 2U);
-  EXPECT_NEAR(planner.asked[1], 1 - 2 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(planner.asked[1], 1.6 - 2 * std::numbers::pi, 1e-9);
   EXPECT_LT(plan.poses[0].rotations(1, 0), 0);
 }
 
 TEST(TransitionPlanner, KeepsItsWayWhereTheOtherSwingsMore) {
   const TurningPlanner planner([](const Eigen::Vector3d&) { return true; });
-  const TransitionPlan plan = planner.Plan(Turning(0, 1));
+  const TransitionPlan plan = planner.Plan(Turning(0, 1.6));
   ASSERT_EQ(planner.asked.size(), 2U);
-  EXPECT_NEAR(plan.poses.back().rotations(1, 0), 1, 1e-9);
+  EXPECT_NEAR(plan.poses.back().rotations(1, 0), 1.6, 1e-9);
+}
+
+// Leaning differently and swinging: the other way round would be a somersault.
+TEST(TransitionPlanner, LessThanAQuarterTurnHasNoOtherWay) {
+  const TurningPlanner planner([](const Eigen::Vector3d& turn) { return turn.x() > 0; });
+  TransitionSpec spec = Turning(0, 0);
+  spec.target->pose.rotations.col(0) = Eigen::Vector3d(1.5, 0, 0);
+  const TransitionPlan plan = planner.Plan(spec);
+  EXPECT_EQ(planner.asked.size(), 1U);
+  EXPECT_NEAR(plan.poses.back().rotations(0, 0), 1.5, 1e-9);
 }
 
 // Two keys that face the same way, to what computing leaves over: a whole turn about such an axis

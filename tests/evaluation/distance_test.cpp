@@ -76,14 +76,14 @@ TEST(Npss, IsTheWayThatPowerHasToMove) {
   EXPECT_EQ(still.value(), 0);
 }
 
-// The root hops by `up` metres at frame 2; the feet slide by `slide` metres a frame.
-JointTrack Hop(double up, double left_slide, double right_slide) {
+// The root hops by `up` metres at frame 2; the feet go by `left` and `right` metres a frame.
+JointTrack Hop(double up, const Eigen::Vector3d& left, const Eigen::Vector3d& right) {
   JointTrack track;
   for (int t = 0; t < 5; ++t) {
     Eigen::Matrix3Xd joints = JointPositions(Body(), RestPose(Body()));
     if (t == 2) joints(1, 0) += up;
-    for (int foot : {0, 1}) joints(0, Body().feet[foot]) += left_slide * t;
-    for (int foot : {2, 3}) joints(2, Body().feet[foot]) += right_slide * t;
+    for (int foot : {0, 1}) joints.col(Body().feet[foot]) += t * left;
+    for (int foot : {2, 3}) joints.col(Body().feet[foot]) += t * right;
     track.push_back(joints);
   }
   return track;
@@ -91,9 +91,21 @@ JointTrack Hop(double up, double left_slide, double right_slide) {
 
 TEST(PhysicalFootContact, NeedsBothFeetToSlideWhileTheBodyAccelerates) {
   // Accelerations of +up, -2 up (its downward part does not count), +up over three frames.
-  EXPECT_NEAR(PhysicalFootContact(Body(), Hop(0.1, 0.02, 0.03)), 1e4 * 2 * 0.0006 / 3, 1e-9);
-  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, 0, 0.03)), 0);
-  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0, 0.02, 0.03)), 0);
+  const Eigen::Vector3d left(0.02, 0, 0), right(0, 0, 0.03), nowhere(0, 0, 0);
+  EXPECT_NEAR(PhysicalFootContact(Body(), Hop(0.1, left, right)), 1e4 * 2 * 0.0006 / 3, 1e-9);
+  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, nowhere, right)), 0);
+  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0, left, right)), 0);
+}
+
+TEST(PhysicalFootContact, TakesWhatFeetGoOverTheFloorAlone) {
+  // Who jumps lifts both feet without sliding.
+  const Eigen::Vector3d up(0, 0.05, 0), right(0, 0, 0.03);
+  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, up, up)), 0);
+  EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, up, right)), 0);
+  // Of a way of 13 cm that leads up by 12 it takes the 5 over the floor, 3 and 4 to its axes.
+  const Eigen::Vector3d diagonal(0.03, 0.12, 0.04);
+  EXPECT_NEAR(PhysicalFootContact(Body(), Hop(0.1, diagonal, right)), 1e4 * 2 * 0.05 * 0.03 / 3,
+              1e-9);
 }
 
 TEST(Pace, MedianSpeedAndJerkOfACubicPath) {

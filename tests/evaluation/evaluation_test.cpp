@@ -247,6 +247,10 @@ TEST(ReportPaths, FoldersAreMadeAndWhatCannotBeWrittenIsNamedFirst) {
               [&] { CheckReportPaths({.json = there / "below_a_file.json", .markdown = {}}); });
   ExpectError(ErrorCode::kInvalidArgument, "--markdown",
               [&] { CheckReportPaths({.json = {}, .markdown = folder.path()}); });
+  for (const auto& same : {there, there.parent_path() / "." / ".." / "yet" / there.filename()}) {
+    ExpectError(ErrorCode::kInvalidArgument, "is the same file as --json",
+                [&] { CheckReportPaths({.json = there, .markdown = same}); });
+  }
   EXPECT_EQ(ReportPaths({.json = there, .markdown = {}}).Picture("sheet_set_a, b/c").filename(),
             "figures_sheet_set_a__b_c.png");
 }

@@ -114,6 +114,7 @@ TEST(LongFigures, SeeDriftFreezeExplosionAndABentKnee) {
   std::vector<Pose> freezes = clip.motion.frames;
   for (size_t t = 110; t < 150; ++t) freezes[t] = freezes[110];
   EXPECT_TRUE(range.Frozen(MeasureLong(Body(), 30, freezes, {})));
+  EXPECT_EQ(MeasureLong(Body(), 30, freezes, {}).stillest, 0);
 
   std::vector<Pose> drifts = clip.motion.frames;
   for (size_t t = 0; t < 150; ++t) {
@@ -125,6 +126,44 @@ TEST(LongFigures, SeeDriftFreezeExplosionAndABentKnee) {
   EXPECT_TRUE(range.Exploded(gone));
   EXPECT_GT(gone.bent_backwards, 0.2);
   EXPECT_LT(range.JointsWithin(gone), 1);
+}
+
+TEST(LongFigures, StillestIsTheSlowestFifthWhereverItIs) {
+  // Ten seconds at 1 m/s, but for 40 frames at a tenth of it; a fifth has 60 steps.
+  const auto walk = [](int slow_from, int slow_frames) {
+    std::vector<Pose> poses(301, RestPose(Body()));
+    for (int t = 1; t <= 300; ++t) {
+      const bool slow = t > slow_from && t <= slow_from + slow_frames;
+      poses[static_cast<size_t>(t)].root_position =
+          poses[static_cast<size_t>(t) - 1].root_position +
+          Eigen::Vector3d(0, 0, (slow ? 0.1 : 1.0) / 30);
+    }
+    return MeasureLong(Body(), 30, poses, {});
+  };
+  const RealRange range = RangeOf({walk(0, 0)}, {}, 30);
+  EXPECT_NEAR(walk(0, 0).stillest, 1, 1e-6);
+  for (const int from : {0, 47, 130, 233, 260}) {
+    const LongFigures dance = walk(from, 40);
+    EXPECT_NEAR(dance.stillest, 0.1, 1e-6) << from;
+    EXPECT_EQ(range.Frozen(dance), from >= 233) << from;  // that is in the last fifth alone
+  }
+  // Less than half a fifth is a pause, which no median sees.
+  EXPECT_NEAR(walk(130, 29).stillest, 1, 1e-6);
+  // The last fifth is among them, whatever the length.
+  const PreparedClip clip = SyntheticClip("a", 153, 0.1, false);
+  const LongFigures figures = MeasureLong(Body(), 30, clip.motion.frames, {});
+  EXPECT_LE(figures.stillest, figures.late_speed);
+  EXPECT_GT(figures.stillest, 0);
+}
+
+TEST(MeasureReal, IsOfTheClipsWithKeysEachTwoSeconds) {
+  const ClipSet set = Clips(false);
+  const RealDances real = MeasureReal(set, FakeEngine(1).model());
+  ASSERT_EQ(real.clips.size(), 2U);
+  EXPECT_EQ(real.clips[0].key_accelerations.size(), 3U);  // of 200 frames
+  EXPECT_EQ(real.range.top_speed, std::max(real.clips[0].top_speed, real.clips[1].top_speed));
+  EXPECT_FALSE(real.range.Frozen(real.clips[0]));
+  EXPECT_EQ(real.range.low.size(), static_cast<size_t>(Body().joints()));
 }
 
 // A minute of standing still at `path`(seconds), with a hand that waves `rate` times a second.
@@ -226,6 +265,13 @@ TEST(EvaluateLongDances, TellsTheSameStoryTwiceAndCountsItsFrames) {
     ASSERT_EQ(tables.size(), again.size());
     for (size_t i = 0; i < tables.size(); ++i) EXPECT_EQ(ToJson(tables[i]), ToJson(again[i]));
     EXPECT_EQ(tables[0].rows.size(), 4U);
+    EXPECT_EQ(tables[0].columns[3].heading, "last fifth m/s");
+    EXPECT_EQ(tables[0].columns[4].heading, "stillest fifth m/s");
+    for (const TableRow& row : tables[0].rows) {
+      ASSERT_EQ(row.cells.size(), tables[0].columns.size());
+      EXPECT_LE(row.cells[4].value, row.cells[3].value) << row.labels[0];
+    }
+    EXPECT_GT(tables[0].rows[0].cells[4].value, 0);  // real motion never stands
     const Table& influence = tables.back();
     // Without keys another seed leads elsewhere; the fake dancer hears the song, too.
     EXPECT_GT(influence.rows[0].cells[1].value, 0);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "model/audio/mfcc.h"
@@ -43,16 +45,58 @@ TEST(SongBeats, SilenceHasNone) {
   EXPECT_TRUE(SongBeats({}, 30).empty());
 }
 
-TEST(BeatAlignment, IsAGaussianOfTheDistanceToTheNearestBeat) {
-  constexpr double kUnsmoothed = 1;  // a frame a second: the Gaussian is a twelfth of a frame
-  // Minima of speed at frames 3 and 8 (step i leads to frame i + 1).
-  const std::vector<float> speeds = {3, 2, 1, 2, 3, 2, 1, 0.5F, 1, 2};
-  EXPECT_DOUBLE_EQ(BeatAlignmentScore(speeds, std::vector<double>{3, 8, 60}, kUnsmoothed), 1);
-  EXPECT_NEAR(BeatAlignmentScore(speeds, std::vector<double>{0, 11}, kUnsmoothed), std::exp(-0.5),
+// Speeds of `frames` - 1 steps that are least at each of `minima`, by depth, and rise evenly
+// beside.
+std::vector<float> Valleys(int frames, const std::map<int, float>& minima) {
+  std::vector<float> speeds(static_cast<size_t>(frames) - 1, 100);
+  for (int frame = 1; frame < frames; ++frame) {  // step i leads to frame i + 1
+    float& speed = speeds[static_cast<size_t>(frame) - 1];
+    for (const auto& [minimum, depth] : minima)
+      speed = std::min(speed, depth + static_cast<float>(std::abs(frame - minimum)));
+  }
+  return speeds;
+}
+
+TEST(BeatAlignment, IsAGaussianOfFiftyMillisecondsAtAnyRate) {
+  const std::vector<float> one = Valleys(60, {{20, 0.0F}});
+  EXPECT_DOUBLE_EQ(BeatAlignmentScore(one, std::vector<double>{20, 47}, 30), 1);
+  for (const double fps : {30.0, 60.0}) {
+    const double apart = 0.05 * fps;  // 1.5 and 3 frames
+    for (const double beat : {20 - apart, 20 + apart})
+      EXPECT_NEAR(BeatAlignmentScore(one, {&beat, 1}, fps), std::exp(-0.5), 1e-12) << fps;
+    const double far = 20 + 2 * apart;
+    EXPECT_NEAR(BeatAlignmentScore(one, {&far, 1}, fps), std::exp(-2), 1e-12) << fps;
+  }
+  // The mean over motion beats, each to the music beat that is nearest to it.
+  const std::vector<float> two = Valleys(60, {{20, 0.0F}, {40, 1.0F}});
+  EXPECT_NEAR(BeatAlignmentScore(two, std::vector<double>{0, 20, 38.5}, 30),
+              (1 + std::exp(-0.5)) / 2, 1e-12);
+}
+
+TEST(BeatAlignment, AMotionBeatIsTheSlowestWithinASixthOfASecond) {
+  const std::vector<double> music = {20};
+  const double far = std::exp(-std::pow(6 / 1.5, 2) / 2);
+  // Five frames at 30 fps, ten at 60: a shallower minimum counts from the next one on.
+  EXPECT_DOUBLE_EQ(BeatAlignmentScore(Valleys(60, {{20, 0.0F}, {25, 0.5F}}), music, 30), 1);
+  EXPECT_NEAR(BeatAlignmentScore(Valleys(60, {{20, 0.0F}, {26, 0.5F}}), music, 30), (1 + far) / 2,
               1e-12);
-  EXPECT_NEAR(BeatAlignmentScore(speeds, std::vector<double>{3}, kUnsmoothed),
-              (1 + std::exp(-25.0 / 18)) / 2, 1e-12);
-  EXPECT_EQ(BeatAlignmentScore(speeds, {}, kUnsmoothed), 0);
+  EXPECT_DOUBLE_EQ(BeatAlignmentScore(Valleys(60, {{20, 0.0F}, {30, 0.5F}}), music, 60), 1);
+  EXPECT_LT(BeatAlignmentScore(Valleys(60, {{20, 0.0F}, {31, 0.5F}}), music, 60), 0.51);
+  // Nothing is smoothed: one slow frame is a beat where it stands.
+  std::vector<float> dip(59, 1.0F);
+  for (size_t i = 0; i < dip.size(); ++i) dip[i] += 0.1F * static_cast<float>(i % 2);
+  dip[19] = 0.5F;
+  EXPECT_DOUBLE_EQ(BeatAlignmentScore(dip, music, 30), 1);
+}
+
+TEST(BeatAlignment, WithoutBeatsOfEitherKindIsNone) {
+  const std::vector<double> music = {20};
+  EXPECT_EQ(BeatAlignmentScore(Valleys(60, {{20, 0.0F}}), {}, 30), 0);
+  // Who stands still, or is slowest at an end, has no minimum.
+  EXPECT_EQ(BeatAlignmentScore(std::vector<float>(59, 0.0F), music, 30), 0);
+  EXPECT_EQ(BeatAlignmentScore(Valleys(60, {{1, 0.0F}}), music, 30), 0);
+  EXPECT_EQ(BeatAlignmentScore(Valleys(60, {{59, 0.0F}}), music, 30), 0);
+  EXPECT_EQ(BeatAlignmentScore({}, music, 30), 0);
 }
 
 }  // namespace

@@ -71,6 +71,13 @@ TEST(LabTest, MisuseIsCodeTwo) {
     EXPECT_EQ(Lab(arguments).code, 2) << arguments;
   }
   EXPECT_THAT(Lab(kTrain + "--preset huge").said, HasSubstr("--preset: 'huge' is not one of"));
+  for (const std::string value : {"nan", "-nan", "inf", "2.1", "-0.1", "warm"}) {
+    const Outcome outcome =
+        Lab("eval --model /absent --data /absent --splits /absent.json --temperature=" + value);
+    EXPECT_EQ(outcome.code, 2) << value;
+    EXPECT_THAT(outcome.said,
+                HasSubstr("--temperature: '" + value + "' is not a number from 0 to 2"));
+  }
 }
 
 TEST(LabTest, KnowsTheCommandsOfReproduceMd) {
@@ -174,7 +181,9 @@ TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
            {"--data clips/", "choreo-lab: --data: 'clips/': another set is called 'clips'"},
            {"--other a=b --other a=c", "choreo-lab: --other: 'a=c': another row is called 'a'"},
            {"--json clips/splits.json/t.json", "choreo-lab: --json: 'clips/splits.json/t.json'"},
-           {"--markdown clips", "choreo-lab: --markdown: 'clips' cannot be written"}}) {
+           {"--markdown clips", "choreo-lab: --markdown: 'clips' cannot be written"},
+           {"--json t --markdown ./t",
+            "choreo-lab: --markdown: './t' is the same file as --json"}}) {
     const Outcome outcome = Eval(arguments);
     EXPECT_EQ(outcome.code, 1) << arguments;
     EXPECT_THAT(outcome.said, HasSubstr(why)) << arguments;
@@ -201,8 +210,36 @@ TEST_F(LabEval, WarnsOfLengthsWithoutWindowsAndOfPlotsThatAreNotDrawn) {
                                   " --lengths 1800 --other r=recurrent/checkpoint.safetensors",
                               folder_.path());
   EXPECT_EQ(endless.code, 1);
-  EXPECT_THAT(endless.said,
-              HasSubstr("choreo-lab: --lengths: 1800 frames are more than the 150 of r"));
+  EXPECT_THAT(endless.said, HasSubstr("choreo-lab: --lengths: 1800 frames are more than the 150 "
+                                      "that --other r (recurrent) takes"));
+  // The judged one is not called by the baselines that are made of it.
+  const Outcome judged =
+      Lab("eval --model recurrent/checkpoint.safetensors" + kData + " --lengths 10 151 --name mine",
+          folder_.path());
+  EXPECT_EQ(judged.code, 1);
+  EXPECT_THAT(judged.said,
+              HasSubstr("--lengths: 151 frames are more than the 150 that --model (recurrent)"));
+}
+
+TEST_F(LabEval, MeasuresAnyGroupOfTheSplitsFileAndNamesThemAll) {
+  std::ofstream(folder_.path() / "clips" / "splits.json")
+      << R"({"ours": {"train": ["train_0"], "validation": ["held_out"], "another genre": ["last"]}})";
+  TrainOneStep("ablation");
+  const std::string brief = "--engine packed --best-of 0 --long-dances 0 --no-encoder ";
+  const Outcome other = Eval(brief + "--split 'another genre' --json t.json");
+  EXPECT_EQ(other.code, 0) << other.said;
+  EXPECT_THAT(other.said, HasSubstr(", another genre clips, "));
+  EXPECT_EQ(nlohmann::json::parse(Bytes(folder_.path() / "t.json"))["split"], "another genre");
+  const Outcome unknown = Eval(brief + "--split test");
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_THAT(unknown.said, HasSubstr("no clip of 'clips' is in 'test'; they are in 'another "
+                                      "genre', 'train', 'validation'"));
+  const Outcome nowhere =
+      Lab("eval --model ablation/checkpoint.safetensors --data /nope --splits "
+          "clips/splits.json",
+          folder_.path());
+  EXPECT_EQ(nowhere.code, 1);
+  EXPECT_THAT(nowhere.said, HasSubstr("choreo-lab: /nope: no such folder"));
 }
 
 }  // namespace

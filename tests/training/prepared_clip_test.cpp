@@ -82,15 +82,61 @@ TEST(PreparedClip, AForeignFileIsNamed) {
 TEST(LoadClips, FollowsTheSplitsAndTrainsOnWhatTheyDoNotName) {
   const TemporaryFolder folder;
   WriteSyntheticData(folder.path());
-  const auto load = [&](Split split) {
+  const auto load = [&](const auto& split) {
     return Names(LoadClips({folder.path()}, folder.path() / "splits.json", split));
   };
   EXPECT_THAT(load(Split::kTrain),
               ElementsAre("train_0", "train_1", "train_2", "train_3", "train_4"));
   EXPECT_THAT(load(Split::kValidation), ElementsAre("held_out"));
-  EXPECT_THAT(load(Split::kTest), ElementsAre("last"));
   EXPECT_THAT(load(Split::kTrainAndValidation),
               ElementsAre("held_out", "train_0", "train_1", "train_2", "train_3", "train_4"));
+  EXPECT_EQ(load("train"), load(Split::kTrain));
+  EXPECT_THAT(load("test"), ElementsAre("last"));
+}
+
+TEST(LoadClips, KnowsAnyGroupOfTheFileAndTrainsOnNone) {
+  const TemporaryFolder folder;
+  WriteSyntheticData(folder.path());
+  const auto splits = folder.path() / "splits.json";
+  std::ofstream(splits) << R"({"synthetic": {"train": ["train_0"], "validation": ["held_out"],
+      "test": ["last"], "test_unseen_genre": ["train_1", "train_2"], "unused": ["train_3"]}})";
+  const auto load = [&](const auto& split) { return LoadClips({folder.path()}, splits, split); };
+  EXPECT_THAT(Names(load("test_unseen_genre")), ElementsAre("train_1", "train_2"));
+  EXPECT_THAT(Names(load("unused")), ElementsAre("train_3"));
+  EXPECT_THAT(Names(load("test")), ElementsAre("last"));
+  EXPECT_THAT(Names(load(Split::kTrain)), ElementsAre("train_0", "train_4"));
+  EXPECT_THAT(Names(load(Split::kTrainAndValidation)),
+              ElementsAre("held_out", "train_0", "train_4"));
+  for (const char* unknown : {"tset", "", "Test"}) {
+    ExpectError(ErrorCode::kInvalidArgument,
+                "is in '" + std::string(unknown) +
+                    "'; they are in 'test', 'test_unseen_genre', 'train', 'unused', 'validation'",
+                [&] { load(unknown); });
+  }
+}
+
+TEST(LoadClips, RefusesAClipOfTwoGroupsWhichCouldTrainAndTest) {
+  const TemporaryFolder folder;
+  WriteSyntheticData(folder.path());
+  const auto splits = folder.path() / "splits.json";
+  for (const Split split : {Split::kTrain, Split::kValidation}) {
+    std::ofstream(splits) << R"({"one": {"train": ["last", "last"]}, "two": {"test": ["last"]}})";
+    ExpectError(ErrorCode::kInvalidArgument, "'last' is both in 'train' and in 'test'",
+                [&] { LoadClips({folder.path()}, splits, split); });
+  }
+}
+
+TEST(LoadClips, SaysWhatIsWrongWithAFolder) {
+  const TemporaryFolder folder;
+  WriteSyntheticData(folder / "clips");
+  std::filesystem::create_directories(folder / "empty");
+  const auto splits = folder / "clips" / "splits.json";
+  const auto load = [&](const std::filesystem::path& data) {
+    LoadClips({data}, splits, Split::kTrain);
+  };
+  ExpectError(ErrorCode::kNotFound, "nowhere: no such folder", [&] { load(folder / "nowhere"); });
+  ExpectError(ErrorCode::kInvalidArgument, "splits.json: not a folder", [&] { load(splits); });
+  ExpectError(ErrorCode::kNotFound, "empty: no prepared clips", [&] { load(folder / "empty"); });
 }
 
 }  // namespace
