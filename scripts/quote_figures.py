@@ -265,7 +265,7 @@ def pictures():
     lines = []
     for label, kind in (("Ten transitions of each method", "sheet"), ("Plots", ""), ("Plots of the ablations", "ablations")):
         of_kind = [image for image in images if (image.stem.split("_")[1] if image.stem.split("_")[1] in ("sheet", "ablations") else "") == kind]
-        links = [f"[{image.stem.removeprefix('tables_').removeprefix(kind).strip('_').replace('_', ' ')}](images/{image.name})"
+        links = [f"[{image.stem.removeprefix('tables_').removeprefix(kind).strip('_').replace('__', ', ').replace('_', ' ')}](images/{image.name})"
                  for image in of_kind]
         if links:
             lines.append(f"{label}: " + ",\n".join(links) + ".")

@@ -34,8 +34,14 @@ export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM
 train() {  # train RUN OPTION...
   local run=$runs/$1
   shift
-  [[ -f $run/checkpoint.safetensors && ! -f $run/unfinished ]] && { echo "$run is finished"; return; }
+  local options=$*
+  if [[ -f $run/checkpoint.safetensors && ! -f $run/unfinished ]]; then
+    [[ $(cat "$run/options" 2>/dev/null || true) == "$options" ]] || { echo "train_baselines.sh: $run was trained otherwise; remove it" >&2; exit 1; }
+    echo "$run is finished"
+    return
+  fi
   mkdir -p "$run"
+  echo "$options" >"$run/options"
   touch "$run/unfinished"  # a run leaves checkpoints on its way
   "$lab" train --run "$run" --resume "$@"
   rm "$run/unfinished"

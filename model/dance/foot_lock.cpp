@@ -83,9 +83,13 @@ void FootLock::PlanLastSteps(const Target& target) {
   // The foot with the longer way steps last, so that the other one carries it.
   const size_t last = way[0] > way[1] ? 0 : 1;
   const int room = (frames_ - 1 - 2 * step_frames_) / 2;
-  const int landed = frames_ - 1 - std::clamp(static_cast<int>(kLandsAhead * fps_), 0, room);
-  feet_[last].last_start = landed - step_frames_;
-  feet_[1 - last].last_start = landed - 2 * step_frames_;
+  const int ahead = std::clamp(static_cast<int>(kLandsAhead * fps_), 0, room);
+  // A foot that does not land is the model's from its last step on.
+  const auto start = [&](Foot& foot, int steps) {
+    foot.last_start = frames_ - 1 - steps * step_frames_ - (foot.landing ? ahead : 0);
+  };
+  start(feet_[last], 1);
+  start(feet_[1 - last], 2);
 }
 
 void FootLock::Lift(Foot* foot, int duration) {

@@ -157,7 +157,7 @@ void DrawLine(const Canvas& canvas, double x1, double y1, double x2, double y2) 
   cairo_stroke(canvas.cr());
 }
 
-// Whether most points of a line lie on an earlier one, on an axis of `extent`.
+// Whether half of the points of a line lie on an earlier one, on an axis of `extent`.
 bool HidesAnother(const Plot& plot, size_t index, double extent) {
   if (!plot.x_names.empty()) return false;  // bars stand side by side
   const PlotSeries& line = plot.series[index];
@@ -169,7 +169,7 @@ bool HidesAnother(const Plot& plot, size_t index, double extent) {
       const double apart = OnAxis(line.y[k], plot.log_y) - OnAxis(earlier.y[k], plot.log_y);
       same += line.x[k] == earlier.x[k] && std::abs(apart) < 0.005 * extent;
     }
-    if (2 * same > line.x.size()) return true;
+    if (same > 0 && 2 * same >= line.x.size()) return true;
   }
   return false;
 }

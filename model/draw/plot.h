@@ -16,7 +16,7 @@ struct PlotSeries {
   bool asked = false;
 };
 
-/// A line chart. A line that lies on an earlier one for the most part is dashed, so that both are
+/// A line chart. A line of which half lies on an earlier one is dashed, so that both are
 /// seen. With `x_names` a bar chart.
 struct Plot {
   std::string title;
@@ -24,8 +24,9 @@ struct Plot {
   std::string y_label;
   std::vector<PlotSeries> series;
   bool log_y = false;
-  bool map = false;        ///< a unit is as long up as to the right
-  bool from_zero = false;  ///< the vertical axis has 0, as that of bars always has
+  bool map = false;  ///< a unit is as long up as to the right
+  /// The vertical axis has 0, as that of bars always has. Not with log_y.
+  bool from_zero = false;
   /// Names of x = 0, 1, ..., as many of them as fit; there the series' bars stand side by side.
   /// Not with log_y or map.
   std::vector<std::string> x_names = {};

@@ -53,9 +53,9 @@ WaveShare ShareOf(const TransitionSpec& spec, const Liveliness& liveliness, int 
 /// The share of its temperature that frames' own noise has on the way to a key: as rough as the
 /// dancer, beyond what a plan with locked feet has itself. From 0 (smooth) to 3, but no more than
 /// leads to the noise of temperature 0.75, or of its own: roughness is handed on from transition to
-/// transition, and must not grow. On ways of less than 60 frames, which arrival smooths, that
-/// counts to a power of up to 2.25 (10 frames and less). 1 without a key, and where nothing is
-/// known.
+/// transition, and must not grow. On ways of less than 60 frames, of whose noise arrival smooths
+/// most, that share to a power of up to 2.25 (10 frames and less), of at most 12. 1 without a key,
+/// and where nothing is known.
 float NoiseShare(const TransitionSpec& spec, double roughness);
 
 }  // namespace choreo

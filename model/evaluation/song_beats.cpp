@@ -36,13 +36,14 @@ std::vector<double> Rises(const Eigen::MatrixXf& rows) {
   return rises;
 }
 
-// Frames of the strict minima among the steps within kAround; neither the first nor the last step.
+// Frames of the strict minima among the steps within kAround. The published code has a standstill
+// ahead of the first step, so none is found within kAround of it; nor is the last step one.
 std::vector<int64_t> MotionBeats(std::span<const float> speeds, double fps) {
   const auto count = static_cast<int64_t>(speeds.size());
   const int64_t order = std::max(int64_t{1}, static_cast<int64_t>(std::lround(kAround * fps)));
   std::vector<int64_t> frames;
-  for (int64_t i = 1; i + 1 < count; ++i) {
-    const auto from = speeds.begin() + std::max(int64_t{0}, i - order);
+  for (int64_t i = order; i + 1 < count; ++i) {
+    const auto from = speeds.begin() + i - order;
     const auto to = speeds.begin() + std::min(count, i + order + 1);
     const float speed = speeds[static_cast<size_t>(i)];
     if (std::count_if(from, to, [=](float other) { return other <= speed; }) == 1)

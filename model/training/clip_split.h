@@ -13,6 +13,7 @@ inline const char* const kTrainGroup = "train";
 
 /// Which clips training sees, from a splits file {set: {"train": [...], "validation": [...],
 /// "test": [...]}}. It sees no other group that the file may have ("test_unseen_genre", "unused").
+/// A clip's name is one clip's, whatever set it stands in.
 enum class Split { kTrain, kValidation, kTrainAndValidation };
 
 /// Reads every clip of `folders` that belongs to `split`, sorted by folder and name. Throws Error
