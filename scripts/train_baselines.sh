@@ -3,20 +3,21 @@
 # paper C's Tables 2 to 4.
 #   scripts/train_baselines.sh BIN_DIRECTORY DATA SPLITS RUNS
 # DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/
-# (and recurrent_start/, from which it goes on), ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/ and controls/{full,one_lstm,condition_fc,one_decoder,
-# no_velocity_factors,no_key_loss}/, where scripts/evaluate.sh looks for them. Killed, it goes on from where it was when it is started again;
-# what is finished is not trained again.
+# (and recurrent_start/, from which it goes on), ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/ and
+# controls/{full,one_lstm,condition_fc,one_decoder,no_velocity_factors,no_key_loss}/, where scripts/evaluate.sh looks for them. Killed, it
+# goes on from where it was when it is started again; what is finished is not trained again.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
 # Steps, windows a step and peak rates. The baseline sees as many windows as the planner that ships; rates fall to nothing in each of its two
-# runs. An ablation is a small flow without a planner.
+# runs. An ablation is a small flow without a planner, whose key loss looks at roll-outs of as many frames as its tables' longest transitions.
 recurrent_steps=(20000 13750)
 recurrent_rates=(8e-4 5e-4)
 recurrent_batch=64
 ablation_steps=3000
 ablation_rate=1e-3
 ablation_batch=64
+ablation_rollout=90
 # Paper C's network without a plan, its lengths (5 to 70 frames), on its setting: scripts/random_split.sh.
 controls_steps=2000
 controls_rate=1e-3
@@ -53,7 +54,8 @@ train recurrent_start "${recurrent[@]}" --planner-steps "${recurrent_steps[0]}" 
 train recurrent "${recurrent[@]}" --planner "$runs/recurrent_start/checkpoint.safetensors" --planner-steps "${recurrent_steps[1]}" \
   --planner-rate "${recurrent_rates[1]}"
 
-ablation=("${all[@]}" --preset ablation --batch "$ablation_batch" --flow-steps "$ablation_steps" --flow-rate "$ablation_rate")
+ablation=("${all[@]}" --preset ablation --batch "$ablation_batch" --flow-steps "$ablation_steps" --flow-rate "$ablation_rate"
+  --rollout-frames "$ablation_rollout")
 train ablation/full "${ablation[@]}"
 train ablation/no_key_loss "${ablation[@]}" --no-key-loss
 train ablation/no_time_embedding "${ablation[@]}" --no-time-embedding

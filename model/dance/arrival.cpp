@@ -33,10 +33,6 @@ Arrival::Arrival(Options options, int transition_frames, const Target& target,
   if (after) after_ = Between(target.pose, *after);
 }
 
-bool Arrival::Asked(int joint) const {
-  return target_.mask.joints.empty() || target_.mask.joints[static_cast<size_t>(joint)];
-}
-
 Arrival::Velocity Arrival::Between(const Pose& a, const Pose& b) {
   Velocity velocity{b.root_position - a.root_position, Eigen::Matrix3Xd(3, a.rotations.cols())};
   for (int joint = 0; joint < a.rotations.cols(); ++joint) {
@@ -98,7 +94,7 @@ Pose Arrival::Apply(const Pose& raw) {
     if (left == 1) emitted.root_position.y() = *target_.height;
   }
   for (int joint = 0; joint < raw.rotations.cols(); ++joint) {
-    if (!Asked(joint)) continue;
+    if (!target_.mask.Asks(joint)) continue;
     const Eigen::Vector3d from = previous_.rotations.col(joint);
     const Eigen::Vector3d model = raw.rotations.col(joint);
     Eigen::Vector3d way = RotationDifference(from, target_.pose.rotations.col(joint));

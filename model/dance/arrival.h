@@ -50,7 +50,6 @@ class Arrival {
   // The next of `frames_left` steps along the path.
   static Eigen::Vector3d Step(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity,
                               const Eigen::Vector3d& end_velocity, int frames_left);
-  bool Asked(int joint) const;
   void Remember(const Pose& emitted);
 
   int frames_;

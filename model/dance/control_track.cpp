@@ -63,16 +63,12 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>&
   }
   if (!key_on_it) return stance;
   const auto& [pose, mask] = *key_on_it;
-  if (mask.root_position) {
-    stance.root_position = pose.root_position;
-  } else if (HasHeights(curve)) {
+  stance = Masked(pose, mask, std::move(stance));
+  if (mask.root_position) return stance;
+  if (HasHeights(curve)) {
     stance.root_position.y() = curve->At(there).position.y();
   } else if (const auto height = StandingHeight(model_->skeleton, pose, mask)) {
     stance.root_position.y() = *height;
-  }
-  for (Eigen::Index joint = 0; joint < stance.rotations.cols(); ++joint) {
-    if (mask.joints.empty() || mask.joints[static_cast<size_t>(joint)])
-      stance.rotations.col(joint) = pose.rotations.col(joint);
   }
   return stance;
 }

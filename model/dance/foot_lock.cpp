@@ -29,9 +29,8 @@ double Apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 // Whether the target says where the toes are.
 bool Fixes(const Target& target, const Leg& leg, const Skeleton& skeleton) {
   if (!target.mask.root_position) return false;
-  if (target.mask.joints.empty()) return true;
   for (int joint = leg.ankle; joint >= 0; joint = skeleton.parents[static_cast<size_t>(joint)]) {
-    if (!target.mask.joints[static_cast<size_t>(joint)]) return false;
+    if (!target.mask.Asks(joint)) return false;
   }
   return true;
 }

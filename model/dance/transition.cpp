@@ -192,7 +192,7 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }
   for (int joint = 0; joint < from.rotations.cols(); ++joint) {
-    if (!target.mask.joints.empty() && !target.mask.joints[static_cast<size_t>(joint)]) continue;
+    if (!target.mask.Asks(joint)) continue;
     const double angle =
         RotationDifference(from.rotations.col(joint), target.pose.rotations.col(joint)).norm();
     if (angle / seconds > speed.joint_rad_per_s) {

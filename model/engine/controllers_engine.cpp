@@ -85,11 +85,8 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   Pose target = last;
   if (spec.target) {
     // A joint that the key leaves open stays as it is on the way; arrival leaves it open too.
-    const auto& joints = spec.target->mask.joints;
-    for (Eigen::Index j = 0; j < target.rotations.cols(); ++j) {
-      if (joints.empty() || joints[static_cast<size_t>(j)])
-        target.rotations.col(j) = spec.target->pose.rotations.col(j);
-    }
+    target = Masked(spec.target->pose, {.root_position = false, .joints = spec.target->mask.joints},
+                    last);
   }
   const FacingPose facing = FacingOf(skeleton, target);
   transition.target_joints = PointsOf(facing.joints).select(1, 0);

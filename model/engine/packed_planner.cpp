@@ -68,7 +68,7 @@ TransitionPlan PackedPlanner::PlanTurning(const TransitionSpec& spec,
   if (spec.target) {
     const PoseMask& asked = spec.target->mask;
     for (int joint = 0; joint < joints_; ++joint) {
-      if (!asked.joints.empty() && !asked.joints[static_cast<size_t>(joint)]) continue;
+      if (!asked.Asks(joint)) continue;
       mask[joint] = 1;
       key.segment<6>(3 + 6 * joint) =
           SixDFromMatrix(ExpMap(spec.target->pose.rotations.col(joint))).cast<float>().transpose();

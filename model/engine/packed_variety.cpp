@@ -21,10 +21,6 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return RotationDifference(a, b).norm();
 }
 
-bool Asks(const PoseMask& mask, int joint) {
-  return mask.joints.empty() || mask.joints[static_cast<size_t>(joint)];
-}
-
 }  // namespace
 
 PackedVariety::PackedVariety(const PackedTensors& tensors, const Skeleton& skeleton, int components)
@@ -48,7 +44,7 @@ float PackedVariety::Factor(const TransitionSpec& spec) const {
     for (size_t t = 0; t < steps; ++t)
       lately += AngleBetween(spec.history[t].rotations.col(joint),
                              spec.history[t + 1].rotations.col(joint));
-    if (!spec.target || !Asks(spec.target->mask, joint)) continue;
+    if (!spec.target || !spec.target->mask.Asks(joint)) continue;
     way += AngleBetween(spec.history.back().rotations.col(joint),
                         spec.target->pose.rotations.col(joint));
     ++asked;
@@ -72,7 +68,7 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
   const bool keyed = Keyed(spec);
   const RowMajorMatrix& spread = spread_[keyed ? 1 : 0];
   const float factor = Factor(spec);
-  const Liveliness liveliness{Roughness(skeleton_, spec.history), Idleness(skeleton_, spec)};
+  const Liveliness liveliness = LivelinessOf(skeleton_, spec);
   const auto half_waves = [&](int wave) { return wave + (keyed ? 1.0 : 0.5); };
 
   s->waves.Resize(waves, width);

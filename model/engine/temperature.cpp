@@ -57,16 +57,14 @@ double Roughness(const Skeleton& skeleton, std::span<const Pose> history) {
 double Idleness(const Skeleton& skeleton, const TransitionSpec& spec) {
   if (!Keyed(spec)) return 0;
   const Pose& last = spec.history.back();
-  const auto& [pose, mask, height] = *spec.target;
-  Pose key = last;
-  if (mask.root_position) key.root_position = pose.root_position;
-  for (Eigen::Index joint = 0; joint < key.rotations.cols(); ++joint) {
-    if (mask.joints.empty() || mask.joints[static_cast<size_t>(joint)])
-      key.rotations.col(joint) = pose.rotations.col(joint);
-  }
+  const Pose key = Masked(spec.target->pose, spec.target->mask, last);
   const double way =
       (JointPositions(skeleton, key) - JointPositions(skeleton, last)).colwise().norm().mean();
   return std::max(0.0, 1 - way * kFramesPerSecond / (spec.frames * kBusy));
+}
+
+Liveliness LivelinessOf(const Skeleton& skeleton, const TransitionSpec& spec) {
+  return {Roughness(skeleton, spec.history), Idleness(skeleton, spec)};
 }
 
 WaveShare ShareOf(const TransitionSpec& spec, const Liveliness& liveliness, int wave,

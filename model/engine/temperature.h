@@ -29,6 +29,7 @@ struct Liveliness {
   double roughness;     ///< of the history (Roughness), m/s^3
   double idleness = 0;  ///< of the way (Idleness)
 };
+Liveliness LivelinessOf(const Skeleton& skeleton, const TransitionSpec& spec);
 
 /// How much of one wave of a plan's variety is sampled.
 struct WaveShare {

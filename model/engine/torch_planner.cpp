@@ -43,7 +43,7 @@ Tensor Mask(const TransitionSpec& spec, int joints) {
   const PoseMask& asked = spec.target->mask;
   float* out = mask.data_ptr<float>();
   for (int joint = 0; joint < joints; ++joint) {
-    out[joint] = asked.joints.empty() || asked.joints[static_cast<size_t>(joint)] ? 1.0F : 0.0F;
+    out[joint] = asked.Asks(joint) ? 1.0F : 0.0F;
   }
   out[joints] = asked.root_position ? 1.0F : 0.0F;
   return mask;
@@ -52,8 +52,7 @@ Tensor Mask(const TransitionSpec& spec, int joints) {
 // Noise of the plan: [1, waves, components], of each wave its share. It lies behind the noise of
 // the first frame's own features, so the two are unrelated.
 Tensor VarietyOf(const TransitionSpec& spec, const FlowModel& model) {
-  const Liveliness liveliness{Roughness(model->skeleton(), spec.history),
-                              Idleness(model->skeleton(), spec)};
+  const Liveliness liveliness = LivelinessOf(model->skeleton(), spec);
   const int64_t waves = VarietyImpl::Waves(spec.frames);
   const int64_t components = model->variety()->components();
   const auto used = static_cast<size_t>(model->feature_width());

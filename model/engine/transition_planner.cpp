@@ -48,9 +48,7 @@ double FastestTurn(const TransitionPlan& plan, const TransitionSpec& spec) {
 }  // namespace
 
 TransitionPlan TransitionPlanner::Plan(const TransitionSpec& spec) const {
-  const bool asked =
-      spec.target && (spec.target->mask.joints.empty() || spec.target->mask.joints[0]);
-  if (!asked) return PlanTurning(spec, Eigen::Vector3d::Zero());
+  if (!spec.target || !spec.target->mask.Asks(0)) return PlanTurning(spec, Eigen::Vector3d::Zero());
   const Eigen::Vector3d turn = AsTurning(
       RotationDifference(spec.history.back().rotations.col(0), spec.target->pose.rotations.col(0)),
       spec);

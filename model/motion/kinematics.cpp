@@ -64,7 +64,7 @@ PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
     error.position_m = difference.col(0).norm();
   }
   for (int joint = 0; joint < joints; ++joint) {
-    if (!mask.joints.empty() && !mask.joints[joint]) continue;
+    if (!mask.Asks(joint)) continue;
     const double angle = RotationDifference(a.rotations.col(joint), b.rotations.col(joint)).norm();
     error.angle_deg = std::max(error.angle_deg, angle * 180.0 / std::numbers::pi);
   }
@@ -77,8 +77,8 @@ std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
   // Where a joint is depends on the rotations of those above it.
   std::vector<bool> known(static_cast<size_t>(skeleton.joints()), true);
   for (size_t joint = 1; joint < known.size(); ++joint) {
-    const auto parent = static_cast<size_t>(skeleton.parents[joint]);
-    known[joint] = known[parent] && (mask.joints.empty() || mask.joints[parent]);
+    const int parent = skeleton.parents[joint];
+    known[joint] = known[static_cast<size_t>(parent)] && mask.Asks(parent);
   }
   const Eigen::RowVectorXd rest = JointPositions(skeleton, RestPose(skeleton)).row(1);
   Eigen::RowVectorXd least = Eigen::RowVectorXd::Constant(rest.cols(), rest.minCoeff());

@@ -17,4 +17,12 @@ void MakeContinuous(Motion& motion) {
   }
 }
 
+Pose Masked(const Pose& key, const PoseMask& mask, Pose open) {
+  if (mask.root_position) open.root_position = key.root_position;
+  for (Eigen::Index joint = 0; joint < open.rotations.cols(); ++joint) {
+    if (mask.Asks(joint)) open.rotations.col(joint) = key.rotations.col(joint);
+  }
+  return open;
+}
+
 }  // namespace choreo

@@ -30,6 +30,15 @@ void MakeContinuous(Motion& motion);
 struct PoseMask {
   bool root_position = true;
   std::vector<bool> joints;  ///< [joints] or empty
+
+  /// Whether it asks for the rotation of this joint of the pose.
+  bool Asks(Eigen::Index joint) const {
+    return joints.empty() || joints[static_cast<size_t>(joint)];
+  }
 };
+
+/// `key` where `mask` asks for it, and `open` where it leaves the pose open. Both have as many
+/// joints.
+Pose Masked(const Pose& key, const PoseMask& mask, Pose open);
 
 }  // namespace choreo

@@ -91,8 +91,7 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
     if (spec.target) {
       const PoseMask& mask = spec.target->mask;
       for (int j = 0; j < joints; ++j) {
-        transition.target_mask[0][j] =
-            mask.joints.empty() || mask.joints[static_cast<size_t>(j)] ? 1 : 0;
+        transition.target_mask[0][j] = mask.Asks(j) ? 1 : 0;
       }
       transition.target_mask[0][joints] = mask.root_position ? 1 : 0;
     }

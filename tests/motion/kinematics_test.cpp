@@ -83,6 +83,23 @@ TEST(Kinematics, WhoseLegsAreOpenStandsAtNoHeight) {
   EXPECT_FALSE(StandingHeight(Chain(), chain)) << "a skeleton without feet";
 }
 
+TEST(Kinematics, AMaskedKeyIsTheOtherPoseWhereItIsOpen) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  std::mt19937 generator(1);
+  const Pose key = fixtures::RandomPose(smpl, generator),
+             open = fixtures::RandomPose(smpl, generator);
+  const Pose every_joint = Masked(key, {.root_position = false, .joints = {}}, open);
+  EXPECT_EQ(every_joint.root_position, open.root_position);
+  EXPECT_EQ(every_joint.rotations, key.rotations);
+  PoseMask mask;
+  mask.joints.assign(24, false);
+  mask.joints[7] = true;
+  const Pose one = Masked(key, mask, open);
+  EXPECT_EQ(one.root_position, key.root_position);
+  for (int joint = 0; joint < 24; ++joint)
+    EXPECT_EQ(one.rotations.col(joint), (joint == 7 ? key : open).rotations.col(joint));
+}
+
 TEST(Kinematics, SmplStandsOnTheFloorAtRest) {
   const Skeleton& smpl = Skeleton::Smpl24();
   const Eigen::Matrix3Xd rest = JointPositions(smpl, RestPose(smpl));

@@ -86,17 +86,8 @@ class FakeEngine : public StepEngine {
 
   // The history's last pose where the target does not ask for a degree of freedom.
   Eigen::VectorXd Goal(const TransitionSpec& spec) const {
-    Eigen::VectorXd goal = Flat(spec.history.back());
-    if (!spec.target) return goal;
-    const Eigen::VectorXd target = Flat(spec.target->pose);
-    const PoseMask& mask = spec.target->mask;
-    if (mask.root_position) goal.head<3>() = target.head<3>();
-    for (int joint = 0; joint < model_.skeleton.joints(); ++joint) {
-      if (mask.joints.empty() || mask.joints[static_cast<size_t>(joint)]) {
-        goal.segment<3>(3 + 3 * joint) = target.segment<3>(3 + 3 * joint);
-      }
-    }
-    return goal;
+    const Pose& last = spec.history.back();
+    return Flat(spec.target ? Masked(spec.target->pose, spec.target->mask, last) : last);
   }
 
   void StepSlot(const StepInput& in, StepOutput* out) {
