@@ -15,6 +15,7 @@
 #include "server/read_controls.h"
 #include "server/read_pose.h"
 #include "server/read_request.h"
+#include "server/session_reactor.h"
 #include "server/write_response.h"
 
 namespace choreo {
@@ -218,27 +219,15 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   size_t next_beat_ = 0;
 };
 
-class StreamReactor final : public grpc::ServerBidiReactor<Request, Response>,
-                            public Outbox<Response>::Wire {
+class StreamReactor final
+    : public SessionReactor<grpc::ServerBidiReactor<Request, Response>, Response, DanceSession> {
  public:
-  StreamReactor(Serving& serving, const std::string& peer)
-      : serving_(serving), session_(std::make_shared<DanceSession>(serving, this, peer)) {
+  StreamReactor(Serving& serving, const std::string& peer) : SessionReactor(serving, peer) {
     const Outbox<Response>::Hold hold(session_->outbox());
-    try {
-      serving.calls.Enter(session_);
-      session_->outbox().RequestRead();
-    } catch (const Error& error) {
-      session_->Fail(error);
-    }
+    Enter([this] { session_->outbox().RequestRead(); });
   }
 
-  // ---- Wire
-
-  void Write(const Response* message) override { StartWrite(message); }
-  void Finish(const grpc::Status& status) override { ServerBidiReactor::Finish(status); }
   void Read() override { StartRead(&request_); }
-
-  // ---- gRPC's reactions
 
   void OnReadDone(bool ok) override {
     auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
@@ -248,18 +237,6 @@ class StreamReactor final : public grpc::ServerBidiReactor<Request, Response>,
       Process(ok);
       hold.reset();  // `this` may be gone from here on; the session is not
     });
-  }
-
-  void OnWriteDone(bool ok) override { session_->outbox().OnWriteDone(ok); }
-
-  void OnCancel() override {
-    session_->Abort(Error(ErrorCode::kCancelled, "", "the client is gone or its deadline passed"));
-  }
-
-  void OnDone() override {
-    session_->Release();
-    serving_.calls.Leave(session_.get());
-    delete this;
   }
 
  private:
@@ -272,8 +249,6 @@ class StreamReactor final : public grpc::ServerBidiReactor<Request, Response>,
     session_->outbox().RequestRead();
   }
 
-  Serving& serving_;
-  const std::shared_ptr<DanceSession> session_;
   Request request_;
 };
 

@@ -10,6 +10,7 @@
 #include "model/dance/transition_group.h"
 #include "server/call_session.h"
 #include "server/read_request.h"
+#include "server/session_reactor.h"
 #include "server/write_response.h"
 
 namespace choreo {
@@ -110,45 +111,19 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   uint64_t seed_ = 0;
 };
 
-class TransitionReactor final : public grpc::ServerWriteReactor<Response>,
-                                public Outbox<Response>::Wire {
+class TransitionReactor final
+    : public SessionReactor<grpc::ServerWriteReactor<Response>, Response, TransitionSession> {
  public:
   TransitionReactor(Serving& serving, const std::string& peer, const Request& request)
-      : serving_(serving), session_(std::make_shared<TransitionSession>(serving, this, peer)) {
+      : SessionReactor(serving, peer) {
     auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
-    try {
-      serving.calls.Enter(session_);
+    Enter([&] {
       serving.tasks.Post([session = session_, hold, &request]() mutable {
         if (session->outbox().open()) session->Start(request);
         hold.reset();
       });
-    } catch (const Error& error) {
-      session_->Fail(error);
-    }
+    });
   }
-
-  // ---- Wire
-
-  void Write(const Response* message) override { StartWrite(message); }
-  void Finish(const grpc::Status& status) override { ServerWriteReactor::Finish(status); }
-
-  // ---- gRPC's reactions
-
-  void OnWriteDone(bool ok) override { session_->outbox().OnWriteDone(ok); }
-
-  void OnCancel() override {
-    session_->Abort(Error(ErrorCode::kCancelled, "", "the client is gone or its deadline passed"));
-  }
-
-  void OnDone() override {
-    session_->Release();
-    serving_.calls.Leave(session_.get());
-    delete this;
-  }
-
- private:
-  Serving& serving_;
-  const std::shared_ptr<TransitionSession> session_;
 };
 
 }  // namespace

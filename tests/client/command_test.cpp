@@ -155,14 +155,11 @@ TEST_F(CommandTest, RendersAVideoWithItsSong) {
                                  At("song.wav") + " --fps 15 --size 64x48");
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("rendering 100 % 16/16"));
-  FILE* pipe = popen(("ffprobe -v error -count_frames -of csv -show_entries "
-                      "stream=codec_name,width,height,nb_read_frames " +
-                      At("a.mp4"))
-                         .c_str(),
-                     "r");
-  std::string said(400, '\0');
-  said.resize(fread(said.data(), 1, said.size(), pipe));
-  pclose(pipe);
+  const std::string said = Shell(
+                               "ffprobe -v error -count_frames -of csv -show_entries "
+                               "stream=codec_name,width,height,nb_read_frames " +
+                               At("a.mp4"))
+                               .said;
   EXPECT_THAT(said, HasSubstr("stream,h264,64,48,16"));
   EXPECT_THAT(said, HasSubstr("stream,aac"));
 }

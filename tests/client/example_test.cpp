@@ -1,14 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include "tests/client/test_server.h"
+#include "tests/support/shell.h"
 
 /// The example of the README and the program that it is taken from.
 namespace choreo {
@@ -44,14 +42,9 @@ TEST(ExampleTest, TheReadmesExampleIsPartOfTheProgram) {
 
 TEST(ExampleTest, ItDances) {
   TestServer server;
-  const std::string command = "'" FIRST_DANCE "' " + server.address() + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> buffer;
-  std::string said;
-  while (const size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
-    said.append(buffer.data(), count);
-  EXPECT_EQ(pclose(pipe), 0) << said;
-  EXPECT_THAT(said, testing::HasSubstr("151 frames"));
+  const Outcome outcome = Shell("'" FIRST_DANCE "' " + server.address());
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, testing::HasSubstr("151 frames"));
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "model/body/skin.h"
 #include "model/formats/gltf.h"
 #include "tests/motion/motion_fixtures.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
 namespace choreo {
@@ -54,16 +53,10 @@ TEST(GltfWeb, KhronosAndThreeJsAgreeWithUs) {
 
   const std::string command = std::string(CHOREO_TEST_DATA) + "/web/check_glb.sh '" +
                               (folder / "a.glb").string() + "' '" +
-                              (folder / "expected.json").string() + "' 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::string said;
-  char buffer[256];
-  while (std::fgets(buffer, sizeof(buffer), pipe)) said += buffer;
-  const int status = pclose(pipe);
-  ASSERT_TRUE(WIFEXITED(status));
-  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << said;
-  EXPECT_EQ(WEXITSTATUS(status), 0) << said;
+                              (folder / "expected.json").string() + "'";
+  const Outcome outcome = Shell(command);
+  if (outcome.code == 77) GTEST_SKIP() << outcome.said;
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/support/shell.h"
 
 namespace choreo {
 
@@ -17,12 +18,7 @@ inline bool HaveNumpy() {
 inline std::string RunNumpy(const std::filesystem::path& path, const std::string& script) {
   const std::filesystem::path file = path.string() + ".py";
   std::ofstream(file) << "import numpy as np\npath = '" << path.string() << "'\n" << script;
-  FILE* pipe = popen(("/usr/bin/python3 '" + file.string() + "' 2>&1").c_str(), "r");
-  std::string printed;
-  char buffer[256];
-  while (pipe && std::fgets(buffer, sizeof(buffer), pipe)) printed += buffer;
-  if (pipe) pclose(pipe);
-  return printed;
+  return Shell("/usr/bin/python3 '" + file.string() + "'").said;
 }
 
 }  // namespace choreo

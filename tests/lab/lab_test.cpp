@@ -1,10 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/sanitizers.h"
+#include "tests/support/shell.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
@@ -21,22 +19,8 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Outcome {
-  int code = -1;
-  std::string said;  // stdout and stderr
-};
-
 Outcome Lab(const std::string& arguments, const std::filesystem::path& folder = ".") {
-  const std::string command =
-      "cd '" + folder.string() + "' && '" CHOREO_LAB "' " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer;
-  while (const size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
-    outcome.said.append(buffer.data(), count);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
+  return Shell("cd '" + folder.string() + "' && '" CHOREO_LAB "' " + arguments);
 }
 
 /// What a page of docs/ tells people to type: its lines that begin with choreo-lab, without that.

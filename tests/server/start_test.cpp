@@ -1,14 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include "model/core/safetensors.h"
 #include "tests/support/sanitizers.h"
+#include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
 /// choreod as people start it, with checkpoints that it can't serve: it leaves at once, with one
@@ -16,24 +14,9 @@
 namespace choreo {
 namespace {
 
-struct Outcome {
-  int code = -1;
-  std::string said;  ///< stdout and stderr
-};
-
 Outcome StartWith(const std::filesystem::path& checkpoint) {
-  const std::string command = "'" CHOREOD_PROGRAM
-                              "' --log-level critical --listen 127.0.0.1:0 "
-                              "--checkpoint '" +
-                              checkpoint.string() + "' 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer;
-  while (const size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
-    outcome.said.append(buffer.data(), count);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
+  return Shell("'" CHOREOD_PROGRAM "' --log-level critical --listen 127.0.0.1:0 --checkpoint '" +
+               checkpoint.string() + "'");
 }
 
 class StartTest : public testing::Test {

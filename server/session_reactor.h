@@ -1,0 +1,57 @@
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "model/core/error.h"
+#include "server/call_session.h"
+
+namespace choreo {
+
+/// The reactor of a streaming call: hands what gRPC tells of the wire to the call's session, which
+/// may outlive it. `Grpc` is gRPC's reactor of that kind of call. It deletes itself.
+template <class Grpc, class Response, class Session>
+class SessionReactor : public Grpc, public Outbox<Response>::Wire {
+ public:
+  // ---- Wire
+
+  void Write(const Response* message) override { this->StartWrite(message); }
+  void Finish(const grpc::Status& status) override { Grpc::Finish(status); }
+
+  // ---- gRPC's reactions
+
+  void OnWriteDone(bool ok) override { session_->outbox().OnWriteDone(ok); }
+
+  void OnCancel() override {
+    session_->Abort(Error(ErrorCode::kCancelled, "", "the client is gone or its deadline passed"));
+  }
+
+  void OnDone() override {
+    session_->Release();
+    serving_.calls.Leave(session_.get());
+    delete this;
+  }
+
+ protected:
+  SessionReactor(Serving& serving, std::string peer)
+      : serving_(serving), session_(std::make_shared<Session>(serving, this, std::move(peer))) {}
+
+  /// Tells the service of the call and runs `begin`; a service that is full fails the call.
+  template <class Begin>
+  void Enter(Begin begin) {
+    try {
+      serving_.calls.Enter(session_);
+      begin();
+    } catch (const Error& error) {
+      session_->Fail(error);
+    }
+  }
+
+  Serving& serving_;
+  const std::shared_ptr<Session> session_;
+};
+
+}  // namespace choreo
