@@ -234,6 +234,11 @@ struct Resumed {
 /// speaks of the frames from `measured_from` on, which a resume moves on to where the last server
 /// took over.
 struct Report {
+  /// How fast a part of the body was.
+  struct PartSpeed {
+    double asked = 0;
+    double danced = 0;
+  };
   int64_t frames = 0;  ///< at the model's rate
   std::vector<KeyReached> keys = {};
   int64_t measured_from = 0;  ///< at the model's rate
@@ -242,6 +247,9 @@ struct Report {
   double skate_ratio = 0;
   double max_key_acceleration = 0;  ///< of a joint, within two frames of any key, m/s^2
   double p95_acceleration = 0;      ///< of the frames' largest, m/s^2: to compare it with
+  /// By BodyPart, metres a frame of the model, means over the frames of which velocity factors
+  /// asked something; empty without.
+  std::vector<PartSpeed> part_speeds = {};
   double first_frame_latency_s = 0;
   double elapsed_s = 0;
   double real_time_factor = 0;  ///< seconds of dance a second

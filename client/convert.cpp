@@ -218,6 +218,14 @@ Report FromProto(const v1::QualityReport& report, const v1::Timing& timing) {
   out.skate_ratio = report.skate_ratio();
   out.max_key_acceleration = report.max_key_acceleration();
   out.p95_acceleration = report.p95_acceleration();
+  for (const v1::PartSpeed& speed : report.part_speeds()) {
+    const size_t next = out.part_speeds.size();
+    if (speed.part() != v1::BODY_PART_TRUNK + static_cast<int>(next))
+      throw Broken("speeds of parts of the body in another order");
+    out.part_speeds.push_back({speed.asked(), speed.danced()});
+  }
+  if (!out.part_speeds.empty() && out.part_speeds.size() != kBodyParts)
+    throw Broken("speeds of some parts of the body");
   out.first_frame_latency_s = timing.first_frame_latency_s();
   out.elapsed_s = timing.elapsed_s();
   out.real_time_factor = timing.real_time_factor();

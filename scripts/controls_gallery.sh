@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Draws what controls do, as the figures 5 to 10 of paper C do: root paths, velocity factors, heights, and the model beside interpolation.
 #   scripts/controls_gallery.sh BIN_DIRECTORY OUT_DIRECTORY
-# writes controls_{paths,factors,heights,interpolation}.png. A row is a dance of 8 seconds, with which the camera goes along; key poses are
+# writes controls_{paths,factors,heights,interpolation,long}.png. A row is a dance of 8 seconds, with which the camera goes along; key poses are
 # framed. A chart has all dances of its picture in the one world frame.
 set -euo pipefail
 choreo=$1/choreo
@@ -104,3 +104,18 @@ row slerp "Interpolation between the same key poses"
 chart speeds left_leg "$scratch/straight.npz" "$scratch/slerp.npz" --label "the model" --label interpolation --asked "$(usual left_leg)" \
   --title "Speed of the left leg; dashed: as asked"
 sheet controls_interpolation
+
+# 250 frames without a key in between, longer than the 200 beyond which paper C's network repeats itself.
+long() {  # long NAME FROM TO TITLE OPTIONS...
+  local name=$1 from=$2 to=$3 title=$4
+  shift 4
+  "$choreo" transition --model controllers --from "$from" --to "$to" -n 250 "$@" --out "$scratch/$name.npz" --report "$scratch/$name.report" >/dev/null
+  frames=18 row "$name" "$title"
+}
+way slow 0 "1.5 * u"
+long lunge contrapposto side_lunge "250 frames from contrapposto to a side lunge"
+long arabesque hands_on_hips arabesque "250 frames from hands on hips to an arabesque, 1.5 m ahead" --path "$scratch/slow.json"
+long lively contrapposto side_lunge "The first one again, the arms x 1.5" --velocity arms=1.5
+chart long left_arm "$scratch/lunge.npz" "$scratch/lively.npz" --label "x 1" --asked "$(usual left_arm)" --label "x 1.5" \
+  --asked "$(awk "BEGIN { print 1.5 * $(usual left_arm) }")" --title "Speed of the left arm; dashed: as asked"
+sheet controls_long

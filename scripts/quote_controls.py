@@ -62,9 +62,9 @@ def paper_rows(tables, name, held=True):
 def controls():
     rows = paper_rows(CONTROLS, "dancedb")
     for times in ("0.5", "1.5"):
-        low, high = (bound + 1e-9 for bound in bounds(times))  # round halves up
+        low, high = bounds(times)
         rows.append([f"factors × {times}: trunk, arms, legs over the real dance's", follows(ALONE, times), follows(SERVED, times), "–", "–", "–",
-                     f"{low:.2f} to {high:.2f}"])
+                     f"{low:.3f} to {high:.3f}"])
     for what in ("repeated", "still at the end"):
         cells = [ending(method, what) for method in METHODS]
         rows.append([f"{what}, at {', '.join(LONG)} frames", *cells, "as real motion"])

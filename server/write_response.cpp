@@ -31,6 +31,10 @@ v1::WarningCode ToCode(DanceWarning::Kind kind) {
       return v1::WARNING_CODE_PATH_BEHIND_END;
     case DanceWarning::Kind::kKeyOffHeight:
       return v1::WARNING_CODE_KEY_OFF_HEIGHT;
+    case DanceWarning::Kind::kPathAway:
+      return v1::WARNING_CODE_PATH_AWAY;
+    case DanceWarning::Kind::kVelocityNotMet:
+      return v1::WARNING_CODE_VELOCITY_NOT_MET;
     case DanceWarning::Kind::kControlsTooLate:
       return v1::WARNING_CODE_CONTROLS_TOO_LATE;
   }
@@ -112,6 +116,15 @@ void FromReport(const QualityReport& report, v1::QualityReport* out) {
   if (report.beat_hit_rate) out->set_beat_hit_rate(*report.beat_hit_rate);
   if (report.beat_coverage) out->set_beat_coverage(*report.beat_coverage);
   out->set_max_key_acceleration(report.max_key_acceleration);
+  if (report.part_speeds) {
+    for (int part = 0; part < kBodyParts; ++part) {
+      const PartSpeed& speed = (*report.part_speeds)[static_cast<size_t>(part)];
+      auto* entry = out->add_part_speeds();
+      entry->set_part(static_cast<v1::BodyPart>(part + 1));
+      entry->set_asked(speed.asked);
+      entry->set_danced(speed.danced);
+    }
+  }
   out->set_p95_acceleration(report.p95_acceleration);
 }
 

@@ -97,7 +97,7 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
   }
   CompositionRequest request{.seconds = seconds, .seed = options.seed.value_or(0)};
   if (music) request.beats = music->track.Seconds();
-  // Its dancers come to rest where no key is ahead.
+  // Its dancers hardly dance where no key is ahead.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   DanceKeys keys;
   keys.poses = ComposeKeys(request, PoseLibrary(model.skeleton));

@@ -97,6 +97,13 @@ std::string ReportJson(const WrittenDance& dance) {
   json["skate_ratio"] = report.skate_ratio;
   json["max_key_acceleration"] = report.max_key_acceleration;
   json["p95_acceleration"] = report.p95_acceleration;
+  if (!report.part_speeds.empty()) {
+    auto& speeds = json["part_speeds"] = nlohmann::ordered_json::object();
+    for (size_t part = 0; part < kBodyParts; ++part) {
+      const auto& [asked, danced] = report.part_speeds[part];
+      speeds[std::string(kBodyPartNames[part])] = {{"asked", asked}, {"danced", danced}};
+    }
+  }
   json["first_frame_latency_s"] = report.first_frame_latency_s;
   json["real_time_factor"] = report.real_time_factor;
   return json.dump(2) + "\n";
@@ -180,6 +187,15 @@ std::string ReportText(const WrittenDance& dance) {
     text += ", ";
   }
   text += Format("skating in %.1f %% of the steps\n", 100 * report.skate_ratio);
+  if (!report.part_speeds.empty()) {
+    text += "speeds danced (and asked), cm a frame:";
+    for (size_t part = 0; part < kBodyParts; ++part) {
+      const auto& [asked, danced] = report.part_speeds[part];
+      text += Format("%s %s %.2f (%.2f)", part > 0 ? "," : "",
+                     std::string(kBodyPartNames[part]).c_str(), 100 * danced, 100 * asked);
+    }
+    text += '\n';
+  }
   text += Format("first frame after %.0f ms, %.1f times real time\n",
                  1000 * report.first_frame_latency_s, report.real_time_factor);
   return text;

@@ -25,6 +25,8 @@ namespace choreo::cli {
 ///   log_likelihood             nats a frame
 ///   beat_hit_rate, beat_hit_chance  null where there are no beats
 ///   skate_ratio, max_key_acceleration, p95_acceleration (m/s^2)
+///   part_speeds                asked, danced (m a frame) of each part; absent where nothing is
+///                              asked
 ///   first_frame_latency_s, real_time_factor
 std::string ReportJson(const WrittenDance& dance);
 

@@ -87,8 +87,11 @@ void Run(const TransitionOptions& options) {
   request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
   request.candidates = options.candidates;
-  client::KeyPose target = ReadPose(options.to, model.skeleton).key;
+  const NamedPose to = ReadPose(options.to, model.skeleton);
+  client::KeyPose target = to.key;
   target.id = "target";  // as the report calls it
+  // Where the dancer is in a pose of the library, the path says.
+  if (!options.controls.path.empty() && !to.has_place) target.mask.root_position = false;
   request.target = target.pose;
   request.target_mask = target.mask;
   if (!options.song.empty()) {

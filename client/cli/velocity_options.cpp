@@ -12,8 +12,8 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kMaxFactor = 10;
-constexpr double kMaxSpeed = 50;  // centimetres a frame
+constexpr double kMaxFactor = kMaxVelocityFactor;
+constexpr double kMaxSpeed = 100 * double{kMaxVelocity};  // centimetres a frame
 constexpr std::string_view kCentimetres = "cm";
 
 /// The body parts that a name stands for: one, both arms or legs, or all.

@@ -4,13 +4,17 @@
 #include <cmath>
 
 #include "model/core/error.h"
+#include "model/core/rounded.h"
 #include "model/dance/path_lead.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
 
-constexpr double kKeyTolerance = 0.05;  // metres that a key may lie off the path unmentioned
+constexpr double kKeyTolerance = 0.05;    // metres that a key may lie off the path unmentioned
+constexpr double kDancerTolerance = 0.5;  // and the dancer, where a path takes over
+// Shares, and metres a frame, by which speeds may miss what was asked unmentioned.
+constexpr double kSpeedTolerance = 0.15, kLeastMiss = 0.001;
 
 bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_heights(); }
 
@@ -46,9 +50,10 @@ void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::s
 }
 
 const PathCurve* ControlTrack::CurveAt(int64_t frame) const {
-  const auto said = std::find_if(paths_.rbegin(), paths_.rend(),
-                                 [frame](const auto& path) { return path.from <= frame; });
-  return said != paths_.rend() && said->control.Covers(frame) ? &said->control : nullptr;
+  const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [frame](const auto& path) {
+    return path.from <= frame && path.control.Covers(frame);
+  });
+  return said != paths_.rend() ? &said->control : nullptr;
 }
 
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>& key_on_it) const {
@@ -89,6 +94,7 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   if (target && target->mask.root_position) {
     request.end.emplace().position = target->pose.root_position;
   }
+  WarnOfDistance(request, &out->warnings);
   const Lead floor = LeadPath(request);
 
   request.axes = {0, 1, 0};
@@ -124,6 +130,20 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   }
 }
 
+void ControlTrack::WarnOfDistance(const LeadRequest& request,
+                                  std::vector<DanceWarning>* warnings) const {
+  const PathCurve* before = CurveAt(request.first_frame - 1);
+  for (size_t i = 0; i < request.curves.size(); before = request.curves[i++]) {
+    const PathCurve* curve = request.curves[i];
+    // Frames that no path speaks of lead to the next one.
+    if (curve == nullptr || curve == before || (i > 0 && before == nullptr)) continue;
+    const int64_t frame = request.first_frame + static_cast<int64_t>(i);
+    const Eigen::Vector3d dancer = i == 0 ? request.start.position : before->At(frame - 1).position;
+    const Eigen::Vector3d way = (dancer - curve->At(frame - 1).position).cwiseProduct(request.axes);
+    if (way.norm() > kDancerTolerance) warnings->push_back(PathAway(frame, way.norm()));
+  }
+}
+
 void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionControls* out) const {
   const int64_t end = first_frame + frames;
   if (velocities_.empty() || velocities_.front().from >= end) return;
@@ -147,6 +167,25 @@ void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionCon
 std::optional<DanceWarning> ControlTrack::BehindEnd(int64_t end) const {
   if (paths_.empty() || paths_.back().control.first() < end) return std::nullopt;
   return PathBehindEnd(paths_.back().control.first(), end);
+}
+
+std::optional<DanceWarning> ControlTrack::SpeedsMissed(const QualityReport& report) const {
+  if (!report.part_speeds) return std::nullopt;
+  std::string misses;
+  for (size_t i = 0; i < kBodyParts; ++i) {
+    const auto named = [part = static_cast<BodyPart>(i)](const auto& one) {
+      return one.control.Names(part);
+    };
+    const auto [asked, danced] = (*report.part_speeds)[i];
+    const double miss = std::abs(danced - asked);
+    if (std::ranges::none_of(velocities_, named) || miss <= kLeastMiss ||
+        miss <= kSpeedTolerance * asked)
+      continue;
+    misses += (misses.empty() ? "" : ", ") + std::string(kBodyPartNames[i]) + ' ' +
+              Rounded(100 * danced) + " instead of " + Rounded(100 * asked);
+  }
+  if (misses.empty()) return std::nullopt;
+  return VelocityNotMet(report.first_frame + report.frames - 1, misses);
 }
 
 TransitionControls ControlTrack::For(int64_t first_frame, int frames, std::span<const Pose> history,

@@ -6,12 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "model/dance/quality_report.h"
 #include "model/dance/root_path.h"
 #include "model/dance/transition.h"
 #include "model/dance/velocity_request.h"
 #include "model/dance/warning.h"
 
 namespace choreo {
+
+struct LeadRequest;
 
 /// Limits of one dance: requests, and the points of all its paths plus the values of all its
 /// velocity factors.
@@ -34,14 +37,17 @@ struct TransitionControls {
   std::vector<DanceWarning> warnings;
 };
 
-/// The controls of one dance: each holds from its frame on until another one of its kind takes over
-/// (velocity factors: part by part). What a transition is asked is a function of what was set for
-/// its frames, its history and its key: nothing else is remembered, so a dance that is resumed and
-/// told the same again is asked the same again. Not thread-safe.
+/// The controls of one dance. Of those that were set, each from its frame on, the last one counts:
+/// for a root path of those that speak of a frame, so that a path may come piece by piece, and one
+/// of which no frame is danced changes nothing; for velocity factors part by part. What a
+/// transition is asked is a function of what was set for its frames, its history and its key:
+/// nothing else is remembered, so a dance that is resumed and told the same again is asked the same
+/// again. Not thread-safe.
 ///
 /// Root path, in frames from its first point to its last: the curve of PathCurve. Where it passes
 /// the dancer by at the transition's start, or the key at its end, it is bent smoothly to them: the
-/// key wins, and a warning tells by how much. From the dancer to a first point further ahead, and
+/// key wins, and a warning tells by how much, as it does where a path takes over more than half a
+/// metre from the dancer. From the dancer to a first point further ahead, and
 /// from a last point to the key, a cubic leads; to a key too soon behind it the path is bent as to
 /// one on it. Without a key the last point holds. A height that
 /// nobody asks for leads from the dancer's to the key's: the one it states, or that at which its
@@ -71,6 +77,9 @@ class ControlTrack {
 
   /// The path that was set last, if frames before `end` are none of its.
   std::optional<DanceWarning> BehindEnd(int64_t end) const;
+  /// Which of the parts that velocity factors named were 15 % and 1 mm a frame slower or faster
+  /// than they asked, over the dance of this report.
+  std::optional<DanceWarning> SpeedsMissed(const QualityReport& report) const;
 
  private:
   template <typename Control>
@@ -80,6 +89,7 @@ class ControlTrack {
   };
 
   const PathCurve* CurveAt(int64_t frame) const;
+  void WarnOfDistance(const LeadRequest& request, std::vector<DanceWarning>* warnings) const;
   void FillPath(int64_t first_frame, int frames, std::span<const Pose> history,
                 const std::optional<WorldTarget>& target, const std::string& key_id,
                 TransitionControls* out) const;

@@ -275,7 +275,9 @@ void DanceChain::Summarise() {
   if (const auto warning = controls_.BehindEnd(next_frame_)) Post(*warning);
   std::vector<double> beats;
   for (double seconds : music_beats_) beats.push_back(seconds * model_.fps);
-  mailbox_.Post([report = meter_.Report(beats)](DanceSink& sink) { sink.OnSummary(report); });
+  const QualityReport report = meter_.Report(beats);
+  if (const auto warning = controls_.SpeedsMissed(report)) Post(*warning);
+  mailbox_.Post([report](DanceSink& sink) { sink.OnSummary(report); });
 }
 
 void DanceChain::Fail(const Error& error) {

@@ -51,6 +51,7 @@ void QualityMeter::Add(const DanceFrame& frame) {
   if (!last_positions_.empty()) {
     const Eigen::Matrix3Xd& before = last_positions_.back();
     const Eigen::Matrix3Xd step = now - before;
+    if (frame.asked_speeds) AddSpeeds(*frame.asked_speeds, before, now);
     speed_.push_back(static_cast<float>(step.colwise().norm().mean() * fps_));
     bool skates = false;
     for (int toe : {skeleton_.feet[1], skeleton_.feet[3]}) {
@@ -65,6 +66,17 @@ void QualityMeter::Add(const DanceFrame& frame) {
     }
   }
   last_positions_.push_back(std::move(now));
+}
+
+void QualityMeter::AddSpeeds(const std::array<float, kBodyParts>& asked,
+                             const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now) {
+  if (!weights_) weights_ = WeighBodyParts(skeleton_);
+  const std::array<double, kBodyParts> danced = VelocityFactors(*weights_, before, now);
+  for (size_t part = 0; part < kBodyParts; ++part) {
+    speed_sums_[part].asked += asked[part];
+    speed_sums_[part].danced += danced[part];
+  }
+  ++speed_frames_;
 }
 
 void QualityMeter::AddKey(std::string id, const ArrivalResult& arrival) {
@@ -98,6 +110,12 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
                      sorted.end());
     report.p95_acceleration = sorted[rank];
     report.max_acceleration = *std::ranges::max_element(acceleration_);
+  }
+
+  if (speed_frames_ > 0) {
+    const auto frames = static_cast<double>(speed_frames_);
+    report.part_speeds = speed_sums_;
+    for (PartSpeed& part : *report.part_speeds) part.asked /= frames, part.danced /= frames;
   }
 
   std::vector<double> beats;

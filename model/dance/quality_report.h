@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "model/dance/transition.h"
 #include "model/motion/skeleton.h"
+#include "model/motion/velocity_factors.h"
 
 namespace choreo {
 
@@ -20,6 +22,12 @@ struct KeyReport {
   /// Largest joint acceleration (m/s^2) of the frames within two of the key's; less where the dance
   /// ends earlier.
   double max_acceleration = 0;
+};
+
+/// How fast a part of the body is (VelocityFactors), metres a frame.
+struct PartSpeed {
+  double asked = 0;
+  double danced = 0;
 };
 
 /// What a dance is worth, in figures. All at the model's rate, before resampling for output.
@@ -40,6 +48,8 @@ struct QualityReport {
   /// max_key_acceleration against.
   double p95_acceleration = 0;
   double max_acceleration = 0;  ///< the largest of any frame and joint, m/s^2
+  /// By BodyPart, means over the frames of which velocity factors asked something; absent without.
+  std::optional<std::array<PartSpeed, kBodyParts>> part_speeds;
 };
 
 /// Gathers a QualityReport while a dance goes by, in a few numbers a frame. Frames come in order.
@@ -56,6 +66,9 @@ class QualityMeter {
   QualityReport Report(std::span<const double> music_beats = {}) const;
 
  private:
+  void AddSpeeds(const std::array<float, kBodyParts>& asked, const Eigen::Matrix3Xd& before,
+                 const Eigen::Matrix3Xd& now);
+
   Skeleton skeleton_;
   double fps_;
   int64_t first_frame_;
@@ -66,6 +79,9 @@ class QualityMeter {
   std::vector<float> speed_;         // mean joint speed of step i (frame i -> i + 1), m/s
   std::vector<float> acceleration_;  // largest joint acceleration at frame i + 1, m/s^2
   int64_t frames_ = 0;
+  std::optional<BodyPartWeights> weights_;  // once a frame has asked speeds
+  std::array<PartSpeed, kBodyParts> speed_sums_ = {};
+  int64_t speed_frames_ = 0;
 };
 
 /// Frames of the kinematic beats of a curve of mean joint speeds: the local maxima (a plateau

@@ -178,7 +178,11 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
         ArrivalResult{ComparePoses(model_->skeleton, raw.pose, spec_.target->pose, mask).position_m,
                       final.position_m, final.angle_deg, correction_m_};
   }
-  return {world_, foot_lock_ ? foot_lock_->contacts() : raw.contacts, raw.log_likelihood};
+  DanceFrame frame{world_, foot_lock_ ? foot_lock_->contacts() : raw.contacts, raw.log_likelihood};
+  const auto& factors = spec_.controls.velocity_factors;
+  if (factors.cols() > 0)
+    std::ranges::copy(factors.col(done_ - 1), frame.asked_speeds.emplace().begin());
+  return frame;
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {

@@ -56,6 +56,8 @@ struct DanceFrame {
   std::array<float, 4> contacts =
       {};  ///< left ankle, left toes, right ankle, right toes; the model's own without foot lock
   float log_likelihood = 0;  ///< nats
+  /// What velocity factors ask of this frame, by BodyPart, metres a frame; none: nothing.
+  std::optional<std::array<float, kBodyParts>> asked_speeds = {};
 };
 
 /// How a transition met its key. Distances over all joints (see ComparePoses), outside the mask

@@ -59,6 +59,7 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   const GroupRequest request_;  // without its samples
   std::optional<AudioFeed> audio_;
   Eigen::MatrixXf audio_history_;
+  ControlTrack controls_;
   Mailbox<GroupSink> mailbox_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = true;  // until all candidates are accepted
@@ -162,6 +163,7 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
         rest.samples.shrink_to_fit();
         return rest;
       }()),
+      controls_(model_),
       mailbox_(std::move(sink)) {
   if (!request.has_audio()) return;
   // Of a long song only what the transition hears.
@@ -195,18 +197,17 @@ void TransitionGroup::Impl::Begin() {
   transition.temperature =
       request_.temperature.value_or(static_cast<float>(model_.default_temperature));
 
-  ControlTrack controls(model_);
-  controls.Set(request_.controls, first_frame_, "controls");
+  controls_.Set(request_.controls, first_frame_, "controls");
   const Pose stance =
-      controls.Stance(first_frame_, transition.frames == 1 ? transition.target : std::nullopt);
+      controls_.Stance(first_frame_, transition.frames == 1 ? transition.target : std::nullopt);
   const std::vector<Pose>& given = request_.History();
   transition.history =
       FillHistory(model_, given.empty() ? std::span(&stance, 1) : std::span(given));
-  TransitionControls asked = controls.For(first_frame_, transition.frames, transition.history,
-                                          transition.target, request_.target_id);
+  TransitionControls asked = controls_.For(first_frame_, transition.frames, transition.history,
+                                           transition.target, request_.target_id);
   transition.controls = std::move(asked.controls);
   const int64_t end = first_frame_ + transition.frames;
-  if (const auto warning = controls.BehindEnd(end)) asked.warnings.push_back(*warning);
+  if (const auto warning = controls_.BehindEnd(end)) asked.warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;
   if (path && path->frames.back() < first_frame_)
     asked.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
@@ -275,6 +276,8 @@ void TransitionGroup::Impl::Done(CandidateReport report) {
   if (over_ || --running_ > 0) return;
   over_ = true;
   RankCandidates(reports_);
+  if (const auto warning = controls_.SpeedsMissed(reports_.front().quality))
+    mailbox_.Post([warning](GroupSink& sink) { sink.OnWarning(*warning); });
   mailbox_.Post([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
 }
 

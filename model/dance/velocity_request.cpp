@@ -32,10 +32,9 @@ void VelocityRequest::Validate(const ModelInfo& model, const std::string& field)
   const std::string name = field + (absolute ? ".speeds" : ".factors");
   const size_t rows = std::max<size_t>(1, frames.size());
   if (values.size() != rows * Columns(*this)) {
-    throw InvalidArgument(name, std::to_string(values.size()) + " values, not " +
-                                    std::to_string(rows * Columns(*this)) + ", " +
-                                    std::to_string(rows) + " rows of " +
-                                    std::to_string(Columns(*this)));
+    throw InvalidArgument(name, std::to_string(values.size()) +
+                                    " values, but rows times columns are " + std::to_string(rows) +
+                                    " times " + std::to_string(Columns(*this)));
   }
   const float limit = absolute ? kMaxVelocity : kMaxVelocityFactor;
   for (size_t i = 0; i < values.size(); ++i) {
@@ -45,6 +44,9 @@ void VelocityRequest::Validate(const ModelInfo& model, const std::string& field)
         name + "[" + std::to_string(i) + "]",
         Show(values[i]) + (absolute ? " m a frame" : "") + " is not in [0, " + Show(limit) + "]");
   }
+  if (absolute && !reference.empty())
+    throw InvalidArgument(field + ".reference",
+                          '"' + reference + "\" stands beside speeds, which have none");
   if (!absolute && FindReference(model, reference) == nullptr) {
     std::string known;
     for (const VelocityReference& one : model.velocity_references) {

@@ -10,9 +10,6 @@
 
 namespace choreo {
 
-inline constexpr float kMaxVelocityFactor = 10;  ///< a multiplier of a reference
-inline constexpr float kMaxVelocity = 0.5F;      ///< metres a frame
-
 /// How lively parts of the body should be, as a client says it.
 struct VelocityRequest {
   /// Of each row, absolute, at the model's rate, ascending; between rows values are interpolated,
@@ -23,7 +20,7 @@ struct VelocityRequest {
   /// (absolute) velocity factors, metres a frame at the model's rate, 0 to kMaxVelocity.
   std::vector<float> values;
   bool absolute = false;
-  std::string reference;  ///< one of the model's; empty: its first. Unused if absolute
+  std::string reference;  ///< one of the model's; empty: its first. Empty if absolute
 
   /// Throws Error(kInvalidArgument) below `field` for what is not as said above.
   void Validate(const ModelInfo& model, const std::string& field) const;

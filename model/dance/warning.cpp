@@ -59,4 +59,15 @@ DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing,
               "; the path wins"};
 }
 
+DanceWarning PathAway(int64_t frame, double metres) {
+  return {DanceWarning::Kind::kPathAway, frame,
+          "the root path is " + Rounded(metres) + " m from the dancer at frame " +
+              std::to_string(frame) + ": the root is led there first"};
+}
+
+DanceWarning VelocityNotMet(int64_t last_frame, const std::string& misses) {
+  return {DanceWarning::Kind::kVelocityNotMet, last_frame,
+          "parts are not as fast as their velocity factors ask, cm a frame on average: " + misses};
+}
+
 }  // namespace choreo

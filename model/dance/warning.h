@@ -17,6 +17,8 @@ struct DanceWarning {
     kControlsTooLate,   ///< every frame that a root path speaks of is frozen; `frame` is its last
     kPathBehindEnd,     ///< the dance is over before the root path's first frame, `frame`
     kKeyOffHeight,      ///< the pose of the key at `frame` stands at another height than the path's
+    kPathAway,          ///< a root path takes over at `frame`, away from the dancer
+    kVelocityNotMet,    ///< by the end of the dance, `frame`, parts were not as fast as asked
   };
   Kind kind = Kind::kIntervalTooShort;
   int64_t frame = 0;  ///< model rate, absolute
@@ -38,5 +40,10 @@ DanceWarning PathBehindEnd(int64_t first_frame, int64_t end);
 /// A key without a root position stands on the floor with its root at `standing`, and the path is
 /// at `height`; metres.
 DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height);
+
+/// A path that takes over at `frame` is `metres` from the dancer.
+DanceWarning PathAway(int64_t frame, double metres);
+/// `misses`: "left_leg 1.69 instead of 0.70", of at least one part, centimetres a frame.
+DanceWarning VelocityNotMet(int64_t last_frame, const std::string& misses);
 
 }  // namespace choreo

@@ -7,11 +7,17 @@
 
 #include "model/core/error.h"
 #include "model/engine/dense_controls.h"
+#include "model/flow/time_block.h"
 
 namespace choreo {
 namespace {
 
 using torch::Tensor;
+
+constexpr int kCalibrationRounds = 3;
+constexpr double kCalibrationSmoothness = 6;  // frames
+constexpr double kMostGain = 2;
+constexpr double kLeastFactor = 1e-4;  // metres a frame, below which nothing moves
 
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
   const Eigen::Matrix3Xf values = points.cast<float>();
@@ -33,6 +39,30 @@ Eigen::Matrix3Xd ToPoints(const Tensor& points) {  // [1, 1, columns, 3]
   const Tensor dense = points.contiguous();
   return Eigen::Map<const Eigen::Matrix3Xf>(dense.data_ptr<float>(), 3, dense.size(2))
       .cast<double>();
+}
+
+// What to ask of the network so that its plan moves as fast as the transition's factors ask for:
+// [1, N, 5]. It falls short of them, the more so the less real motion is like them, since postures
+// between far keys are those of a mean dancer. So each part is asked for as many times as much as
+// its plan lacks, a few times over (docs/decisions.md, 59). A network without a plan is asked for
+// the factors themselves.
+Tensor CalibratedFactors(ControllersModel& model, const ControlledTransition& transition) {
+  if (model->config().plan_width == 0 || !model->config().velocity_factors)
+    return transition.factors;
+  const FrameTensors last = transition.history.Narrow(transition.history.size() - 1, 1);
+  const auto smooth = [](const Tensor& factors) {
+    return SmoothInTime(factors, kCalibrationSmoothness) + kLeastFactor;
+  };
+  const Tensor wanted = smooth(transition.factors);
+  ControlledTransition asked = transition;
+  Tensor gain = torch::ones_like(wanted);
+  for (int round = 0; round < kCalibrationRounds; ++round) {
+    const FrameTensors plan = model->Planned(model->Prepare(asked, /*whole=*/false));
+    const Tensor danced = FactorsOf(Steps(Join(last, plan)), model->shares());
+    gain = (gain * wanted / smooth(danced)).clamp(1 / kMostGain, kMostGain);
+    asked.factors = transition.factors * gain;
+  }
+  return asked.factors;
 }
 
 }  // namespace
@@ -95,6 +125,7 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   const Controls dense = DenseControls(spec, info_);
   transition.path = RowsOf(dense.root_path);
   transition.factors = RowsOf(dense.velocity_factors);
+  transition.factors = CalibratedFactors(model_, transition);
 
   slot->given = model_->Prepare(transition);
   slot->walked =

@@ -69,11 +69,10 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
   const RowMajorMatrix& spread = spread_[keyed ? 1 : 0];
   const float factor = Factor(spec);
   const Liveliness liveliness = LivelinessOf(skeleton_, spec);
-  const auto half_waves = [&](int wave) { return wave + (keyed ? 1.0 : 0.5); };
 
   s->waves.Resize(waves, width);
   for (int wave = 0; wave < waves; ++wave) {
-    const double frequency = half_waves(wave) / (2.0 * frames);
+    const double frequency = HalfWaves(wave, keyed) / (2.0 * frames);
     const double place =
         std::log(frequency / kSlowest) * (kBins - 1) / std::log(kFastest / kSlowest);
     const double bounded = std::clamp(place, 0.0, kBins - 1.001);
@@ -98,7 +97,7 @@ bool PackedVariety::Sample(const TransitionSpec& spec, int skipped, Scratch* s) 
     auto out = s->difference.Part(frame, 0, width);
     out.setZero();
     for (int wave = 0; wave < waves; ++wave) {
-      const double sine = std::sin(std::numbers::pi * half_waves(wave) * since / frames);
+      const double sine = std::sin(std::numbers::pi * HalfWaves(wave, keyed) * since / frames);
       out += static_cast<float>(ramp * scale * sine) * s->waves.Part(wave, 0, width);
     }
   }

@@ -10,11 +10,12 @@
 namespace choreo {
 namespace {
 
-constexpr double kFreePower = 0.25;  // of the temperature, without a key
-constexpr double kSlowPower = 1.5;   // with one
-constexpr double kLiveliest = 8;     // times as much has the quickest wave of the longest way
+// Powers of the temperature without a key and with one, and how many times as much the quickest
+// wave has at most.
+constexpr double kFreePower = 0.5, kFreeLiveliest = 2;
+constexpr double kKeyedPower = 1.5, kKeyedLiveliest = 8;
 constexpr double kSlowShare = 0.25;  // of the components has the slowest
-// Between which waves, ways and dancers that lies (docs/decisions.md, 49, 52, 53, 55).
+// Between which waves, ways and dancers that lies (docs/decisions.md, 49, 52, 53, 55, 58).
 constexpr double kSlowest = 1.0 / 300, kQuickest = 1.0 / 30;  // cycles a frame
 constexpr double kShort = 25, kLong = 64;                     // frames
 constexpr double kCalm = 5, kRough = 200;                     // m/s^3
@@ -36,6 +37,8 @@ bool Keyed(const TransitionSpec& spec) {
   return mask.root_position || mask.joints.empty() ||
          std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
 }
+
+double HalfWaves(int wave, bool keyed) { return wave + (keyed ? 1.0 : 0.5); }
 
 double Roughness(const Skeleton& skeleton, std::span<const Pose> history) {
   const double unknown = std::hypot(kSmooth, kUnitNoise);
@@ -70,26 +73,31 @@ Liveliness LivelinessOf(const Skeleton& skeleton, const TransitionSpec& spec) {
 WaveShare ShareOf(const TransitionSpec& spec, const Liveliness& liveliness, int wave,
                   int components) {
   const double temperature = spec.temperature;
-  if (!Keyed(spec)) return {static_cast<float>(std::pow(temperature, kFreePower)), components};
+  const bool keyed = Keyed(spec);
   const auto share = [](double value, double none, double all) {
     return std::clamp((value - none) / (all - none), 0.0, 1.0);
   };
-  const double frequency = (wave + 1) / (2.0 * spec.frames);
+  const auto bounded = [&](double warmed) {
+    return static_cast<float>(temperature < 1 ? std::min(1.0, warmed) : temperature);
+  };
+  const double frequency = HalfWaves(wave, keyed) / (2.0 * spec.frames);
+  const double quick = share(std::log(frequency), std::log(kSlowest), std::log(kQuickest));
+  const double free = std::pow(temperature, kFreePower) * std::pow(kFreeLiveliest, quick);
+  if (!keyed) return {bounded(free), components};
   const double various = share(temperature, 1, 0.5);
-  const double gain = share(std::log(frequency), std::log(kSlowest), std::log(kQuickest)) *
-                      share(spec.frames, kShort, kLong) * various;
+  const double gain = quick * share(spec.frames, kShort, kLong) * various;
   const double lively =
       gain * share(std::log(liveliness.roughness), std::log(kCalm), std::log(kRough));
-  const double power = std::lerp(kSlowPower, kFreePower, liveliness.idleness);
-  const double warmed = std::pow(temperature, power) * std::pow(kLiveliest, lively);
-  const double many = std::lerp(kSlowShare, 1.0, std::max(gain, various * liveliness.idleness));
-  return {static_cast<float>(temperature < 1 ? std::min(1.0, warmed) : temperature),
+  const double held = std::pow(temperature, kKeyedPower) * std::pow(kKeyedLiveliest, lively);
+  const double idleness = liveliness.idleness;
+  const double many = std::lerp(kSlowShare, 1.0, std::max(gain, various * idleness));
+  return {bounded(std::pow(held, 1 - idleness) * std::pow(free, idleness)),
           static_cast<int>(std::ceil(many * components))};
 }
 
 float NoiseShare(const TransitionSpec& spec, double roughness) {
-  if (!Keyed(spec)) return 1;
   const double beyond = std::sqrt(std::max(0.0, roughness * roughness - kSmooth * kSmooth));
+  if (!Keyed(spec)) return static_cast<float>(std::min(1.0, beyond / kUnitNoise));
   const double bound = std::max(1.0, kRoughestTemperature / std::max(spec.temperature, 1e-3F));
   const double share = std::min({kRoughest, bound, beyond / kUnitNoise});
   const double brevity =

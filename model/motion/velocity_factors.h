@@ -24,6 +24,10 @@ std::string BodyPartNames();
 /// The part of that name, or none.
 std::optional<BodyPart> FindBodyPart(std::string_view name);
 
+/// What may be asked of a part.
+inline constexpr float kMaxVelocityFactor = 10;  ///< a multiplier of a reference
+inline constexpr float kMaxVelocity = 0.5F;      ///< metres a frame
+
 /// [5, joints]: the share that each joint has in each part's factor. A joint belongs to one part;
 /// every row sums to 1.
 using BodyPartWeights = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;

@@ -240,10 +240,9 @@ class ControlRun : public TrainingRun {
     card["validation"] = figures;
     card["limits"] = "Trained on transitions of " + std::to_string(options().shortest) + " to " +
                      std::to_string(options().longest) +
-                     " frames at 30 fps, of contemporary dance. It hears no music and is "
-                     "deterministic. Away from the keys it knows how fast limbs should be better "
-                     "than where: postures are those of a mean dancer. Feet slide without the "
-                     "foot lock. Factors far from real ones (1.5 times) are not reached.";
+                     " frames at 30 fps. It hears no music and is deterministic. Away from the "
+                     "keys it knows how fast limbs should be better than where: postures are those "
+                     "of a mean dancer. Feet slide without the foot lock.";
     if (!base_.is_null()) card["planner_from"] = base_;
     return SaveControllers(options().run / "checkpoint.safetensors", model_, train_.MedianFactors(),
                            card);

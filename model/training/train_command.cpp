@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "model/controllers/controllers_config.h"
 #include "model/core/error.h"
@@ -10,6 +11,15 @@
 #include "model/training/trainer.h"
 
 namespace choreo {
+namespace {
+
+// Switches that only flows, or only controllers (true), have.
+constexpr std::pair<const char*, bool> kAblations[] = {
+    {"--no-keys", false},           {"--no-time-embedding", false}, {"--forward-embedding", false},
+    {"--one-lstm", true},           {"--condition-fc", true},       {"--one-decoder", true},
+    {"--no-velocity-factors", true}};
+
+}  // namespace
 
 void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   auto options = std::make_shared<TrainOptions>();
@@ -45,7 +55,9 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       "the whole network");
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
       ->required();
-  command->add_option("--device", options->device, "auto | cpu | cuda:N")->capture_default_str();
+  command
+      ->add_option("--device", options->device, "auto | cpu | cuda:N; controllers train on the CPU")
+      ->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from the run's saved state");
   command
       ->add_option("--planner-steps", options->planner_steps,
@@ -64,7 +76,9 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       ->capture_default_str();
   command->add_option("--longest", options->longest, "Longest training transition, frames")
       ->capture_default_str();
-  command->add_option("--rollout-frames", options->rollout_frames, "Frames of the sampled roll-out")
+  command
+      ->add_option("--rollout-frames", options->rollout_frames,
+                   "Frames of the roll-out that a flow's key loss samples")
       ->capture_default_str();
   command
       ->add_option("--tempo", options->tempo,
@@ -91,9 +105,17 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   command->add_flag("--one-decoder", options->one_decoder, "Ablation of controllers");
   command->add_flag("--no-velocity-factors", options->no_velocity_factors,
                     "Ablation of controllers");
-  command->callback([options, read_device] {
+  command->callback([options, read_device, command] {
+    const bool controllers = ControllersConfig::IsPreset(options->preset);
+    for (const auto& [option, of_controllers] : kAblations) {
+      if (of_controllers != controllers && command->count(option) > 0)
+        throw InvalidArgument(option, "is no ablation of the preset " + options->preset);
+    }
+    if (controllers && options->device == "auto") options->device = "cpu";
     options->device = read_device(options->device);
-    if (ControllersConfig::IsPreset(options->preset)) {
+    if (controllers) {
+      if (options->device != "cpu")
+        throw InvalidArgument("--device", options->device + ", but controllers train on the CPU");
       TrainControllers(*options);
     } else {
       Train(*options);

@@ -218,12 +218,16 @@ TEST_F(ControlledCommandTest, AnEditWarnsAsAWholeAndNamesItsKeys) {
 TEST_F(ControlledCommandTest, ATransitionGoesAlongAPathToo) {
   Write("path.json", R"({"points": [{"time": 0, "x": 0, "z": 0, "y": 0.9},
                                     {"time": 1, "x": 0.5, "z": 0.5, "y": 0.4},
-                                    {"time": 2, "x": 0, "z": 0, "y": 0.9}]})");
+                                    {"time": 2, "x": 1, "z": 0, "y": 0.9}]})");
   const Outcome outcome =
       Choreo("transition" + Walker() + "--from contrapposto --to kick -n 60 --path " +
              At("path.json") + " -o " + At("t.npz"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_NEAR(Read("t.npz").frames[30].root_position.y(), 0.4, 0.01);
+  const std::vector<Pose> frames = Read("t.npz").frames;
+  EXPECT_NEAR(frames[30].root_position.y(), 0.4, 0.01);
+  // A pose of the library stands wherever the path ends.
+  EXPECT_NEAR(frames[59].root_position.x(), 0.97, 0.05);
+  EXPECT_THAT(outcome.said, Not(HasSubstr("off the root path")));
 }
 
 TEST_F(ControlledCommandTest, InfoShowsControlsAndReferences) {

@@ -129,6 +129,25 @@ TEST_F(ShippedControllersTest, MakesAnArmLivelierAndLeavesTheOther) {
   EXPECT_NEAR(lively[2] / usual[2], 1, 0.15);
 }
 
+TEST_F(ShippedControllersTest, TellsHowFastPartsAreAndWhichCanNotBeAsAsked) {
+  Controls controls{.root_path = Arc()};
+  EXPECT_TRUE(Dance(controls).report.part_speeds.empty()) << "nothing was asked";
+  controls.velocity_factors = {.parts = {"left_arm", "left_leg"}, .factors = {1, 0}};
+  const DanceResult dance = Dance(controls);
+  const auto danced = Liveliness(dance.motion);
+  ASSERT_EQ(dance.report.part_speeds.size(), static_cast<size_t>(kBodyParts));
+  for (size_t part = 0; part < kBodyParts; ++part)
+    EXPECT_NEAR(dance.report.part_speeds[part].danced, danced[part], 1e-6) << part;
+  const auto& [asked, arm] = dance.report.part_speeds[1];
+  EXPECT_NEAR(arm, asked, 0.15 * asked);
+  EXPECT_EQ(dance.report.part_speeds[3].asked, 0);
+  // Who walks can't keep a leg still.
+  ASSERT_EQ(dance.warnings.size(), 1U);
+  EXPECT_THAT(dance.warnings[0].message, testing::HasSubstr("left_leg"));
+  EXPECT_THAT(dance.warnings[0].message, testing::HasSubstr(" instead of 0"));
+  EXPECT_THAT(dance.warnings[0].message, testing::Not(testing::HasSubstr("left_arm")));
+}
+
 TEST_F(ShippedControllersTest, GoesDownWhereThePathDoes) {
   Controls controls{.root_path = Arc()};
   for (int frame = 0; frame < kFrames; ++frame) {

@@ -64,6 +64,61 @@ TEST_F(ControlTrackTest, LaterPathsTakeOverFromTheirFrameOn) {
   EXPECT_NEAR(path(0, 119), 1, 1e-9);
 }
 
+TEST_F(ControlTrackTest, APathMayComeInPieces) {
+  track_.Set(Way({0, 99}, {0, 0.99}), 0, "controls");
+  track_.Set(Way({100, 199}, {1, 1.99}), 0, "controls");
+  const Eigen::Matrix3Xd path = For(0, 200).controls.root_path;
+  for (const int frame : {0, 50, 99, 100, 150, 199})
+    EXPECT_NEAR(path(0, frame), 0.01 * frame, 0.02) << frame;
+  EXPECT_TRUE(For(0, 200).warnings.empty());
+}
+
+TEST_F(ControlTrackTest, WhatIsNeverDancedChangesNothing) {
+  track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
+  track_.Set(Way({0, 50}, {9, 9}), 60, "controls");     // over before it counts
+  track_.Set(Way({400, 500}, {9, 9}), 60, "controls");  // behind all that is danced
+  const Eigen::Matrix3Xd path = For(0, 200).controls.root_path;
+  EXPECT_NEAR(path(0, 40), 0.4, 1e-9);
+  EXPECT_NEAR(path(0, 199), 1.99, 1e-9);
+}
+
+TEST_F(ControlTrackTest, SaysHowFarThePathIsWhereItTakesOver) {
+  track_.Set(Way({0, 300}, {0.4, 3}), 0, "controls");
+  EXPECT_TRUE(For(0, 60).warnings.empty()) << "a step aside";
+  track_.Set(Way({30, 300}, {5, 7}), 0, "controls");
+  const std::vector<DanceWarning> warnings = For(0, 200).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].kind, DanceWarning::Kind::kPathAway);
+  EXPECT_EQ(warnings[0].frame, 30);
+  EXPECT_EQ(warnings[0].message,
+            "the root path is 4.34 m from the dancer at frame 30: the root is led there first");
+  EXPECT_TRUE(For(60, 60).warnings.empty()) << "told once, where it takes over";
+  EXPECT_THAT(For(30, 60).warnings[0].message, HasSubstr("is 4.99 m from the dancer at frame 30"))
+      << "and from where she stands";
+}
+
+TEST_F(ControlTrackTest, NamesPartsThatWereNotAsFastAsAsked) {
+  QualityReport report;
+  report.first_frame = 10;
+  report.frames = 90;
+  EXPECT_FALSE(track_.SpeedsMissed(report)) << "nothing was asked";
+  report.part_speeds = {{{0.02, 0.01}, {0.02, 0.0222}, {0.01, 0.0118}, {0, 0.002}, {0, 0.0009}}};
+  VelocityRequest velocity;
+  velocity.values = {1};
+  velocity.parts = {BodyPart::kLeftArm};
+  track_.Set(Velocity(velocity), 0, "controls");
+  EXPECT_FALSE(track_.SpeedsMissed(report)) << "of the arm alone something was asked";
+  velocity.parts.clear();
+  track_.Set(Velocity(velocity), 0, "controls");
+  const auto warning = track_.SpeedsMissed(report);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->kind, DanceWarning::Kind::kVelocityNotMet);
+  EXPECT_EQ(warning->frame, 99);
+  EXPECT_EQ(warning->message,
+            "parts are not as fast as their velocity factors ask, cm a frame on average: trunk 1 "
+            "instead of 2, right_arm 1.18 instead of 1, left_leg 0.2 instead of 0");
+}
+
 TEST_F(ControlTrackTest, HeightsComeFromThePathOrFromTheDancer) {
   here_.root_position.y() = 0.5;
   track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
@@ -258,7 +313,8 @@ TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {
   ExpectRefused(Velocity(request),
                 "controls.velocity_factors.speeds[0]: 0.6 m a frame is not in [0, 0.5]");
   request.values = {};
-  ExpectRefused(Velocity(request), "controls.velocity_factors.speeds: 0 values, not 1");
+  ExpectRefused(Velocity(request),
+                "controls.velocity_factors.speeds: 0 values, but rows times columns are 1 times 1");
   request = {};
   request.frames = {0, 30, 20};
   request.values = {1, 1, 1};
@@ -266,8 +322,9 @@ TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {
                 "controls.velocity_factors.frames[2]: 20 is not after the frame before it, 30");
   request.frames = {0, 30};
   request.parts = {BodyPart::kTrunk, BodyPart::kLeftArm};
-  ExpectRefused(Velocity(request),
-                "controls.velocity_factors.factors: 3 values, not 4, 2 rows of 2");
+  ExpectRefused(
+      Velocity(request),
+      "controls.velocity_factors.factors: 3 values, but rows times columns are 2 times 2");
   request = {};
   request.values = {1, 1};
   request.parts = {BodyPart::kTrunk, BodyPart::kTrunk};

@@ -33,6 +33,26 @@ TEST(QualityReport, SkatingIsAToeThatSlidesNearTheFloor) {
   EXPECT_DOUBLE_EQ(MeasureMotion(skeleton, motion).skate_ratio, 10.0 / 30);
 }
 
+TEST(QualityReport, SpeedsArePartsMeansOverFramesThatAreAsked) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  const Motion motion = Sliding(0.3, 0, 31);
+  QualityMeter meter(skeleton, 30, 0);
+  for (size_t i = 0; i < motion.frames.size(); ++i) {
+    DanceFrame frame;
+    frame.pose = motion.frames[i];
+    if (i >= 20) frame.asked_speeds = {0.04F, 0.02F, 0, 0, i % 2 == 0 ? 0.03F : 0.05F};
+    meter.Add(frame);
+  }
+  const auto speeds = meter.Report().part_speeds;
+  ASSERT_TRUE(speeds);
+  EXPECT_NEAR((*speeds)[0].asked, 0.04, 1e-8);
+  EXPECT_NEAR((*speeds)[4].asked, (6 * 0.03 + 5 * 0.05) / 11, 1e-8);
+  // The root alone moves, a centimetre a frame: the other joints are seen from it.
+  EXPECT_NEAR((*speeds)[0].danced, 0.01 * WeighBodyParts(skeleton)(0, 0), 1e-8);
+  EXPECT_NEAR((*speeds)[1].danced, 0, 1e-8);
+  EXPECT_FALSE(MeasureMotion(skeleton, motion).part_speeds);
+}
+
 TEST(QualityReport, KinematicBeatsAreMaximaOfSpeed) {
   const std::vector<float> speed = {0, 1, 3, 2, 2, 5, 5, 5, 4, 6};
   // 3 at index 2 and the plateau of 5 from index 5 on; the 6 at the end may still rise.

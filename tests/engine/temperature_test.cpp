@@ -93,15 +93,21 @@ TEST(ShareOfTest, WhatHasItsWholeSpreadDiffersInFewThings) {
   }
 }
 
-TEST(ShareOfTest, IsTheFourthRootOfAllWhereNoKeyHoldsTheDance) {
-  TransitionSpec nothing = Spec(60, 0.0625F);
+TEST(ShareOfTest, IsTheRootOfTheTemperatureAndUpToTwiceThatWhereNoKeyHoldsTheDance) {
+  TransitionSpec nothing = Spec(150, 0.0625F);
   nothing.target->mask = {.root_position = false, .joints = std::vector<bool>(24, false)};
-  for (const TransitionSpec& spec : {Spec(60, 0.0625F, false), nothing}) {
-    for (const int wave : {0, 5, 11}) {
-      EXPECT_FLOAT_EQ(ShareOf(spec, {kRough}, wave, 24).temperature, 0.5F);
-      EXPECT_EQ(ShareOf(spec, {kRough}, wave, 24).components, 24);
+  for (const TransitionSpec& spec : {Spec(150, 0.0625F, false), nothing}) {
+    float slower = 0;
+    for (int wave = 0; wave < 30; ++wave) {
+      const WaveShare share = ShareOf(spec, {kRough}, wave, 24);
+      EXPECT_GE(share.temperature, slower);
+      EXPECT_EQ(share.components, 24);
+      slower = share.temperature;
     }
+    EXPECT_FLOAT_EQ(ShareOf(spec, {kRough}, 0, 24).temperature, 0.25F);
+    EXPECT_FLOAT_EQ(slower, 0.5F);
   }
+  EXPECT_EQ(ShareOf(Spec(150, 0.5, false), {kRough}, 29, 24).temperature, 1);  // at most all
 }
 
 TEST(ShareOfTest, IdleWaysAreLikeThoseWithoutAKey) {
@@ -110,9 +116,10 @@ TEST(ShareOfTest, IdleWaysAreLikeThoseWithoutAKey) {
     const auto idle = [&](double idleness) {
       return ShareOf(keyed, {.roughness = 5, .idleness = idleness}, wave, 24);
     };
-    const WaveShare share = ShareOf(free, {kRough}, wave, 24);
-    EXPECT_FLOAT_EQ(idle(1).temperature, share.temperature);
-    EXPECT_EQ(idle(1).components, share.components);
+    // Its waves lie between those of a dance that swings freely at its end.
+    EXPECT_GE(idle(1).temperature, ShareOf(free, {kRough}, wave, 24).temperature);
+    EXPECT_LE(idle(1).temperature, ShareOf(free, {kRough}, wave + 1, 24).temperature);
+    EXPECT_EQ(idle(1).components, 24);
     EXPECT_LT(idle(0).temperature, idle(0.5).temperature);
     EXPECT_LT(idle(0.5).temperature, idle(1).temperature);
     EXPECT_EQ(idle(0.5).components, 15);
@@ -217,7 +224,14 @@ TEST(NoiseShareTest, CountsToAPowerOnShortWays) {
   EXPECT_NEAR(share(10, 100), std::pow(3, 2.25), 1e-4);
 }
 
-TEST(NoiseShareTest, IsOneWithoutAKey) { EXPECT_EQ(NoiseShare(Spec(60, 0.25F, false), 1000), 1); }
+TEST(NoiseShareTest, IsOneAtMostWithoutAKey) {
+  const auto share = [](int frames, double jerk) {
+    return NoiseShare(Spec(frames, 0.25F, false), jerk);
+  };
+  EXPECT_EQ(share(60, 1000), 1);
+  EXPECT_EQ(share(60, 49), 0);
+  for (const int frames : {10, 60}) EXPECT_NEAR(share(frames, std::hypot(50, 26)), 0.4, 1e-5);
+}
 
 }  // namespace
 }  // namespace choreo

@@ -175,6 +175,16 @@ TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
   }
 }
 
+TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
+  for (const auto& [options, why] : std::vector<std::pair<std::string, std::string>>{
+           {"ablation --one-lstm", "--one-lstm: is no ablation of the preset ablation"},
+           {"controllers --no-keys", "--no-keys: is no ablation of the preset controllers"}}) {
+    const Outcome outcome = Lab("train --run refused --preset " + options + kData, folder_.path());
+    EXPECT_EQ(outcome.code, 1) << options;
+    EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: " + why)) << options;
+  }
+}
+
 TEST_F(LabEval, WarnsOfLengthsWithoutWindowsAndOfPlotsThatAreNotDrawn) {
   TrainOneStep("ablation");
   TrainOneStep("recurrent");

@@ -286,6 +286,12 @@ v1::Controls Speed(float speed) {
   controls.mutable_velocity_factors()->add_speeds(speed);
   return controls;
 }
+
+v1::Controls ReferenceOfSpeeds(const std::string& name) {
+  v1::Controls controls = Speed(0.01F);
+  controls.mutable_velocity_factors()->set_reference(name);
+  return controls;
+}
 v1::Controls Reference(const std::string& name) {
   v1::Controls controls = Factors({1});
   controls.mutable_velocity_factors()->set_reference(name);
@@ -339,13 +345,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadControls{"PartTwice", Factors({1, 1}, {v1::BODY_PART_TRUNK, v1::BODY_PART_TRUNK}),
                     ".velocity_factors.parts[1]: trunk is there twice"},
         BadControls{"TooFewFactors", Factors({1, 2, 3}, {}, {0, 5}),
-                    ".velocity_factors.factors: 3 values, not 2, 2 rows of 1"},
-        BadControls{"NoFactor", Factors({}), ".velocity_factors.factors: 0 values, not 1"},
+                    ".velocity_factors.factors: 3 values, but rows times columns are 2 times 1"},
+        BadControls{"NoFactor", Factors({}), ".velocity_factors.factors: 0 values, but rows times"},
         BadControls{"FactorFramesBackwards", Factors({1, 2, 3}, {}, {0, 5, 5}),
                     ".velocity_factors.frames[2]: 5 is not after the frame before it, 5"},
         BadControls{
             "UnknownReference", Reference("frantic"),
             ".velocity_factors.reference: \"frantic\" is none of the model's, median, calm"},
+        BadControls{"ReferenceOfSpeeds", ReferenceOfSpeeds("calm"),
+                    ".velocity_factors.reference: \"calm\" stands beside speeds, which have none"},
         BadControls{"FactorsAndSpeeds", SpeedsAndFactors(),
                     ".velocity_factors.speeds: and factors exclude each other"}),
     [](const auto& suite) { return std::string(suite.param.name); });
