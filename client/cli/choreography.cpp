@@ -34,7 +34,7 @@ class Dice {
 /// that leave time to move. Before the first and after the last beat that is heard, the count goes
 /// on.
 std::vector<double> KeyTimes(const CompositionRequest& request) {
-  const auto& [seconds, beats, seed, end] = request;
+  const auto& [seconds, beats, seed, end, named] = request;
   double period = kPlainInterval;
   std::vector<double> counts = {0};
   if (beats.size() >= 2) {
@@ -88,7 +88,7 @@ std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
   if (!(request.seconds >= 2)) {
     std::ostringstream message;
     message << request.seconds << " s is shorter than 2 s, the least for key poses of the library";
-    throw InvalidArgument("--seconds", message.str());
+    throw InvalidArgument(request.named, message.str());
   }
   Dice dice(request.seed);
   Walk walk(&dice);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "client/choreo_client.h"
@@ -17,12 +18,13 @@ struct CompositionRequest {
   uint64_t seed = 0;
   /// Where the last key stands, at most `seconds`; none: wherever the count has its last.
   std::optional<double> end_s = {};
+  std::string named = "--seconds";  ///< what says `seconds`, as errors name it
 };
 
 /// Key poses of the library on beats of the music: one to begin with, at second 0, then about one
 /// each bar, never the same twice in a row, walking over the floor within two metres of the origin
 /// and turning by and by. Where there are no beats, every two seconds. The same request gives the
-/// same keys. Throws Error(kInvalidArgument) for a dance of less than two seconds.
+/// same keys. Throws Error(kInvalidArgument, named) for a dance of less than two seconds.
 std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
                                          std::span<const LibraryPose> poses);
 

@@ -101,6 +101,13 @@ TEST_F(ControlledCommandTest, AsksForSpeedsAndForWhatChanges) {
   EXPECT_NEAR(hands(file, 45).second, 0.05, 1e-5);
 }
 
+TEST_F(ControlledCommandTest, APathTooShortForKeysOfTheLibraryIsNamed) {
+  Write("path.json", R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 0, "z": 1}]})");
+  const Outcome outcome = Choreo("dance" + Walker() + "--path " + At("path.json"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--path: 1.03333 s is shorter than 2 s, the least for"));
+}
+
 TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
   const auto refused = [&](const std::string& text, const std::string& message) {
     Write("v.json", text);
