@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets, the same of a genre in no training clip
-# (docs/tables_unseen_genre.md), of ablations (docs/tables_ablations.md) and of controls (docs/tables_controls*.md), and the figures that
+# (docs/tables_unseen_genre.md), of the model of freely usable data (docs/tables_free.md), of ablations (docs/tables_ablations.md) and of controls (docs/tables_controls*.md), and the figures that
 # docs/results.md and README.md quote.
 #   scripts/evaluate.sh [--partial] [--out FOLDER] BIN_DIRECTORY RECORDINGS RUNS [EVAL_OPTION...]
 # RECORDINGS holds tang2018/, dancedb/, cmu_dance/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as
@@ -89,6 +89,8 @@ for sheet in "$out"/images/tables_sheet_*.png; do  # a quarter of the size
 done
 measure tables_unseen_genre model/checkpoints/default.safetensors --split test_unseen_genre --data "$data/tang2018" \
   --splits "$recordings/splits.json" --long-dances 0 --best-of 0
+others=()
+measure tables_free model/checkpoints/free.safetensors "${sets[@]}" --name "free data" --baseline real --best-of 0
 
 rows "${ablations[@]}"
 if trained "$full"; then
