@@ -35,7 +35,8 @@ export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM
 train() {  # train RUN OPTION...
   local run=$runs/$1
   shift
-  local options=$*
+  local options=$*  # without where things lie here
+  options=${options//"$data"/DATA} options=${options//"$splits"/SPLITS} options=${options//"$runs"/RUNS}
   if [[ -f $run/checkpoint.safetensors && ! -f $run/unfinished ]]; then
     [[ $(cat "$run/options" 2>/dev/null || true) == "$options" ]] || { echo "train_baselines.sh: $run was trained otherwise; remove it" >&2; exit 1; }
     echo "$run is finished"

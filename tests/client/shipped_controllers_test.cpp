@@ -148,6 +148,18 @@ TEST_F(ShippedControllersTest, TellsHowFastPartsAreAndWhichCanNotBeAsAsked) {
   EXPECT_THAT(dance.warnings[0].message, testing::Not(testing::HasSubstr("left_arm")));
 }
 
+TEST_F(ShippedControllersTest, ArmsAreAsFastAsAsked) {
+  Controls controls{.root_path = Arc()};
+  for (const double factor : {0.5, 1.5}) {
+    controls.velocity_factors = {.parts = {"left_arm", "right_arm"}, .factors = {factor, factor}};
+    const DanceResult dance = Dance(controls);
+    for (const size_t arm : {1, 2}) {
+      const auto& [asked, danced] = dance.report.part_speeds[arm];
+      EXPECT_NEAR(danced / asked, 1, 0.15) << factor << " " << arm;
+    }
+  }
+}
+
 TEST_F(ShippedControllersTest, GoesDownWhereThePathDoes) {
   Controls controls{.root_path = Arc()};
   for (int frame = 0; frame < kFrames; ++frame) {
