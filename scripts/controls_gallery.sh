@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Draws what controls do, as the figures 5 to 10 of paper C do: root paths, velocity factors, heights, and the model beside interpolation.
 #   scripts/controls_gallery.sh BIN_DIRECTORY OUT_DIRECTORY
-# writes controls_{paths,factors,heights,interpolation,long}.png. A row is a dance of 8 seconds, with which the camera goes along; key poses are
-# framed. A chart has all dances of its picture in the one world frame.
+# writes controls_{paths,factors,heights,interpolation,long}.png. A row is a dance of 8 seconds, with which the camera goes along; key poses
+# are framed. A chart has all dances of its picture in the one world frame.
 set -euo pipefail
 choreo=$1/choreo
 out=$2
@@ -109,7 +109,8 @@ sheet controls_interpolation
 long() {  # long NAME FROM TO TITLE OPTIONS...
   local name=$1 from=$2 to=$3 title=$4
   shift 4
-  "$choreo" transition --model controllers --from "$from" --to "$to" -n 250 "$@" --out "$scratch/$name.npz" --report "$scratch/$name.report" >/dev/null
+  "$choreo" transition --model controllers --from "$from" --to "$to" -n 250 "$@" --out "$scratch/$name.npz" \
+    --report "$scratch/$name.report" >/dev/null
   frames=18 row "$name" "$title"
 }
 way slow 0 "1.5 * u"

@@ -46,13 +46,13 @@ struct WaveShare {
 /// ways is the less the longer the way is and the rougher the dancer. So without a key slow waves
 /// have the square root of the temperature, which keeps a dance from wandering off, and the
 /// quickest twice that; all have all components. On the way to a key slow ones have the temperature
-/// to the power of 1.5, quick ones up to eight times that. Below a temperature of 1 no wave has more than all of its spread.
-/// With a key, waves of a second and less in ways of two have all components, slower ones and those
-/// of shorter ways fewer of them, down to a quarter, those in which ways differ most. From a
-/// temperature of a half to one that, too, becomes a quarter for all: ten dances that differ in few
-/// things come nearer to what was danced than ten that differ in everything. The more idle the way,
-/// the more it is like one without a key, but for temperatures above a half, whose components fade
-/// to a quarter here, too.
+/// to the power of 1.5, quick ones up to eight times that. Below a temperature of 1 no wave has
+/// more than all of its spread. With a key, waves of a second and less in ways of two have all
+/// components, slower ones and those of shorter ways fewer of them, down to a quarter, those in
+/// which ways differ most. From a temperature of a half to one that, too, becomes a quarter for
+/// all: ten dances that differ in few things come nearer to what was danced than ten that differ in
+/// everything. The more idle the way, the more it is like one without a key, but for temperatures
+/// above a half, whose components fade to a quarter here, too.
 WaveShare ShareOf(const TransitionSpec& spec, const Liveliness& liveliness, int wave,
                   int components);
 
