@@ -3,6 +3,7 @@ from figure_tables import figure, quoted, read_tables, show, table
 
 CONTROLS = read_tables("tables_controls.md")
 MARTIAL = read_tables("tables_controls_martial.md")
+RANDOM = read_tables("tables_controls_random.md")
 ABLATIONS = read_tables("tables_controls_ablations.md")
 LENGTHS = ("10", "50", "100", "150")
 LONG = ("100", "150", "200", "250")
@@ -36,39 +37,51 @@ def at_lengths(tables, title, method, digits, bar=None):
     return f"{text}; {show(figure(tables, title, (method,), 'mean'), 2, lambda v: v >= bar or method not in (ALONE, SERVED))}"
 
 
-def follows(method, times):
+def follows(tables, title, method, times):
     low, high = bounds(times)
-    values = [figure(CONTROLS, "Velocity factors times a number, dancedb", (method, times), part) for part in PARTS]
+    values = [figure(tables, f"{title}, dancedb", (method, times), part) for part in PARTS]
     return ", ".join(show(value, 2, lambda v: low <= v <= high) for value in values)
 
 
-def ending(method, what):
-    values = [figure(CONTROLS, "Repetition and endings, dancedb", (method,), f"{what}, {length}") for length in LONG]
-    real = [figure(CONTROLS, "Repetition and endings, dancedb", ("real",), f"{what}, {length}") for length in LONG]
+def ending(tables, method, what):
+    title = "Repetition and endings, dancedb"
+    values = [figure(tables, title, (method,), f"{what}, {length}") for length in LONG]
+    real = [figure(tables, title, ("real",), f"{what}, {length}") for length in LONG]
     # As real dance: within two of a hundred half seconds.
     near = lambda value, of: method not in (ALONE, SERVED) or value <= of + 0.02
     return ", ".join(show(value, 2, lambda v, of=of: near(v, of)) for value, of in zip(values, real))
 
 
-def paper_rows(tables, name, held=True):
+def paper_rows(tables, name, methods=METHODS, held=True):
     """`held`: to the bars."""
     avf, art = (AVF, ART) if held else (0, 0)
-    return [["LRP over interpolation's", *(lrp(tables, name, method, held) for method in METHODS), ", ".join(f"{bar:.2f}" for bar in LRP)],
-            ["AVF (1 cm a frame); mean", *(at_lengths(tables, f"AVF, {name}", method, 2, avf) for method in METHODS), f"{AVF}"],
-            ["ART (7 cm); mean", *(at_lengths(tables, f"ART, {name}", method, 2, art) for method in METHODS), f"{ART}"],
-            ["skating", *(at_lengths(tables, f"Skating ratio, {name}", method, 2) for method in METHODS), "–"]]
+    return [["LRP over interpolation's", *(lrp(tables, name, method, held) for method in methods), ", ".join(f"{bar:.2f}" for bar in LRP)],
+            ["AVF (1 cm a frame); mean", *(at_lengths(tables, f"AVF, {name}", method, 2, avf) for method in methods), f"{AVF}"],
+            ["ART (7 cm); mean", *(at_lengths(tables, f"ART, {name}", method, 2, art) for method in methods), f"{ART}"],
+            ["skating", *(at_lengths(tables, f"Skating ratio, {name}", method, 2) for method in methods), "–"]]
+
+
+def all_rows(tables, methods):
+    rows = paper_rows(tables, "dancedb", methods)
+    for title, what in (("Velocity factors times a number", "factors × {}: trunk, arms, legs over the real dance's"),
+                        ("Constant velocity factors", "the reference × {}, constant: trunk, arms, legs over the reference")):
+        for times in ("0.5", "1.5"):
+            low, high = bounds(times)
+            cells = [follows(tables, title, method, times) if method in (ALONE, SERVED) else "–" for method in methods]
+            rows.append([what.format(times), *cells, f"{low:.3f} to {high:.3f}"])
+    for what in ("repeated", "still at the end"):
+        cells = [ending(tables, method, what) for method in methods]
+        rows.append([f"{what}, at {', '.join(LONG)} frames", *cells, "as real motion"])
+    return rows
 
 
 def controls():
-    rows = paper_rows(CONTROLS, "dancedb")
-    for times in ("0.5", "1.5"):
-        low, high = bounds(times)
-        rows.append([f"factors × {times}: trunk, arms, legs over the real dance's", follows(ALONE, times), follows(SERVED, times), "–", "–", "–",
-                     f"{low:.3f} to {high:.3f}"])
-    for what in ("repeated", "still at the end"):
-        cells = [ending(method, what) for method in METHODS]
-        rows.append([f"{what}, at {', '.join(LONG)} frames", *cells, "as real motion"])
-    return table(["figure, at 10, 50, 100, 150 frames", *HEAD], rows)
+    return table(["figure, at 10, 50, 100, 150 frames", *HEAD], all_rows(CONTROLS, METHODS))
+
+
+def controls_random():
+    head = [name for name in HEAD if not name.startswith(HARVEY[:6])]
+    return table(["figure, at 10, 50, 100, 150 frames", *head], all_rows(RANDOM, [method for method in METHODS if method != HARVEY]))
 
 
 def controls_martial():

@@ -13,7 +13,7 @@ import sys
 
 sys.dont_write_bytecode = True
 from figure_tables import ROOT, figure, missing, over, quoted, read_tables, show, table
-from quote_controls import controls, controls_ablations, controls_martial, drawn  # noqa: F401: pages name them
+from quote_controls import controls, controls_ablations, controls_martial, controls_random, drawn  # noqa: F401: pages name them
 
 PAGES = ("docs/results.md", "README.md")
 SETS = ("dancedb", "tang2018")

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Trains what docs/results.md compares the models with: the baseline of Harvey et al. 2020, the ablations of paper F's Table 1, and those of
-# paper C's Tables 2 to 4.
+# paper C's Tables 2 to 4; and the network with controls on that paper's own setting, a random split of clips.
 #   scripts/train_baselines.sh BIN_DIRECTORY DATA SPLITS RUNS
 # DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/
-# (and recurrent_start/, from which it goes on), ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/ and
-# controls/{full,one_lstm,condition_fc,one_decoder,no_velocity_factors,no_key_loss}/, where scripts/evaluate.sh looks for them. Killed, it
+# (and recurrent_start/, from which it goes on), ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/,
+# random_split/ and controls/{full,one_lstm,condition_fc,one_decoder,no_velocity_factors,no_key_loss}/, where scripts/evaluate.sh looks for them. Killed, it
 # goes on from where it was when it is started again; what is finished is not trained again.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -18,8 +18,11 @@ ablation_steps=3000
 ablation_rate=1e-3
 ablation_batch=64
 ablation_rollout=90
-# Paper C's network without a plan, its lengths (5 to 70 frames), on its setting: scripts/random_split.sh.
-controls_steps=2000
+# What ships, from the start, on paper C's setting (scripts/random_split.sh).
+random_steps=(10000 1500)
+random_batch=32
+# Paper C's network without a plan, its lengths (5 to 70 frames), on the same.
+controls_steps=8000
 controls_rate=1e-3
 controls_batch=16
 
@@ -64,7 +67,10 @@ train ablation/forward_embedding "${ablation[@]}" --forward-embedding
 train ablation/no_keys "${ablation[@]}" --no-keys
 
 "$root/scripts/random_split.sh" "$data/dancedb" >"$runs/random_split.json"
-controls=(--data "$data/dancedb" --splits "$runs/random_split.json" --preset controllers-paper --longest 70 --batch "$controls_batch"
+random=(--data "$data/dancedb" --splits "$runs/random_split.json")
+train random_split "${random[@]}" --preset controllers --longest 250 --batch "$random_batch" --planner-steps "${random_steps[0]}" \
+  --flow-steps "${random_steps[1]}"
+controls=("${random[@]}" --preset controllers-paper --longest 70 --batch "$controls_batch"
   --flow-steps "$controls_steps" --flow-rate "$controls_rate")
 train controls/full "${controls[@]}"
 train controls/one_lstm "${controls[@]}" --one-lstm

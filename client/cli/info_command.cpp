@@ -67,7 +67,21 @@ std::string Plain(const nlohmann::ordered_json& value) {
   return text;
 }
 
-/// A member of a model's card a line; of the validation, a line a length.
+/// The checkpoints that training went on from, the last one first: of each how it was trained.
+void PrintAncestors(const nlohmann::ordered_json& card) {
+  const nlohmann::ordered_json unknown = "?";
+  const nlohmann::ordered_json* from = &card;
+  while (from->is_object() && from->contains("planner_from")) {
+    const nlohmann::ordered_json& parent = (*from)["planner_from"];
+    if (!parent.is_object() || !parent.contains("card") || !parent["card"].is_object()) return;
+    from = &parent["card"];
+    std::printf("  planner from %s: %s\n", Plain(parent.value("hash", unknown)).c_str(),
+                Plain(from->value("command", unknown)).c_str());
+  }
+}
+
+/// A member of a model's card a line; of the validation, a line a length. All of what it went on
+/// from is in --json.
 void PrintCard(const std::string& card) {
   const auto json = nlohmann::ordered_json::parse(card, nullptr, false);
   if (!json.is_object()) return;
@@ -77,6 +91,8 @@ void PrintCard(const std::string& card) {
     } else if (name == "data" && value.is_object()) {
       for (const auto& [part, content] : value.items())
         std::printf("  data, %s: %s\n", part.c_str(), Plain(content).c_str());
+    } else if (name == "planner_from") {
+      PrintAncestors(json);
     } else if (name != "licence") {  // said above
       std::printf("  %s: %s\n", name.c_str(), Plain(value).c_str());
     }

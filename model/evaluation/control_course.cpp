@@ -84,6 +84,13 @@ void ControlCourse::Redraw(const Draw& draw) {
   }
 }
 
+void ControlCourse::AskConstant(const std::array<float, kBodyParts>& speeds) {
+  for (ControlledWindow& window : windows_) {
+    for (int part = 0; part < kBodyParts; ++part)
+      window.factors.row(part).setConstant(speeds[static_cast<size_t>(part)]);
+  }
+}
+
 std::vector<Pose> ControlCourse::Interpolated(const ControlledWindow& window) const {
   std::vector<Pose> poses;
   for (int t = 0; t < frames_; ++t) {

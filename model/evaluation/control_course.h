@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -76,6 +77,9 @@ class ControlCourse {
   /// may move the key, and gives points of frames counted from the transition's first.
   using Draw = std::function<RootPath(ControlledWindow*)>;
   void Redraw(const Draw& draw);
+
+  /// Asks for the same speeds in every frame, metres a frame, instead of the real dance's.
+  void AskConstant(const std::array<float, kBodyParts>& speeds);
 
   /// With what is asked: real path and factors unless they were drawn anew; `scale` times the
   /// factors where the way takes any. None of a way that can't dance as long.

@@ -1,11 +1,10 @@
 #include "model/evaluation/control_tables.h"
 
-#include <cstdio>
-
 #include "model/evaluation/control_course.h"
 #include "model/evaluation/control_figures.h"
 #include "model/evaluation/drawn_table.h"
 #include "model/evaluation/joint_track.h"
+#include "model/evaluation/multiplier_tables.h"
 #include "model/evaluation/repetition.h"
 #include "model/motion/facing_pose.h"
 
@@ -14,8 +13,6 @@ namespace {
 
 constexpr int kLengths[] = {10, 50, 100, 150};
 constexpr int kLongLengths[] = {100, 150, 200, 250};
-constexpr double kScales[] = {0.5, 1.0, 1.5};
-constexpr int kScaledFrames = 90;
 constexpr double kCentimetre = 100;
 constexpr double kEnding = 0.2;       // share of a dance that is its ending
 constexpr size_t kInterpolation = 1;  // of WaysOf
@@ -142,43 +139,6 @@ std::vector<Table> PaperTables(const ClipSet& set, const ModelInfo& model,
   return tables;
 }
 
-// Means over windows and frames of the factors that came out over those of the real dance.
-Table MultiplierTable(const ClipSet& set, const ModelInfo& model,
-                      const std::vector<ControlledWay>& ways, const EvalOptions& options,
-                      ProgressBar* progress) {
-  Table table;
-  table.name = "multipliers_" + set.name;
-  table.title = "Velocity factors times a number, " + set.name;
-  char note[160];
-  std::snprintf(note, sizeof(note),
-                "%d frames on the real path: mean speed of each part over the real dance's.",
-                kScaledFrames);
-  table.note = note;
-  table.label_headings = {"method", "times"};
-  for (const std::string_view part : kBodyPartNames) table.columns.push_back({std::string(part)});
-  const ControlCourse course(set, model, kScaledFrames, options.windows_per_clip, progress);
-  const auto speeds = [&](const Dances& dances, int part) {
-    return course.FiguresOf(
-        dances, [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-          return FactorTrackOf(model.skeleton, window.before, danced).row(part).mean();
-        });
-  };
-  const Dances real = course.Dance({"real", ControlledWay::Kind::kReal});
-  for (const ControlledWay& way : ways) {
-    for (const double scale : kScales) {
-      if (scale != 1 && !way.TakesVelocityFactors()) continue;
-      const Dances dances = course.Dance(way, scale);
-      char times[16];
-      std::snprintf(times, sizeof(times), "%.1f", scale);
-      TableRow row{{way.name, times}, {}};
-      for (int part = 0; part < kBodyParts; ++part)
-        row.cells.push_back(Ratio(speeds(dances, part), speeds(real, part)));
-      table.rows.push_back(std::move(row));
-    }
-  }
-  return table;
-}
-
 Table RepetitionTable(const ClipSet& set, const ModelInfo& model,
                       const std::vector<ControlledWay>& ways, const EvalOptions& options,
                       ProgressBar* progress) {
@@ -221,7 +181,8 @@ std::vector<Table> EvaluateControls(const ClipSet& set, const std::vector<Method
   const std::vector<ControlledWay> ways = WaysOf(methods);
   std::vector<Table> tables = PaperTables(set, *model, ways, options, progress);
   if (!options.all_controls) return tables;
-  tables.push_back(MultiplierTable(set, *model, ways, options, progress));
+  for (Table& table : EvaluateMultipliers(set, *model, ways, options, progress))
+    tables.push_back(std::move(table));
   tables.push_back(RepetitionTable(set, *model, ways, options, progress));
   tables.push_back(EvaluateDrawnPaths(set, *model, ways, options, progress));
   return tables;
@@ -232,7 +193,11 @@ int64_t CountControlFrames(const ClipSet& set, const std::vector<Method>& method
   const ModelInfo* model = Judged(methods);
   if (model == nullptr) return 0;
   const std::vector<ControlledWay> ways = WaysOf(methods);
-  int64_t total = options.all_controls ? CountDrawnFrames(set, *model, ways, options) : 0;
+  int64_t total = 0;
+  if (options.all_controls) {
+    total += CountDrawnFrames(set, *model, ways, options) +
+             CountMultiplierFrames(set, *model, ways, options);
+  }
   for (const ControlledWay& way : ways) {
     if (way.kind != ControlledWay::Kind::kEngine) continue;
     const auto count = [&](int frames) {
@@ -244,8 +209,6 @@ int64_t CountControlFrames(const ClipSet& set, const std::vector<Method>& method
     for (const int frames : kLengths) total += count(frames);
     if (!options.all_controls) continue;
     for (const int frames : kLongLengths) total += count(frames);
-    const auto scales = way.TakesVelocityFactors() ? std::size(kScales) : 1;
-    total += static_cast<int64_t>(scales) * count(kScaledFrames);
   }
   return total;
 }

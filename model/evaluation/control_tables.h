@@ -17,11 +17,11 @@ namespace choreo {
 ///                              interpolation along the path, each network alone and as served
 ///                              (arrival, foot lock), and without keys
 ///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET  of the same dances
-///   multipliers_SET            factors times 0.5, 1 and 1.5: how the speed of each part follows
+///   multipliers_SET, constant_SET  how speeds follow factors (multiplier_tables.h)
 ///   drawn_SET                  root paths that nobody danced (drawn_table.h)
 ///   repetition_SET             100 to 250 frames: how much of a dance repeats itself, how much of
 ///                              its ending holds still
-/// The last three with options.all_controls alone. `methods` has exactly one that is named kServed.
+/// The last four with options.all_controls alone. `methods` has exactly one that is named kServed.
 /// Deterministic.
 std::vector<Table> EvaluateControls(const ClipSet& set, const std::vector<Method>& methods,
                                     const EvalOptions& options, ProgressBar* progress);

@@ -162,6 +162,18 @@ TEST_F(ControlTablesTest, WhoObeysItsFactorsMultipliesItsSpeeds) {
   EXPECT_TRUE(std::isnan(Figure("multipliers", {"plain", "0.5"}, "left_arm")));
 }
 
+TEST_F(ControlTablesTest, ConstantFactorsAreHeldAgainstTheReference) {
+  for (const auto& [times, scale] :
+       std::map<std::string, double>{{"0.5", 0.5}, {"1.0", 1}, {"1.5", 1.5}}) {
+    EXPECT_NEAR(Figure("constant", {"swinging, network alone", times}, "left_arm"), scale, 0.01);
+    EXPECT_NEAR(Figure("constant", {"swinging, network alone", times}, "right_arm"), 0, 1e-4);
+  }
+  // Real dancers were not asked: theirs are their own.
+  const double own = Figure("constant", {"real", "1.0"}, "left_arm");
+  EXPECT_GT(std::abs(own - 1), 0.01);
+  EXPECT_TRUE(std::isnan(Figure("constant", {"plain", "0.5"}, "left_arm")));
+}
+
 TEST_F(ControlTablesTest, WhoSwingsToAndFroRepeatsHerself) {
   EXPECT_GT(Figure("repetition", {"swinging, network alone"}, "repeated, 250"), 0.5);
   EXPECT_LT(Figure("repetition", {"real"}, "repeated, 250"), 0.5);
@@ -203,15 +215,15 @@ TEST_F(ControlTablesTest, WhoCanNotDanceAsLongHasNoFigure) {
   EXPECT_TRUE(std::isnan(row->cells[2].value));
   EXPECT_EQ(CountControlFrames(set_, methods, options_),
             2 * 2 * (10 + 50 + 100 + 150) * 2 + 2 * 2 * (100 + 150) +
-                2 * 2 * (100 + 150 + 200 + 250) + 2 * 90 * 2 * 2 * (3 + 4));
+                2 * 2 * (100 + 150 + 200 + 250) + 2 * 90 * 2 * 2 * (2 * 3 + 4));
 }
 
 TEST_F(ControlTablesTest, CountsTheFramesThatItDances) {
-  // Two windows a length; 10 to 150 and 100 to 250 frames by each of eleven ways, 90 frames three
-  // times by those with factors and once by the other two, and on four paths by those with keys
-  // that take a path.
+  // Two windows a length; 10 to 150 and 100 to 250 frames by each of eleven ways, 90 frames twice
+  // three times by those with factors and twice by the other two, and on four paths by those with
+  // keys that take a path.
   const int64_t paper = 2 * (10 + 50 + 100 + 150), repeated = 2 * (100 + 150 + 200 + 250);
-  const int64_t frames = 11 * (paper + repeated) + 2 * 90 * (9 * 3 + 2) + 2 * 90 * 4 * 8;
+  const int64_t frames = 11 * (paper + repeated) + 2 * 2 * 90 * (9 * 3 + 2) + 2 * 90 * 4 * 8;
   EXPECT_EQ(CountControlFrames(set_, methods_, options_), frames);
   EvalOptions less = options_;
   less.all_controls = false;
