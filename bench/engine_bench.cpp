@@ -22,12 +22,13 @@
 /// else besides disturbs less; quote ratios of one run.
 ///
 /// `default` is the model that ships; `paper` has paper F's size and random weights; `controllers`,
-/// which ships too, follows a root path and has but the one engine.
+/// which ships too, follows a root path and has but the one engine. Where a GPU answers, `paper` on
+/// it, too.
 namespace choreo {
 namespace {
 
 constexpr int kFrames = 60;  // of each transition
-constexpr int kMostStreams = 64;
+constexpr int kMostStreams = 64, kMostStreamsOfGpu = 512;
 
 /// What a run measures, and where it is for a while.
 class Models {
@@ -46,10 +47,11 @@ class Models {
   Models& operator=(const Models&) = delete;
 
   const std::filesystem::path& Path(const std::string& model) const { return paths_.at(model); }
-  StepEngine& Engine(const std::string& model, const std::string& kind) {
-    std::unique_ptr<StepEngine>& engine = engines_[model + kind];
+  StepEngine& Engine(const std::string& model, const std::string& kind, const Device& device = {}) {
+    std::unique_ptr<StepEngine>& engine = engines_[model + kind + device.name()];
     if (!engine) {
-      engine = MakeEngine(paths_.at(model), Device{}, kMostStreams, ParseEngineKind(kind));
+      const int slots = device.kind == Device::Kind::kCuda ? kMostStreamsOfGpu : kMostStreams;
+      engine = MakeEngine(paths_.at(model), device, slots, ParseEngineKind(kind));
     }
     return *engine;
   }
@@ -221,6 +223,20 @@ void Register(Models* models) {
     }
     add("admission/torch",
         [=](benchmark::State& state) { Admissions(state, models->Engine(model, "torch")); });
+  }
+  // By the clock: the thread waits for the GPU.
+  if (TorchDevices().cuda_devices > 0) {
+    for (const std::string kind : {"torch", "torch-bf16"}) {
+      for (const int streams : {1, 32, kMostStreamsOfGpu}) {
+        benchmark::RegisterBenchmark(
+            ("paper/cuda/" + kind + "/" + std::to_string(streams)).c_str(),
+            [=](benchmark::State& state) {
+              Frames(state, models->Engine("paper", kind, {Device::Kind::kCuda}), streams);
+            })
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
+      }
+    }
   }
   const auto add = [&](const char* name, auto run) {
     benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond);

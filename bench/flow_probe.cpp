@@ -59,18 +59,21 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
     NamedTensor& audio =
         add("audio", Normal(&random, {kRows, flow->tau + 1, flow->audio_features}, 1));
     NamedTensor& has_audio = add("has_audio", Zeros({kRows}));
-    NamedTensor& noise = add("noise", Normal(&random, {kRows, width}, 0.5F));
+    NamedTensor& noise = add("noise", Zeros({kRows, width}));
     NamedTensor& features = add("features", Zeros({kRows, width}));
     NamedTensor& log_likelihood = add("log_likelihood", Zeros({kRows}));
     std::vector<FlowRow> rows(kRows);
     for (int row = 0; row < kRows; ++row) {
       has_audio.data[static_cast<size_t>(row)] = row == 1 ? 0.0F : 1.0F;
+      const FrameNoise drawn = {
+          .seed = 11, .frame = frame, .candidate = static_cast<uint32_t>(row), .spread = 0.5F};
+      drawn.Fill(Row(noise, row));
       rows[static_cast<size_t>(row)] = {.slot = row,
                                         .frame = frame,
                                         .past = Row(past, row),
                                         .audio = Row(audio, row),
                                         .has_audio = row != 1,
-                                        .noise = Row(noise, row),
+                                        .noise = drawn,
                                         .features = Row(features, row)};
     }
     tile.Run(rows);

@@ -21,7 +21,7 @@ def engine_figures(report):
     for run in report["benchmarks"]:
         if run.get("aggregate_name") != "median":
             continue
-        name = run["run_name"]
+        name = run["run_name"].removesuffix("/real_time")
         figures[name] = run["bytes_per_second"] if name == "memory" else run["items_per_second"]
         if "flops" in run:
             figures[name + "/flops"] = run["flops"]
@@ -152,8 +152,15 @@ def bars(figures):
         good = [value <= bar * slack if less else value >= bar for bar in (least, aim)]
         shown = f"{value:.1f}x" if unit == "x" else f"{value:.0f}" if value >= 10 else f"{value:.2f}"
         lines.append(f"| {what} | {shown} | {least} | {aim} | {'aim' if good[1] else 'yes' if good[0] else '**no**'} |")
-    lines.append("| one H200-class GPU, `paper`: 1 / 512 streams, frames/s | not run: no GPU was there | 1,500 / 60,000 | 4,000 / 250,000 | **no** |")
-    return lines + [""]
+    return lines + [gpu_row(figures), ""]
+
+
+def gpu_row(figures):
+    rates = [max((figures.get(f"paper/cuda/{kind}/{streams}", 0) for kind in ("torch", "torch-bf16"))) for streams in (1, 512)]
+    reached = [all(rate >= bar for rate, bar in zip(rates, bars)) for bars in ((1500, 60000), (4000, 250000))]
+    measured = " / ".join(f"{rate:,.0f}" for rate in rates) if rates[0] else "not run: no GPU was there"
+    return (f"| one H200-class GPU, `paper`: 1 / 512 streams, frames/s | {measured} | 1,500 / 60,000 | 4,000 / 250,000 | "
+            f"{'aim' if reached[1] else 'yes' if reached[0] else '**no**'} |")
 
 
 def main(folder, root):

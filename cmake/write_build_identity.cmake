@@ -4,7 +4,8 @@
 string(REPLACE "," ";" folders "${FOLDERS}")
 set(sources)
 foreach(folder ${folders})
-  file(GLOB found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/CMakeLists.txt)
+  file(GLOB found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.cu
+    ${ROOT}/${folder}/CMakeLists.txt)
   list(APPEND sources ${found})
 endforeach()
 if(NOT sources)

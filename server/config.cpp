@@ -6,12 +6,12 @@
 #include <string_view>
 
 #include "model/core/error.h"
+#include "model/engine/engine_kind.h"
 #include "server/music_file.h"
 
 namespace choreo {
 namespace {
 
-constexpr std::array<std::string_view, 4> kEngines = {"auto", "torch", "packed", "packed-bf16"};
 constexpr std::array<std::string_view, 7> kLogLevels = {"trace", "debug",    "info", "warning",
                                                         "error", "critical", "off"};
 
@@ -61,7 +61,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
   app.add_option(
          "--engine", config.engine,
          "What computes: torch (LibTorch, on any device), packed (our own kernels, on the "
-         "CPU), packed-bf16 (the same with products of bfloat16, on CPUs with AVX512-BF16), or "
+         "CPU), torch-bf16 and packed-bf16 (the same with products of bfloat16; the latter on CPUs "
+         "with AVX512-BF16), or "
          "auto, the fastest of them here. Replicas that take over each other's dances must agree.")
       ->envname("CHOREO_ENGINE")
       ->capture_default_str();
@@ -123,10 +124,7 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
 void ServerConfig::Validate() const {
   CheckAddress(listen);
   for (const auto& path : checkpoints) CheckFile("--checkpoint", path);
-  if (std::find(kEngines.begin(), kEngines.end(), engine) == kEngines.end()) {
-    throw InvalidArgument("--engine",
-                          '"' + engine + "\" is none of auto, torch, packed, packed-bf16");
-  }
+  ParseEngineKind(engine, "--engine");
   CheckRange("--slots", slots, 1, 4096);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);

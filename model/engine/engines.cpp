@@ -168,6 +168,10 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
       kernels = name + ", plans by " + kernels;
     }
   } else {
+    if (kind == EngineKind::kTorchBf16) {
+      model->RoundNetworks();
+      kernels += ", bf16";
+    }
     model->to(there);
     loaded.torch = std::make_shared<TorchWeights>();
     loaded.torch->device = there;
@@ -202,15 +206,6 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
 }
 
 }  // namespace
-
-EngineKind ParseEngineKind(std::string_view text) {
-  if (text == "auto") return EngineKind::kAuto;
-  if (text == "torch") return EngineKind::kTorch;
-  if (text == "packed") return EngineKind::kPacked;
-  if (text == "packed-bf16") return EngineKind::kPackedBf16;
-  throw InvalidArgument(
-      "engine", "'" + std::string(text) + "' is not one of auto, torch, packed, packed-bf16");
-}
 
 AvailableDevices TorchDevices() {
   return {.cuda_build = at::hasCUDA(),

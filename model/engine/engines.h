@@ -3,11 +3,10 @@
 #include <filesystem>
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "model/engine/devices.h"
+#include "model/engine/engine_kind.h"
 #include "model/engine/step_engine.h"
 #include "model/engine/transition_planner.h"
 
@@ -18,19 +17,6 @@
 /// are made, with random rows in every place; where it doesn't hold, slower kernels or tiles of one
 /// row are taken.
 namespace choreo {
-
-/// What plans transitions and steps the flow. A model without a flow (preset recurrent,
-/// controllers) has nothing to pack: LibTorch steps it, whatever is asked.
-enum class EngineKind {
-  kAuto,        ///< the faster one: packed on the CPU, else torch
-  kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to
-  kPacked,      ///< own kernels on packed weights, on the CPU alone, float32
-  kPackedBf16,  ///< the same with products of bfloat16, where the CPU has instructions for them
-};
-
-/// Reads `auto | torch | packed | packed-bf16`. Throws Error(kInvalidArgument, "engine") for
-/// another name.
-EngineKind ParseEngineKind(std::string_view text);
 
 /// What LibTorch can use here.
 AvailableDevices TorchDevices();

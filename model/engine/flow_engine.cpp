@@ -21,10 +21,8 @@ FlowEngine::FlowEngine(ModelInfo info, std::string device, int slots,
       tile_(std::move(tile)),
       rows_(static_cast<size_t>(tile_->rows())) {
   const auto width = static_cast<size_t>(PoseCodec(info_.skeleton).width());
-  noise_.resize(rows_.size() * width);
   features_.resize(rows_.size() * width);
   for (size_t row = 0; row < rows_.size(); ++row) {
-    rows_[row].noise = {noise_.data() + row * width, width};
     rows_[row].features = {features_.data() + row * width, width};
   }
 }
@@ -54,7 +52,6 @@ int FlowEngine::Admit(const TransitionSpec& spec) {
 }
 
 void FlowEngine::StepTile(std::span<const StepInput> in, std::span<StepOutput> out) {
-  const auto width = noise_.size() / rows_.size();
   for (size_t i = 0; i < in.size(); ++i) {
     const TransitionWindow& window = At(in[i]).window;
     FlowRow& row = rows_[i];
@@ -63,7 +60,7 @@ void FlowEngine::StepTile(std::span<const StepInput> in, std::span<StepOutput> o
     row.past = window.past();
     row.audio = window.audio();
     row.has_audio = window.has_audio();
-    window.FillNoise({noise_.data() + i * width, width});
+    row.noise = window.noise();
   }
   tile_->Run({rows_.data(), in.size()});
   for (size_t i = 0; i < in.size(); ++i) {

@@ -40,8 +40,8 @@ class FlowEngine : public StepEngine {
   std::vector<Slot> slots_;
   std::shared_ptr<const TransitionPlanner> planner_;
   std::unique_ptr<FlowTile> tile_;
-  std::vector<FlowRow> rows_;            // of one tile
-  std::vector<float> noise_, features_;  // [rows of a tile, width]
+  std::vector<FlowRow> rows_;    // of one tile
+  std::vector<float> features_;  // [rows of a tile, width]
 };
 
 }  // namespace choreo

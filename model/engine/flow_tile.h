@@ -1,9 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace choreo {
+
+/// Which noise a frame has: whoever steps it draws it, where it computes. Plain bytes, which may be
+/// copied to a device.
+struct FrameNoise {
+  uint64_t seed = 0;
+  int64_t frame = 0;  ///< absolute
+  uint32_t candidate = 0;
+  float spread = 0;  ///< standard deviation: temperature applied
+
+  /// FillNormal's numbers times the spread.
+  void Fill(std::span<float> out) const;
+};
 
 /// One slot's share of a step of the flow: model/flow's FlowModel::Step for one row.
 struct FlowRow {
@@ -12,9 +25,9 @@ struct FlowRow {
   std::span<const float> past;   ///< [tau, width] features in physical units, oldest first
   std::span<const float> audio;  ///< [tau + 1, audio_features] MFCC rows
   bool has_audio = false;        ///< false: `audio` is ignored
-  std::span<const float> noise;  ///< [width], temperature applied
-  std::span<float> features;     ///< [width], written: physical units
-  float log_likelihood = 0;      ///< written: nats, standardised space
+  FrameNoise noise;
+  std::span<float> features;  ///< [width], written: physical units
+  float log_likelihood = 0;   ///< written: nats, standardised space
 };
 
 /// The flow on one device, with recurrent state and condition of as many transitions as its engine

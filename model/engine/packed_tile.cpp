@@ -56,7 +56,7 @@ void PackedTile::Hoist(Slot* slot, long frame) {
                std::min(kAhead, frames - frame), slot->hoisted.data());
 }
 
-// Writes `input_`'s condition columns.
+// Writes `input_`'s condition columns. `z_` holds the noise.
 void PackedTile::Condition(std::span<const FlowRow> rows) {
   const PackedFlow& flow = *flow_;
   const auto count = static_cast<long>(rows.size());
@@ -68,7 +68,7 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
     float* live = flow.encoded ? live_.Row(i) : input_.Row(i);
     flow.kernels.standardise(row.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
                              flow.width, flow.tau, kFeatureClamp, live);
-    if (flow.planned) DropStrayed(flow, row.noise, live);
+    if (flow.planned) DropStrayed(flow, {z_.Row(i), static_cast<size_t>(flow.width)}, live);
     if (row.has_audio) {
       flow.kernels.standardise(row.audio.data(), flow.audio_mean.data(), flow.audio_scale.data(),
                                flow.audio_features, flow.tau + 1, kFeatureClamp, live + past);
@@ -167,9 +167,10 @@ void PackedTile::Run(std::span<FlowRow> rows) {
   const PackedFlow& flow = *flow_;
   for (size_t i = 0; i < rows.size(); ++i) {
     FlowRow& row = rows[i];
-    std::ranges::copy(row.noise, z_.Row(static_cast<long>(i)));
+    const std::span<float> noise(z_.Row(static_cast<long>(i)), static_cast<size_t>(flow.width));
+    row.noise.Fill(noise);
     double squares = 0;
-    for (const float value : row.noise) squares += static_cast<double>(value) * value;
+    for (const float value : noise) squares += static_cast<double>(value) * value;
     const double base = squares + std::log(2 * std::numbers::pi) * flow.width;
     row.log_likelihood = static_cast<float>(-0.5 * base) + flow.log_det;
   }

@@ -14,91 +14,114 @@ using torch::Tensor;
 TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
     : weights_(std::move(weights)),
       rows_(rows),
-      states_(torch::zeros({slots, weights_->model->StateWidth()}, weights_->device)),
-      static_conditions_(static_cast<size_t>(slots)) {
+      spare_(slots),
+      static_conditions_(static_cast<size_t>(slots)),
+      states_(torch::zeros({slots + 1, weights_->model->StateWidth()}, weights_->device)),
+      noise_(weights_->device, rows, weights_->model->feature_width()) {
   const FlowModel& model = weights_->model;
   const FlowConfig& config = model->config();
-  const auto options = torch::TensorOptions().pinned_memory(weights_->device.is_cuda());
   const int64_t tau = config.history_frames, width = model->feature_width();
-  host_[kPast] = torch::zeros({rows, tau, width}, options);
-  host_[kAudio] = torch::zeros({rows, tau + 1, config.audio_features}, options);
-  host_[kHasAudio] = torch::zeros({rows, 1}, options);
-  host_[kCondition] = torch::zeros({rows, model->static_width()}, options);
-  host_[kNoise] = torch::zeros({rows, width}, options);
+  const int64_t widths[kParts] = {tau * width, (tau + 1) * config.audio_features, 1,
+                                  model->static_width(), 1};
+  begin_[0] = 0;
+  for (int part = 0; part < kParts; ++part) begin_[part + 1] = begin_[part] + widths[part];
+  const auto here = torch::TensorOptions().pinned_memory(weights_->device.is_cuda());
+  host_input_ = torch::zeros({rows, begin_[kParts]}, here);
+  host_slots_ = torch::full({rows}, spare_, here.dtype(torch::kLong));
+  host_output_ = torch::zeros({rows, width + 1}, here);
+  input_ = host_input_.to(weights_->device);
+  slots_ = host_slots_.to(weights_->device);
+  step_ = std::make_unique<DeviceGraph>(weights_->device, [this] { Compute(); });
+}
+
+std::span<float> TorchTile::Row(Part part, size_t row) {
+  float* begin = host_input_.data_ptr<float>() + static_cast<int64_t>(row) * begin_[kParts];
+  return {begin + begin_[part], begin + begin_[part + 1]};
+}
+
+Tensor TorchTile::Input(Part part) const {
+  return input_.narrow(1, begin_[part], begin_[part + 1] - begin_[part]);
+}
+
+std::span<int64_t> TorchTile::SlotOfRows() {
+  return {host_slots_.data_ptr<int64_t>(), static_cast<size_t>(rows_)};
 }
 
 void TorchTile::Begin(int slot, std::vector<float> static_condition) {
-  const c10::InferenceMode inference;
-  states_[slot].zero_();
   static_conditions_[static_cast<size_t>(slot)] = std::move(static_condition);
 }
 
 void TorchTile::Run(std::span<FlowRow> rows) {
-  const c10::InferenceMode inference;
-  Tensor slots = torch::zeros({rows_}, torch::kLong);
   for (size_t i = 0; i < rows.size(); ++i) {
     const FlowRow& row = rows[i];
-    std::ranges::copy(row.past, Row(kPast, i));
-    std::ranges::copy(row.audio, Row(kAudio, i));
-    *Row(kHasAudio, i) = row.has_audio ? 1.0F : 0.0F;
-    const int64_t width = host_[kCondition].size(1);
-    std::copy_n(static_conditions_[static_cast<size_t>(row.slot)].data() + row.frame * width, width,
-                Row(kCondition, i));
-    std::ranges::copy(row.noise, Row(kNoise, i));
-    slots.data_ptr<int64_t>()[i] = row.slot;
+    std::ranges::copy(row.past, Row(kPast, i).begin());
+    std::ranges::copy(row.audio, Row(kAudio, i).begin());
+    Row(kHasAudio, i)[0] = row.has_audio ? 1.0F : 0.0F;
+    const std::span<float> condition = Row(kCondition, i);
+    std::copy_n(static_conditions_[static_cast<size_t>(row.slot)].data() +
+                    static_cast<size_t>(row.frame) * condition.size(),
+                condition.size(), condition.begin());
+    Row(kUnderWay, i)[0] = row.frame > 0 ? 1.0F : 0.0F;
+    noise_.rows()[i] = row.noise;
+    SlotOfRows()[i] = row.slot;
   }
-  // Rows beyond these are padding: they hold what was there, read slot 0's state, and are dropped.
-  slots = slots.to(weights_->device);
-  FlowState state = states_.index_select(0, slots);
-  Compute(&state);
-  if (state.size(1) > 0) {
-    const auto count = static_cast<int64_t>(rows.size());
-    states_.index_copy_(0, slots.narrow(0, 0, count), state.narrow(0, 0, count));
-  }
-  const int64_t width = features_.size(1);
+  // Rows beyond these are padding: they hold what was there, and are dropped.
+  std::ranges::fill(SlotOfRows().subspan(rows.size()), spare_);
+  std::ranges::fill(noise_.rows().subspan(rows.size()), FrameNoise{});
+  step_->Run();
+  const int64_t width = host_output_.size(1) - 1;
   for (size_t i = 0; i < rows.size(); ++i) {
-    std::copy_n(features_.data_ptr<float>() + static_cast<int64_t>(i) * width, width,
-                rows[i].features.data());
-    rows[i].log_likelihood = log_likelihood_.data_ptr<float>()[i];
+    const float* row = host_output_.data_ptr<float>() + static_cast<int64_t>(i) * (width + 1);
+    std::copy_n(row, width, rows[i].features.data());
+    rows[i].log_likelihood = row[width];
   }
 }
 
-void TorchTile::Compute(FlowState* state) {
-  Tensor inputs[kInputs];
-  for (int i = 0; i < kInputs; ++i) inputs[i] = host_[i].to(weights_->device, true);
+void TorchTile::Compute() {
+  const c10::InferenceMode inference;
+  if (input_.is_cuda()) {
+    input_.copy_(host_input_, /*non_blocking=*/true);
+    slots_.copy_(host_slots_, /*non_blocking=*/true);
+  }
+  noise_.Draw();
   FlowModel model = weights_->model;
-  const FlowModelImpl::StepResult result =
-      model->Step(inputs[kPast], inputs[kAudio], inputs[kHasAudio], inputs[kCondition],
-                  inputs[kNoise], weights_->inverse_weights, state);
-  features_ = result.features.cpu().contiguous();
-  log_likelihood_ = result.log_likelihood.cpu().contiguous();
+  const int64_t tau = model->config().history_frames;
+  // A transition starts from a state of zero.
+  const Tensor before = states_.index_select(0, slots_);
+  FlowState state = torch::where(Input(kUnderWay) > 0, before, torch::zeros_like(before));
+  const FlowModelImpl::StepResult result = model->Step(
+      Input(kPast).reshape({rows_, tau, -1}), Input(kAudio).reshape({rows_, tau + 1, -1}),
+      Input(kHasAudio), Input(kCondition), noise_.values(), weights_->inverse_weights, &state);
+  if (state.size(1) > 0) states_.index_copy_(0, slots_, state);
+  host_output_.copy_(torch::cat({result.features, result.log_likelihood.unsqueeze(1)}, 1),
+                     /*non_blocking=*/true);
 }
 
 // Two probes visit every place, each time among other neighbours.
 bool TorchTile::RowsAreIndependent() {
   const c10::InferenceMode inference;
   Random random(1);
-  const int state_width = weights_->model->StateWidth();
   const auto fill = [&](Tensor tensor) {
     random.FillNormal({tensor.data_ptr<float>(), static_cast<size_t>(tensor.numel())});
   };
-  for (int probe = 0; probe < 2; ++probe) {
-    Tensor rows[kInputs + 1];  // the probe's inputs and state
-    for (int i = 0; i < kInputs; ++i) fill(rows[i] = torch::empty_like(host_[i][0]));
-    fill(rows[kInputs] = torch::empty({state_width}));
+  for (int row = 0; row < rows_; ++row) SlotOfRows()[static_cast<size_t>(row)] = row;
+  Tensor states = torch::empty({rows_, states_.size(1)});
+  for (uint64_t probe = 0; probe < 2; ++probe) {
+    Tensor input = torch::empty({begin_[kParts]}), state = torch::empty({states_.size(1)});
+    fill(input);
+    fill(state);
     Tensor expected;
     for (int place = 0; place < rows_; ++place) {
-      for (int i = 0; i < kInputs; ++i) {
-        fill(host_[i]);
-        host_[i][place].copy_(rows[i]);
-      }
-      Tensor state = torch::empty({rows_, state_width});
-      fill(state);
-      state[place].copy_(rows[kInputs]);
-      state = state.to(weights_->device);
-      Compute(&state);
-      const Tensor result =
-          torch::cat({features_[place], log_likelihood_[place].unsqueeze(0), state[place].cpu()});
+      fill(host_input_);
+      fill(states);
+      for (FrameNoise& noise : noise_.rows()) noise = {.seed = random.Next(), .spread = 1};
+      host_input_[place].copy_(input);
+      states[place].copy_(state);
+      noise_.rows()[static_cast<size_t>(place)] = {.seed = probe, .spread = 1};
+      host_input_.narrow(1, begin_[kUnderWay], 1).fill_(1);
+      states_.narrow(0, 0, rows_).copy_(states);
+      step_->Run();
+      const Tensor result = torch::cat({host_output_[place], states_[place].cpu()});
       if (!expected.defined()) expected = result.clone();
       if (!torch::equal(result, expected)) return false;
     }
@@ -107,9 +130,12 @@ bool TorchTile::RowsAreIndependent() {
 }
 
 int TorchTile::VerifiedRows(const std::shared_ptr<TorchWeights>& weights) {
-  // OpenBLAS's AVX2 kernel takes up to 12 rows at once and the rest otherwise.
-  for (const int rows : {16, 12, 8, 4}) {
-    if (TorchTile(weights, rows, 1).RowsAreIndependent()) return rows;
+  // A GPU takes hardly longer for a hundred rows than for one. OpenBLAS's AVX2 kernel takes up to
+  // 12 rows at once and the rest otherwise.
+  const std::vector<int> sizes =
+      weights->device.is_cuda() ? std::vector{128, 64, 32, 16, 8, 4} : std::vector{16, 12, 8, 4};
+  for (const int rows : sizes) {
+    if (TorchTile(weights, rows, rows).RowsAreIndependent()) return rows;
   }
   return 1;
 }

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "model/engine/device_graph.h"
+#include "model/engine/device_noise.h"
 #include "model/engine/flow_tile.h"
 #include "model/flow/flow_model.h"
 
@@ -18,7 +20,8 @@ struct TorchWeights {
 };
 
 /// The flow, stepped by LibTorch: a fixed number of rows together, padded, with inputs and outputs
-/// in host memory. The reference that faster tiles are held to.
+/// in host memory. The reference that faster tiles are held to, and the one that runs on CUDA:
+/// there a step is one graph, of one size, since another batch would give other bits.
 class TorchTile : public FlowTile {
  public:
   TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots);
@@ -32,21 +35,27 @@ class TorchTile : public FlowTile {
   void Run(std::span<FlowRow> rows) override;
 
  private:
-  enum Input { kPast, kAudio, kHasAudio, kCondition, kNoise, kInputs };
-  float* Row(Input input, size_t row) {
-    return host_[input].data_ptr<float>() + static_cast<int64_t>(row) * host_[input].stride(0);
-  }
-  /// Steps every row of the inputs. `state` [rows, StateWidth()], on the device, is replaced.
-  void Compute(FlowState* state);
+  /// Columns of the input.
+  enum Part { kPast, kAudio, kHasAudio, kCondition, kUnderWay, kParts };
+  std::span<float> Row(Part part, size_t row);
+  torch::Tensor Input(Part part) const;
+  std::span<int64_t> SlotOfRows();
+  /// Everything that the device does in a step.
+  void Compute();
   bool RowsAreIndependent();
 
   std::shared_ptr<TorchWeights> weights_;
-  int rows_;
-  torch::Tensor states_;                               ///< [slots, StateWidth()], on the device
+  int rows_, spare_;                                   ///< the slot of rows that nobody needs
   std::vector<std::vector<float>> static_conditions_;  ///< of the slots
-  torch::Tensor host_[kInputs];                        ///< [rows, ...], pinned for CUDA
-  torch::Tensor features_;                             ///< [rows, width], on the CPU
-  torch::Tensor log_likelihood_;                       ///< [rows], on the CPU
+  int64_t begin_[kParts + 1];                          ///< of each part, in columns
+
+  // What a step reads and writes, here (pinned for CUDA) and on the device; the same on the CPU.
+  torch::Tensor host_input_, input_;  ///< [rows, begin_[kParts]]
+  torch::Tensor host_slots_, slots_;  ///< [rows], of int64
+  torch::Tensor host_output_;         ///< [rows, width + 1]: features, log-likelihood
+  torch::Tensor states_;              ///< [slots + 1, StateWidth()], on the device
+  DeviceNoise noise_;
+  std::unique_ptr<DeviceGraph> step_;
 };
 
 }  // namespace choreo

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/core/random.h"
 #include "model/engine/temperature.h"
 
 namespace choreo {
@@ -87,11 +86,6 @@ void TransitionWindow::Advance(const StepInput& input) {
     if (frame_ > 0) std::copy(audio_.begin() + audio_features_, audio_.end(), audio_.begin());
     std::ranges::copy(input.audio_row, audio_.end() - audio_features_);
   }
-}
-
-void TransitionWindow::FillNoise(std::span<float> noise) const {
-  FillNormal(seed_, candidate_, first_frame_ + frame_, noise);
-  for (float& value : noise) value *= noise_;
 }
 
 void TransitionWindow::Finish(std::span<const float> features, StepOutput* output) {

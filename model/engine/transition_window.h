@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "model/engine/flow_tile.h"
 #include "model/engine/step_engine.h"
 #include "model/motion/contacts.h"
 #include "model/motion/kinematics.h"
@@ -37,8 +38,11 @@ class TransitionWindow {
   bool has_audio() const { return has_audio_; }
   std::span<const float> past() const { return past_; }    ///< [tau, width], oldest first
   std::span<const float> audio() const { return audio_; }  ///< [tau + 1, audio_features]
-  /// The frame's noise times its share of the temperature, [width].
-  void FillNoise(std::span<float> noise) const;
+  /// Its noise, with the frame's share of the temperature.
+  FrameNoise noise() const {
+    return {
+        .seed = seed_, .frame = first_frame_ + frame_, .candidate = candidate_, .spread = noise_};
+  }
 
   /// Follows the model's features [width] of the frame and decodes them; the frame is then done.
   void Finish(std::span<const float> features, StepOutput* output);

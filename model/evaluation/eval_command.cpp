@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "model/core/error.h"
+#include "model/engine/engine_kind.h"
 #include "model/evaluation/contest.h"
 #include "model/evaluation/control_tables.h"
 #include "model/evaluation/encoder_table.h"
@@ -178,11 +179,14 @@ void AddEvalCommand(CLI::App& app) {
   command->add_option("--name", arguments->contest.name, "What the rows of --model are called")
       ->capture_default_str();
   command
-      ->add_option("--engine", arguments->contest.engine,
-                   "auto | torch | packed | packed-bf16; packed is float32 on any CPU; a model "
-                   "without a flow, such as a recurrent baseline, is stepped by torch all the same")
+      ->add_option(
+          "--engine", arguments->contest.engine,
+          EngineKindNames() +
+              "; packed is float32 on any CPU; a model "
+              "without a flow, such as a recurrent baseline, is stepped by torch all the same")
       ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "torch", "packed", "packed-bf16"}));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
   command->add_option("--json", arguments->paths.json,
                       "Also write the figures here, and plots beside it");
   command

@@ -33,16 +33,19 @@ CouplingNetworkImpl::CouplingNetworkImpl(int input, int hidden, int output, bool
 }
 
 Tensor CouplingNetworkImpl::forward(const Tensor& input, Tensor* state) {
-  if (!recurrent_) return last_(torch::silu(second_(torch::silu(first_(input)))));
+  const auto inside = last_->weight.scalar_type(), outside = input.scalar_type();
+  const Tensor x = input.to(inside);
+  if (!recurrent_) return last_(torch::silu(second_(torch::silu(first_(x))))).to(outside);
   // [batch, 2 * layers * hidden] ↔ h, c of [layers, batch, hidden]
   const int64_t batch = input.size(0);
-  const Tensor split = state->view({batch, 2, kLayers, hidden_}).permute({1, 2, 0, 3});
+  const Tensor split = state->view({batch, 2, kLayers, hidden_}).permute({1, 2, 0, 3}).to(inside);
   const auto [output, next] =
-      lstm_->forward(input, std::make_tuple(split[0].contiguous(), split[1].contiguous()));
+      lstm_->forward(x, std::make_tuple(split[0].contiguous(), split[1].contiguous()));
   *state = torch::stack({std::get<0>(next), std::get<1>(next)})
                .permute({2, 0, 1, 3})
-               .reshape({batch, StateWidth()});
-  return last_(output);
+               .reshape({batch, StateWidth()})
+               .to(outside);
+  return last_(output).to(outside);
 }
 
 FlowStepImpl::FlowStepImpl(int width, int condition, int hidden, bool recurrent) : low_(width / 2) {
@@ -171,6 +174,10 @@ std::vector<Tensor> CouplingFlowImpl::InverseWeights() const {
   std::vector<Tensor> weights;
   for (const auto& step : *steps_) weights.push_back(step->as<FlowStep>()->InverseWeight());
   return weights;
+}
+
+void CouplingFlowImpl::RoundNetworks() {
+  for (const auto& step : *steps_) step->as<FlowStep>()->network()->to(torch::kBFloat16);
 }
 
 void CouplingFlowImpl::InitialiseActNorm(const Tensor& x, const Tensor& condition) {

@@ -114,6 +114,13 @@ TransitionContext FlowModelImpl::Hoist(const TransitionTensors& transition,
   return context;
 }
 
+void FlowModelImpl::RoundNetworks() {
+  flow_->RoundNetworks();
+  if (config_.condition_width == 0) return;
+  for (torch::nn::Linear layer : {encode_past_, encode_audio_, encode_})
+    layer->to(torch::kBFloat16);
+}
+
 void FlowModelImpl::ForgetFlow() {
   for (Tensor& parameter : flow_->parameters()) parameter.set_data(torch::empty({0}));
 }
@@ -130,8 +137,10 @@ Tensor FlowModelImpl::StandardiseAudio(const Tensor& audio, const Tensor& has_au
 Tensor FlowModelImpl::Condition(const Tensor& past, const Tensor& audio,
                                 const Tensor& static_condition) {
   if (config_.condition_width == 0) return torch::cat({past, audio, static_condition}, -1);
-  const Tensor sum = encode_past_(past) + encode_audio_(audio) + static_condition;
-  return torch::silu(encode_(torch::silu(sum)));
+  const auto inside = encode_->weight.scalar_type(), outside = static_condition.scalar_type();
+  const Tensor sum = encode_past_(past.to(inside)).to(outside) +
+                     encode_audio_(audio.to(inside)).to(outside) + static_condition;
+  return torch::silu(encode_(torch::silu(sum).to(inside)).to(outside));
 }
 
 FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& audio,

@@ -55,6 +55,8 @@ class FlowModelImpl : public torch::nn::Module {
                   const torch::Tensor& noise, const std::vector<torch::Tensor>& inverse_weights,
                   FlowState* state);
   std::vector<torch::Tensor> InverseWeights() const { return flow_->InverseWeights(); }
+  /// Rounds what Step multiplies by most, the coupling networks and the encoder, to bfloat16.
+  void RoundNetworks();
   /// Frees the flow's weights, which are most of the memory: afterwards there is only Begin.
   void ForgetFlow();
 

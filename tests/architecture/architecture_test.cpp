@@ -97,7 +97,7 @@ TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
 
 // LibTorch's headers take most of a build.
 TEST(Architecture, FewTranslationUnitsIncludeTorch) {
-  constexpr size_t kMost = 28;  // two networks, a file a part, their training and engines
+  constexpr size_t kMost = 31;  // two networks, a file a part, their training and engines
   std::vector<std::string> units;
   for (const std::string& file : House().files()) {
     if (!file.ends_with(".cpp")) continue;

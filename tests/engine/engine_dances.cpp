@@ -149,4 +149,38 @@ void ExpectSameBits(const std::vector<StepOutput>& a, const std::vector<StepOutp
   }
 }
 
+// A likelihood is a sum of some 82 terms of about a nat that may cancel: what rounding does to it
+// grows with the root of their number.
+constexpr float kLikelihoodSize = 9;
+double LargestStepDifference(StepEngine* reference, StepEngine* other, uint64_t seed, int frames) {
+  const ModelInfo& model = reference->model();
+  const TransitionSpec spec =
+      RandomSpec(model, seed, std::min(frames, model.max_transition_frames));
+  EXPECT_EQ(reference->Admit(spec), other->Admit(spec));
+  std::vector<StepInput> in(1);
+  std::vector<StepOutput> expected(1), actual(1);
+  Pose previous;
+  double largest = 0;
+  for (int frame = 0; frame < spec.frames; ++frame) {
+    const std::vector<float> row = RandomAudioRow(model, seed, frame);
+    in[0] = {0, frame > 0 ? &previous : nullptr, {}};
+    if (spec.has_audio) in[0].audio_row = row;
+    reference->Step(in, expected);
+    other->Step(in, actual);
+    const Pose &a = expected[0].pose, &b = actual[0].pose;
+    largest = std::max(largest, (a.root_position - b.root_position).cwiseAbs().maxCoeff());
+    largest = std::max(largest, (a.rotations - b.rotations).cwiseAbs().maxCoeff());
+    for (size_t foot = 0; foot < 4; ++foot) {
+      largest = std::max<double>(largest,
+                                 std::abs(expected[0].contacts[foot] - actual[0].contacts[foot]));
+    }
+    largest = std::max<double>(largest,
+                               std::abs(expected[0].log_likelihood - actual[0].log_likelihood) /
+                                   std::max(kLikelihoodSize, std::abs(expected[0].log_likelihood)));
+    EXPECT_TRUE(std::isfinite(actual[0].log_likelihood));
+    previous = Emit(a, frame);
+  }
+  return largest;
+}
+
 }  // namespace choreo

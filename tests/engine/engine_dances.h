@@ -54,6 +54,9 @@ struct Dancer {
 /// Steps slots that were admitted for these specs, all together, to the end of the longest.
 void DanceTogether(StepEngine* engine, std::vector<Dancer>* dancers);
 std::vector<StepOutput> DanceAlone(StepEngine* engine, const TransitionSpec& spec);
+/// Both engines make each frame of a transition in slot 0 from the same poses before it: the
+/// largest difference of any output, in metres, radians, and nats relative to their size.
+double LargestStepDifference(StepEngine* reference, StepEngine* other, uint64_t seed, int frames);
 void ExpectSameBits(const std::vector<StepOutput>& a, const std::vector<StepOutput>& b);
 
 }  // namespace choreo

@@ -33,11 +33,15 @@ class EnginesTest : public testing::TestWithParam<std::tuple<EngineKind, Shape>>
 
 INSTANTIATE_TEST_SUITE_P(
     Engines, EnginesTest,
-    testing::Combine(testing::Values(EngineKind::kTorch, EngineKind::kPacked),
+    testing::Combine(testing::Values(EngineKind::kTorch, EngineKind::kTorchBf16,
+                                     EngineKind::kPacked),
                      testing::Values(Shape::kPlannerAndPerceptron, Shape::kPerceptronOnCondition,
                                      Shape::kRecurrent, Shape::kEncodedRecurrent)),
     [](const auto& instance) {
-      return (std::get<0>(instance.param) == EngineKind::kTorch ? "Torch" : "Packed") +
+      const EngineKind kind = std::get<0>(instance.param);
+      return std::string(kind == EngineKind::kTorch       ? "Torch"
+                         : kind == EngineKind::kTorchBf16 ? "TorchBf16"
+                                                          : "Packed") +
              ShapeName(std::get<1>(instance.param));
     });
 
@@ -215,6 +219,18 @@ TEST_P(EnginesTest, ThisBuildHasItsDevices) {
   EXPECT_THROW(MakeEngine(checkpoint_.path(), beyond, 1, kind), std::exception);
 }
 
+// Rounded networks are near the exact ones, and are not them.
+TEST_P(EnginesTest, StepsAsTheTorchEngineDoes) {
+  const double most = std::get<0>(GetParam()) == EngineKind::kTorchBf16 ? 0.05 : 1e-4;
+  for (const uint64_t seed : {7, 8, 9, 10}) {
+    const auto reference = MakeEngine(checkpoint_.path(), {}, 1, EngineKind::kTorch);
+    const auto engine = Engine(1);
+    const double difference = LargestStepDifference(reference.get(), engine.get(), seed, 30);
+    EXPECT_LT(difference, most) << "seed " << seed;
+    EXPECT_EQ(difference == 0, std::get<0>(GetParam()) == EngineKind::kTorch);
+  }
+}
+
 TEST(EngineSetUpTest, TheBuildIsNamed) {
   EXPECT_THAT(BuildIdentity(), ContainsRegex("^[A-Za-z]+ [0-9.]+ [A-Za-z]* [0-9a-f]{16}$"));
 }
@@ -229,9 +245,16 @@ TEST(EngineSetUpTest, AFastBlasStandsBehindTorch) {
 TEST(EngineSetUpTest, KindsHaveNames) {
   EXPECT_EQ(ParseEngineKind("auto"), EngineKind::kAuto);
   EXPECT_EQ(ParseEngineKind("torch"), EngineKind::kTorch);
+  EXPECT_EQ(ParseEngineKind("torch-bf16"), EngineKind::kTorchBf16);
   EXPECT_EQ(ParseEngineKind("packed"), EngineKind::kPacked);
   EXPECT_EQ(ParseEngineKind("packed-bf16"), EngineKind::kPackedBf16);
-  EXPECT_THROW(ParseEngineKind("fast"), Error);
+  try {
+    ParseEngineKind("fast", "--engine");
+    FAIL() << "no such engine";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "--engine: \"fast\" is none of auto, torch, torch-bf16, packed, packed-bf16");
+  }
 }
 
 }  // namespace

@@ -26,41 +26,11 @@ extern "C" [[gnu::noinline]] void* malloc(std::size_t size) noexcept {
 namespace choreo {
 namespace {
 
-// Both engines make each frame from the same poses before it; the largest difference of any output,
-// metres, radians, nats relative to their size. A likelihood is a sum of some 82 terms of about a
-// nat that may cancel: what rounding does to it grows with the root of their number.
-constexpr float kLikelihoodSize = 9;
 double LargestDifference(const std::filesystem::path& checkpoint, uint64_t seed, int frames,
                          EngineKind kind = EngineKind::kPacked) {
   const auto torch = MakeEngine(checkpoint, {}, 1, EngineKind::kTorch);
   const auto packed = MakeEngine(checkpoint, {}, 1, kind);
-  const TransitionSpec spec =
-      RandomSpec(torch->model(), seed, std::min(frames, torch->model().max_transition_frames));
-  EXPECT_EQ(torch->Admit(spec), packed->Admit(spec));
-  std::vector<StepInput> in(1);
-  std::vector<StepOutput> expected(1), actual(1);
-  Pose previous;
-  double largest = 0;
-  for (int frame = 0; frame < spec.frames; ++frame) {
-    const std::vector<float> row = RandomAudioRow(torch->model(), seed, frame);
-    in[0] = {0, frame > 0 ? &previous : nullptr, {}};
-    if (spec.has_audio) in[0].audio_row = row;
-    torch->Step(in, expected);
-    packed->Step(in, actual);
-    const Pose &a = expected[0].pose, &b = actual[0].pose;
-    largest = std::max(largest, (a.root_position - b.root_position).cwiseAbs().maxCoeff());
-    largest = std::max(largest, (a.rotations - b.rotations).cwiseAbs().maxCoeff());
-    for (size_t foot = 0; foot < 4; ++foot) {
-      largest = std::max<double>(largest,
-                                 std::abs(expected[0].contacts[foot] - actual[0].contacts[foot]));
-    }
-    largest = std::max<double>(largest,
-                               std::abs(expected[0].log_likelihood - actual[0].log_likelihood) /
-                                   std::max(kLikelihoodSize, std::abs(expected[0].log_likelihood)));
-    EXPECT_TRUE(std::isfinite(actual[0].log_likelihood));
-    previous = Emit(a, frame);
-  }
-  return largest;
+  return LargestStepDifference(torch.get(), packed.get(), seed, frames);
 }
 
 class PackedEngineTest : public testing::TestWithParam<std::tuple<Shape, EngineKind>> {
