@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 
 #include "model/core/error.h"
 #include "model/draw/canvas.h"
+#include "model/draw/plot_axis.h"
 
 namespace choreo {
 namespace {
@@ -24,113 +23,6 @@ constexpr Colour kLines[] = {Colour::Hex(0x0072b2), Colour::Hex(0xd55e00), Colou
                              Colour::Hex(0xcc79a7), Colour::Hex(0xe69f00), Colour::Hex(0x56b4e9),
                              Colour::Hex(0x000000)};
 constexpr size_t kColours = std::size(kLines);
-
-struct Tick {
-  double value;  // on the axis, after the logarithm
-  std::string label;
-};
-
-std::string Number(double value, double step) {
-  char text[32];
-  const double size = std::abs(value);
-  if (size != 0 && (size >= 1e6 || size < 1e-4)) {
-    std::snprintf(text, sizeof(text), "%.3g", value);
-  } else {
-    const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-    std::snprintf(text, sizeof(text), "%.*f", digits, value == 0 ? 0.0 : value);
-  }
-  return text;
-}
-
-// A range of values and where it lies in the picture.
-class Axis {
- public:
-  Axis(double low, double high, double from, double to, bool logarithmic, double tick_distance)
-      : low_(low), high_(high), from_(from), to_(to) {
-    const double wanted = std::max(2.0, std::abs(to - from) / tick_distance);
-    if (logarithmic) {
-      PlaceDecades(wanted);
-    } else {
-      PlaceLinear(wanted);
-    }
-  }
-
-  double At(double value) const { return from_ + (value - low_) / (high_ - low_) * (to_ - from_); }
-  const std::vector<Tick>& ticks() const { return ticks_; }
-
-  // Names of 0, 1, ... instead of numbers, each so far from the one before that `widest` has room.
-  void Name(const std::vector<std::string>& names, double widest) {
-    const auto stride = static_cast<size_t>(std::ceil(widest / (At(1) - At(0))));
-    ticks_.clear();
-    for (size_t i = 0; i < names.size(); i += std::max<size_t>(1, stride))
-      ticks_.push_back({static_cast<double>(i), names[i]});
-  }
-
- private:
-  void PlaceLinear(double wanted) {
-    const double raw = (high_ - low_) / wanted;
-    const double power = std::pow(10, std::floor(std::log10(raw)));
-    double step = 10 * power;
-    for (const double nice : {1.0, 2.0, 5.0}) {
-      if (nice * power >= raw * 0.999) {
-        step = nice * power;
-        break;
-      }
-    }
-    for (double k = std::ceil(low_ / step - 1e-9); k * step <= high_ + 1e-9 * step; ++k) {
-      ticks_.push_back({k * step, Number(k * step, step)});
-    }
-  }
-
-  // Powers of ten; with few of them in sight, 2 and 5 times those as well.
-  void PlaceDecades(double wanted) {
-    const double stride = std::max(1.0, std::ceil((high_ - low_) / wanted));
-    for (double k = std::floor(low_); k <= high_; k += stride) {
-      for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor > 1 && high_ - low_ > wanted / 2) continue;
-        const double value = std::pow(10, k) * factor;
-        const double at = std::log10(value);
-        if (at < low_ - 1e-9 || at > high_ + 1e-9) continue;
-        char text[32];
-        std::snprintf(text, sizeof(text), "%g", value);
-        ticks_.push_back({at, text});
-      }
-    }
-  }
-
-  double low_, high_, from_, to_;
-  std::vector<Tick> ticks_;
-};
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void Add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  // As long as `extent`, its middle where it was.
-  void WidenTo(double extent) {
-    const double extra = std::max(0.0, extent - (high - low)) / 2;
-    low -= extra, high += extra;
-  }
-  // Never empty, never a single point; `margin` of the extent is added on both sides.
-  void Settle(double margin) {
-    if (!(low <= high)) low = 0, high = 1;
-    if (high - low < 1e-9 * std::max(1e-6, std::abs(high))) {
-      const double half = std::max(std::abs(high) * 0.1, 1e-6);
-      low -= half, high += half;
-    }
-    const double extra = (high - low) * margin;
-    low -= extra, high += extra;
-  }
-};
-
-double OnAxis(double value, bool logarithmic) {
-  if (!logarithmic) return value;
-  return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
-}
 
 void Check(const Plot& plot) {
   const auto check_size = [](const char* field, int value) {

@@ -1,0 +1,96 @@
+#include "model/draw/plot_axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace choreo {
+namespace {
+
+std::string Number(double value, double step) {
+  char text[32];
+  const double size = std::abs(value);
+  if (size != 0 && (size >= 1e6 || size < 1e-4)) {
+    std::snprintf(text, sizeof(text), "%.3g", value);
+  } else {
+    const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+    std::snprintf(text, sizeof(text), "%.*f", digits, value == 0 ? 0.0 : value);
+  }
+  return text;
+}
+
+}  // namespace
+
+double OnAxis(double value, bool logarithmic) {
+  if (!logarithmic) return value;
+  return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
+}
+
+void Range::Add(double value) {
+  low = std::min(low, value);
+  high = std::max(high, value);
+}
+
+void Range::WidenTo(double extent) {
+  const double extra = std::max(0.0, extent - (high - low)) / 2;
+  low -= extra, high += extra;
+}
+
+void Range::Settle(double margin) {
+  if (!(low <= high)) low = 0, high = 1;
+  if (high - low < 1e-9 * std::max(1e-6, std::abs(high))) {
+    const double half = std::max(std::abs(high) * 0.1, 1e-6);
+    low -= half, high += half;
+  }
+  const double extra = (high - low) * margin;
+  low -= extra, high += extra;
+}
+
+Axis::Axis(double low, double high, double from, double to, bool logarithmic, double tick_distance)
+    : low_(low), high_(high), from_(from), to_(to) {
+  const double wanted = std::max(2.0, std::abs(to - from) / tick_distance);
+  if (logarithmic) {
+    PlaceDecades(wanted);
+  } else {
+    PlaceLinear(wanted);
+  }
+}
+
+void Axis::Name(const std::vector<std::string>& names, double widest) {
+  const auto stride = static_cast<size_t>(std::ceil(widest / (At(1) - At(0))));
+  ticks_.clear();
+  for (size_t i = 0; i < names.size(); i += std::max<size_t>(1, stride))
+    ticks_.push_back({static_cast<double>(i), names[i]});
+}
+
+void Axis::PlaceLinear(double wanted) {
+  const double raw = (high_ - low_) / wanted;
+  const double power = std::pow(10, std::floor(std::log10(raw)));
+  double step = 10 * power;
+  for (const double nice : {1.0, 2.0, 5.0}) {
+    if (nice * power >= raw * 0.999) {
+      step = nice * power;
+      break;
+    }
+  }
+  for (double k = std::ceil(low_ / step - 1e-9); k * step <= high_ + 1e-9 * step; ++k) {
+    ticks_.push_back({k * step, Number(k * step, step)});
+  }
+}
+
+void Axis::PlaceDecades(double wanted) {
+  const double stride = std::max(1.0, std::ceil((high_ - low_) / wanted));
+  for (double k = std::floor(low_); k <= high_; k += stride) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      if (factor > 1 && high_ - low_ > wanted / 2) continue;
+      const double value = std::pow(10, k) * factor;
+      const double at = std::log10(value);
+      if (at < low_ - 1e-9 || at > high_ + 1e-9) continue;
+      char text[32];
+      std::snprintf(text, sizeof(text), "%g", value);
+      ticks_.push_back({at, text});
+    }
+  }
+}
+
+}  // namespace choreo
