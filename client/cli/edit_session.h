@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/cli/connection.h"
+#include "client/cli/control_options.h"
+#include "client/edit.h"
+
+namespace choreo::cli {
+
+/// What `choreo edit` was asked.
+struct EditOptions {
+  ServerOptions server;
+  std::string dance;
+  std::vector<std::string> keys;
+  std::vector<double> at_s;
+  bool in_place = false;
+  bool loop = false;
+  std::optional<double> around_s;
+  std::string song;
+  std::string report;
+  std::string new_report;
+  std::optional<uint64_t> seed;
+  std::optional<double> temperature;
+  ControlOptions controls;
+  std::string model;
+  std::string out;
+};
+
+/// A dance while its keys are changed, one after another. The options and the connection must
+/// outlive it.
+class EditSession {
+ public:
+  EditSession(const EditOptions& options, const Connection& connection);
+
+  /// Dances the two intervals around a key anew. `source` as in --key.
+  void SetKey(const std::string& source, double at_s);
+  /// Leads the last frames back into the first.
+  void CloseLoop();
+  /// The dance, and the report of what is known of it, where the options want them.
+  void Write() const;
+
+ private:
+  int64_t Frame(double seconds) const { return std::llround(seconds * edit_.model.fps); }
+  double Seconds(int64_t frame) const { return static_cast<double>(frame) / edit_.model.fps; }
+
+  void ReadKeys();
+  void CheckKeys() const;
+  void CheckAround(double seconds) const;
+  int64_t Around() const;
+  /// How far the edit of a key may reach at most, in frames.
+  int64_t Reach() const;
+  /// The last frame before a key that stays, and the first behind it: those of other keys, where
+  /// they are known and near enough.
+  int64_t Before(int64_t frame) const;
+  int64_t Behind(int64_t frame) const;
+
+  /// What was said of frames that are danced anew, and of the way to `to`: of a loop, too, where
+  /// the first frame is another one now.
+  void DropWarnings(int64_t from, int64_t to);
+  void Take(client::EditedDance edited, const std::string& what);
+
+  const EditOptions& options_;
+  const client::Client& client_;
+  client::EditOptions edit_;
+  int64_t longest_ = 0;
+  client::FinishedDance dance_;
+  int64_t frames_ = 0;                              // at the model's rate
+  std::map<int64_t, nlohmann::ordered_json> keys_;  // those known, by frame
+  std::vector<client::Warning> warnings_;           // of the report and of the edits
+};
+
+}  // namespace choreo::cli
