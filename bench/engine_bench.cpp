@@ -177,16 +177,33 @@ void Bare(benchmark::State& state, const std::vector<BareProducts::Shape>& shape
       benchmark::Counter(products.operations(), benchmark::Counter::kIsIterationInvariantRate);
 }
 
+/// Read in several places at once with the widest vectors there are: a core that reads one word
+/// after another does not ask for all that memory gives.
+[[gnu::target_clones("avx512f", "avx2", "default")]] uint64_t SumOf(const uint64_t* words,
+                                                                    size_t count) {
+  constexpr size_t kPlaces = 8, kLanes = 8;
+  const size_t part = count / kPlaces;
+  uint64_t sums[kPlaces][kLanes] = {};
+  for (size_t i = 0; i + kLanes <= part; i += kLanes) {
+    for (size_t place = 0; place < kPlaces; ++place) {
+      for (size_t lane = 0; lane < kLanes; ++lane)
+        sums[place][lane] += words[place * part + i + lane];
+    }
+  }
+  uint64_t total = 0;
+  for (const auto& place : sums) {
+    for (const uint64_t sum : place) total += sum;
+  }
+  return total;
+}
+
 void ReadMemory(benchmark::State& state) {
   constexpr size_t kCount = size_t{100} << 20;  // floats, far more than any cache holds
   const LargePages pages(kCount);
   const auto* words = reinterpret_cast<const uint64_t*>(pages.data());
   for (auto _ : state) {
-    uint64_t sums[4] = {};
-    for (size_t i = 0; i < kCount / 2; i += 4) {
-      for (size_t j = 0; j < 4; ++j) sums[j] += words[i + j];
-    }
-    benchmark::DoNotOptimize(sums);
+    uint64_t sum = SumOf(words, kCount / 2);
+    benchmark::DoNotOptimize(sum);
   }
   state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(kCount * sizeof(float)));
 }
@@ -248,23 +265,13 @@ void Register(Models* models) {
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }
 
-}  // namespace
-}  // namespace choreo
-
-/// engine_bench [--probes FOLDER]: besides, checkpoints and probes for bench/peer_torch.py go
-/// there.
-int main(int argc, char** argv) {
-  using namespace choreo;
-  benchmark::Initialize(&argc, argv);
-  SetTorchThreads(1);
-  FlushDenormals();
-  Models models;
+int Measure(Models* models, int argc, char** argv) {
   if (argc == 3 && std::string(argv[1]) == "--probes") {
     const std::filesystem::path folder = argv[2];
     std::filesystem::create_directories(folder);
     for (const std::string model : {"default", "paper"}) {
       const std::filesystem::path checkpoint = folder / (model + ".safetensors");
-      std::filesystem::copy_file(models.Path(model), checkpoint,
+      std::filesystem::copy_file(models->Path(model), checkpoint,
                                  std::filesystem::copy_options::overwrite_existing);
       WriteFlowProbe(checkpoint, folder / (model + ".probe.safetensors"));
     }
@@ -275,7 +282,29 @@ int main(int argc, char** argv) {
   if (Bf16KernelsHere() != nullptr) kernels += std::string(", ") + Bf16KernelsHere()->name;
   benchmark::AddCustomContext("kernels", kernels);
   benchmark::AddCustomContext("blas", DetectBlas().name);
-  Register(&models);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  Register(models);
+  if (TorchDevices().cuda_devices > 0) {
+    const auto gpu = models->Engine("paper", "torch", {Device::Kind::kCuda, 0}).model().fingerprint;
+    benchmark::AddCustomContext("gpu", gpu.substr(gpu.rfind('/') + 1));
+  }
+  return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 2;
+}
+
+}  // namespace
+}  // namespace choreo
+
+/// engine_bench [--probes FOLDER]: besides, checkpoints and probes for bench/peer_torch.py go
+/// there.
+int main(int argc, char** argv) {
+  using namespace choreo;
+  benchmark::Initialize(&argc, argv);
+  SetTorchThreads(1);
+  FlushDenormals();
+  try {
+    Models models;
+    return Measure(&models, argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "engine_bench: " << error.what() << '\n';
+    return 1;
+  }
 }

@@ -11,6 +11,7 @@
 #include "bench/process_usage.h"
 #include "client/cli/local_server.h"
 #include "client/cli/music.h"
+#include "client/cli/options.h"
 #include "model/core/error.h"
 
 /// How many dances one choreod serves over gRPC, on the machine that also plays all its clients.
@@ -133,37 +134,47 @@ class Load {
                 (Mebibytes() - before) * 1024 / kStreams);
   }
 
-  /// The tenth minute of a stream against its first.
+  /// The tenth minute of streams against their first.
   void Minutes() {
-    constexpr int kMinutes = 10;
+    constexpr int kStreams = 8, kMinutes = 10;
     std::printf("\n| minute | ms of the server's CPU a frame | server MiB |\n|---|---|---|\n");
     constexpr int64_t kFrames = 1790;  // of a minute: ten and their music are what a song may last
     const client::Audio song = ClickSong(60 * kMinutes, 22050, 1);
-    const auto dance = client_.StartDance({.seed = 3, .audio = song.format});
-    SendKeys(*dance, 60 * kMinutes, 2);
-    // As a player would, but faster: a minute of music is sent when the minute before was danced.
+    struct Stream {
+      std::unique_ptr<client::RemoteDance> dance;
+      size_t sent = 0;
+      int64_t frames = 0;
+    };
+    std::vector<Stream> streams(kStreams);
+    for (int i = 0; i < kStreams; ++i) {
+      streams[i].dance =
+          client_.StartDance({.seed = static_cast<uint64_t>(i), .audio = song.format});
+      SendKeys(*streams[i].dance, 60 * kMinutes, 2);
+    }
     const auto samples = static_cast<size_t>(kFrames) * 22050 / 30;
-    size_t sent = samples + 22050;
-    double cpu = CpuSeconds(server_.process());
-    dance->SendSamples(std::span(song.samples).first(sent));
-    int64_t frames = 0;
-    int minute = 0;
-    while (const std::optional<client::Message> message = dance->Next()) {
-      const auto* block = std::get_if<client::FrameBlock>(&*message);
-      if (block == nullptr) continue;
-      frames += static_cast<int64_t>(block->poses.size());
-      if (frames < (minute + 1) * kFrames || minute >= kMinutes) continue;
-      ++minute;
-      const double now = CpuSeconds(server_.process());
-      if (minute == 1 || minute == kMinutes) {
-        std::printf("| %d | %.3f | %.0f |\n", minute, 1000 * (now - cpu) / kFrames, Mebibytes());
-        std::fflush(stdout);
+    for (int minute = 1; minute <= kMinutes; ++minute) {
+      // As a player would, but faster: a minute of music is sent when the minute before was danced.
+      const double before = CpuSeconds(server_.process());
+      for (Stream& stream : streams) {
+        const size_t ahead = minute == 1 ? 22050 : 0;
+        const auto next = std::span(song.samples).subspan(stream.sent);
+        stream.dance->SendSamples(next.first(std::min(samples + ahead, next.size())));
+        stream.sent += std::min(samples + ahead, next.size());
+        if (stream.sent == song.samples.size()) stream.dance->EndAudio();
       }
-      cpu = now;
-      const auto next = std::span(song.samples).subspan(sent);
-      dance->SendSamples(next.first(std::min(samples, next.size())));
-      sent += std::min(samples, next.size());
-      if (sent == song.samples.size()) dance->EndAudio();
+      for (Stream& stream : streams) {
+        while (stream.frames < minute * kFrames) {
+          const std::optional<client::Message> message = stream.dance->Next();
+          if (!message) break;
+          if (const auto* block = std::get_if<client::FrameBlock>(&*message))
+            stream.frames += static_cast<int64_t>(block->poses.size());
+        }
+      }
+      if (minute > 1 && minute < kMinutes) continue;
+      const double used = CpuSeconds(server_.process()) - before;
+      std::printf("| %d | %.3f | %.0f |\n", minute, 1000 * used / (kStreams * kFrames),
+                  Mebibytes());
+      std::fflush(stdout);
     }
   }
 
@@ -226,7 +237,7 @@ int main(int argc, char** argv) {
   program.add_option("--song", options.song, "Default: a made-up one, 44.1 kHz.")
       ->check(CLI::ExistingFile);
   program.add_option("--seconds", options.seconds, "Length of a dance.")
-      ->check(CLI::Range(2.0, 600.0))
+      ->check(choreo::cli::NumberFrom(2, 600))
       ->capture_default_str();
   program.add_option("--streams", options.streams, "Real-time streams at once.")
       ->check(CLI::Range(1, 10000))

@@ -1,5 +1,6 @@
 #include "bench/process_usage.h"
 
+#include <time.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -23,14 +24,12 @@ std::string Read(pid_t process, const char* name) {
 }  // namespace
 
 double CpuSeconds(pid_t process) {
-  const std::string stat = Read(process, "stat");
-  // The program's name, in brackets, may hold spaces; user and system time are fields 14 and 15.
-  std::istringstream fields(stat.substr(stat.rfind(')') + 2));
-  std::string skipped;
-  for (int i = 0; i < 11; ++i) fields >> skipped;
-  double user = 0, system = 0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  // In nanoseconds; /proc counts in hundredths of a second.
+  clockid_t clock = 0;
+  timespec used{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0)
+    throw Error(ErrorCode::kNotFound, std::to_string(process), "the process is gone");
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 int64_t ResidentBytes(pid_t process) {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-/// What a process on this machine has used, from /proc. Throws Error(kNotFound) where it is gone.
+/// What a process on this machine has used. Throws Error(kNotFound) where it is gone.
 namespace choreo::bench {
 
 double CpuSeconds(pid_t process);

@@ -36,7 +36,8 @@ ablations=("no time embedding=ablation/no_time_embedding" "no key loss=ablation/
   "no keys in training=ablation/no_keys")
 full=ablation/full
 controls_ablations=("one LSTM=controls/one_lstm" "fully connected controllers=controls/condition_fc" "one decoder=controls/one_decoder"
-  "no velocity factors=controls/no_velocity_factors" "no key loss=controls/no_key_loss")
+  "no velocity factors=controls/no_velocity_factors" "no key loss=controls/no_key_loss"
+  "full, 8,000 updates=controls/full_long" "no key loss, 8,000 updates=controls/no_key_loss_long")
 controls_full=controls/full
 random_split=random_split
 missing=()

@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include "model/core/error.h"
+#include "model/engine/devices.h"
 #include "model/engine/engine_kind.h"
 #include "server/music_file.h"
 
@@ -125,6 +127,9 @@ void ServerConfig::Validate() const {
   CheckAddress(listen);
   for (const auto& path : checkpoints) CheckFile("--checkpoint", path);
   ParseEngineKind(engine, "--engine");
+  // Whether they are there is told when they are used; `auto` is whatever is there.
+  if (device != "auto")
+    ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
   CheckRange("--slots", slots, 1, 4096);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);

@@ -116,6 +116,10 @@ std::span<const float> FeatureStream::Row(int64_t row) const {
   return index < static_cast<int64_t>(rows_.size()) ? rows_[static_cast<size_t>(index)] : silence_;
 }
 
+void FeatureStream::Forget(int64_t row) {
+  for (; first_row_ < row && !rows_.empty(); ++first_row_) rows_.pop_front();
+}
+
 int FeatureStream::latency_samples() const {
   return static_cast<int>(kHalfWindow + resampler_.latency());
 }

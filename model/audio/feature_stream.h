@@ -41,14 +41,18 @@ class FeatureStream {
   /// beyond the audio are silence's, and this is the largest int64_t. Use audio_rows() to size a
   /// buffer.
   int64_t final_rows() const;
-  /// 0, or, where the stream starts later, the first row whose whole window lies in the stream.
+  /// 0, or, where the stream starts later, the first row whose whole window lies in the stream; or
+  /// the first that is not forgotten.
   int64_t first_row() const { return first_row_; }
   /// Rows from 0 on whose centre lies within the audio so far: 1 + samples / 735 at 22 050 Hz, as
   /// librosa counts; 0 before any.
   int64_t audio_rows() const;
-  /// kMfccCount values, valid as long as this object. Throws Error(kOutOfRange) for a row that is
+  /// kMfccCount values, valid until they are forgotten. Throws Error(kOutOfRange) for a row that is
   /// not final or before first_row().
   std::span<const float> Row(int64_t row) const;
+  /// Rows before `row` are needed no more: first_row() moves up to it, or to the first row that is
+  /// not final.
+  void Forget(int64_t row);
 
   /// Samples (of each channel) pushed so far.
   int64_t samples_pushed() const { return pushed_; }

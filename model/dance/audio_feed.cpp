@@ -5,17 +5,17 @@
 #include <string>
 
 #include "model/audio/format.h"
-#include "model/audio/mfcc.h"
 #include "model/core/error.h"
 
 namespace choreo {
 namespace {
 
-std::vector<float> SilenceRow() {
+std::array<float, kMfccCount> SilenceRow() {
   FeatureStream silence(kModelSampleRate, 1);
   silence.Finish();
-  const std::span<const float> row = silence.Row(0);
-  return {row.begin(), row.end()};
+  std::array<float, kMfccCount> row{};
+  std::ranges::copy(silence.Row(0), row.begin());
+  return row;
 }
 
 }  // namespace
@@ -79,11 +79,9 @@ void AudioFeed::Publish() {
   const int64_t computed = features_.final_rows();
   std::lock_guard lock(mutex_);
   const int64_t end = std::min(computed, features_.audio_rows() + kTail);
-  for (int64_t row = first_row_ + static_cast<int64_t>(rows_.size()) / kMfccCount; row < end;
-       ++row) {
-    const std::span<const float> values = features_.Row(row);
-    rows_.insert(rows_.end(), values.begin(), values.end());
-  }
+  for (int64_t row = first_row_ + static_cast<int64_t>(rows_.size()); row < end; ++row)
+    std::ranges::copy(features_.Row(row), rows_.emplace_back().begin());
+  features_.Forget(end);
   ready_ = computed;
 }
 
@@ -95,16 +93,22 @@ int64_t AudioFeed::ready() const {
 bool AudioFeed::CopyRow(int64_t row, std::span<float> to) const {
   std::lock_guard lock(mutex_);
   if (row >= ready_) return false;
-  const int64_t at = (row - first_row_) * kMfccCount;
+  const int64_t at = row - first_row_;
   if (row < 0 || at >= static_cast<int64_t>(rows_.size())) {
     std::copy(silence_.begin(), silence_.end(), to.begin());
     return true;
   }
   if (at < 0) {
-    throw Error(ErrorCode::kInternal, "", "audio row " + std::to_string(row) + " was never sent");
+    throw Error(ErrorCode::kInternal, "",
+                "audio row " + std::to_string(row) + " is forgotten, or was never sent");
   }
-  std::copy_n(rows_.begin() + at, kMfccCount, to.begin());
+  std::ranges::copy(rows_[static_cast<size_t>(at)], to.begin());
   return true;
+}
+
+void AudioFeed::Forget(int64_t row) {
+  std::lock_guard lock(mutex_);
+  for (; first_row_ < row && !rows_.empty(); ++first_row_) rows_.pop_front();
 }
 
 Eigen::MatrixXf AudioFeed::History(int64_t frame, int count) const {

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "model/audio/feature_stream.h"
+#include "model/audio/mfcc.h"
 
 namespace choreo {
 
@@ -41,20 +43,23 @@ class AudioFeed {
   bool CopyRow(int64_t row, std::span<float> to) const;
   /// The `count` rows before `frame`, oldest first, one a column; all must be ready.
   Eigen::MatrixXf History(int64_t frame, int count) const;
+  /// Rows before this one are needed no more: a stream of an hour holds what a second's does.
+  void Forget(int64_t row);
 
  private:
+  using RowValues = std::array<float, kMfccCount>;
+
   void Publish();
 
   double sample_rate_;
   int channels_;
   FeatureStream features_;
-  std::vector<float> silence_;
+  RowValues silence_;
 
   mutable std::mutex mutex_;  // of what follows
   int64_t first_row_;
   int64_t ready_;
-  std::vector<float>
-      rows_;  // one after the other, from first_row_ on; those behind its end are silence's
+  std::deque<RowValues> rows_;  // from first_row_ on; those behind its end are silence's
 };
 
 }  // namespace choreo

@@ -215,6 +215,8 @@ void DanceChain::Start() {
     if (audio_) {
       request.has_audio = true;
       request.audio_history = audio_->History(segment_->from, model_.history_frames);
+      audio_->Forget(segment_->from -
+                     model_.history_frames);  // the next one may begin a frame later
     }
     TransitionControls asked =
         controls_.For(request.first_frame, request.frames, request.history, request.target,

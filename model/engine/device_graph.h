@@ -4,8 +4,13 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace choreo {
+
+/// What can change a bit of what a CUDA device computes: its name, its capability, the versions of
+/// runtime, driver and cuDNN. Throws Error(kNotFound) in a build without CUDA.
+std::string DescribeCuda(torch::Device device);
 
 /// The same work on one device, again and again on the same tensors. A step of the flow is hundreds
 /// of small kernels, which take a GPU less time than a CPU needs to launch them: on CUDA they are
@@ -14,7 +19,8 @@ namespace choreo {
 class DeviceGraph {
  public:
   /// Does the work a few times to capture it, on CUDA. It must read and write tensors that outlive
-  /// the graph, and may neither wait for the device nor depend on what it finds there.
+  /// the graph, and may neither wait for the device nor depend on what it finds there. Where it
+  /// can't be captured, that is logged, and it is launched kernel by kernel.
   DeviceGraph(torch::Device device, std::function<void()> work);
   ~DeviceGraph();
   DeviceGraph(const DeviceGraph&) = delete;

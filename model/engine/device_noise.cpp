@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #ifdef CHOREO_CUDA
+#include <c10/cuda/CUDAException.h>
 #include <c10/cuda/CUDAStream.h>
 
 #include "model/engine/noise_kernel.h"
@@ -42,6 +43,7 @@ void DeviceNoise::Draw() {
   LaunchNoise(reinterpret_cast<const FrameNoise*>(device_keys_.data_ptr<uint8_t>()),
               static_cast<int>(values_.size(0)), static_cast<int>(width), values_.data_ptr<float>(),
               c10::cuda::getCurrentCUDAStream(values_.device().index()));
+  C10_CUDA_KERNEL_LAUNCH_CHECK();
 #endif
 }
 

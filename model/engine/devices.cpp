@@ -16,11 +16,11 @@ std::string Describe(const AvailableDevices& available) {
          list;
 }
 
-int ParseIndex(std::string_view text, std::string_view whole) {
+int ParseIndex(std::string_view text, std::string_view whole, const std::string& field) {
   int index = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
   if (error != std::errc() || end != text.data() + text.size() || index < 0) {
-    throw InvalidArgument("device",
+    throw InvalidArgument(field,
                           "'" + std::string(whole) + "' is not one of auto, cpu, cuda:N[,M...]");
   }
   return index;
@@ -32,7 +32,8 @@ std::string Device::name() const {
   return kind == Kind::kCpu ? "cpu" : "cuda:" + std::to_string(index);
 }
 
-std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& available) {
+std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& available,
+                                 const std::string& field) {
   std::vector<Device> devices;
   if (text == "cpu") return {Device{}};
   if (text == "auto") {
@@ -43,12 +44,12 @@ std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& 
   std::string_view rest = text.starts_with(kPrefix) ? text.substr(kPrefix.size()) : "";
   for (;;) {
     const size_t comma = rest.find(',');
-    const Device device{Device::Kind::kCuda, ParseIndex(rest.substr(0, comma), text)};
+    const Device device{Device::Kind::kCuda, ParseIndex(rest.substr(0, comma), text, field)};
     if (std::find(devices.begin(), devices.end(), device) != devices.end()) {
-      throw InvalidArgument("device", device.name() + " is named twice");
+      throw InvalidArgument(field, device.name() + " is named twice");
     }
     if (!available.cuda_build || device.index >= available.cuda_devices) {
-      throw Error(ErrorCode::kNotFound, "device",
+      throw Error(ErrorCode::kNotFound, field,
                   device.name() + " was asked for, but " + Describe(available));
     }
     devices.push_back(device);

@@ -24,8 +24,9 @@ struct AvailableDevices {
 };
 
 /// Reads `auto | cpu | cuda:N[,M...]`, as in "cuda:0,1". `auto` is every CUDA device, or the CPU
-/// where there is none. Throws Error(kInvalidArgument, "device") for another form or a device named
-/// twice, and Error(kNotFound, "device") for one that is not there; the message says what is.
-std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& available);
+/// where there is none. Throws Error(kInvalidArgument, field) for another form or a device named
+/// twice, and Error(kNotFound, field) for one that is not there; the message says what is.
+std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& available,
+                                 const std::string& field = "--device");
 
 }  // namespace choreo

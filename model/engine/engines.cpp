@@ -15,6 +15,7 @@
 #include "model/core/threads.h"
 #include "model/engine/build_identity.h"
 #include "model/engine/controllers_engine.h"
+#include "model/engine/device_graph.h"
 #include "model/engine/flow_engine.h"
 #include "model/engine/packed_flow.h"
 #include "model/engine/packed_kernels.h"
@@ -46,7 +47,7 @@ std::string CpuCapability() {
 // Everything that can change a bit of what LibTorch computes, but for the weights.
 std::string TorchKernels(const torch::Device& device) {
   const std::string torch = "torch " TORCH_VERSION ", ";
-  if (device.is_cuda()) return torch + "cuda";
+  if (device.is_cuda()) return torch + DescribeCuda(device);
   return torch + DetectBlas().name + ", " + CpuCapability() + ", " +
          std::to_string(at::get_num_threads()) + " threads";
 }

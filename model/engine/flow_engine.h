@@ -22,6 +22,7 @@ class FlowEngine : public StepEngine {
   std::string device() const override { return device_; }
   int slots() const override { return static_cast<int>(slots_.size()); }
   int free_slots() const override;
+  int batch() const override { return tile_->rows(); }
   int Admit(const TransitionSpec& spec) override;
   void Step(std::span<const StepInput> in, std::span<StepOutput> out) override;
   void Release(int slot) noexcept override { slots_[static_cast<size_t>(slot)].taken = false; }

@@ -55,7 +55,8 @@ class Scheduler {
  public:
   struct Options {
     int max_waiting = 64;  ///< jobs beyond the engines' slots that may wait for one, >= 0
-    int max_batch = 64;    ///< most slots of one engine stepped at once, >= 1
+    /// Most slots of one engine stepped at once, >= 1; its batch() at most.
+    int max_batch = 4096;
     /// Most jobs that one engine admits between two steps, >= 1, earliest deadlines first.
     int max_admissions = 1;
   };

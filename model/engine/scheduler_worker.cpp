@@ -125,7 +125,7 @@ void Scheduler::Impl::AdmitArrivals(Worker* worker) {
 }
 
 void Scheduler::Impl::GatherBatch(Worker* worker) {
-  const auto limit = static_cast<size_t>(options.max_batch);
+  const auto limit = static_cast<size_t>(std::min(options.max_batch, worker->engine->batch()));
   worker->ready.clear();
   for (size_t i = 0; i < worker->active.size();) {
     Entry* entry = worker->active[i];

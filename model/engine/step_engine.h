@@ -128,6 +128,8 @@ class StepEngine {
   virtual std::string device() const = 0;  ///< "cpu", "cuda:0"
   virtual int slots() const = 0;
   virtual int free_slots() const = 0;
+  /// How many slots it steps best together: with more, the first would wait for the last.
+  virtual int batch() const { return 64; }
   /// Takes a slot, numbered 0 to slots() - 1, and computes what is known before the loop (the plan,
   /// hoisted condition columns). Throws Error(kResourceExhausted) with no slot free,
   /// Error(kInvalidArgument) for a spec of the wrong shape.

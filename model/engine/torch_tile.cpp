@@ -97,29 +97,29 @@ void TorchTile::Compute() {
                      /*non_blocking=*/true);
 }
 
-// Two probes visit every place, each time among other neighbours.
+// Two probes visit every place, each time among other neighbours: the crowd moves on with them.
 bool TorchTile::RowsAreIndependent() {
   const c10::InferenceMode inference;
   Random random(1);
-  const auto fill = [&](Tensor tensor) {
+  const auto normal = [&](int64_t rows, int64_t columns) {
+    Tensor tensor = torch::empty({rows, columns});
     random.FillNormal({tensor.data_ptr<float>(), static_cast<size_t>(tensor.numel())});
+    return tensor;
   };
   for (int row = 0; row < rows_; ++row) SlotOfRows()[static_cast<size_t>(row)] = row;
-  Tensor states = torch::empty({rows_, states_.size(1)});
   for (uint64_t probe = 0; probe < 2; ++probe) {
-    Tensor input = torch::empty({begin_[kParts]}), state = torch::empty({states_.size(1)});
-    fill(input);
-    fill(state);
+    const Tensor crowd = normal(rows_, begin_[kParts]), input = normal(1, begin_[kParts]);
+    const Tensor states = normal(rows_, states_.size(1)), state = normal(1, states_.size(1));
     Tensor expected;
     for (int place = 0; place < rows_; ++place) {
-      fill(host_input_);
-      fill(states);
-      for (FrameNoise& noise : noise_.rows()) noise = {.seed = random.Next(), .spread = 1};
-      host_input_[place].copy_(input);
-      states[place].copy_(state);
-      noise_.rows()[static_cast<size_t>(place)] = {.seed = probe, .spread = 1};
+      host_input_.copy_(crowd.roll(place + place / 2, 0));
+      host_input_[place].copy_(input[0]);
       host_input_.narrow(1, begin_[kUnderWay], 1).fill_(1);
-      states_.narrow(0, 0, rows_).copy_(states);
+      Tensor here = states.roll(place + place / 2, 0);
+      here[place].copy_(state[0]);
+      states_.narrow(0, 0, rows_).copy_(here);
+      for (FrameNoise& noise : noise_.rows()) noise = {.seed = random.Next(), .spread = 1};
+      noise_.rows()[static_cast<size_t>(place)] = {.seed = probe, .spread = 1};
       step_->Run();
       const Tensor result = torch::cat({host_output_[place], states_[place].cpu()});
       if (!expected.defined()) expected = result.clone();

@@ -22,7 +22,7 @@ constexpr int kMisused = 2;
 std::string OneDevice(const std::string& name) {
   const auto devices = choreo::ParseDevices(name, choreo::TorchDevices());
   if (devices.size() > 1)
-    throw choreo::InvalidArgument("device", "'" + name + "' names several, training takes one");
+    throw choreo::InvalidArgument("--device", "'" + name + "' names several, training takes one");
   return devices.front().name();
 }
 

@@ -110,6 +110,26 @@ TEST_P(FeatureStreamFormatTest, WhereTheStreamStartsDoesNotChangeABit) {
   }
 }
 
+TEST_P(FeatureStreamFormatTest, ForgottenRowsAreGoneAndTheOthersStay) {
+  const std::vector<float> wave = Wave(rate());
+  const FeatureStream whole = Whole(wave, rate(), channels());
+  FeatureStream stream(rate(), channels());
+  for (size_t at = 0; at < wave.size(); at += 1000 * static_cast<size_t>(channels())) {
+    const size_t count = std::min(1000 * static_cast<size_t>(channels()), wave.size() - at);
+    stream.Push(std::span(wave).subspan(at, count));
+    stream.Forget(7);
+    stream.Forget(3);  // never goes back
+  }
+  stream.Finish();
+  EXPECT_EQ(stream.first_row(), 7);
+  EXPECT_THROW(stream.Row(6), Error);
+  EXPECT_EQ(stream.audio_rows(), whole.audio_rows());
+  EXPECT_EQ(RowsOf(stream, 7, 35), RowsOf(whole, 7, 35));
+  stream.Forget(1000);
+  EXPECT_LE(stream.first_row(), 40);  // behind the last computed one all are silence's
+  EXPECT_EQ(RowsOf(stream, 50, 60), RowsOf(whole, 50, 60));
+}
+
 TEST_P(FeatureStreamFormatTest, RowsAreFinalAtTheDeclaredLatency) {
   FeatureStream stream(rate(), channels());
   EXPECT_LE(stream.latency_samples(), FeatureStream::kMaxLatencySamples);

@@ -44,7 +44,7 @@ TEST(DevicesTest, NamesAreTakenInTheirOrder) {
 TEST(DevicesTest, ACpuBuildAskedForCudaSaysWhatItHas) {
   const Error error = Failure("cuda:0", kCpuBuild);
   EXPECT_EQ(error.code(), ErrorCode::kNotFound);
-  EXPECT_EQ(error.field(), "device");
+  EXPECT_EQ(error.field(), "--device");
   EXPECT_THAT(error.what(), HasSubstr("cuda:0 was asked for"));
   EXPECT_THAT(error.what(), HasSubstr("this build has no CUDA, only: cpu"));
 }

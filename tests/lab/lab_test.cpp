@@ -81,7 +81,7 @@ TEST(LabTest, KnowsTheCommandsOfReproduceMd) {
 TEST(LabTest, ADeviceThatIsNotThereIsNamedInOneLine) {
   const Outcome outcome = Lab(kTrain + "--device cuda:99");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: device: cuda:99 was asked for, but"));
+  EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: --device: cuda:99 was asked for, but"));
   EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
   EXPECT_THAT(Lab(kTrain + "--device tpu").said, HasSubstr("'tpu' is not one of auto, cpu, cuda"));
 }

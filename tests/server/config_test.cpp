@@ -103,7 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
                     BadSetting{"--max-file-music-mib", "127"}, BadSetting{"--slots", "0"},
                     BadSetting{"--slots", "many"}, BadSetting{"--max-streams", "-1"},
-                    BadSetting{"--engine", "fast"}, BadSetting{"--log-level", "loud"},
+                    BadSetting{"--engine", "fast"}, BadSetting{"--device", "gpu"},
+                    BadSetting{"--log-level", "loud"},
                     BadSetting{"--checkpoint", "/nonexistent.safetensors"},
                     BadSetting{"--drain-seconds", "-3"}, BadSetting{"--frobnicate", "1"}));
 
