@@ -14,10 +14,11 @@ using torch::Tensor;
 TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
     : weights_(std::move(weights)),
       rows_(rows),
+      padded_(rows + 1),
       spare_(slots),
       static_conditions_(static_cast<size_t>(slots)),
       states_(torch::zeros({slots + 1, weights_->model->StateWidth()}, weights_->device)),
-      noise_(weights_->device, rows, weights_->model->feature_width()) {
+      noise_(weights_->device, padded_, weights_->model->feature_width()) {
   const FlowModel& model = weights_->model;
   const FlowConfig& config = model->config();
   const int64_t tau = config.history_frames, width = model->feature_width();
@@ -26,9 +27,9 @@ TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
   begin_[0] = 0;
   for (int part = 0; part < kParts; ++part) begin_[part + 1] = begin_[part] + widths[part];
   const auto here = torch::TensorOptions().pinned_memory(weights_->device.is_cuda());
-  host_input_ = torch::zeros({rows, begin_[kParts]}, here);
-  host_slots_ = torch::full({rows}, spare_, here.dtype(torch::kLong));
-  host_output_ = torch::zeros({rows, width + 1}, here);
+  host_input_ = torch::zeros({padded_, begin_[kParts]}, here);
+  host_slots_ = torch::full({padded_}, spare_, here.dtype(torch::kLong));
+  host_output_ = torch::zeros({padded_, width + 1}, here);
   input_ = host_input_.to(weights_->device);
   slots_ = host_slots_.to(weights_->device);
   step_ = std::make_unique<DeviceGraph>(weights_->device, [this] { Compute(); });
@@ -44,7 +45,7 @@ Tensor TorchTile::Input(Part part) const {
 }
 
 std::span<int64_t> TorchTile::SlotOfRows() {
-  return {host_slots_.data_ptr<int64_t>(), static_cast<size_t>(rows_)};
+  return {host_slots_.data_ptr<int64_t>(), static_cast<size_t>(padded_)};
 }
 
 void TorchTile::Begin(int slot, std::vector<float> static_condition) {
@@ -90,7 +91,7 @@ void TorchTile::Compute() {
   const Tensor before = states_.index_select(0, slots_);
   FlowState state = torch::where(Input(kUnderWay) > 0, before, torch::zeros_like(before));
   const FlowModelImpl::StepResult result = model->Step(
-      Input(kPast).reshape({rows_, tau, -1}), Input(kAudio).reshape({rows_, tau + 1, -1}),
+      Input(kPast).reshape({padded_, tau, -1}), Input(kAudio).reshape({padded_, tau + 1, -1}),
       Input(kHasAudio), Input(kCondition), noise_.values(), weights_->inverse_weights, &state);
   if (state.size(1) > 0) states_.index_copy_(0, slots_, state);
   host_output_.copy_(torch::cat({result.features, result.log_likelihood.unsqueeze(1)}, 1),
@@ -108,7 +109,7 @@ bool TorchTile::RowsAreIndependent() {
   };
   for (int row = 0; row < rows_; ++row) SlotOfRows()[static_cast<size_t>(row)] = row;
   for (uint64_t probe = 0; probe < 2; ++probe) {
-    const Tensor crowd = normal(rows_, begin_[kParts]), input = normal(1, begin_[kParts]);
+    const Tensor crowd = normal(padded_, begin_[kParts]), input = normal(1, begin_[kParts]);
     const Tensor states = normal(rows_, states_.size(1)), state = normal(1, states_.size(1));
     Tensor expected;
     for (int place = 0; place < rows_; ++place) {
@@ -130,10 +131,10 @@ bool TorchTile::RowsAreIndependent() {
 }
 
 int TorchTile::VerifiedRows(const std::shared_ptr<TorchWeights>& weights) {
-  // A GPU takes hardly longer for a hundred rows than for one. OpenBLAS's AVX2 kernel takes up to
-  // 12 rows at once and the rest otherwise.
+  // With the padding, sizes that libraries like. A GPU takes hardly longer for a hundred rows than
+  // for one; OpenBLAS's AVX2 kernels take some rows at once and the rest otherwise.
   const std::vector<int> sizes =
-      weights->device.is_cuda() ? std::vector{128, 64, 32, 16, 8, 4} : std::vector{16, 12, 8, 4};
+      weights->device.is_cuda() ? std::vector{127, 63, 31, 15, 7, 3} : std::vector{15, 11, 7, 3};
   for (const int rows : sizes) {
     if (TorchTile(weights, rows, rows).RowsAreIndependent()) return rows;
   }

@@ -45,14 +45,18 @@ class TorchTile : public FlowTile {
   bool RowsAreIndependent();
 
   std::shared_ptr<TorchWeights> weights_;
-  int rows_, spare_;                                   ///< the slot of rows that nobody needs
+  int rows_;
+  /// With one row more that nobody needs: LibTorch computes the last elements of a tensor one by
+  /// one and the others as vectors, which now and then round otherwise.
+  int padded_;
+  int spare_;                                          ///< the slot of rows that nobody needs
   std::vector<std::vector<float>> static_conditions_;  ///< of the slots
   int64_t begin_[kParts + 1];                          ///< of each part, in columns
 
   // What a step reads and writes, here (pinned for CUDA) and on the device; the same on the CPU.
-  torch::Tensor host_input_, input_;  ///< [rows, begin_[kParts]]
-  torch::Tensor host_slots_, slots_;  ///< [rows], of int64
-  torch::Tensor host_output_;         ///< [rows, width + 1]: features, log-likelihood
+  torch::Tensor host_input_, input_;  ///< [padded, begin_[kParts]]
+  torch::Tensor host_slots_, slots_;  ///< [padded], of int64
+  torch::Tensor host_output_;         ///< [padded, width + 1]: features, log-likelihood
   torch::Tensor states_;              ///< [slots + 1, StateWidth()], on the device
   DeviceNoise noise_;
   std::unique_ptr<DeviceGraph> step_;
