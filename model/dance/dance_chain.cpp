@@ -103,8 +103,7 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
   const std::vector<Pose>& given =
       config.continuation ? config.continuation->poses : config.history;
   if (given.empty()) return;
-  const std::vector<Pose> history = FillHistory(model_, given);
-  history_.assign(history.begin(), history.end());
+  history_ = FillHistory(model_, given);
 }
 
 void DanceChain::Begin() {
@@ -201,10 +200,9 @@ void DanceChain::Start() {
   if (history_.empty()) {
     const Pose stance =
         controls_.Stance(segment_->from, request.frames == 1 ? request.target : std::nullopt);
-    const std::vector<Pose> history = FillHistory(model_, {&stance, 1});
-    history_.assign(history.begin(), history.end());
+    history_ = FillHistory(model_, {&stance, 1});
   }
-  request.history.assign(history_.begin(), history_.end());
+  request.history = history_;
   request.seed = config_.seed;
   request.candidate = config_.candidate;
   request.first_frame = segment_->from;
@@ -215,8 +213,8 @@ void DanceChain::Start() {
     if (audio_) {
       request.has_audio = true;
       request.audio_history = audio_->History(segment_->from, model_.history_frames);
-      audio_->Forget(segment_->from -
-                     model_.history_frames);  // the next one may begin a frame later
+      // The next one may begin a frame later.
+      audio_->Forget(segment_->from - model_.history_frames);
     }
     TransitionControls asked =
         controls_.For(request.first_frame, request.frames, request.history, request.target,
@@ -244,8 +242,7 @@ void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const Da
     }
   }
   ++next_frame_;
-  history_.push_back(frame.pose);
-  history_.pop_front();
+  MoveOn(frame.pose, &history_);
   meter_.Add(frame);
   OutputFrames frames = output_.Push(frame);
   if (!frames.poses.empty()) {
@@ -266,7 +263,7 @@ void DanceChain::Post(const DanceEvent& event) {
 }
 
 void DanceChain::PostContinuation() {
-  Continuation continuation{next_frame_, {history_.begin(), history_.end()}, model_.fingerprint};
+  Continuation continuation{next_frame_, history_, model_.fingerprint};
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);
   });

@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -84,7 +83,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   Timeline timeline_;
   ControlTrack controls_;
   // The last tau poses; empty until the first transition of a dance that is given none.
-  std::deque<Pose> history_;
+  std::vector<Pose> history_;
   int64_t next_frame_;              // to be emitted
   std::optional<Segment> segment_;  // to be danced next, not yet submitted
   Job* job_ = nullptr;              // submitted and not done; the scheduler keeps it alive

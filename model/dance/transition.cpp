@@ -78,6 +78,11 @@ std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> pose
   return history;
 }
 
+void MoveOn(const Pose& newest, std::vector<Pose>* history) {
+  std::rotate(history->begin(), history->begin() + 1, history->end());
+  history->back() = newest;
+}
+
 std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
                                 int frames) {
   const auto first = static_cast<double>(first_frame);

@@ -138,6 +138,8 @@ class TransitionRun {
 /// The history that a transition has when it is given `poses`: exactly tau poses, each number a
 /// float's.
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses);
+/// The oldest pose makes way for the newest; allocates nothing.
+void MoveOn(const Pose& newest, std::vector<Pose>* history);
 
 /// Rounds every number to float precision: what a client that got the frames as floats knows of
 /// them.

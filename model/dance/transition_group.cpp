@@ -99,8 +99,7 @@ class TransitionGroup::Impl::Job : public StepJob {
   bool OnFrame(const StepOutput& raw) override {
     const DanceFrame frame = run_.Take(raw);
     meter_.Add(frame);
-    history_.erase(history_.begin());
-    history_.push_back(frame.pose);
+    MoveOn(frame.pose, &history_);
     if (run_.arrival()) meter_.AddKey(group_->request_.target_id, *run_.arrival());
     OutputFrames frames = output_.Push(frame);
     if (!frames.poses.empty()) {
