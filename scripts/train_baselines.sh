@@ -18,7 +18,7 @@ ablation_steps=3000
 ablation_rate=1e-3
 ablation_batch=64
 ablation_rollout=90
-# What ships, on paper C's setting (scripts/random_split.sh), in two runs as well.
+# The network that ships, on paper C's setting (scripts/random_split.sh): in two runs as well, but on longer windows and for more updates.
 random_steps=(10000 12000)
 random_rates=(1e-3 8e-4)
 random_walks=(1500 500)  # updates that walk, behind those of the plan
