@@ -76,8 +76,17 @@ def all_rows(tables, methods):
     return rows
 
 
+def trembling(tables, name, method):
+    """No more than real motion's: a bar of our own."""
+    title = f"Trembling, {name}"
+    pairs = [(figure(tables, title, (method,), length), figure(tables, title, ("real",), length)) for length in LENGTHS]
+    return ", ".join(show(value, 2, lambda v, of=of: v <= of or method not in (ALONE, SERVED)) for value, of in pairs)
+
+
 def controls():
-    return table(["figure, at 10, 50, 100, 150 frames", *HEAD], all_rows(CONTROLS, METHODS))
+    rows = all_rows(CONTROLS, METHODS)
+    rows.append(["trembling: share of movement above 4 Hz", *(trembling(CONTROLS, "dancedb", method) for method in METHODS), "as real motion"])
+    return table(["figure, at 10, 50, 100, 150 frames", *HEAD], rows)
 
 
 def controls_random():

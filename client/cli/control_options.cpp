@@ -62,7 +62,9 @@ void ControlOptions::AddTo(CLI::App& command) {
       .add_option("--path", path,
                   "JSON file that says where the dancer goes: {\"points\": [{\"time\": 0, "
                   "\"x\": 0, \"z\": 0}, ...]}, seconds and metres; y is the root's height. Keys "
-                  "win over it. For models that have this control (`choreo info`).")
+                  "win over it, its heights over keys that state no position. For models that have "
+                  "this control "
+                  "(`choreo info`).")
       ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
   AddRepeated(command, "--velocity", velocities,
               "How lively a part of the body is: trunk, left_arm, right_arm, left_leg, right_leg, "

@@ -1,6 +1,8 @@
 #include "model/evaluation/control_figures.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "model/core/error.h"
@@ -59,6 +61,34 @@ double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked) {
     sum += (danced[i].col(0) - asked.col(static_cast<Eigen::Index>(i))).norm();
   }
   return sum / static_cast<double>(danced.size());
+}
+
+double TremorShare(const JointTrack& track, double fps) {
+  if (track.size() < 9) throw InvalidArgument("track", "has fewer than 9 frames");
+  const auto steps = static_cast<Eigen::Index>(track.size()) - 1;
+  const Eigen::Index width = 3 * (track.front().cols() - 1);
+  const auto from_root = [&](Eigen::Index frame) {
+    const Eigen::Matrix3Xd& joints = track[static_cast<size_t>(frame)];
+    const Eigen::Matrix3Xd relative = joints.rightCols(joints.cols() - 1).colwise() - joints.col(0);
+    return Eigen::RowVectorXd(relative.reshaped().transpose());
+  };
+  Eigen::MatrixXd velocities(steps, width);  // a step a row
+  for (Eigen::Index i = 0; i < steps; ++i) velocities.row(i) = from_root(i + 1) - from_root(i);
+  velocities.rowwise() -= Eigen::RowVectorXd(velocities.colwise().mean());
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const Eigen::ArrayXd turns = Eigen::ArrayXd::LinSpaced(steps, 0, static_cast<double>(steps - 1)) *
+                               kTurn / static_cast<double>(steps);
+  velocities.array().colwise() *=
+      0.5 - 0.5 * (turns + kTurn / 2 / static_cast<double>(steps)).cos();
+  double all = 0, fast = 0;
+  for (Eigen::Index k = 1; k <= steps / 2; ++k) {
+    const Eigen::ArrayXd angles = turns * static_cast<double>(k);
+    const double energy = (angles.cos().matrix().transpose() * velocities).squaredNorm() +
+                          (angles.sin().matrix().transpose() * velocities).squaredNorm();
+    all += energy;
+    if (static_cast<double>(k) * fps > kTremorHz * static_cast<double>(steps)) fast += energy;
+  }
+  return all > 0 ? fast / all : 0;
 }
 
 double ShareBelow(std::span<const double> deviations, double tolerance) {

@@ -35,6 +35,13 @@ double VelocityDeviation(const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>
 /// frames, metres. `asked` is [3, frames]. Joint 0 is the root.
 double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked);
 
+/// How much a dance trembles, ours: of the energy of the velocities of all joints from the root, at
+/// `fps` frames a second, the share above kTremorHz, 0 to 1; 0 where nothing moves. Each velocity
+/// counts less their mean, under a Hann window. Throws for fewer than 9 frames: less than that
+/// tells nothing of 4 Hz.
+inline constexpr double kTremorHz = 4;
+double TremorShare(const JointTrack& track, double fps);
+
 /// AVF (Eq. 13, of VelocityDeviation with kVelocityTolerance) and ART (Eq. 15, of RootDeviation
 /// with kRootTolerance): the share of deviations below the tolerance, 0 to 1.
 double ShareBelow(std::span<const double> deviations, double tolerance);

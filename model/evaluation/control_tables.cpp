@@ -107,6 +107,12 @@ std::vector<Table> PaperTables(const ClipSet& set, const ModelInfo& model,
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
          return SkateRatioOf(skeleton, model.fps, window.before, danced);
        },
+       false},
+      {LengthTable("tremor", set, "Trembling",
+                   asked + "Share of the joints' movement from the root above 4 Hz.", 2, kLengths),
+       [&](const ControlledWindow&, const std::vector<Pose>& danced) {
+         return TremorShare(TrackJoints(skeleton, danced), model.fps);
+       },
        false}};
   for (Figured& one : all) one.ways.resize(ways.size());
   for (const int frames : kLengths) {

@@ -16,7 +16,7 @@ namespace choreo {
 ///   lrp_SET, avf_SET, art_SET  its Tables 2-4 at 10, 50, 100 and 150 frames: real motion,
 ///                              interpolation along the path, each network alone and as served
 ///                              (arrival, foot lock), and without keys
-///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET  of the same dances
+///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET, tremor_SET  of the same dances
 ///   multipliers_SET, constant_SET  how speeds follow factors (multiplier_tables.h)
 ///   drawn_SET                  root paths that nobody danced (drawn_table.h)
 ///   repetition_SET             100 to 250 frames: how much of a dance repeats itself, how much of

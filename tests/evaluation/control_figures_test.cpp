@@ -31,6 +31,35 @@ TEST(ControlFigures, RootRelativeDistanceIsTheNormOverAllJoints) {
   EXPECT_NEAR(RootRelativeDistance(danced, real), 0.25, 1e-12);
 }
 
+// A hand that swings to and fro, wherever its dancer walks.
+JointTrack Swinging(double hz, double metres) {
+  JointTrack track = Standing(90);
+  for (size_t frame = 0; frame < track.size(); ++frame) {
+    const double t = static_cast<double>(frame) / 30;
+    track[frame].colwise() += Eigen::Vector3d(t, 0, std::sin(30 * t));
+    track[frame].col(Body().Find("left_hand")).y() +=
+        metres * std::sin(2 * std::numbers::pi * hz * t);
+  }
+  return track;
+}
+
+TEST(ControlFigures, TremorIsTheShareOfQuickMovement) {
+  EXPECT_LT(TremorShare(Swinging(0.5, 0.3), 30), 0.001);
+  EXPECT_LT(TremorShare(Swinging(3, 0.1), 30), 0.01);
+  EXPECT_GT(TremorShare(Swinging(5, 0.1), 30), 0.99);
+  // A fifth as wide and five times as quick is as fast: half of the energy, less what steps of a
+  // thirtieth of a second miss.
+  JointTrack both = Swinging(1, 0.1);
+  const JointTrack quick = Swinging(5, 0.02);
+  const int hand = Body().Find("left_hand"), other = Body().Find("right_hand");
+  for (size_t i = 0; i < both.size(); ++i)
+    both[i].col(other).y() += quick[i].col(hand).y() - Standing(1)[0].col(hand).y();
+  EXPECT_NEAR(TremorShare(both, 30), 0.48, 0.01);
+  EXPECT_EQ(TremorShare(Standing(20), 30), 0);
+  ExpectError(ErrorCode::kInvalidArgument, "fewer than 9 frames",
+              [] { TremorShare(Standing(8), 30); });
+}
+
 TEST(ControlFigures, VelocityDeviationIsTheMeanOverPartsAndFrames) {
   const BodyPartWeights weights = WeighBodyParts(Body());
   JointTrack track = Standing(5);
