@@ -63,8 +63,7 @@ void ControlOptions::AddTo(CLI::App& command) {
                   "JSON file that says where the dancer goes: {\"points\": [{\"time\": 0, "
                   "\"x\": 0, \"z\": 0}, ...]}, seconds and metres; y is the root's height. Keys "
                   "win over it, its heights over keys that state no position. For models that have "
-                  "this control "
-                  "(`choreo info`).")
+                  "this control (`choreo info`).")
       ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
   AddRepeated(command, "--velocity", velocities,
               "How lively a part of the body is: trunk, left_arm, right_arm, left_leg, right_leg, "
