@@ -114,7 +114,7 @@ long() {  # long NAME FROM TO TITLE OPTIONS...
   frames=18 row "$name" "$title"
 }
 way slow 0 "1.5 * u"
-long lunge contrapposto side_lunge "250 frames from contrapposto to a side lunge"
+long lunge contrapposto side_lunge "250 frames from contrapposto to a side lunge" --velocity arms=1
 long arabesque hands_on_hips arabesque "250 frames from hands on hips to an arabesque, 1.5 m ahead" --path "$scratch/slow.json"
 long lively contrapposto side_lunge "The first one again, the arms x 1.5" --velocity arms=1.5
 chart long left_arm "$scratch/lunge.npz" "$scratch/lively.npz" --label "x 1" --asked "$(usual left_arm)" --label "x 1.5" \

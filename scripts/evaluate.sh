@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Measures the checkpoints that ship on test clips and writes docs/tables.md, its plots and its sheets, the same of a genre in no training
 # clip (docs/tables_unseen_genre.md), of the model of freely usable data (docs/tables_free.md), of ablations (docs/tables_ablations.md) and of
-# controls (docs/tables_controls*.md), and the figures that
-# docs/results.md and README.md quote.
+# controls (docs/tables_controls*.md), and the figures that docs/results.md and README.md quote.
 #   scripts/evaluate.sh [--partial] [--out FOLDER] BIN_DIRECTORY RECORDINGS RUNS [EVAL_OPTION...]
 # RECORDINGS holds tang2018/, dancedb/, cmu_dance/ and splits.json (docs/training.md). RUNS holds checkpoints that do not ship, as
 # scripts/train_baselines.sh leaves them. Where some are not there it fails and names them; --partial leaves their rows out instead.

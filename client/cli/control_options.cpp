@@ -68,7 +68,8 @@ void ControlOptions::AddTo(CLI::App& command) {
   AddRepeated(command, "--velocity", velocities,
               "How lively a part of the body is: trunk, left_arm, right_arm, left_leg, right_leg, "
               "arms, legs or all; left_arm=1.5 is a multiplier, 0 to 10, of the reference, "
-              "left_arm=1.2cm a speed, 0 to 50 cm a frame. Or a JSON file, for what changes: "
+              "left_arm=1.2cm a speed, 0 to 50 cm a frame; one unit in a command. Or a JSON file, "
+              "for what changes: "
               "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
               "\"speeds\". May be given more than once; the last one of a part counts.");
   command.add_option("--velocity-reference", reference,

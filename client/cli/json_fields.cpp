@@ -1,6 +1,7 @@
 #include "client/cli/json_fields.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -15,6 +16,8 @@ namespace choreo::cli {
 using nlohmann::json;
 
 namespace {
+
+constexpr size_t kLongestShown = 40;  // characters of a value
 
 /// How far a text has been read.
 class Place {
@@ -74,6 +77,16 @@ std::string At(std::string_view text, size_t byte) {
          std::to_string(before.size() - (line == std::string_view::npos ? 0 : line + 1) + 1);
 }
 
+/// The word that stands there, such as NaN; nothing where none does.
+std::string WordAt(std::string_view text, size_t byte) {
+  if (byte == 0 || byte > text.size()) return "";
+  const std::string_view rest = text.substr(byte - 1);
+  const auto end = std::ranges::find_if(rest, [](unsigned char c) { return std::isalnum(c) == 0; });
+  const auto length = std::min(static_cast<size_t>(end - rest.begin()), kLongestShown);
+  if (length == 0) return "";
+  return ", \"" + std::string(rest.substr(0, length)) + '"';
+}
+
 void RefuseOthers(const json& object, const std::string& prefix,
                   std::initializer_list<std::string_view> members, const std::string& described) {
   for (const auto& [member, ignored] : object.items()) {
@@ -86,7 +99,7 @@ void RefuseOthers(const json& object, const std::string& prefix,
 
 std::string Shown(const json& value) {
   std::string text = value.dump();
-  if (text.size() > 40) text = text.substr(0, 37) + "...";
+  if (text.size() > kLongestShown) text = text.substr(0, kLongestShown - 3) + "...";
   return text;
 }
 
@@ -114,12 +127,13 @@ json ParseJson(std::string_view text, const std::string& name) {
       return true;
     });
   } catch (const json::parse_error& error) {
-    throw InvalidArgument(place.Text(), "is not JSON: it breaks off at " + At(text, error.byte));
+    throw InvalidArgument(place.Text(), "is not JSON: it breaks off at " + At(text, error.byte) +
+                                            WordAt(text, error.byte));
   } catch (const json::exception& error) {  // "... number overflow parsing '1e999'"
     const std::string message = error.what();
     const size_t from = message.find('\''), to = message.rfind('\'');
     const std::string number = from < to ? message.substr(from + 1, to - from - 1) : "a number";
-    throw InvalidArgument(place.Text(), number + " is larger than any number");
+    throw InvalidArgument(place.Text(), number + " is beyond 1.8e308, the largest number");
   }
   return root;
 }
@@ -178,7 +192,13 @@ void AppendFrame(const json& value, const std::string& field, double fps,
     message << seconds << " s is beyond " << kLongestDance << " s, the longest dance";
     throw InvalidArgument(when, message.str());
   }
-  if (!frames->empty() && frame <= frames->back()) {
+  if (!frames->empty() && frame == frames->back()) {
+    std::ostringstream message;
+    message << "is frame " << frame
+            << ", as that of the point before it; there may be one a frame, " << fps << " a second";
+    throw InvalidArgument(when, message.str());
+  }
+  if (!frames->empty() && frame < frames->back()) {
     throw InvalidArgument(when, "is frame " + std::to_string(frame) +
                                     ", not after that of the point before it, " +
                                     std::to_string(frames->back()));

@@ -48,7 +48,7 @@ std::string KeysText(const WrittenDance& dance) {
     raw += key.reached.raw_error_m / static_cast<double>(dance.keys.size());
     correction = std::max(correction, key.reached.correction_m);
   }
-  std::string text = Format("%zu key poses", dance.keys.size());
+  std::string text = Format("%zu key pose%s", dance.keys.size(), dance.keys.size() == 1 ? "" : "s");
   if (in_file.keys > 0) {
     text += between.keys > 0 ? Format(": %zu", in_file.keys) : std::string(", each");
     text += " hit within " + in_file.Text() + ", measured in the file";

@@ -86,7 +86,8 @@ void Run(const TransitionOptions& options) {
                                 {request.config.first_frame + options.frames, model.fps});
   request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
-  request.candidates = options.candidates;
+  // More of a deterministic model would all be the same.
+  request.candidates = model.deterministic ? 1 : options.candidates;
   const NamedPose to = ReadPose(options.to, model.skeleton);
   client::KeyPose target = to.key;
   target.id = "target";  // as the report calls it

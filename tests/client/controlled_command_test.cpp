@@ -178,6 +178,7 @@ TEST_F(ControlledCommandTest, ADeterministicModelHasNoOtherDance) {
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said,
               testing::AllOf(changes_nothing("--seed"), changes_nothing("--candidates")));
+  EXPECT_FALSE(std::filesystem::exists(At("t.2.npz")));
   outcome = Choreo("edit " + At("t.npz") + " --key kick --at 0.6 --seed 3 --server " +
                    server.address() + " -o " + At("e.npz"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
@@ -267,7 +268,8 @@ TEST_F(ControlledCommandTest, BadPathsAreRefused) {
   refused("[]", "points: is empty");
   refused(R"([{"time": 0, "x": 0, "z": 0}])", "points: has 1 point, a path needs at least 2");
   refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 0.01, "x": 1, "z": 0}])",
-          "points[1].time: is frame 0, not after that of the point before it, 0");
+          "points[1].time: is frame 0, as that of the point before it; there may be one a frame, "
+          "30 a second");
   refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 1}])", "points[1].z: is missing");
   refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": "far", "z": 0}])",
           "points[1].x: \"far\" is not a number");
@@ -287,8 +289,9 @@ TEST_F(ControlledCommandTest, BadPathsAreRefused) {
           "points[1].y: 3 m above the floor is not in [0, 2]");
   // As is what is no JSON, and how far it could be read.
   refused("[{\"time\": 0, \"x\": 0,\n \"z\": 0}, {\"time\": 1, \"x\": NaN}]",
-          "points[1].x: is not JSON: it breaks off at line 2, column 28");
-  refused(R"([{"time": 0, "x": 1e999, "z": 0}])", "points[0].x: 1e999 is larger than any number");
+          "points[1].x: is not JSON: it breaks off at line 2, column 28, \"NaN\"");
+  refused(R"([{"time": 0, "x": 1e999, "z": 0}])",
+          "points[0].x: 1e999 is beyond 1.8e308, the largest number");
   refused(R"([{"time": 0, "x": 1, "x": 2, "z": 0}])", "points[0].x: is there twice");
   ExpectRefused("--path " + At("none.json"), "none.json: cannot be opened");
   const Outcome unset = Choreo("dance" + Walker() + "--seconds 4 --path ''");

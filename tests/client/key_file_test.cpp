@@ -104,7 +104,7 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   refused(File(R"("time": 1e300, "rotations": )" + Rotations()),
           "keyframes[0].time: 1e+300 s is beyond 1e9 s");
   refused(Key(Rotations("[0, 1e999, 0]")),
-          "keyframes[0].rotations[23][1]: 1e999 is larger than any number");
+          "keyframes[0].rotations[23][1]: 1e999 is beyond 1.8e308, the largest number");
 }
 
 // What is read, copied or printed level by level would run out of stack.
