@@ -3,11 +3,13 @@
 #include <torch/torch.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "model/core/error.h"
 #include "model/engine/dense_controls.h"
 #include "model/flow/time_block.h"
+#include "model/motion/resample.h"
 
 namespace choreo {
 namespace {
@@ -77,6 +79,7 @@ struct ControllersEngine::Slot {
   FrameTensors walked;  // the lead frames before `frame`
   Tensor contacts;      // that the network named for the last frame, [1, 1, 4]
   Pose last;            // emitted before `frame`
+  std::optional<Pose> target;
   PositionFitter fitter;
 };
 
@@ -131,6 +134,7 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   slot->walked =
       transition.history.Narrow(transition.history.size() - model_->lead(), model_->lead());
   slot->last = last;
+  if (spec.target) slot->target = target;
   *free = std::move(slot);
   return static_cast<int>(free - slots_.begin());
 }
@@ -152,7 +156,12 @@ void ControllersEngine::StepSlot(const StepInput& in, StepOutput* out) {
   // Bones that the network draws too long or too short are the fit's to mend: setting each to its
   // length first would move hands and feet.
   slot.fitter.Reset(slot.last);
-  out->pose = slot.fitter.Next(positions);
+  // Positions leave open how arms are turned about themselves: that goes the key's way, or arrival
+  // would have it all to do.
+  std::optional<Pose> after;
+  if (slot.target)
+    after = InterpolatePoses(slot.last, *slot.target, 1.0 / (slot.frames - slot.frame));
+  out->pose = slot.fitter.Next(positions, after ? &*after : nullptr);
   const Tensor contacts = frame.contacts.contiguous();
   std::copy_n(contacts.data_ptr<float>(), out->contacts.size(), out->contacts.begin());
   out->log_likelihood = 0;

@@ -80,7 +80,7 @@ class PositionFitter::Solver {
          double fps)
       : problem_(skeleton, mapping, options, fps), options_(options) {}
 
-  const Pose& Next(const Eigen::Matrix3Xd& targets) {
+  const Pose& Next(const Eigen::Matrix3Xd& targets, const Pose* after) {
     if (targets.cols() != problem_.landmarks_count() || !targets.allFinite()) {
       throw InvalidArgument("targets", std::to_string(targets.cols()) + " landmarks, must be " +
                                            std::to_string(problem_.landmarks_count()) +
@@ -91,10 +91,10 @@ class PositionFitter::Solver {
       problem_.Solve(targets, {}, options_.first_iterations, pose_);
     } else {
       previous_ = pose_;
-      const double distance =
-          problem_.Solve(targets, {.before = &previous_}, options_.iterations, pose_);
+      const FitProblem::Neighbours neighbours = {.before = &previous_, .after = after};
+      const double distance = problem_.Solve(targets, neighbours, options_.iterations, pose_);
       if (distance > kLostDistance || problem_.TrunkTurn(pose_) > kWoundTurn)
-        Recover(targets, distance);
+        Recover(targets, neighbours, distance);
       MakeContinuous(pose_, previous_);
     }
     has_previous_ = true;
@@ -109,7 +109,8 @@ class PositionFitter::Solver {
  private:
   // Tries again from scratch, and keeps that only where it is much nearer, or as near and unwound:
   // a clip that does not fit at all should at least be smooth.
-  void Recover(const Eigen::Matrix3Xd& targets, double distance) {
+  void Recover(const Eigen::Matrix3Xd& targets, const FitProblem::Neighbours& neighbours,
+               double distance) {
     problem_.Initialise(targets, fresh_);
     const double again = problem_.Solve(targets, {}, options_.first_iterations, fresh_);
     const bool unwound = problem_.TrunkTurn(pose_) > kWoundTurn &&
@@ -118,7 +119,7 @@ class PositionFitter::Solver {
     if (again < 0.5 * distance || unwound) {
       std::swap(pose_, fresh_);
     } else {
-      problem_.Solve(targets, {.before = &previous_}, options_.iterations, pose_);
+      problem_.Solve(targets, neighbours, options_.iterations, pose_);
     }
   }
 };
@@ -130,7 +131,9 @@ PositionFitter::~PositionFitter() = default;
 PositionFitter::PositionFitter(PositionFitter&&) noexcept = default;
 PositionFitter& PositionFitter::operator=(PositionFitter&&) noexcept = default;
 
-const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets) { return solver_->Next(targets); }
+const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets, const Pose* after) {
+  return solver_->Next(targets, after);
+}
 
 const Eigen::Matrix3Xd& PositionFitter::landmarks() const { return solver_->problem_.landmarks(); }
 

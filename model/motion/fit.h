@@ -86,7 +86,9 @@ class PositionFitter {
   PositionFitter& operator=(PositionFitter&&) noexcept;
 
   /// Landmark targets [3, landmarks] → the pose, on the exp-map branch nearest to the frame before.
-  const Pose& Next(const Eigen::Matrix3Xd& targets);
+  /// What they leave open, such as how a straight arm is turned about itself, changes little from
+  /// the frame before and stays close to `after`'s, where it is given.
+  const Pose& Next(const Eigen::Matrix3Xd& targets, const Pose* after = nullptr);
 
   /// Where our landmarks stand in the pose that Next returned last, [3, landmarks].
   const Eigen::Matrix3Xd& landmarks() const;

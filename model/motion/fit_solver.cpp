@@ -12,6 +12,9 @@ namespace {
 constexpr double kLeastBend = 0.03;
 constexpr double kMostBend = 2.7;
 constexpr double kSineOfSureBend = 0.3;
+// Of a step that is refused, the damping grows; beyond the most, what is left to gain is rounding.
+constexpr double kFirstDamping = 1e-4;
+constexpr double kMostDamping = 1e2;
 
 Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
   Eigen::Matrix3d k;
@@ -244,9 +247,9 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const Neighbours& neig
   AimHinges(targets);
   trial_ = pose;
   double cost = Cost(targets, neighbours, pose);
-  double damping = 1e-4;
+  double damping = kFirstDamping;
   bool relinearise = true;
-  for (int iteration = 0; iteration < iterations; ++iteration) {
+  for (int taken = 0; taken < iterations && damping < kMostDamping; taken += relinearise ? 1 : 0) {
     if (relinearise) Linearise(targets, neighbours, pose);
     damped_ = normal_;
     damped_.diagonal() *= 1.0 + damping;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <random>
 
 #include "model/core/error.h"
 #include "model/motion/kinematics.h"
@@ -88,6 +89,43 @@ TEST_P(FitRoundTrip, WorksCausallyFrameByFrame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FitRoundTrip, testing::Range(1, 6));
+
+// Steps that would not help are refused; a frame must not be given up for that, or it repeats the
+// one before it. Of targets that no body reaches, many first steps are.
+TEST(Fit, NeverRepeatsAFrameThatMoved) {
+  FitOptions hasty;
+  hasty.iterations = 1;
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()), hasty);
+  const Motion motion = fixtures::SmoothMotion(Smpl(), 9, 120);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.1);
+  fitter.Reset(motion.frames[0]);
+  Pose last = motion.frames[0];
+  for (size_t frame = 1; frame < motion.frames.size(); ++frame) {
+    const Pose& pose =
+        fitter.Next(JointPositions(Smpl(), motion.frames[frame]).unaryExpr([&](double x) {
+          return x + noise(random);
+        }));
+    EXPECT_GT((pose.root_position - last.root_position).norm(), 1e-6) << "frame " << frame;
+    last = pose;
+  }
+}
+
+TEST(Fit, TurnsWhatTargetsLeaveOpenTheWayThatIsGiven) {
+  const Pose rest = RestPose(Smpl());
+  const int wrist = 20, hand = 22;
+  const Eigen::Vector3d forearm = Smpl().offsets.col(hand).normalized();
+  Pose turned = rest;
+  turned.rotations.col(wrist) = 0.6 * forearm;  // moves no joint
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  fitter.Reset(rest);
+  const Eigen::Matrix3Xd targets = JointPositions(Smpl(), rest);
+  const Pose pose = fitter.Next(targets, &turned);
+  EXPECT_NEAR(pose.rotations.col(wrist).dot(forearm), 0.3, 0.05);
+  EXPECT_LT((JointPositions(Smpl(), pose) - targets).colwise().norm().maxCoeff(), 0.003);
+  fitter.Reset(rest);
+  EXPECT_NEAR(fitter.Next(targets).rotations.col(wrist).dot(forearm), 0, 0.01);
+}
 
 TEST(Fit, DoesNotDependOnWhereTheSceneStands) {
   const Motion motion = fixtures::SmoothMotion(Smpl(), 7, 30);
