@@ -10,12 +10,6 @@ namespace choreo {
 
 using torch::Tensor;
 
-namespace {
-
-constexpr double kPlanSmoothness = 1;  // frames
-
-}  // namespace
-
 Tensor ControlledScale::Unit(const Tensor& joints) const {
   return ((joints - joint_mean) / joint_std).flatten(-2);
 }
@@ -24,7 +18,8 @@ ControlledPlan::ControlledPlan(const ControllersConfig& config, const Skeleton& 
                                const ControlledScale& scale, torch::nn::Module* owner)
     : scale_(scale),
       pelvis_height_(skeleton.pelvis_height),
-      velocity_factors_(config.velocity_factors) {
+      velocity_factors_(config.velocity_factors),
+      blur_(config.plan_blur) {
   const int64_t pose = 3 * (skeleton.joints() - 1);
   // Pose, its step, the step that leaves the history; root step, height, way to the end, turn to
   // the target; factors; is-history, is-target; two counts of frames.
@@ -87,7 +82,9 @@ ControlledPlan::Result ControlledPlan::Make(const ControlledTransition& transiti
   const Tensor distance = TimeDistances(x.size(1), x.device());
   for (const auto& block : *blocks_) x = block->as<TimeBlock>()->forward(x, distance);
   const Tensor hidden = norm_->forward(x).narrow(1, transition.history.size(), transition.frames);
-  return {SmoothInTime(head_->forward(hidden), kPlanSmoothness), hidden};
+  // Smoothed twice (Tukey's twicing): a Gaussian that stops 5 Hz as well alone halves 2 Hz, too.
+  const Tensor smooth = SmoothInTime(head_->forward(hidden), blur_);
+  return {2 * smooth - SmoothInTime(smooth, blur_), hidden};
 }
 
 }  // namespace choreo

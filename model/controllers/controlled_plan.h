@@ -50,6 +50,7 @@ class ControlledPlan {
   ControlledScale scale_;
   double pelvis_height_;
   bool velocity_factors_;
+  double blur_;
   torch::nn::Linear embed_{nullptr}, head_{nullptr};
   torch::nn::LayerNorm norm_{nullptr};
   torch::nn::ModuleList blocks_{nullptr};

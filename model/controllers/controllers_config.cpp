@@ -7,12 +7,13 @@
 namespace choreo {
 
 // One list serves both directions, so that a field can't be written and not read.
-#define CHOREO_CONTROLLERS_FIELDS(apply)                                                         \
-  apply(name) apply(history_frames) apply(max_transition_frames) apply(plan_width)               \
-      apply(plan_layers) apply(plan_heads) apply(plan_dropout) apply(window) apply(heads)        \
-          apply(width) apply(layers) apply(feed_forward) apply(controller) apply(encoder_hidden) \
-              apply(encoding) apply(lstm) apply(decoder_hidden) apply(two_lstms)                 \
-                  apply(transformers) apply(root_decoder) apply(velocity_factors) apply(key_loss)
+#define CHOREO_CONTROLLERS_FIELDS(apply)                                                           \
+  apply(name) apply(history_frames) apply(max_transition_frames) apply(plan_width)                 \
+      apply(plan_layers) apply(plan_heads) apply(plan_dropout) apply(plan_blur) apply(window)      \
+          apply(heads) apply(width) apply(layers) apply(feed_forward) apply(controller)            \
+              apply(encoder_hidden) apply(encoding) apply(lstm) apply(decoder_hidden)              \
+                  apply(two_lstms) apply(transformers) apply(root_decoder) apply(velocity_factors) \
+                      apply(key_loss)
 
 void to_json(nlohmann::json& json, const ControllersConfig& config) {
   json = nlohmann::json::object();

@@ -16,6 +16,9 @@ struct ControllersConfig {
   /// in the paper).
   int plan_width = 192, plan_layers = 4, plan_heads = 6;
   double plan_dropout = 0.1;
+  /// Deviation, in frames, of the Gaussian that smooths it in time. A narrow one lets the network
+  /// tremble to be as fast as asked (docs/decisions.md, 61).
+  double plan_blur = 2;
 
   /// Both controllers: window u, heads, width and layers of encoder and decoder, hidden width of
   /// their feed-forward networks, width of what they say.

@@ -17,9 +17,13 @@ namespace {
 using torch::Tensor;
 
 constexpr int kCalibrationRounds = 3;
-constexpr double kCalibrationSmoothness = 6;  // frames
+constexpr double kCalibrationSmoothness = 15;  // frames
+constexpr double kEnough = 0.9;                // of what is wanted
 constexpr double kMostGain = 2;
 constexpr double kLeastFactor = 1e-4;  // metres a frame, below which nothing moves
+// Hands hardly move on the wrists of those who are recorded, and what a network draws of so short a
+// bone would break them. They stay straight, and go the key's way.
+constexpr double kHands = 0;
 
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
   const Eigen::Matrix3Xf values = points.cast<float>();
@@ -46,8 +50,8 @@ Eigen::Matrix3Xd ToPoints(const Tensor& points) {  // [1, 1, columns, 3]
 // What to ask of the network so that its plan moves as fast as the transition's factors ask for:
 // [1, N, 5]. It falls short of them, the more so the less real motion is like them, since postures
 // between far keys are those of a mean dancer. So each part is asked for as many times as much as
-// its plan lacks, a few times over (docs/decisions.md, 59). A network without a plan is asked for
-// the factors themselves.
+// its plan lacks of nine tenths of what is wanted, or as much less as it has too much, a few times
+// over (docs/decisions.md, 59). A network without a plan is asked for the factors themselves.
 Tensor CalibratedFactors(ControllersModel& model, const ControlledTransition& transition) {
   if (model->config().plan_width == 0 || !model->config().velocity_factors)
     return transition.factors;
@@ -60,8 +64,9 @@ Tensor CalibratedFactors(ControllersModel& model, const ControlledTransition& tr
   Tensor gain = torch::ones_like(wanted);
   for (int round = 0; round < kCalibrationRounds; ++round) {
     const FrameTensors plan = model->Planned(model->Prepare(asked, /*whole=*/false));
-    const Tensor danced = FactorsOf(Steps(Join(last, plan)), model->shares());
-    gain = (gain * wanted / smooth(danced)).clamp(1 / kMostGain, kMostGain);
+    const Tensor danced = smooth(FactorsOf(Steps(Join(last, plan)), model->shares()));
+    const Tensor enough = danced.clamp(kEnough * wanted, wanted);
+    gain = (gain * enough / danced).clamp(1 / kMostGain, kMostGain);
     asked.factors = transition.factors * gain;
   }
   return asked.factors;
@@ -71,7 +76,7 @@ Tensor CalibratedFactors(ControllersModel& model, const ControlledTransition& tr
 
 struct ControllersEngine::Slot {
   Slot(const Skeleton& skeleton, double fps)
-      : fitter(skeleton, IdentitySource(skeleton), {}, fps) {}
+      : fitter(skeleton, IdentitySource(skeleton, kHands), {}, fps) {}
 
   int frames = 0, frame = 0;
   ControlledGiven given;

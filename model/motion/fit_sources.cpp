@@ -3,7 +3,21 @@
 #include "model/motion/mapping_builder.h"
 
 namespace choreo {
-SourceMapping IdentitySource(const Skeleton& skeleton) {
+namespace {
+
+bool IsBelowWrist(const Skeleton& skeleton, int joint) {
+  const auto is_wrist = [&](int parent) {
+    const int elbow = skeleton.parents[parent];
+    return elbow >= 0 && (elbow == skeleton.left_elbow || elbow == skeleton.right_elbow);
+  };
+  int parent = skeleton.parents[joint];
+  while (parent >= 0 && !is_wrist(parent)) parent = skeleton.parents[parent];
+  return parent >= 0;
+}
+
+}  // namespace
+
+SourceMapping IdentitySource(const Skeleton& skeleton, double hands) {
   SourceMapping mapping;
   mapping.name = skeleton.name;
   mapping.accuracy_m = 0.002;
@@ -12,7 +26,8 @@ SourceMapping IdentitySource(const Skeleton& skeleton) {
     mapping.landmarks.push_back({.name = name,
                                  .source = {{name, 1.0}},
                                  .ours = {{.joint = name}},
-                                 .parent = skeleton.parents[joint]});
+                                 .parent = skeleton.parents[joint],
+                                 .weight = IsBelowWrist(skeleton, joint) ? hands : 1});
   }
   for (const int foot : skeleton.feet) {
     if (foot >= 0) mapping.feet.push_back(skeleton.joint_names[foot]);

@@ -49,8 +49,9 @@ struct SourceMapping {
   std::vector<std::string> feet;
 };
 
-/// Our own skeleton, every joint given: what a model that predicts positions uses.
-SourceMapping IdentitySource(const Skeleton& skeleton);
+/// Our own skeleton, every joint given: what a model that predicts positions uses. `hands` is the
+/// weight of joints below the wrists.
+SourceMapping IdentitySource(const Skeleton& skeleton, double hands = 1);
 
 /// "Dance with Melody" (Tang et al. 2018): 23 joints. `Tang2018JointNames` names them in file order
 /// (row 0 of the .npy, the world centre, is not among them).

@@ -237,6 +237,21 @@ TEST(Tang2018Source, StaysOnTheFloorWhenTheSourcesHipsMoveInTheBody) {
   }
 }
 
+TEST(IdentitySource, LeavesHandsOut) {
+  const Skeleton& body = Skeleton::Smpl24();
+  const Pose rest = RestPose(body);
+  Eigen::Matrix3Xd targets = JointPositions(body, rest);
+  for (const char* hand : {"left_hand", "right_hand"})
+    targets.col(body.Find(hand)) += Eigen::Vector3d(0, -0.05, 0.08);
+  const auto bend = [&](double hands) {
+    PositionFitter fitter(body, IdentitySource(body, hands));
+    fitter.Reset(rest);
+    return fitter.Next(targets).rotations.col(body.Find("left_wrist")).norm();
+  };
+  EXPECT_GT(bend(1), 0.5);
+  EXPECT_LT(bend(0), 0.01);
+}
+
 TEST(SourceMapping, IsCheckedAgainstOurSkeleton) {
   SourceMapping mapping = IdentitySource(Smpl());
   mapping.landmarks[3].ours[0].joint = "tail";
