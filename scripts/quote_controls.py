@@ -73,6 +73,7 @@ def all_rows(tables, methods):
     for what in ("repeated", "still at the end"):
         cells = [ending(tables, method, what) for method in methods]
         rows.append([f"{what}, at {', '.join(LONG)} frames", *cells, "as real motion"])
+    rows.append(["trembling: share of movement above 4 Hz", *(trembling(tables, "dancedb", method) for method in methods), "as real motion"])
     return rows
 
 
@@ -84,9 +85,7 @@ def trembling(tables, name, method):
 
 
 def controls():
-    rows = all_rows(CONTROLS, METHODS)
-    rows.append(["trembling: share of movement above 4 Hz", *(trembling(CONTROLS, "dancedb", method) for method in METHODS), "as real motion"])
-    return table(["figure, at 10, 50, 100, 150 frames", *HEAD], rows)
+    return table(["figure, at 10, 50, 100, 150 frames", *HEAD], all_rows(CONTROLS, METHODS))
 
 
 def controls_random():
@@ -103,10 +102,11 @@ def drawn():
     rows = []
     for path in ("as danced", "straight", "on the spot", "a bow"):
         skating = [show(figure(CONTROLS, title, (path, method), "skating")) for method in ("interpolation, foot lock", ALONE, SERVED)]
-        missed = [show(figure(CONTROLS, title, (path, method), "key missed cm"), 2, unit=" cm") for method in (ALONE, SERVED)]
+        missed = [show(figure(CONTROLS, title, (path, method), "key missed cm"), 2, unit=" cm") + ", " +
+                  show(figure(CONTROLS, title, (path, method), "a joint off degrees"), 1, unit="°") for method in (ALONE, SERVED)]
         off = show(figure(CONTROLS, title, (path, SERVED), "root off path mean cm"), 1, unit=" cm")
         rows.append([path, show(figure(CONTROLS, title, (path, SERVED), "root asked m/s")), *skating, *missed, off])
-    return table(["path", "asked, m/s", "skating: interpolation, foot lock", "network alone", "as served", "key missed: alone", "as served",
+    return table(["path", "asked, m/s", "skating: interpolation, foot lock", "network alone", "as served", "key missed, worst joint: alone", "as served",
                   "root off the path, as served"], rows)
 
 
