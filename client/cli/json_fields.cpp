@@ -77,14 +77,15 @@ std::string At(std::string_view text, size_t byte) {
          std::to_string(before.size() - (line == std::string_view::npos ? 0 : line + 1) + 1);
 }
 
-/// The word that stands there, such as NaN; nothing where none does.
+/// The word around that character, such as NaN; nothing where none stands.
 std::string WordAt(std::string_view text, size_t byte) {
   if (byte == 0 || byte > text.size()) return "";
-  const std::string_view rest = text.substr(byte - 1);
-  const auto end = std::ranges::find_if(rest, [](unsigned char c) { return std::isalnum(c) == 0; });
-  const auto length = std::min(static_cast<size_t>(end - rest.begin()), kLongestShown);
-  if (length == 0) return "";
-  return ", \"" + std::string(rest.substr(0, length)) + '"';
+  const auto is_other = [](unsigned char c) { return std::isalnum(c) == 0; };
+  const auto at = text.begin() + static_cast<std::ptrdiff_t>(byte - 1);
+  const auto end = std::find_if(at, text.end(), is_other);
+  const auto begin = std::find_if(std::reverse_iterator(at), text.rend(), is_other).base();
+  if (at == end) return "";
+  return ", \"" + std::string(begin, end).substr(0, kLongestShown) + '"';
 }
 
 void RefuseOthers(const json& object, const std::string& prefix,

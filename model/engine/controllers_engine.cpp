@@ -21,9 +21,9 @@ constexpr double kCalibrationSmoothness = 15;  // frames
 constexpr double kEnough = 0.9;                // of what is wanted
 constexpr double kMostGain = 2;
 constexpr double kLeastFactor = 1e-4;  // metres a frame, below which nothing moves
-// Hands hardly move on the wrists of those who are recorded, and what a network draws of so short a
-// bone would break them. They stay straight, and go the key's way.
-constexpr double kHands = 0;
+// Positions leave open how arms are turned about themselves; so many frames ahead of a key that
+// goes the key's way, or arrival would have it all to do.
+constexpr int kTurnFrames = 30;
 
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
   const Eigen::Matrix3Xf values = points.cast<float>();
@@ -72,11 +72,23 @@ Tensor CalibratedFactors(ControllersModel& model, const ControlledTransition& tr
   return asked.factors;
 }
 
+// Hands hardly move on the wrists of those who are recorded, and what a network draws of so short a
+// bone would break them: they are as bent as the keys have them. It is off by centimetres, and no
+// body can be where it draws all joints, so joints keep their usual ways rather than its places.
+SourceMapping DrawnPositions(const Skeleton& skeleton) {
+  SourceMapping mapping = IdentitySource(skeleton, /*hands=*/0);
+  mapping.accuracy_m = 0.02;
+  return mapping;
+}
+
+constexpr FitOptions kFitOptions = {
+    .hinge_side_rad = 0.15, .hinge_limit_rad = 0.1, .recover = false};
+
 }  // namespace
 
 struct ControllersEngine::Slot {
   Slot(const Skeleton& skeleton, double fps)
-      : fitter(skeleton, IdentitySource(skeleton, kHands), {}, fps) {}
+      : fitter(skeleton, DrawnPositions(skeleton), kFitOptions, fps) {}
 
   int frames = 0, frame = 0;
   ControlledGiven given;
@@ -161,11 +173,9 @@ void ControllersEngine::StepSlot(const StepInput& in, StepOutput* out) {
   // Bones that the network draws too long or too short are the fit's to mend: setting each to its
   // length first would move hands and feet.
   slot.fitter.Reset(slot.last);
-  // Positions leave open how arms are turned about themselves: that goes the key's way, or arrival
-  // would have it all to do.
   std::optional<Pose> after;
-  if (slot.target)
-    after = InterpolatePoses(slot.last, *slot.target, 1.0 / (slot.frames - slot.frame));
+  if (const int left = slot.frames - slot.frame; slot.target && left <= kTurnFrames)
+    after = InterpolatePoses(slot.last, *slot.target, 1.0 / left);
   out->pose = slot.fitter.Next(positions, after ? &*after : nullptr);
   const Tensor contacts = frame.contacts.contiguous();
   std::copy_n(contacts.data_ptr<float>(), out->contacts.size(), out->contacts.begin());

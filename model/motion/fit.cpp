@@ -93,8 +93,10 @@ class PositionFitter::Solver {
       previous_ = pose_;
       const FitProblem::Neighbours neighbours = {.before = &previous_, .after = after};
       const double distance = problem_.Solve(targets, neighbours, options_.iterations, pose_);
-      if (distance > kLostDistance || problem_.TrunkTurn(pose_) > kWoundTurn)
+      if (options_.recover &&
+          (distance > kLostDistance || problem_.TrunkTurn(pose_) > kWoundTurn)) {
         Recover(targets, neighbours, distance);
+      }
       MakeContinuous(pose_, previous_);
     }
     has_previous_ = true;

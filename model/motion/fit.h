@@ -72,6 +72,7 @@ struct FitOptions {
   double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
   int iterations = 3;              ///< per warm-started frame
   int first_iterations = 60;       ///< of a frame without a predecessor
+  bool recover = true;             ///< begin anew where the fit is lost, even if that jumps
   bool ground = true;              ///< FitClip alone: bring the body down to the floor
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "model/motion/rotation.h"
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double kLeastBend = 0.03;
 constexpr double kMostBend = 2.7;
 constexpr double kSineOfSureBend = 0.3;
+// Radians that no hinge is bent backwards.
+constexpr double kMostShortWay = 2;
 // Of a step that is refused, the damping grows; beyond the most, what is left to gain is rounding.
 constexpr double kFirstDamping = 1e-4;
 constexpr double kMostDamping = 1e2;
@@ -40,6 +43,14 @@ bool Contains(const std::string& name, std::initializer_list<const char*> parts)
 }
 
 double Square(double x) { return x * x; }
+
+// A hinge that is bent far and turned about its limb as well is turned by more than half a turn:
+// the shorter way round, on which it would be bent backwards, is not the way that it went.
+Eigen::Vector3d AlongHinge(const Eigen::Vector3d& w, const Eigen::Vector3d& axis) {
+  const double angle = w.norm();
+  if (angle < kMostShortWay || axis.dot(w) >= 0) return w;
+  return w * (1 - 2 * std::numbers::pi / angle);
+}
 
 // Inverse variances of a rotation vector with one deviation along an axis and another across it.
 Eigen::Matrix3d AxisInformation(const Eigen::Vector3d& axis, double along_rad, double across_rad) {
@@ -140,7 +151,7 @@ double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const Neighbours& neigh
   }
   for (int joint = 0; joint < skeleton_.joints(); ++joint) {
     const JointPrior& prior = priors_[joint];
-    const Eigen::Vector3d w = pose.rotations.col(joint);
+    const Eigen::Vector3d w = AlongHinge(pose.rotations.col(joint), prior.hinge_axis);
     cost += w.dot(prior.information * w);
     if (!prior.hinge_axis.isZero()) {
       const double bend = prior.hinge_axis.dot(w);
@@ -210,7 +221,7 @@ void FitProblem::Linearise(const Eigen::Matrix3Xd& targets, const Neighbours& ne
   gradient_.noalias() = jacobian_.transpose() * residual_;
   for (int joint = 0; joint < skeleton_.joints(); ++joint) {
     const JointPrior& prior = priors_[joint];
-    const Eigen::Vector3d w = pose.rotations.col(joint);
+    const Eigen::Vector3d w = AlongHinge(pose.rotations.col(joint), prior.hinge_axis);
     const Eigen::Matrix3d slope = LogJacobian(w);
     Eigen::Matrix3d information = prior.information;
     Eigen::Vector3d pull = prior.information * w;
@@ -280,7 +291,12 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const Neighbours& neig
   // The last trial may have been refused.
   ForwardKinematics(skeleton_, pose, placement_);
   marks_.Positions(placement_, positions_);
-  return std::sqrt((positions_ - targets).squaredNorm() / marks_.size());
+  double squares = 0, weights = 0;
+  for (int i = 0; i < marks_.size(); ++i) {
+    squares += marks_[i].weight * (positions_.col(i) - targets.col(i)).squaredNorm();
+    weights += marks_[i].weight;
+  }
+  return std::sqrt(squares / weights);
 }
 
 }  // namespace choreo

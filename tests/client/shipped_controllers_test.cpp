@@ -75,6 +75,21 @@ class ShippedControllersTest : public testing::Test {
     return mean;
   }
 
+  /// No joint turns by more than 20 radians a second; no pose is that of the frame before.
+  static void ExpectFluent(const std::vector<Pose>& poses, const std::string& what) {
+    for (size_t i = 1; i < poses.size(); ++i) {
+      double most = 0;
+      for (int joint = 0; joint < Body().joints(); ++joint) {
+        most = std::max(most, RotationDifference(poses[i - 1].rotations.col(joint),
+                                                 poses[i].rotations.col(joint))
+                                  .norm());
+      }
+      EXPECT_LT(most * 30, 20) << what << ", frame " << i;
+      EXPECT_GT(most, 0) << what << ", frame " << i;
+      EXPECT_NE(poses[i].root_position, poses[i - 1].root_position) << what << ", frame " << i;
+    }
+  }
+
   static inline std::unique_ptr<cli::LocalServer> server_;
   static inline std::unique_ptr<Client> client_;
 };
@@ -152,34 +167,41 @@ TEST_F(ShippedControllersTest, TellsHowFastPartsAreAndWhichCanNotBeAsAsked) {
 
 TEST_F(ShippedControllersTest, ArmsAreAsFastAsAsked) {
   Controls controls{.root_path = Arc()};
-  // At half of their usual speed the way to the keys is already faster than asked.
-  for (const double factor : {0.7, 1.5, 2.0}) {
+  // At half of their usual speed the way through these keys itself is faster than asked.
+  for (const auto& [factor, over] : {std::pair(0.5, 0.25), {0.7, 0.15}, {1.5, 0.15}, {2.0, 0.15}}) {
     controls.velocity_factors = {.parts = {"left_arm", "right_arm"}, .factors = {factor, factor}};
     const DanceResult dance = Dance(controls);
     for (const size_t arm : {1, 2}) {
       const auto& [asked, danced] = dance.report.part_speeds[arm];
-      EXPECT_NEAR(danced / asked, 1, 0.15) << factor << " " << arm;
+      EXPECT_LT(danced / asked, 1 + over) << factor << " " << arm;
+      EXPECT_GT(danced / asked, 0.85) << factor << " " << arm;
     }
   }
 }
 
-TEST_F(ShippedControllersTest, NeitherTremblesNorStops) {
+TEST_F(ShippedControllersTest, NeitherTremblesNorStopsNorSnaps) {
   Controls controls{.root_path = Arc()};
-  for (const double factor : {1.0, 1.5}) {
+  for (const double factor : {0.5, 1.0, 1.5, 2.0}) {
     controls.velocity_factors = {.parts = {"left_arm", "right_arm"}, .factors = {factor, factor}};
     const std::vector<Pose> poses = Dance(controls).motion.frames;
     EXPECT_LT(TremorShare(TrackJoints(Body(), poses), 30), 0.2) << factor;
-    for (size_t i = 1; i < poses.size(); ++i) {
-      EXPECT_NE(poses[i].root_position, poses[i - 1].root_position) << factor << " frame " << i;
-      for (const char* wrist : {"left_wrist", "right_wrist"}) {
-        const int joint = Body().Find(wrist);
-        const double turn =
-            RotationDifference(poses[i - 1].rotations.col(joint), poses[i].rotations.col(joint))
-                .norm();
-        EXPECT_LT(turn * 30, 15) << "radians a second; " << factor << " frame " << i << " "
-                                 << wrist;
-      }
-    }
+    ExpectFluent(poses, "arms " + std::to_string(factor));
+  }
+}
+
+// Where the network draws what no body can do.
+TEST_F(ShippedControllersTest, IsFluentOnLongLivelyWays) {
+  for (const auto& [from, to] :
+       {std::pair("wide_plie", "groove"), {"groove", "wide_plie"}, {"retire", "side_lunge"}}) {
+    TransitionRequest request;
+    request.config.model = "controllers";
+    request.config.history = {cli::FindLibraryPose(from).pose};
+    request.config.controls.velocity_factors = {.parts = {"left_arm", "right_arm"},
+                                                .factors = {2, 2}};
+    request.target = cli::FindLibraryPose(to).pose;
+    request.frames = 250;
+    ExpectFluent(client_->GenerateTransition(request).candidates.at(0).motion.frames,
+                 from + std::string(" to ") + to);
   }
 }
 

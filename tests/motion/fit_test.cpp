@@ -111,6 +111,32 @@ TEST(Fit, NeverRepeatsAFrameThatMoved) {
   }
 }
 
+// An elbow that is bent far and turned as well goes through half a turn, where the vector that
+// stands for it turns round.
+TEST(Fit, FollowsAnElbowPastHalfATurn) {
+  const int elbow = Smpl().left_elbow;
+  const Eigen::Vector3d hinge(0, -1, 0), side(0, 0, 1);
+  const auto folded = [&](int frame) {
+    Pose pose = RestPose(Smpl());
+    const double u = frame / 30.0;
+    pose.rotations.col(elbow) = (2.2 + 0.4 * u) * hinge + (1.2 + 1.0 * u) * side;
+    return pose;
+  };
+  ASSERT_LT(folded(0).rotations.col(elbow).norm(), std::numbers::pi);
+  ASSERT_GT(folded(30).rotations.col(elbow).norm(), std::numbers::pi);
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  fitter.Reset(folded(0));
+  Pose last = folded(0);
+  for (int frame = 1; frame <= 30; ++frame) {
+    const Pose& pose = fitter.Next(JointPositions(Smpl(), folded(frame)));
+    const double turn =
+        RotationDifference(last.rotations.col(elbow), pose.rotations.col(elbow)).norm();
+    EXPECT_GT(turn, 1e-4) << frame;
+    EXPECT_LT(turn, 0.3) << frame;
+    last = pose;
+  }
+}
+
 TEST(Fit, TurnsWhatTargetsLeaveOpenTheWayThatIsGiven) {
   const Pose rest = RestPose(Smpl());
   const int wrist = 20, hand = 22;
