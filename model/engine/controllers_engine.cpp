@@ -23,7 +23,7 @@ constexpr double kMostGain = 2;
 constexpr double kLeastFactor = 1e-4;  // metres a frame, below which nothing moves
 // Positions leave open how arms are turned about themselves; so many frames ahead of a key that
 // goes the key's way, or arrival would have it all to do.
-constexpr int kTurnFrames = 30;
+constexpr int kTurnFrames = 30;  // a second
 
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
   const Eigen::Matrix3Xf values = points.cast<float>();

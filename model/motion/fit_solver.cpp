@@ -15,7 +15,7 @@ constexpr double kMostBend = 2.7;
 constexpr double kSineOfSureBend = 0.3;
 // Radians that no hinge is bent backwards.
 constexpr double kMostShortWay = 2;
-// Of a step that is refused, the damping grows; beyond the most, what is left to gain is rounding.
+// Damping grows with each step that is refused; beyond the most, steps are too short to matter.
 constexpr double kFirstDamping = 1e-4;
 constexpr double kMostDamping = 1e2;
 

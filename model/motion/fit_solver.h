@@ -26,8 +26,8 @@ class FitProblem {
     const Pose* after = nullptr;
   };
 
-  /// Improves `pose` by at most `iterations` steps, however many trials each of them takes: a pose
-  /// that can be improved is never given back unmoved. Returns the landmarks' root mean square
+  /// Improves `pose` by at most `iterations` steps, not counting trials that are refused.
+  /// Returns the landmarks' root mean square
   /// distance from the targets, each by its weight, metres.
   double Solve(const Eigen::Matrix3Xd& targets, const Neighbours& neighbours, int iterations,
                Pose& pose);
