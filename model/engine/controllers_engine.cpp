@@ -8,7 +8,7 @@
 
 #include "model/core/error.h"
 #include "model/engine/dense_controls.h"
-#include "model/flow/time_block.h"
+#include "model/engine/part_pace.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
@@ -16,11 +16,6 @@ namespace {
 
 using torch::Tensor;
 
-constexpr int kCalibrationRounds = 3;
-constexpr double kCalibrationSmoothness = 15;  // frames
-constexpr double kEnough = 0.9;                // of what is wanted
-constexpr double kMostGain = 2;
-constexpr double kLeastFactor = 1e-4;  // metres a frame, below which nothing moves
 // Positions leave open how arms are turned about themselves; so many frames ahead of a key that
 // goes the key's way, or arrival would have it all to do.
 constexpr int kTurnFrames = 30;  // a second
@@ -47,29 +42,30 @@ Eigen::Matrix3Xd ToPoints(const Tensor& points) {  // [1, 1, columns, 3]
       .cast<double>();
 }
 
-// What to ask of the network so that its plan moves as fast as the transition's factors ask for:
-// [1, N, 5]. It falls short of them, the more so the less real motion is like them, since postures
-// between far keys are those of a mean dancer. So each part is asked for as many times as much as
-// its plan lacks of nine tenths of what is wanted, or as much less as it has too much, a few times
-// over (docs/decisions.md, 59). A network without a plan is asked for the factors themselves.
-Tensor CalibratedFactors(ControllersModel& model, const ControlledTransition& transition) {
+// All that is known of the transition, and a plan as fast as its factors ask (docs/decisions.md,
+// 59). A network without a plan, or that takes no factors, is left as it is.
+ControlledGiven PrepareInPace(ControllersModel& model, ControlledTransition transition,
+                              const VelocityFactorTrack& factors, bool held) {
   if (model->config().plan_width == 0 || !model->config().velocity_factors)
-    return transition.factors;
+    return model->Prepare(transition);
+  const BodyPartWeights weights = WeighBodyParts(model->skeleton());
   const FrameTensors last = transition.history.Narrow(transition.history.size() - 1, 1);
-  const auto smooth = [](const Tensor& factors) {
-    return SmoothInTime(factors, kCalibrationSmoothness) + kLeastFactor;
+  const auto planned = [&](const ControlledGiven& given) {  // as a column a frame
+    const Tensor positions = RelativePositions(Join(last, model->Planned(given))).contiguous();
+    return Eigen::MatrixXd(Eigen::Map<const Eigen::MatrixXf>(positions.data_ptr<float>(),
+                                                             3 * positions.size(2),
+                                                             positions.size(1))
+                               .cast<double>());
   };
-  const Tensor wanted = smooth(transition.factors);
-  ControlledTransition asked = transition;
-  Tensor gain = torch::ones_like(wanted);
-  for (int round = 0; round < kCalibrationRounds; ++round) {
-    const FrameTensors plan = model->Planned(model->Prepare(asked, /*whole=*/false));
-    const Tensor danced = smooth(FactorsOf(Steps(Join(last, plan)), model->shares()));
-    const Tensor enough = danced.clamp(kEnough * wanted, wanted);
-    gain = (gain * enough / danced).clamp(1 / kMostGain, kMostGain);
-    asked.factors = transition.factors * gain;
-  }
-  return asked.factors;
+  const ControlledGiven first = model->Prepare(transition, /*whole=*/false);
+  transition.factors = RowsOf(AskAgain(weights, factors, planned(first)).cast<float>());
+  ControlledGiven given = model->Prepare(transition);
+  const Eigen::MatrixXd paced = PaceParts(weights, factors, planned(given), held);
+  const Tensor others =
+      RowsOf(paced.bottomRightCorner(paced.rows() - 3, paced.cols() - 1).cast<float>())
+          .unflatten(2, {-1, 3});
+  given.joints = TurnBack(others, model->Planned(given).facing.unsqueeze(2));
+  return given;
 }
 
 // Hands hardly move on the wrists of those who are recorded, and what a network draws of so short a
@@ -145,9 +141,9 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   const Controls dense = DenseControls(spec, info_);
   transition.path = RowsOf(dense.root_path);
   transition.factors = RowsOf(dense.velocity_factors);
-  transition.factors = CalibratedFactors(model_, transition);
 
-  slot->given = model_->Prepare(transition);
+  slot->given = PrepareInPace(model_, transition, dense.velocity_factors.cast<double>(),
+                              spec.target.has_value());
   slot->walked =
       transition.history.Narrow(transition.history.size() - model_->lead(), model_->lead());
   slot->last = last;

@@ -46,8 +46,8 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
     if (spare < 0) continue;
     const int count = std::min(per_clip, 1 + spare / frames);
     for (int w = 0; w < count; ++w) {
-      const int before = count > 1 ? static_cast<int>(int64_t{spare} * w / (count - 1)) : spare / 2;
-      windows.push_back({clip, history + before});
+      const auto middle = static_cast<int>(int64_t{spare + frames} * (2 * w + 1) / (2 * count));
+      windows.push_back({clip, history + middle - frames / 2});
     }
   }
   return windows;

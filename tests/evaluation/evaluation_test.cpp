@@ -74,13 +74,13 @@ TEST(InterpolationEngine, WalksTheLineOntoTheKey) {
   EXPECT_LT(result.arrival->raw_error_m, 1e-5);
 }
 
-TEST(ChooseWindows, StandEvenlyAndLeaveRoomForTheHistory) {
+TEST(ChooseWindows, StandInTheMiddlesOfEqualPartsAndLeaveRoomForTheHistory) {
   const ClipSet set = TwoClips();
   const auto windows = ChooseWindows(set, 10, 30, 3);
   ASSERT_EQ(windows.size(), 6U);
-  EXPECT_EQ(windows[0].start, 10);
+  EXPECT_EQ(windows[0].start, 18);
   EXPECT_EQ(windows[1].start, 65);
-  EXPECT_EQ(windows[2].start, 120);
+  EXPECT_EQ(windows[2].start, 111);
   EXPECT_EQ(windows[3].clip, 1U);
   EXPECT_TRUE(ChooseWindows(set, 10, 145, 3).empty());
   EXPECT_EQ(ChooseWindows(set, 10, 60, 9).size(), 4U);  // two fit side by side
