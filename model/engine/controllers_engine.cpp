@@ -19,6 +19,9 @@ using torch::Tensor;
 // Positions leave open how arms are turned about themselves; so many frames ahead of a key that
 // goes the key's way, or arrival would have it all to do.
 constexpr int kTurnFrames = 30;  // a second
+// How much of its last turn a joint is expected to go on with. Expected to rest, it lags behind
+// what the network draws; to go on with most of it, elbows swing too far.
+constexpr double kCarry = 0.3;
 
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
   const Eigen::Matrix3Xf values = points.cast<float>();
@@ -91,7 +94,7 @@ struct ControllersEngine::Slot {
   ControllersState state;
   FrameTensors walked;  // the lead frames before `frame`
   Tensor contacts;      // that the network named for the last frame, [1, 1, 4]
-  Pose last;            // emitted before `frame`
+  Pose before, last;    // the two emitted before `frame`
   std::optional<Pose> target;
   PositionFitter fitter;
 };
@@ -146,6 +149,7 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
                               spec.target.has_value());
   slot->walked =
       transition.history.Narrow(transition.history.size() - model_->lead(), model_->lead());
+  slot->before = spec.history.size() > 1 ? spec.history[spec.history.size() - 2] : last;
   slot->last = last;
   if (spec.target) slot->target = target;
   *free = std::move(slot);
@@ -158,7 +162,7 @@ void ControllersEngine::StepSlot(const StepInput& in, StepOutput* out) {
     FrameTensors emitted = ToTensors(FacingOf(info_.skeleton, *in.previous), {});
     emitted.contacts = slot.contacts;
     slot.walked = Join(slot.walked.Narrow(1, model_->lead() - 1), emitted);
-    slot.last = *in.previous;
+    slot.before = std::exchange(slot.last, *in.previous);
   }
   const FrameTensors frame =
       model_->Walk(slot.given.Narrow(slot.frame, 1), slot.walked, &slot.state).frames;
@@ -168,7 +172,7 @@ void ControllersEngine::StepSlot(const StepInput& in, StepOutput* out) {
   positions.rightCols(positions.cols() - 1).colwise() += positions.col(0).eval();
   // Bones that the network draws too long or too short are the fit's to mend: setting each to its
   // length first would move hands and feet.
-  slot.fitter.Reset(slot.last);
+  slot.fitter.Reset(InterpolatePoses(slot.before, slot.last, 1 + kCarry));
   std::optional<Pose> after;
   if (const int left = slot.frames - slot.frame; slot.target && left <= kTurnFrames)
     after = InterpolatePoses(slot.last, *slot.target, 1.0 / left);
