@@ -4,8 +4,9 @@
 #   scripts/train_baselines.sh BIN_DIRECTORY DATA SPLITS RUNS
 # DATA holds tang2018/, dancedb/ and cmu/ as `choreo-lab prepare` wrote them (docs/training.md), SPLITS is splits.json. RUNS gets recurrent/
 # (and recurrent_start/, from which it goes on), ablation/{full,no_key_loss,no_time_embedding,forward_embedding,no_keys}/,
-# random_split/ (and random_start/, random_more/) and controls/{full,one_lstm,condition_fc,one_decoder,no_velocity_factors,no_key_loss,full_long,
-# no_key_loss_long}/, where scripts/evaluate.sh looks for them. Killed, it goes on from where it was when it is started again; what is finished is not trained again.
+# random_split/ (and random_start/, random_more/, random_further/) and controls/{full,one_lstm,condition_fc,one_decoder,no_velocity_factors,
+# no_key_loss,full_long,no_key_loss_long}/, where scripts/evaluate.sh looks for them. Killed, it goes on from where it was when it is started
+# again; what is finished is not trained again.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -19,9 +20,9 @@ ablation_rate=1e-3
 ablation_batch=64
 ablation_rollout=90
 # The network that ships, on paper C's setting (scripts/random_split.sh): in several runs as well, but on longer windows.
-random_steps=(10000 12000 12000)
-random_rates=(1e-3 8e-4 8e-4)
-random_walks=(1500 500 500)  # updates that walk, behind those of the plan
+random_steps=(10000 12000 12000 12000)
+random_rates=(1e-3 8e-4 8e-4 8e-4)
+random_walks=(1500 500 500 500)  # updates that walk, behind those of the plan
 random_batch=32
 # Paper C's network without a plan, its lengths (5 to 70 frames), on the same.
 controls_steps=2000
@@ -72,12 +73,14 @@ train ablation/no_keys "${ablation[@]}" --no-keys
 "$root/scripts/random_split.sh" "$data/dancedb" >"$runs/random_split.json"
 random=(--data "$data/dancedb" --splits "$runs/random_split.json")
 random_controllers=("${random[@]}" --preset controllers --longest 250 --batch "$random_batch")
-train random_start "${random_controllers[@]}" --planner-steps "${random_steps[0]}" --planner-rate "${random_rates[0]}" \
-  --flow-steps "${random_walks[0]}"
-train random_more "${random_controllers[@]}" --planner "$runs/random_start/checkpoint.safetensors" --planner-steps "${random_steps[1]}" \
-  --planner-rate "${random_rates[1]}" --flow-steps "${random_walks[1]}"
-train random_split "${random_controllers[@]}" --planner "$runs/random_more/checkpoint.safetensors" --planner-steps "${random_steps[2]}" \
-  --planner-rate "${random_rates[2]}" --flow-steps "${random_walks[2]}"
+before=()
+number=0
+for run in random_start random_more random_further random_split; do
+  train "$run" "${random_controllers[@]}" "${before[@]}" --planner-steps "${random_steps[number]}" --planner-rate "${random_rates[number]}" \
+    --flow-steps "${random_walks[number]}"
+  before=(--planner "$runs/$run/checkpoint.safetensors")
+  number=$((number + 1))
+done
 paper_c=("${random[@]}" --preset controllers-paper --longest 70 --batch "$controls_batch" --flow-rate "$controls_rate")
 controls=("${paper_c[@]}" --flow-steps "$controls_steps")
 controls_long=("${paper_c[@]}" --flow-steps "$controls_long_steps")

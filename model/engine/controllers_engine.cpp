@@ -22,6 +22,9 @@ constexpr int kTurnFrames = 30;  // a second
 // How much of its last turn a joint is expected to go on with. Expected to rest, it lags behind
 // what the network draws; to go on with most of it, elbows swing too far.
 constexpr double kCarry = 0.3;
+// Times the first reference, the most on average: with more, feet leave the floor and the root its
+// path.
+constexpr float kLiveliest = 4;
 
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
   const Eigen::Matrix3Xf values = points.cast<float>();
@@ -60,9 +63,12 @@ ControlledGiven PrepareInPace(ControllersModel& model, ControlledTransition tran
                                                              positions.size(1))
                                .cast<double>());
   };
-  const ControlledGiven first = model->Prepare(transition, /*whole=*/false);
-  transition.factors = RowsOf(AskAgain(weights, factors, planned(first)).cast<float>());
   ControlledGiven given = model->Prepare(transition);
+  const VelocityFactorTrack asked = AskAgain(weights, factors, planned(given));
+  if (asked != factors) {
+    transition.factors = RowsOf(asked.cast<float>());
+    given = model->Prepare(transition);
+  }
   const Eigen::MatrixXd paced = PaceParts(weights, factors, planned(given), held);
   const Tensor others =
       RowsOf(paced.bottomRightCorner(paced.rows() - 3, paced.cols() - 1).cast<float>())
@@ -141,7 +147,13 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   transition.target_joints = PointsOf(facing.joints).select(1, 0);
   transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
   transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
-  const Controls dense = DenseControls(spec, info_);
+  Controls dense = DenseControls(spec, info_);
+  const auto& usual = info_.velocity_references.front().factors;
+  for (int part = 0; part < kBodyParts; ++part) {
+    auto factors = dense.velocity_factors.row(part);
+    const float most = kLiveliest * usual[static_cast<size_t>(part)];
+    if (factors.mean() > most) factors *= most / factors.mean();
+  }
   transition.path = RowsOf(dense.root_path);
   transition.factors = RowsOf(dense.velocity_factors);
 

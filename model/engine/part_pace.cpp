@@ -10,9 +10,15 @@ using Eigen::MatrixXd;
 
 constexpr double kSpan = 20;  // frames: what is slower than that stays where it was
 constexpr int kRounds = 3;    // a longer step is another direction, and another speed
-constexpr double kMost = 2;   // times as long, or as short, as in the round before
-// Of their mean, by how much factors must vary to count as a rhythm.
-constexpr double kRhythm = 0.1;
+constexpr double kMost = 3;   // times as long, or as short, as planned
+// Of their mean, by how much factors vary whose rhythm is followed wholly; and by how much those
+// of real dances do, which networks have learnt to answer.
+constexpr double kRhythm = 0.2;
+constexpr double kRealRhythm = 0.4;
+// By how much a plan may be too slow, or too fast, for its factors not to be asked for again, and
+// by how much more, or less, they are.
+constexpr double kEnough = 1.1;
+constexpr double kMostAgain = 2;
 constexpr double kLeastFactor = 1e-4;  // metres a frame, below which nothing moves
 
 // What minimises sum |x_t - x_{t-1}|^2 + sum |x_t|^2 / kSpan^2 - 2 sum x_t y_t over columns t, the
@@ -53,65 +59,77 @@ VelocityFactorTrack Factors(const BodyPartWeights& weights, const MatrixXd& step
   return (weights * speeds).array() + kLeastFactor;
 }
 
-// By how many times each part is too slow in each frame.
-class Lack {
+// Factors, and how they are told apart: what they ask for on the whole, and when.
+class Wanted {
  public:
-  Lack(const BodyPartWeights& weights, const VelocityFactorTrack& factors)
-      : weights_(weights), wanted_(factors.array() + kLeastFactor), level_(Slow(wanted_)) {
-    has_rhythm_ = (wanted_.array() / level_.array() - 1).abs().rowwise().mean() > kRhythm;
+  Wanted(const BodyPartWeights& weights, const VelocityFactorTrack& factors)
+      : weights_(weights), frames_(factors.array() + kLeastFactor), level_(Slow(frames_)) {
+    varies_ = (frames_.array() / level_.array() - 1).abs().rowwise().mean();
   }
 
-  VelocityFactorTrack Of(const MatrixXd& steps) const {
-    const VelocityFactorTrack danced = Factors(weights_, steps), danced_level = Slow(danced);
+  // 0, such as of a constant, to 1 for factors that vary by `whole` of their mean.
+  double Rhythm(int part, double whole) const { return std::min(1.0, varies_[part] / whole); }
+
+  // How many times as fast each part should be: over some frames, [5, N].
+  VelocityFactorTrack OnTheWhole(const MatrixXd& steps) const {
+    return level_.cwiseQuotient(Slow(Factors(weights_, steps)));
+  }
+  // In each frame, as far as the factors have a rhythm.
+  VelocityFactorTrack InEachFrame(const MatrixXd& steps) const {
+    const VelocityFactorTrack whole = OnTheWhole(steps),
+                              frame = frames_.cwiseQuotient(Factors(weights_, steps));
     VelocityFactorTrack times(kBodyParts, steps.cols());
     for (int part = 0; part < kBodyParts; ++part) {
-      times.row(part) = has_rhythm_[part] ? wanted_.row(part).cwiseQuotient(danced.row(part))
-                                          : level_.row(part).cwiseQuotient(danced_level.row(part));
+      const double rhythm = Rhythm(part, kRhythm);
+      times.row(part) =
+          whole.row(part).array().pow(1 - rhythm) * frame.row(part).array().pow(rhythm);
     }
-    return times.cwiseMax(1 / kMost).cwiseMin(kMost);
+    return times;
   }
-  bool has_rhythm(int part) const { return has_rhythm_[part]; }
 
  private:
-  const BodyPartWeights& weights_;
-  VelocityFactorTrack wanted_, level_;
-  Eigen::Array<bool, kBodyParts, 1> has_rhythm_;
+  const BodyPartWeights weights_;
+  VelocityFactorTrack frames_, level_;
+  Eigen::ArrayXd varies_;  // by how much of their mean, each part's
 };
 
 }  // namespace
 
 VelocityFactorTrack AskAgain(const BodyPartWeights& weights, const VelocityFactorTrack& factors,
                              const MatrixXd& planned) {
-  const Lack lack(weights, factors);
-  const VelocityFactorTrack times = lack.Of(Steps(planned));
-  VelocityFactorTrack asked = factors;
-  for (int part = 0; part < kBodyParts; ++part) {
-    if (!lack.has_rhythm(part)) asked.row(part).array() *= times.row(part).array();
-  }
-  return asked;
+  const Wanted wanted(weights, factors);
+  const VelocityFactorTrack times = wanted.OnTheWhole(Steps(planned));
+  // 1 within what is enough.
+  VelocityFactorTrack again =
+      (times / kEnough).cwiseMax(1).cwiseProduct((times * kEnough).cwiseMin(1));
+  again = again.cwiseMax(1 / kMostAgain).cwiseMin(kMostAgain);
+  for (int part = 0; part < kBodyParts; ++part)
+    again.row(part) = again.row(part).array().pow(1 - wanted.Rhythm(part, kRealRhythm));
+  return factors.cwiseProduct(again);
 }
 
 MatrixXd PaceParts(const BodyPartWeights& weights, const VelocityFactorTrack& factors,
                    const MatrixXd& planned, bool held) {
   const Eigen::Index frames = factors.cols(), free = held ? frames - 1 : frames;
-  const Lack lack(weights, factors);
+  const Wanted wanted(weights, factors);
   const MatrixXd planned_steps = Steps(planned);
   MatrixXd paced = planned;
+  VelocityFactorTrack times = VelocityFactorTrack::Ones(kBodyParts, frames);
   for (int round = 0; round < kRounds && free > 0; ++round) {
-    MatrixXd steps = Steps(paced);
-    // A joint is of one part: its share there is all that it has.
-    const VelocityFactorTrack times = lack.Of(steps);
+    times =
+        times.cwiseProduct(wanted.InEachFrame(Steps(paced))).cwiseMax(1 / kMost).cwiseMin(kMost);
+    MatrixXd lack = MatrixXd::Zero(planned.rows(), frames);
     for (Eigen::Index joint = 1; joint < weights.cols(); ++joint) {
-      Eigen::Index part = 0;
+      Eigen::Index part = 0;  // a joint is of one
       weights.col(joint).maxCoeff(&part);
-      steps.middleRows(3 * joint, 3).array().rowwise() *= times.row(part).array();
+      lack.middleRows(3 * joint, 3) =
+          planned_steps.middleRows(3 * joint, 3).array().rowwise() * (times.row(part).array() - 1);
     }
-    // Displacements e of the plan, e_0 = 0, that minimise sum |e_t - e_{t-1} - g_t|^2 +
-    // sum |e_t|^2 / kSpan^2, where the g are what its steps lack.
-    steps -= planned_steps;
-    MatrixXd pull = steps.leftCols(free);
+    // Displacements e of the plan, e_0 = 0, that minimise sum |e_t - e_{t-1} - lack_t|^2 +
+    // sum |e_t|^2 / kSpan^2.
+    MatrixXd pull = lack.leftCols(free);
     const Eigen::Index followed = std::min(free, frames - 1);
-    pull.leftCols(followed) -= steps.middleCols(1, followed);
+    pull.leftCols(followed) -= lack.middleCols(1, followed);
     paced.middleCols(1, free) = planned.middleCols(1, free) + Solve(pull, true, held);
   }
   return paced;
