@@ -179,6 +179,27 @@ TEST_F(ShippedControllersTest, ArmsAreAsFastAsAsked) {
   }
 }
 
+TEST_F(ShippedControllersTest, FollowsFactorsFrameByFrame) {
+  Controls controls{.root_path = Arc(), .velocity_factors = Controls::VelocityFactors{}};
+  controls.velocity_factors->parts = {"left_arm"};
+  const auto lively = [](int64_t frame) { return frame / 20 % 2 == 1; };
+  for (int64_t frame = 0; frame < kFrames; ++frame) {
+    controls.velocity_factors->frames.push_back(frame);
+    controls.velocity_factors->factors.push_back(lively(frame) ? 1.8 : 0.6);
+  }
+  const std::vector<Pose> poses = Dance(controls).motion.frames;
+  std::array<std::pair<double, int>, 2> arm = {};
+  for (int frame = 1; frame < kFrames; ++frame) {
+    const auto at = poses.begin() + frame;
+    const Motion step = {.fps = 30, .frames = {at - 1, at + 1}};
+    auto& [sum, count] = arm[lively(frame) ? 1 : 0];
+    sum += Liveliness(step)[static_cast<size_t>(BodyPart::kLeftArm)];
+    ++count;
+  }
+  // Three times as fast is asked for.
+  EXPECT_GT(arm[1].first / arm[1].second, 2 * arm[0].first / arm[0].second);
+}
+
 TEST_F(ShippedControllersTest, NeitherTremblesNorStopsNorSnaps) {
   Controls controls{.root_path = Arc()};
   for (const double factor : {0.5, 1.0, 1.5, 2.0}) {
