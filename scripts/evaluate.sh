@@ -90,7 +90,7 @@ for sheet in "$out"/images/tables_sheet_*.png; do  # a quarter of the size
   mv "$sheet.small.png" "$sheet"
 done
 measure tables_unseen_genre model/checkpoints/default.safetensors --split test_unseen_genre --data "$data/tang2018" \
-  --splits "$recordings/splits.json" --long-dances 0 --best-of 0 --windows 32  # of its one clip: all that fit side by side
+  --splits "$recordings/splits.json" --long-dances 0 --best-of 0 --windows 32  # of its one clip; eight say little
 others=()
 measure tables_free model/checkpoints/free.safetensors "${sets[@]}" --name "free data" --baseline real --best-of 0
 
