@@ -22,8 +22,8 @@ constexpr int kTurnFrames = 30;  // a second
 // How much of its last turn a joint is expected to go on with. Expected to rest, it lags behind
 // what the network draws; to go on with most of it, elbows swing too far.
 constexpr double kCarry = 0.3;
-// Times the first reference, the most on average: with more, feet leave the floor and the root its
-// path.
+// Times the first reference: parts that are asked for more on average are asked for this at most,
+// or feet would leave the floor and the root its path.
 constexpr float kLiveliest = 4;
 
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
@@ -152,7 +152,7 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   for (int part = 0; part < kBodyParts; ++part) {
     auto factors = dense.velocity_factors.row(part);
     const float most = kLiveliest * usual[static_cast<size_t>(part)];
-    if (factors.mean() > most) factors *= most / factors.mean();
+    if (factors.mean() > most) factors = factors.cwiseMin(most).eval();
   }
   transition.path = RowsOf(dense.root_path);
   transition.factors = RowsOf(dense.velocity_factors);

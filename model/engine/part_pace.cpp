@@ -1,6 +1,7 @@
 #include "model/engine/part_pace.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace choreo {
@@ -8,7 +9,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr double kSpan = 20;  // frames: what is slower than that stays where it was
+constexpr double kSpan = 20;  // frames; swings of 2 pi times that change by half
 constexpr int kRounds = 3;    // a longer step is another direction, and another speed
 constexpr double kMost = 3;   // times as long, or as short, as planned
 // Of their mean, by how much factors vary whose rhythm is followed wholly; and by how much those

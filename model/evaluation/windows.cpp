@@ -1,6 +1,7 @@
 #include "model/evaluation/windows.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
 
 namespace choreo {
