@@ -97,6 +97,7 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   WarnOfDistance(request, &out->warnings);
   const Lead floor = LeadPath(request);
 
+  out->controls.path_heights = std::ranges::any_of(request.curves, HasHeights);
   request.axes = {0, 1, 0};
   for (const PathCurve*& curve : request.curves) {
     if (!HasHeights(curve)) curve = nullptr;
@@ -152,6 +153,8 @@ void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionCon
   VelocityRequest usual;
   usual.values = {1};
   for (int part = 0; part < kBodyParts; ++part) {
+    bool& asks = out->controls.parts_asked[static_cast<size_t>(part)];
+    asks = false;
     for (int frame = 0; frame < frames; ++frame) {
       const int64_t at = first_frame + frame;
       const auto body_part = static_cast<BodyPart>(part);
@@ -159,6 +162,7 @@ void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionCon
           velocities_.rbegin(), velocities_.rend(),
           [&](const auto& one) { return one.from <= at && one.control.Names(body_part); });
       const VelocityRequest& asked = said == velocities_.rend() ? usual : said->control;
+      asks = asks || said != velocities_.rend();
       factors(part, frame) = asked.At(at, body_part, *model_);
     }
   }

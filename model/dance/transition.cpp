@@ -138,7 +138,9 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
     spec_.controls.root_path.col(frame) =
         ground_.ToLocal(request.controls.root_path.col(frame)).cast<float>();
   }
+  spec_.controls.path_heights = request.controls.path_heights;
   spec_.controls.velocity_factors = request.controls.velocity_factors;
+  spec_.controls.parts_asked = request.controls.parts_asked;
   if (request.foot_lock && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
     foot_lock_.emplace(model.skeleton, model.fps, request.frames, spec_.history, spec_.target);
   }

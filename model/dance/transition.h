@@ -24,8 +24,10 @@ struct WorldTarget {
 /// What is asked of a transition frame by frame: engine's Controls, in the world.
 struct WorldControls {
   Eigen::Matrix3Xd root_path;  ///< [3, frames], metres, or empty
+  bool path_heights = true;
   Eigen::Matrix<float, kBodyParts, Eigen::Dynamic>
       velocity_factors;  ///< [kBodyParts, frames], metres a frame, or empty
+  std::array<bool, kBodyParts> parts_asked = {true, true, true, true, true};
 };
 
 /// One transition as its caller knows it: everything in the world frame, at the model's rate.

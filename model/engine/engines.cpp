@@ -14,6 +14,7 @@
 #include "model/core/error.h"
 #include "model/core/threads.h"
 #include "model/engine/build_identity.h"
+#include "model/engine/continuous_flow_engine.h"
 #include "model/engine/controllers_engine.h"
 #include "model/engine/device_graph.h"
 #include "model/engine/flow_engine.h"
@@ -24,6 +25,7 @@
 #include "model/engine/torch_planner.h"
 #include "model/engine/torch_tile.h"
 #include "model/flow/checkpoint.h"
+#include "model/flow/continuous_flow.h"
 
 namespace choreo {
 namespace {
@@ -87,7 +89,9 @@ std::string Fingerprint(const std::string& preset, const std::string& hash,
 // What the engines of one device share.
 struct Loaded {
   ModelInfo info;
-  ControllersModel controllers{nullptr};  // this alone, or a flow:
+  ControllersModel controllers{nullptr};        // this alone, or
+  std::shared_ptr<const FlowModelParts> parts;  // these two, or a flow:
+  std::shared_ptr<const FlowNetwork> network;
   std::shared_ptr<const TransitionPlanner> planner;
   std::shared_ptr<TorchWeights> torch;  // either this
   int torch_rows = 0;
@@ -96,6 +100,8 @@ struct Loaded {
   std::unique_ptr<StepEngine> Engine(const Device& device, int slots) const {
     if (!controllers.is_empty())
       return std::make_unique<ControllersEngine>(info, slots, controllers);
+    if (network)
+      return std::make_unique<ContinuousFlowEngine>(info, device.name(), slots, parts, network);
     return std::make_unique<FlowEngine>(info, device.name(), slots, planner, Tile(slots));
   }
 
@@ -133,6 +139,32 @@ Loaded LoadControllers(const Safetensors& content, const std::filesystem::path& 
   return loaded;
 }
 
+Loaded LoadContinuousFlow(const Safetensors& content, const std::filesystem::path& path) {
+  const ContinuousFlowCheckpoint checkpoint = ParseContinuousFlow(content, path.string());
+  const ContinuousFlowConfig& config = checkpoint.model->config();
+  VelocityReference median{.name = "median"};
+  std::ranges::copy(config.median_factors, median.factors.begin());
+  Loaded loaded;
+  loaded.parts = std::make_shared<FlowModelParts>(checkpoint.model->Parts());
+  loaded.network = MakeTorchFlowNetwork(checkpoint.model);
+  loaded.info = {.name = config.name,
+                 .fingerprint = Fingerprint(config.name, checkpoint.hash,
+                                            TorchKernels(torch::Device(torch::kCPU))),
+                 .licence = LicenceOf(checkpoint.card),
+                 .card = checkpoint.card,
+                 .skeleton = checkpoint.model->skeleton(),
+                 .fps = 30,
+                 .history_frames = config.history_frames,
+                 .audio_features = 0,  // it hears beats, not sounds
+                 .max_transition_frames = config.max_transition_frames,
+                 .default_temperature = config.temperature,
+                 .hears_music = false,
+                 .root_path = true,
+                 .velocity_factors = true,
+                 .velocity_references = {median}};
+  return loaded;
+}
+
 Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind kind) {
   const c10::InferenceMode inference;
   // Exact float32 everywhere: bits before speed.
@@ -142,6 +174,7 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
 
   const Safetensors content = ReadSafetensors(path);
   if (HoldsControllers(content)) return LoadControllers(content, path);
+  if (HoldsContinuousFlow(content)) return LoadContinuousFlow(content, path);
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
   FlowModel model = checkpoint.model;
   const FlowConfig& config = model->config();

@@ -59,9 +59,12 @@ struct Controls {
   /// [3, frames] or empty: where the root should be in each frame, metres, canonical frame; from
   /// the history's last root to the target's (dance/path_lead.h bends it there).
   Eigen::Matrix3Xf root_path;
+  bool path_heights = true;  ///< whether somebody asked for its heights; else they are a guess
   /// [kBodyParts, frames] or empty: how lively each part should be in each frame
   /// (motion/velocity_factors.h), metres a frame, at least 0.
   Eigen::Matrix<float, kBodyParts, Eigen::Dynamic> velocity_factors;
+  /// By BodyPart: whether somebody asked for it; the others' factors are the model's reference.
+  std::array<bool, kBodyParts> parts_asked = {true, true, true, true, true};
 };
 
 /// Everything that a transition is a function of, but the music of its own frames, which arrives

@@ -8,10 +8,13 @@
 #include "model/core/error.h"
 #include "model/flow/flow_config.h"
 #include "model/training/control_trainer.h"
+#include "model/training/flow_matching_trainer.h"
 #include "model/training/trainer.h"
 
 namespace choreo {
 namespace {
+
+constexpr const char* kContinuous = "continuous";
 
 // Switches that only flows, or only controllers (true), have.
 constexpr std::pair<const char*, bool> kAblations[] = {
@@ -32,7 +35,7 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& name) {
-            if (ControllersConfig::IsPreset(name)) return std::string();
+            if (ControllersConfig::IsPreset(name) || name == kContinuous) return std::string();
             try {
               FlowConfig::Preset(name);
             } catch (const Error& error) {
@@ -117,6 +120,8 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       if (options->device != "cpu")
         throw InvalidArgument("--device", options->device + ", but controllers train on the CPU");
       TrainControllers(*options);
+    } else if (options->preset == kContinuous) {
+      TrainContinuousFlow(*options);
     } else {
       Train(*options);
     }

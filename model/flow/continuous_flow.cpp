@@ -1,0 +1,261 @@
+#include "model/flow/continuous_flow.h"
+
+#include <ATen/autocast_mode.h>
+#include <torch/torch.h>
+
+#include <cmath>
+
+#include "model/flow/checkpoint.h"
+#include "model/flow/checkpoint_file.h"
+#include "model/flow/random_checkpoint.h"
+#include "model/flow/time_block.h"
+
+namespace choreo {
+
+using torch::Tensor;
+
+namespace {
+
+constexpr int64_t kLags = 121;      // of the prior's covariance
+constexpr int64_t kTimeWidth = 32;  // of the embedded time of the flow
+constexpr double kTimeScale = 100;  // of that time, so that the embedding tells small steps
+constexpr int64_t kFramesAToken = 2;
+
+// A transformer block whose norms are scaled and shifted, and whose two halves are weighed, by what
+// is known of the whole window (adaptive layer norm, Peebles & Xie 2023).
+class FlowBlockImpl : public torch::nn::Module {
+ public:
+  FlowBlockImpl(int width, int heads, int condition) : heads_(heads) {
+    using torch::nn::LayerNormOptions;
+    const auto norm = [&] {
+      return torch::nn::LayerNorm(LayerNormOptions({width}).elementwise_affine(false));
+    };
+    attention_norm_ = register_module("attention_norm", norm());
+    mlp_norm_ = register_module("mlp_norm", norm());
+    qkv_ = register_module("qkv", torch::nn::Linear(width, 3 * width));
+    out_ = register_module("out", torch::nn::Linear(width, width));
+    up_ = register_module("up", torch::nn::Linear(width, 3 * width));
+    down_ = register_module("down", torch::nn::Linear(3 * width, width));
+    modulation_ = register_module("modulation", torch::nn::Linear(condition, 6 * width));
+    torch::nn::init::zeros_(modulation_->weight);
+    torch::nn::init::zeros_(modulation_->bias);
+    distance_bias_ =
+        register_parameter("distance_bias", torch::zeros({kMostTokensApart * 2 + 1, heads}));
+  }
+
+  Tensor forward(const Tensor& x, const Tensor& condition, const Tensor& distance) {
+    const int64_t batch = x.size(0), time = x.size(1), width = x.size(2);
+    const std::vector<Tensor> m = modulation_(condition).unsqueeze(1).chunk(6, -1);
+    const Tensor qkv = qkv_(attention_norm_(x) * (1 + m[0]) + m[1])
+                           .view({batch, time, 3, heads_, width / heads_})
+                           .permute({2, 0, 3, 1, 4});
+    const Tensor bias = distance_bias_.index_select(0, distance.flatten())
+                            .view({time, time, heads_})
+                            .permute({2, 0, 1});
+    const double scale = 1 / std::sqrt(static_cast<double>(width / heads_));
+    const Tensor attention =
+        torch::softmax(torch::matmul(qkv[0] * scale, qkv[1].transpose(-1, -2)) + bias, -1);
+    const Tensor mixed =
+        torch::matmul(attention, qkv[2]).transpose(1, 2).reshape({batch, time, width});
+    const Tensor attended = x + (1 + m[2]) * out_(mixed);
+    return attended + (1 + m[5]) * down_(torch::gelu(up_(mlp_norm_(attended) * (1 + m[3]) + m[4])));
+  }
+
+  static constexpr int64_t kMostTokensApart = 64;
+
+ private:
+  int heads_;
+  torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
+  torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr},
+      modulation_{nullptr};
+  Tensor distance_bias_;
+};
+TORCH_MODULE(FlowBlock);
+
+Tensor EmbedTime(const Tensor& t) {
+  const Tensor rate = torch::exp(torch::arange(kTimeWidth / 2, t.options()) *
+                                 (-std::log(1000.0) / (kTimeWidth / 2)));
+  const Tensor phase = kTimeScale * t.unsqueeze(-1) * rate;
+  return torch::cat({phase.sin(), phase.cos()}, -1);
+}
+
+// While it lives, products of matrices are made in bfloat16 where `on`: training is twice as fast.
+class Bfloat16Products {
+ public:
+  explicit Bfloat16Products(bool on) : before_(at::autocast::is_cpu_enabled()) {
+    at::autocast::set_autocast_cpu_dtype(torch::kBFloat16);
+    at::autocast::set_cpu_enabled(on);
+    at::autocast::increment_nesting();
+  }
+  ~Bfloat16Products() {
+    if (at::autocast::decrement_nesting() == 0) at::autocast::clear_cache();
+    at::autocast::set_cpu_enabled(before_);
+  }
+  Bfloat16Products(const Bfloat16Products&) = delete;
+  Bfloat16Products& operator=(const Bfloat16Products&) = delete;
+
+ private:
+  bool before_;
+};
+
+// Each frame less the one before; the first has none.
+Tensor Steps(const Tensor& poses) {
+  const Tensor steps =
+      poses.narrow(1, 1, poses.size(1) - 1) - poses.narrow(1, 0, poses.size(1) - 1);
+  return torch::cat({torch::zeros_like(poses.narrow(1, 0, 1)), steps}, 1);
+}
+
+Eigen::MatrixXd ToEigen(const Tensor& tensor) {
+  const Tensor dense = tensor.detach().to(torch::kCPU, torch::kFloat64).contiguous();
+  return Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(
+      dense.data_ptr<double>(), dense.size(0), dense.numel() / dense.size(0));
+}
+
+// [rows, columns] of any storage → [columns, rows]: time first, as networks have it.
+template <typename Matrix>
+Tensor TimeFirst(const Matrix& matrix) {
+  return torch::from_blob(const_cast<float*>(matrix.data()), {1, matrix.cols(), matrix.rows()});
+}
+
+class TorchFlowNetwork : public FlowNetwork {
+ public:
+  explicit TorchFlowNetwork(ContinuousFlow model) : model_(std::move(model)) {}
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                           const Eigen::MatrixXf& mean, const WindowFeatures& features,
+                           float t) const override {
+    const c10::InferenceMode inference;
+    auto& model = const_cast<ContinuousFlow&>(model_);
+    const Tensor whole =
+        torch::from_blob(const_cast<float*>(features.whole.data()), {1, features.whole.size()});
+    const Tensor f = model
+                         ->forward(TimeFirst(z), TimeFirst(poses), TimeFirst(mean),
+                                   TimeFirst(features.frames), whole, torch::full({1}, t))
+                         .contiguous();
+    return Eigen::Map<const Eigen::MatrixXf>(f.data_ptr<float>(), z.rows(), z.cols());
+  }
+
+ private:
+  ContinuousFlow model_;
+};
+
+constexpr const char* kFormat = "choreo-continuous-flow-1";
+
+}  // namespace
+
+ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const Skeleton& skeleton)
+    : config_(config), skeleton_(skeleton) {
+  const int64_t dimensions = 3 + 3 * skeleton.joints(), width = config.width;
+  const Tensor walk = torch::zeros({dimensions, kLags});
+  walk.select(1, 0).fill_(1e-4);
+  covariance_ = register_buffer("velocity_covariance", walk);
+  mixing_ = register_buffer("mixing", torch::eye(dimensions));
+  spread_ = register_buffer("spread", torch::ones({dimensions}));
+  const int64_t features = kFramesAToken * (5 * dimensions + FrameFeatures());
+  embed_ = register_module("embed", torch::nn::Linear(features, width));
+  condition_in_ = register_module(
+      "condition_in", torch::nn::Linear(WholeFeatures(skeleton, config) + kTimeWidth, width));
+  condition_out_ = register_module("condition_out", torch::nn::Linear(width, config.condition));
+  blocks_ = register_module("blocks", torch::nn::ModuleList());
+  for (int i = 0; i < config.layers; ++i)
+    blocks_->push_back(FlowBlock(config.width, config.heads, config.condition));
+  head_modulation_ =
+      register_module("head_modulation", torch::nn::Linear(config.condition, 2 * width));
+  head_ = register_module("head", torch::nn::Linear(width, 2 * kFramesAToken * dimensions));
+  for (const auto& linear : {head_modulation_, head_}) {
+    torch::nn::init::zeros_(linear->weight);
+    torch::nn::init::zeros_(linear->bias);
+  }
+}
+
+Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const Tensor& mean,
+                                   const Tensor& frames, const Tensor& whole, const Tensor& t) {
+  const int64_t batch = z.size(0), window = z.size(1), dimensions = z.size(2);
+  const int64_t tau = poses.size(1) - window;
+  const Tensor velocity = covariance_.select(1, 0).sqrt();
+  const Tensor silent = torch::zeros({batch, tau, dimensions}, z.options());
+  Tensor x = torch::cat({torch::cat({silent, z}, 1), poses / spread_, Steps(poses) / velocity,
+                         mean / spread_, Steps(mean) / velocity, frames},
+                        -1);
+  // An odd frame out stands in front, where history is oldest.
+  if (x.size(1) % kFramesAToken != 0) x = torch::cat({x.narrow(1, 0, 1), x}, 1);
+  const int64_t tokens = x.size(1) / kFramesAToken;
+  x = embed_(x.reshape({batch, tokens, -1}));
+  const Tensor condition = torch::silu(
+      condition_out_(torch::silu(condition_in_(torch::cat({whole, EmbedTime(t)}, -1)))));
+  const Tensor place = torch::arange(tokens, torch::TensorOptions().dtype(torch::kLong));
+  const Tensor distance =
+      (place.unsqueeze(0) - place.unsqueeze(1))
+          .clamp(-FlowBlockImpl::kMostTokensApart, FlowBlockImpl::kMostTokensApart) +
+      FlowBlockImpl::kMostTokensApart;
+  {
+    const Bfloat16Products fast(is_training());
+    for (const auto& block : *blocks_) x = block->as<FlowBlock>()->forward(x, condition, distance);
+  }
+  const std::vector<Tensor> m = head_modulation_(condition).unsqueeze(1).chunk(2, -1);
+  x = torch::layer_norm(x, {x.size(-1)}) * (1 + m[0]) + m[1];
+  const std::vector<Tensor> f = head_(x)
+                                    .reshape({batch, tokens * kFramesAToken, 2 * dimensions})
+                                    .narrow(1, tokens * kFramesAToken - window, window)
+                                    .chunk(2, -1);
+  // What is calmer or livelier than most is, first of all, z by another factor.
+  return f[0] + f[1] * z;
+}
+
+void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& mixing,
+                                  const Eigen::VectorXd& spread) {
+  torch::NoGradGuard no_grad;
+  const auto set = [](Tensor to, const Eigen::MatrixXd& from) {
+    const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = from;
+    to.copy_(torch::from_blob(const_cast<double*>(rows.data()), to.sizes(), torch::kFloat64));
+  };
+  set(covariance_, covariance);
+  set(mixing_, mixing);
+  set(spread_, spread);
+}
+
+FlowModelParts ContinuousFlowImpl::Parts() const {
+  return {skeleton_, config_, MotionPrior(ToEigen(covariance_)), ToEigen(mixing_)};
+}
+
+std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model) {
+  return std::make_unique<TorchFlowNetwork>(std::move(model));
+}
+
+bool HoldsContinuousFlow(const Safetensors& content) {
+  const auto format = content.metadata.find("format");
+  return format != content.metadata.end() && format->second.starts_with("choreo-continuous-flow-");
+}
+
+ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
+  const CheckpointFile file(content, name, kFormat);
+  ContinuousFlowCheckpoint checkpoint{
+      .model = ContinuousFlow(file.Get<ContinuousFlowConfig>("config"), file.skeleton()),
+      .card = file.card(),
+      .hash = file.hash()};
+  ImportTensors(content, "", checkpoint.model.get());
+  checkpoint.model->eval();
+  return checkpoint;
+}
+
+std::string SaveContinuousFlow(const std::filesystem::path& path, const ContinuousFlow& model,
+                               Safetensors weights, const nlohmann::json& card) {
+  return WriteCheckpointFile(path, std::move(weights), kFormat, model->config(), model->skeleton(),
+                             card);
+}
+
+void WriteRandomContinuousFlow(const std::filesystem::path& path,
+                               const ContinuousFlowConfig& config, const Skeleton& skeleton,
+                               uint64_t seed) {
+  torch::manual_seed(seed);
+  ContinuousFlow model(config, skeleton);
+  torch::NoGradGuard no_grad;
+  for (auto& parameter : model->parameters()) {
+    // What starts as zero would hide everything before it.
+    if (!parameter.any().item<bool>()) parameter.copy_(0.05 * torch::randn_like(parameter));
+  }
+  Safetensors weights;
+  ExportTensors(*model, "", &weights);
+  SaveContinuousFlow(path, model, std::move(weights), {{"licence", "none: random weights"}});
+}
+
+}  // namespace choreo

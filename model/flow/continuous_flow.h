@@ -1,0 +1,69 @@
+#pragma once
+
+#include <torch/nn/module.h>
+#include <torch/nn/modules/container/modulelist.h>
+#include <torch/nn/modules/linear.h>
+#include <torch/nn/modules/normalization.h>
+#include <torch/nn/pimpl.h>
+#include <torch/types.h>
+
+#include <memory>
+
+#include "model/core/safetensors.h"
+#include "model/flow/flow_sampler.h"
+
+namespace choreo {
+
+/// The continuous flow's network: a transformer over the frames of a window, two a token. It says
+/// of a point z between noise and motion what of it noise can't tell (F; model/flow/flow_sampler.h
+/// has the equations), from history, key, and what is asked. Its buffers are the motion prior.
+class ContinuousFlowImpl : public torch::nn::Module {
+ public:
+  /// The prior is at first that of a random walk.
+  ContinuousFlowImpl(const ContinuousFlowConfig& config, const Skeleton& skeleton);
+
+  /// Shapes as FlowNetwork::Evaluate has them, time before features: z [batch, w, dimensions],
+  /// poses and mean [batch, tau + w, dimensions], frames [batch, tau + w, FrameFeatures()], whole
+  /// [batch, WholeFeatures()], t [batch] → F [batch, w, dimensions].
+  torch::Tensor forward(const torch::Tensor& z, const torch::Tensor& poses,
+                        const torch::Tensor& mean, const torch::Tensor& frames,
+                        const torch::Tensor& whole, const torch::Tensor& t);
+
+  /// `covariance` as MotionPrior has it; `mixing` as FlowModelParts; `spread` [dimensions]: of
+  /// displacements over a window.
+  void SetPrior(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& mixing,
+                const Eigen::VectorXd& spread);
+  /// What sampling needs besides the network.
+  FlowModelParts Parts() const;
+
+  const ContinuousFlowConfig& config() const { return config_; }
+  const Skeleton& skeleton() const { return skeleton_; }
+
+ private:
+  ContinuousFlowConfig config_;
+  Skeleton skeleton_;
+  torch::Tensor covariance_, mixing_, spread_;
+  torch::nn::Linear embed_{nullptr}, condition_in_{nullptr}, condition_out_{nullptr},
+      head_{nullptr}, head_modulation_{nullptr};
+  torch::nn::ModuleList blocks_;
+};
+TORCH_MODULE(ContinuousFlow);
+
+/// Runs the network one window at a time on the CPU, so that a window's bits depend on nothing
+/// else. Keeps the model.
+std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model);
+
+/// Checkpoints of it, as those of the other networks (model/flow/checkpoint.h).
+struct ContinuousFlowCheckpoint {
+  ContinuousFlow model{nullptr};  ///< in eval mode, on the CPU
+  std::string card;               ///< JSON text
+  std::string hash;               ///< 128-bit content hash, hex
+};
+bool HoldsContinuousFlow(const Safetensors& content);
+/// `name` is what errors call it. Throws as ParseCheckpoint does.
+ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name);
+/// Writes atomically; returns the content hash. `weights` holds the tensors by name.
+std::string SaveContinuousFlow(const std::filesystem::path& path, const ContinuousFlow& model,
+                               Safetensors weights, const nlohmann::json& card);
+
+}  // namespace choreo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "model/motion/velocity_factors.h"
+
+namespace choreo {
+
+/// Shape of the continuous flow and how it is sampled. Stored in every checkpoint.
+struct ContinuousFlowConfig {
+  std::string name = "default";  ///< as servers list the model
+  int history_frames = 10;       ///< tau
+  int window_frames = 96;  ///< most frames of a window; longer transitions are cut into several
+  int max_transition_frames = 1800;
+
+  /// The transformer: two frames a token.
+  int width = 224, layers = 6, heads = 7;
+  int condition = 128;  ///< of what each block is modulated by: time, history, key, style
+
+  int steps = 4;             ///< K, Euler steps from noise to motion
+  double temperature = 0.7;  ///< served by default: standard deviation of the noise; 0 is the mean
+  std::vector<std::string> styles = {};  ///< that it was told of in training
+  /// Medians of the velocity factors of the training clips, metres a frame.
+  std::array<double, kBodyParts> median_factors = {};
+};
+
+void to_json(nlohmann::json& json, const ContinuousFlowConfig& config);
+void from_json(const nlohmann::json& json, ContinuousFlowConfig& config);
+
+}  // namespace choreo

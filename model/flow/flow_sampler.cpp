@@ -1,0 +1,104 @@
+#include "model/flow/flow_sampler.h"
+
+#include <cmath>
+
+#include "model/core/random.h"
+#include "model/motion/canonical.h"
+#include "model/motion/motion.h"
+
+namespace choreo {
+namespace {
+
+// [dimensions, w], standard normal, correlated over dimensions as motion is.
+Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int frames) {
+  Eigen::MatrixXd z(model.prior.dimensions(), frames);
+  std::vector<float> normal(static_cast<size_t>(z.rows()));
+  for (int i = 0; i < frames; ++i) {
+    FillNormal(noise.seed, noise.candidate, noise.first_frame + i, normal);
+    z.col(i) = Eigen::Map<const Eigen::VectorXf>(normal.data(), z.rows()).cast<double>();
+  }
+  return model.mixing.triangularView<Eigen::Lower>() * z;
+}
+
+}  // namespace
+
+std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
+                               const WindowRequest& request, const FlowNoise& noise) {
+  const FlowWindow window(model.prior, request);
+  const WindowFeatures features =
+      DescribeWindow(model.skeleton, model.config, model.prior, request, window);
+  const int frames = window.frames(), tau = static_cast<int>(request.history.size());
+  std::vector<int> led;  // axes of the root's position that are known
+  if (request.path.cols() > 0) led = {0, 2};
+  if (request.path.cols() > 0 && request.path_heights) led.push_back(1);
+
+  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(model.prior.dimensions(), frames);
+  if (noise.temperature > 0) start = noise.temperature * Noise(model, noise, frames);
+  // Where the root is asked to be is known: its noise fades into that.
+  Eigen::MatrixXd path_x, path_z;
+  if (!led.empty()) {
+    path_x = request.path.colwise() - request.history.back().root_position;
+    path_x -= window.mean().topRows<3>();
+    path_z.resize(3, frames);
+    for (int axis = 0; axis < 3; ++axis)
+      path_z.row(axis) = window.Whiten(axis, path_x.row(axis).transpose()).transpose();
+  }
+  const auto lead = [&](double t, Eigen::MatrixXd& z) {
+    for (const int axis : led) z.row(axis) = (1 - t) * start.row(axis) + t * path_z.row(axis);
+  };
+
+  Eigen::MatrixXf mean(start.rows(), tau + frames), poses;
+  mean << window.history().cast<float>(), window.mean().cast<float>();
+  poses = mean;
+  Eigen::MatrixXd z = start;
+  const int steps = noise.temperature > 0 ? model.config.steps : 1;
+  for (int k = 0; k < steps; ++k) {
+    const double t = static_cast<double>(k) / steps, a = t * t + (1 - t) * (1 - t);
+    lead(t, z);
+    poses.rightCols(frames) = (window.mean() + window.Colour(z)).cast<float>();
+    const Eigen::MatrixXf f =
+        network.Evaluate(z.cast<float>(), poses, mean, features, static_cast<float>(t));
+    z += ((2 * t - 1) / a * z + f.cast<double>() / std::sqrt(a)) / steps;
+  }
+  Eigen::MatrixXd x = window.Colour(z);
+  for (const int axis : led) x.row(axis) = path_x.row(axis);
+  return window.Decode(x);
+}
+
+std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
+                                   const WindowRequest& request, const FlowNoise& noise) {
+  const int blocks = (request.frames + model.config.window_frames - 1) / model.config.window_frames;
+  std::vector<Pose> emitted = request.history;  // in the transition's frame
+  const size_t tau = request.history.size();
+  for (int block = 0, from = 0; block < blocks; ++block) {
+    const int frames = request.frames * (block + 1) / blocks - from;
+    const GroundFrame ground = GroundFrame::Of(emitted.back());
+    WindowRequest here{.frames = frames, .mask = request.mask, .height = request.height};
+    for (size_t i = emitted.size() - tau; i < emitted.size(); ++i)
+      here.history.push_back(ground.ToLocal(emitted[i]));
+    if (request.key) {
+      here.key = ground.ToLocal(*request.key);
+      here.to_key = request.to_key - from;
+    }
+    if (request.path.cols() > 0) {
+      here.path.resize(3, frames);
+      for (int i = 0; i < frames; ++i)
+        here.path.col(i) = ground.ToLocal(Eigen::Vector3d(request.path.col(from + i)));
+    }
+    here.path_heights = request.path_heights;
+    for (const double beat : request.beats) here.beats.push_back(beat - from);
+    if (request.energy.cols() > 0) here.energy = request.energy.middleCols(from, frames);
+    here.asked = request.asked;
+    here.style = request.style;
+    FlowNoise from_here = noise;
+    from_here.first_frame += from;
+    for (const Pose& pose : SampleWindow(model, network, here, from_here)) {
+      emitted.push_back(ground.ToWorld(pose));
+      MakeContinuous(emitted.back(), emitted[emitted.size() - 2]);
+    }
+    from += frames;
+  }
+  return {emitted.begin() + static_cast<std::ptrdiff_t>(tau), emitted.end()};
+}
+
+}  // namespace choreo

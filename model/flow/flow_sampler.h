@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "model/flow/flow_window.h"
+#include "model/flow/window_features.h"
+
+namespace choreo {
+
+/// The network of a continuous flow, whatever computes it. Thread-safe.
+class FlowNetwork {
+ public:
+  virtual ~FlowNetwork() = default;
+  /// F of one window at time `t` in [0, 1], [dimensions, w]. `z` [dimensions, w]: where the flow
+  /// is, white; `poses` [dimensions, tau + w]: the same as displacements from the last history
+  /// pose, behind the history's; `mean`: the prior's mean in the same shape.
+  virtual Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                                   const Eigen::MatrixXf& mean, const WindowFeatures& features,
+                                   float t) const = 0;
+};
+
+/// Everything that a window is sampled with besides the request.
+struct FlowModelParts {
+  Skeleton skeleton;
+  ContinuousFlowConfig config;
+  MotionPrior prior;
+  Eigen::MatrixXd mixing;  ///< [dimensions, dimensions] lower Cholesky factor of the noise's
+                           ///< correlation over dimensions
+};
+
+struct FlowNoise {
+  uint64_t seed = 0;
+  uint32_t candidate = 0;
+  int64_t first_frame = 0;  ///< absolute number of the window's first frame
+  double temperature = 0;   ///< 0: the mean, in one step
+};
+
+/// Samples one window: Euler steps along dz/dt = (2t - 1)/a z + F/sqrt(a), a = t² + (1 - t)², from
+/// noise at t = 0 to motion at t = 1 (flow matching, Lipman et al. 2023). The poses [w] stand in
+/// the request's frame. A path that is asked for is met exactly.
+std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
+                               const WindowRequest& request, const FlowNoise& noise);
+
+/// Samples a transition of any length: windows of at most config.window_frames, one after another,
+/// each in its own canonical frame; their key is the transition's, however far it is. `request` is
+/// of the whole transition (frames == to_key where there is a key).
+std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
+                                   const WindowRequest& request, const FlowNoise& noise);
+
+}  // namespace choreo

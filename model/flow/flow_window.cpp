@@ -1,0 +1,130 @@
+#include "model/flow/flow_window.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kTurnHorizon = 12;  // frames that a dancer goes on turning as she does
+constexpr double kLeastTurn = 1e-3;  // radians; the axis of less is noise
+// Radians from the mean that coordinates reach: with a key, less than the half turn at which the
+// other way round is nearer; without one, less than the whole turn at which they are singular.
+constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
+
+}  // namespace
+
+Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected) {
+  const double angle = turn.norm();
+  if (angle < kLeastTurn) return turn;
+  const Eigen::Vector3d other = turn * (1 - 2 * std::numbers::pi / angle);
+  return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
+}
+
+FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
+  const Pose& last = request.history.back();
+  const int joints = static_cast<int>(last.rotations.cols());
+  const int dimensions = 3 + 3 * joints, tau = static_cast<int>(request.history.size());
+  keyed_.assign(static_cast<size_t>(dimensions), false);
+  displacement_ = Eigen::VectorXd::Zero(dimensions);
+  history_ = Eigen::MatrixXd::Zero(dimensions, tau);
+  Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(dimensions, MotionPrior::kPast);
+  for (int i = 0; i < tau; ++i) {
+    const Pose& pose = request.history[static_cast<size_t>(i)];
+    history_.col(i).head<3>() = pose.root_position - last.root_position;
+    for (int j = 0; j < joints; ++j) {
+      history_.col(i).segment<3>(3 + 3 * j) =
+          RotationDifference(last.rotations.col(j), pose.rotations.col(j));
+    }
+  }
+  for (int p = 0; p < MotionPrior::kPast && p + 1 < tau; ++p) {
+    velocity.col(p) = history_.col(tau - 1 - p) - history_.col(tau - 2 - p);
+  }
+  if (request.key) {
+    const Pose& key = *request.key;
+    const PoseMask& mask = request.mask;
+    keyed_[0] = keyed_[2] = mask.root_position;
+    keyed_[1] = mask.root_position || request.height;
+    displacement_.head<3>() = key.root_position - last.root_position;
+    for (int j = 0; j < joints; ++j) {
+      Eigen::Vector3d turn = RotationDifference(last.rotations.col(j), key.rotations.col(j));
+      if (j == 0) {
+        const Eigen::Vector3d ahead =
+            std::min<double>(kTurnHorizon, request.to_key) * velocity.col(0).segment<3>(3);
+        turn = NearerWayRound(turn, request.turning.value_or(ahead));
+      }
+      displacement_.segment<3>(3 + 3 * j) = turn;
+      for (int axis = 0; axis < 3; ++axis)
+        keyed_[static_cast<size_t>(3 + 3 * j + axis)] = mask.Asks(j);
+    }
+    for (int d = 0; d < dimensions; ++d) {
+      if (!keyed_[static_cast<size_t>(d)]) displacement_[d] = 0;
+    }
+    to_key_ = prior.Bridges(request.frames, request.to_key);
+  }
+  const bool whole = std::ranges::find(keyed_, false) == keyed_.end();
+  if (!whole) free_ = prior.Bridges(request.frames, 0);
+
+  mean_.resize(dimensions, request.frames);
+  for (int d = 0; d < dimensions; ++d) {
+    const MotionPrior::Bridge& bridge = At(d);
+    mean_.row(d) =
+        (bridge.past * velocity.row(d).transpose() + bridge.key * displacement_[d]).transpose();
+  }
+  base_.resize(static_cast<size_t>(request.frames), last);
+  for (int i = 0; i < request.frames; ++i) {
+    Pose& pose = base_[static_cast<size_t>(i)];
+    pose.root_position += mean_.col(i).head<3>();
+    for (int j = 0; j < joints; ++j) {
+      pose.rotations.col(j) =
+          RotationCompose(last.rotations.col(j), mean_.col(i).segment<3>(3 + 3 * j));
+    }
+  }
+}
+
+std::optional<Eigen::MatrixXd> FlowWindow::Encode(std::span<const Pose> poses) const {
+  Eigen::MatrixXd x(mean_.rows(), mean_.cols());
+  for (int i = 0; i < frames(); ++i) {
+    const Pose &pose = poses[static_cast<size_t>(i)], &base = base_[static_cast<size_t>(i)];
+    x.col(i).head<3>() = pose.root_position - base.root_position;
+    for (Eigen::Index j = 0; j < pose.rotations.cols(); ++j) {
+      Eigen::Vector3d turn = RotationDifference(base.rotations.col(j), pose.rotations.col(j));
+      if (i > 0) turn = NearestBranch(turn, x.col(i - 1).segment<3>(3 + 3 * j));
+      const bool keyed = keyed_[static_cast<size_t>(3 + 3 * j)];
+      if (turn.norm() > (keyed ? kKeyedReach : kFreeReach)) return std::nullopt;
+      x.col(i).segment<3>(3 + 3 * j) = turn;
+    }
+  }
+  return x;
+}
+
+std::vector<Pose> FlowWindow::Decode(const Eigen::MatrixXd& x) const {
+  std::vector<Pose> poses = base_;
+  for (int i = 0; i < frames(); ++i) {
+    Pose& pose = poses[static_cast<size_t>(i)];
+    pose.root_position += x.col(i).head<3>();
+    for (Eigen::Index j = 0; j < pose.rotations.cols(); ++j) {
+      pose.rotations.col(j) =
+          RotationCompose(pose.rotations.col(j), x.col(i).segment<3>(3 + 3 * j));
+    }
+  }
+  return poses;
+}
+
+Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
+  Eigen::MatrixXd x(z.rows(), z.cols());
+  for (int d = 0; d < z.rows(); ++d) {
+    x.row(d) = (At(d).spread.triangularView<Eigen::Lower>() * z.row(d).transpose()).transpose();
+  }
+  return x;
+}
+
+Eigen::VectorXd FlowWindow::Whiten(int dimension, const Eigen::VectorXd& x) const {
+  return At(dimension).spread.triangularView<Eigen::Lower>().solve(x);
+}
+
+}  // namespace choreo

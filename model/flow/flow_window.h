@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/flow/motion_prior.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo {
+
+/// What is asked of a window of frames and known of it, besides noise. All poses stand in the
+/// canonical frame of the last history pose (motion/canonical.h). What is left empty is unknown.
+struct WindowRequest {
+  int frames = 0;                  ///< w >= 1
+  std::vector<Pose> history = {};  ///< tau poses, oldest first
+  /// The pose to reach and which of it counts; none: nothing is awaited.
+  std::optional<Pose> key = {};
+  PoseMask mask = {};
+  bool height = false;  ///< whether the key's height counts where its position does not
+  int to_key = 0;       ///< N >= frames, frames from the history to the key; unread without one
+  /// The way round that the root is known to turn to its key, a rotation vector. None: the one
+  /// that the history leads to.
+  std::optional<Eigen::Vector3d> turning = {};
+  Eigen::Matrix3Xd path = {};      ///< [3, w] root positions, or empty
+  bool path_heights = false;       ///< whether the path's heights are asked for, too
+  std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
+  Eigen::MatrixXd energy = {};     ///< [kBodyParts, w] velocity factors, metres a frame, or empty
+  std::array<bool, kBodyParts> asked = {true, true, true, true, true};  ///< rows of `energy` known
+  int style = -1;                                                       ///< index of a style, or -1
+};
+
+/// A window in the coordinates of the flow: residuals x [dimensions, w] from the motion prior's
+/// mean, which the prior's spread makes white, z. Dimensions: root position (metres), then a
+/// rotation vector a joint, local to the mean's rotation (radians). A key that counts is the mean's
+/// own last pose.
+class FlowWindow {
+ public:
+  /// The request is valid.
+  FlowWindow(const MotionPrior& prior, const WindowRequest& request);
+
+  int frames() const { return static_cast<int>(mean_.cols()); }
+  /// Displacements from the last history pose, as its own tangent space has them. [dimensions, w]
+  const Eigen::MatrixXd& mean() const { return mean_; }
+  /// The same of the history's poses, [dimensions, tau]; the last column is zero.
+  const Eigen::MatrixXd& history() const { return history_; }
+  /// To the key, [dimensions]; zero where it asks for nothing.
+  const Eigen::VectorXd& displacement() const { return displacement_; }
+  /// Which dimensions the key fixes, [dimensions].
+  const std::vector<bool>& keyed() const { return keyed_; }
+
+  /// Poses of that many frames → x; none where a joint strays from the mean farther than the
+  /// coordinates reach, or ends a turn away from the key.
+  std::optional<Eigen::MatrixXd> Encode(std::span<const Pose> poses) const;
+  std::vector<Pose> Decode(const Eigen::MatrixXd& x) const;
+  /// z → x, and back for one dimension's row.
+  Eigen::MatrixXd Colour(const Eigen::MatrixXd& z) const;
+  Eigen::VectorXd Whiten(int dimension, const Eigen::VectorXd& x) const;
+
+ private:
+  const MotionPrior::Bridge& At(int dimension) const {
+    const auto d = static_cast<size_t>(dimension);
+    return (keyed_[d] ? *to_key_ : *free_)[d];
+  }
+
+  std::shared_ptr<const std::vector<MotionPrior::Bridge>> to_key_, free_;
+  std::vector<bool> keyed_;
+  Eigen::MatrixXd mean_, history_;
+  Eigen::VectorXd displacement_;
+  std::vector<Pose> base_;  // the mean, as poses
+};
+
+/// The way round that the root turns to a key: of `turn` and the turn that ends alike, the one
+/// nearer to what `expected` says; a turn by next to nothing has no other way.
+Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);
+
+}  // namespace choreo

@@ -1,0 +1,111 @@
+#include "model/flow/motion_prior.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <string>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+// Shares of the velocity's variance: what a history may be wrong by (it may have been danced), and
+// what keeps covariances invertible.
+constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
+constexpr size_t kKept = 96;  // bridges; one of 96 frames takes 5 MB
+
+}  // namespace
+
+struct MotionPrior::Cache {
+  using Key = std::pair<int, int>;
+  using Value = std::shared_ptr<const std::vector<Bridge>>;
+  std::mutex mutex;
+  std::map<Key, Value> bridges;
+  std::list<Key> order;  // oldest first
+};
+
+MotionPrior::MotionPrior(Eigen::MatrixXd covariance)
+    : covariance_(std::move(covariance)), cache_(std::make_shared<Cache>()) {
+  if (covariance_.cols() < 1 || !covariance_.allFinite() || covariance_.col(0).minCoeff() <= 0) {
+    throw InvalidArgument("velocity_covariance", "is no covariance of a process in time");
+  }
+  for (int d = 0; d < dimensions(); ++d) {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(covariance_.cols());
+    for (Eigen::Index lag = 1; lag < sums.size(); ++lag)
+      sums[lag] = sums[lag - 1] + covariance_(d, lag);
+    sums_.push_back(sums);
+  }
+}
+
+MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) const {
+  const Eigen::Index lags = covariance_.cols();
+  const auto velocity = [&](int lag) { return lag < lags ? covariance_(dimension, lag) : 0.0; };
+  const auto sum = [&](int lag) {  // of lags 1 to `lag`
+    return sums_[static_cast<size_t>(dimension)][std::min<Eigen::Index>(lag, lags - 1)];
+  };
+  const int longest = std::max(frames, to_key);
+  std::vector<double> variance(static_cast<size_t>(longest) + 1, 0.0);  // of n frames' displacement
+  for (int n = 1; n <= longest; ++n) {
+    variance[static_cast<size_t>(n)] =
+        variance[static_cast<size_t>(n) - 1] + velocity(0) + 2 * sum(n - 1);
+  }
+  const auto both = [&](int i, int j) {  // displacements over i and over j frames
+    const auto at = [&](int n) { return variance[static_cast<size_t>(n)]; };
+    return 0.5 * (at(i) + at(j) - at(std::abs(i - j)));
+  };
+  // The velocity p frames before the last one, and the displacement over i frames.
+  const auto with_past = [&](int i, int p) { return sum(i + p) - sum(p); };
+
+  const int known = kPast + (to_key > 0 ? 1 : 0);
+  Eigen::MatrixXd observed(known, known), shared(frames, known), own(frames, frames);
+  for (int p = 0; p < kPast; ++p) {
+    for (int q = 0; q < kPast; ++q) observed(p, q) = velocity(std::abs(p - q));
+    observed(p, p) += kHistoryDoubt * velocity(0);
+    for (int i = 0; i < frames; ++i) shared(i, p) = with_past(i + 1, p);
+  }
+  if (to_key > 0) {
+    for (int p = 0; p < kPast; ++p) observed(p, kPast) = observed(kPast, p) = with_past(to_key, p);
+    observed(kPast, kPast) = both(to_key, to_key) + kJitter * velocity(0);
+    for (int i = 0; i < frames; ++i) shared(i, kPast) = both(i + 1, to_key);
+  }
+  for (int i = 0; i < frames; ++i) {
+    for (int j = 0; j < frames; ++j) own(i, j) = both(i + 1, j + 1);
+  }
+  const Eigen::MatrixXd weights = observed.ldlt().solve(shared.transpose()).transpose();
+  own -= weights * shared.transpose();
+  own = 0.5 * (own + own.transpose()).eval();
+  Bridge bridge{
+      .past = weights.leftCols(kPast),
+      .key = to_key > 0 ? Eigen::VectorXd(weights.col(kPast)) : Eigen::VectorXd::Zero(frames),
+      .spread = {}};
+  for (double jitter = kJitter;; jitter *= 10) {
+    own.diagonal().array() += jitter * velocity(0);
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(own);
+    if (cholesky.info() == Eigen::Success) {
+      bridge.spread = cholesky.matrixL();
+      return bridge;
+    }
+    if (jitter > 1) throw InvalidArgument("velocity_covariance", "is not positive definite");
+  }
+}
+
+std::shared_ptr<const std::vector<MotionPrior::Bridge>> MotionPrior::Bridges(int frames,
+                                                                             int to_key) const {
+  const Cache::Key key{frames, to_key};
+  {
+    const std::lock_guard lock(cache_->mutex);
+    const auto found = cache_->bridges.find(key);
+    if (found != cache_->bridges.end()) return found->second;
+  }
+  auto made = std::make_shared<std::vector<Bridge>>();
+  for (int d = 0; d < dimensions(); ++d) made->push_back(Make(d, frames, to_key));
+  const std::lock_guard lock(cache_->mutex);
+  if (cache_->bridges.emplace(key, made).second) cache_->order.push_back(key);
+  if (cache_->order.size() > kKept) {
+    cache_->bridges.erase(cache_->order.front());
+    cache_->order.pop_front();
+  }
+  return made;
+}
+
+}  // namespace choreo

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace choreo {
+
+/// How poses move when nothing but their past and a key is known: the velocity of every degree of
+/// freedom is a stationary Gaussian process. Its mean through history and key is the line that the
+/// flow departs from; its covariance is the flow's noise. Noise so made is as smooth as motion is,
+/// at any length, with a key and without.
+///
+/// Units: metres a frame for the root's position, radians a frame for rotations. Thread-safe.
+class MotionPrior {
+ public:
+  static constexpr int kPast = 3;  ///< velocities of the history that are known
+
+  /// What is known of the displacements f_1..f_w from the last history frame of one degree of
+  /// freedom. `past` [w, kPast] and `key` [w] weigh the last velocities (latest first) and the
+  /// key's displacement in their mean; `spread` [w, w] is the lower Cholesky factor of their
+  /// covariance, so that row i depends on frames up to i alone.
+  struct Bridge {
+    Eigen::MatrixXd past;
+    Eigen::VectorXd key;
+    Eigen::MatrixXd spread;
+  };
+
+  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later. Throws
+  /// Error(kInvalidArgument) where it is no covariance.
+  explicit MotionPrior(Eigen::MatrixXd covariance);
+
+  int dimensions() const { return static_cast<int>(covariance_.rows()); }
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+  /// Standard deviation of a velocity, [dimensions].
+  Eigen::VectorXd VelocitySpread() const { return covariance_.col(0).cwiseSqrt(); }
+
+  /// By dimension: a window of `frames` frames whose key stands `to_key` frames behind the history
+  /// (at least `frames`); 0: there is no key. The last few that were asked for are kept.
+  std::shared_ptr<const std::vector<Bridge>> Bridges(int frames, int to_key) const;
+
+ private:
+  Bridge Make(int dimension, int frames, int to_key) const;
+
+  Eigen::MatrixXd covariance_;
+  // Of the displacement over n frames: its variance; and sums of the covariance up to lag n.
+  std::vector<Eigen::VectorXd> sums_;
+  struct Cache;
+  std::shared_ptr<Cache> cache_;
+};
+
+}  // namespace choreo

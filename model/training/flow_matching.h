@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "model/flow/continuous_flow.h"
+#include "model/training/losses.h"
+#include "model/training/window_clips.h"
+
+namespace choreo {
+
+/// The losses of flow matching (Lipman et al. 2023), in the continuous flow's parametrisation: of a
+/// point z_t = (1 - t) noise + t z the network says F, where F* = ((1 - t) z - t noise) / sqrt(a),
+/// a = t² + (1 - t)². Not thread-safe.
+class FlowMatching {
+ public:
+  explicit FlowMatching(const ContinuousFlow& model);
+
+  const FlowModelParts& parts() const { return parts_; }
+
+  /// Mean squared error of F in white coordinates, which teaches how dancers move; and, a window at
+  /// a time, the length of the displacements that it is wrong by, each weighed by how far it moves
+  /// the body's joints: where they are. Times and noise from torch's generator.
+  LossTerms Losses(ContinuousFlow& model, const WindowBatch& batch);
+
+ private:
+  struct Spreads {
+    torch::Tensor to_key, free;  // [dimensions, w, w] Cholesky factors
+  };
+  const Spreads& Of(int frames, int to_key);
+
+  FlowModelParts parts_;
+  torch::Tensor mixing_;  // transposed
+  torch::Tensor reach_;   // [dimensions] square metres that a square unit moves joints, on average
+  std::map<std::pair<int, int>, Spreads> spreads_;
+};
+
+/// Correlation of the white coordinates of real motion over dimensions, its Cholesky factor; and
+/// the spread of displacements [dimensions].
+struct WindowStatistics {
+  Eigen::MatrixXd mixing;
+  Eigen::VectorXd spread;
+};
+WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches);
+
+}  // namespace choreo

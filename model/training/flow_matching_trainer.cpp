@@ -1,0 +1,256 @@
+#include "model/training/flow_matching_trainer.h"
+
+#include <torch/torch.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "model/core/error.h"
+#include "model/flow/checkpoint.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/resample.h"
+#include "model/training/adam.h"
+#include "model/training/clip_store.h"
+#include "model/training/flow_matching.h"
+#include "model/training/model_card.h"
+#include "model/training/training_run.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kLags = 121;
+constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48;
+constexpr int kValidationWindows = 24;
+constexpr double kAverage = 0.999;                                 // of the weights, a step
+constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.4;  // shares of steps
+// Frames of training windows: few, so that what belongs to a length is made once.
+constexpr int kLengths[] = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
+
+// Mean joint distance between two sequences of poses, metres; and of each from frame to frame.
+double Distance(const Skeleton& skeleton, std::span<const Pose> a, std::span<const Pose> b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    sum +=
+        (JointPositions(skeleton, a[i]) - JointPositions(skeleton, b[i])).colwise().norm().mean();
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+// Sums of the joints' speeds and third differences.
+struct Liveness {
+  double speed = 0, jerk = 0;
+  void Add(const Skeleton& skeleton, std::span<const Pose> poses) {
+    std::vector<Eigen::Matrix3Xd> at;
+    for (const Pose& pose : poses) at.push_back(JointPositions(skeleton, pose));
+    for (size_t i = 3; i < at.size(); ++i) {
+      speed += (at[i] - at[i - 1]).colwise().norm().sum();
+      jerk += (at[i] - 3 * at[i - 1] + 3 * at[i - 2] - at[i - 3]).colwise().norm().sum();
+    }
+  }
+};
+
+class FlowMatchingRun : public TrainingRun {
+ public:
+  FlowMatchingRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
+      : TrainingRun(options, train.Hash()),
+        options_(options),
+        hash_(train.Hash()),
+        prepared_(train.clips()),
+        train_(train.clips()),
+        validation_(validation.clips()) {
+    torch::manual_seed(options.seed);
+    ContinuousFlowConfig config;
+    if (!options.name.empty()) config.name = options.name;
+    config.styles = train_.styles();
+    config.median_factors = train_.MedianFactors();
+    model_ = ContinuousFlow(config, train_.skeleton());
+    if (options.planner.empty()) {
+      Measure();
+    } else {
+      const auto base =
+          ParseContinuousFlow(ReadSafetensors(options.planner), options.planner.string());
+      config.styles = base.model->config().styles;
+      config.median_factors = base.model->config().median_factors;
+      model_ = ContinuousFlow(config, train_.skeleton());
+      Safetensors weights;
+      ExportTensors(*base.model, "", &weights);
+      ImportTensors(weights, "", model_.get());
+      base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
+    }
+    matching_ = std::make_unique<FlowMatching>(model_);
+    average_ = ContinuousFlow(config, train_.skeleton());
+    Copy(1);
+    average_->eval();
+    adam_ = std::make_unique<Adam>(*model_, "");
+    NameLosses({"white_mse", "where_distance"});
+    Open();
+  }
+
+ protected:
+  int64_t total_steps() const override { return options_.flow_steps; }
+
+  void TrainStep() override {
+    Random random(options_.seed, static_cast<uint32_t>(step() + 1));
+    torch::manual_seed(options_.seed + static_cast<uint64_t>(step()) * 1000003);
+    const int frames = kLengths[random.Integer(0, std::size(kLengths))];
+    WindowClips::Variation variation{.mirror = 0.5,
+                                     .tempo = options_.tempo,
+                                     .partial_key = 0.12,
+                                     .beats = 0.6,
+                                     .energy = 0.4,
+                                     .path = 0.2,
+                                     .style = 0.6,
+                                     .hold_history = 0.05};
+    if (random.Uniform() < kNoLabels)
+      variation.beats = variation.energy = variation.path = variation.style = 0;
+    int window = frames, to_key = frames;
+    const double kind = random.Uniform();
+    if (kind < kNoKeys) {
+      variation.no_key = 1;
+      window = to_key = std::max(frames, 30);
+    } else if (kind < kNoKeys + kFarKeys) {
+      window = 72;
+      to_key = 96 + 24 * static_cast<int>(random.Integer(0, 5));
+    }
+    const WindowBatch batch = train_.Draw(matching_->parts(), WindowsOf(options_.batch, window),
+                                          window, to_key, variation, &random);
+    adam_->ZeroGrad();
+    Descend(matching_->Losses(model_, batch), model_->parameters());
+    adam_->Step(StageRate(options_.flow_rate, step(), options_.flow_steps), kMaxGradientNorm);
+    Copy(1 - std::min(kAverage,
+                      (1.0 + static_cast<double>(step())) / (10.0 + static_cast<double>(step()))));
+  }
+
+  NamedFigures Validate() override {
+    const torch::NoGradGuard no_grad;
+    const auto network = MakeTorchFlowNetwork(average_);
+    const FlowModelParts& parts = matching_->parts();
+    const Skeleton& skeleton = train_.skeleton();
+    NamedFigures figures;
+    for (const int frames : {10, 30, 60, 90}) {
+      Random random(20240607, static_cast<uint32_t>(frames));
+      const WindowBatch batch =
+          validation_.Draw(parts, kValidationWindows, frames, frames, {}, &random);
+      double line = 0, mean = 0, seeds = 0;
+      Liveness real, danced, planned;
+      for (size_t i = 0; i < batch.truth.size(); ++i) {
+        const WindowRequest& request = batch.requests[i];
+        const auto sample = [&](uint32_t candidate, double temperature) {
+          return SampleWindow(parts, *network, request,
+                              {.seed = i, .candidate = candidate, .temperature = temperature});
+        };
+        std::vector<Pose> interpolated;
+        for (int k = 1; k <= frames; ++k) {
+          interpolated.push_back(InterpolatePoses(request.history.back(), *request.key,
+                                                  static_cast<double>(k) / frames));
+        }
+        const std::vector<Pose> plan = sample(0, 0), one = sample(0, parts.config.temperature),
+                                other = sample(1, parts.config.temperature);
+        line += Distance(skeleton, interpolated, batch.truth[i]);
+        mean += Distance(skeleton, plan, batch.truth[i]);
+        seeds += Distance(skeleton, one, other);
+        real.Add(skeleton, batch.truth[i]);
+        danced.Add(skeleton, one);
+        planned.Add(skeleton, plan);
+      }
+      const std::string n = std::to_string(frames);
+      figures.insert(figures.end(),
+                     {{"l2p_ratio_" + n, mean / line},
+                      {"seeds_cm_" + n, 100 * seeds / static_cast<double>(batch.truth.size())},
+                      {"speed_ratio_" + n, danced.speed / real.speed},
+                      {"jerk_ratio_" + n, danced.jerk / real.jerk},
+                      {"mean_jerk_ratio_" + n, planned.jerk / real.jerk}});
+    }
+    return figures;
+  }
+
+  void Export(Safetensors* state) const override {
+    ExportTensors(*model_, "model.", state);
+    ExportTensors(*average_, "average.", state);
+    adam_->Export(state);
+  }
+  void Import(const Safetensors& state) override {
+    ImportTensors(state, "model.", model_.get());
+    ImportTensors(state, "average.", average_.get());
+    adam_->Import(state);
+    matching_ = std::make_unique<FlowMatching>(model_);
+  }
+
+  void WriteInterim() override { Write(); }
+  void Finish() override {
+    std::printf("checkpoint %s, content hash %s\n",
+                (options_.run / "checkpoint.safetensors").string().c_str(), Write().c_str());
+  }
+
+ private:
+  // The average goes `share` of the way to the weights.
+  void Copy(double share) {
+    const torch::NoGradGuard no_grad;
+    const auto towards = [&](const auto& from, const auto& to) {
+      for (size_t i = 0; i < from.size(); ++i) to[i].lerp_(from[i], share);
+    };
+    towards(model_->parameters(), average_->parameters());
+    for (size_t i = 0; i < model_->buffers().size(); ++i)
+      average_->buffers()[i].copy_(model_->buffers()[i]);
+  }
+
+  std::string Write() {
+    nlohmann::json card =
+        ModelCard(options_, 0, options_.flow_steps, prepared_, hash_, /*rows=*/{});
+    if (!base_.is_null()) card["planner_from"] = base_;
+    Safetensors weights;
+    ExportTensors(*average_, "", &weights);
+    return SaveContinuousFlow(options_.run / "checkpoint.safetensors", average_, weights, card);
+  }
+
+  // The prior first; white coordinates are of a model that has it.
+  void Measure() {
+    const int dimensions = 3 + 3 * train_.skeleton().joints();
+    const Eigen::MatrixXd covariance = train_.VelocityCovariance(kLags);
+    model_->SetPrior(covariance, Eigen::MatrixXd::Identity(dimensions, dimensions),
+                     Eigen::VectorXd::Ones(dimensions));
+    std::vector<WindowBatch> batches;
+    for (int i = 0; i < kStatisticsBatches; ++i) {
+      Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
+      batches.push_back(train_.Draw(model_->Parts(), kStatisticsWindows, 60, 60,
+                                    {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0}, &random));
+    }
+    const WindowStatistics measured = MeasureWindows(batches);
+    model_->SetPrior(covariance, measured.mixing, measured.spread);
+    for (const WindowBatch& batch : batches) {
+      std::printf(
+          "white variance: mean %.2f, frame 1 %.2f, 2 %.2f, 5 %.2f, 30 %.2f, 59 %.2f; beyond 5: "
+          "%.4f\n",
+          batch.z.square().mean().item<double>(),
+          batch.z.select(1, 0).square().mean().item<double>(),
+          batch.z.select(1, 1).square().mean().item<double>(),
+          batch.z.select(1, 4).square().mean().item<double>(),
+          batch.z.select(1, 29).square().mean().item<double>(),
+          batch.z.select(1, 58).square().mean().item<double>(),
+          (batch.z.abs() > 5).to(torch::kFloat32).mean().item<double>());
+    }
+  }
+
+  TrainOptions options_;
+  std::string hash_;
+  nlohmann::json base_;
+  std::vector<PreparedClip> prepared_;
+  WindowClips train_, validation_;
+  ContinuousFlow model_{nullptr}, average_{nullptr};
+  std::unique_ptr<FlowMatching> matching_;
+  std::unique_ptr<Adam> adam_;
+};
+
+}  // namespace
+
+void TrainContinuousFlow(const TrainOptions& options) {
+  options.Validate();
+  FlowMatchingRun(options,
+                  ClipStore(options.data, options.splits,
+                            options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
+                  ClipStore(options.data, options.splits, Split::kValidation))
+      .Go();
+}
+
+}  // namespace choreo

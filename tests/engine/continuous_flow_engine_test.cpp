@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "model/dance/transition.h"
+#include "model/engine/engines.h"
+#include "model/flow/random_checkpoint.h"
+#include "model/motion/kinematics.h"
+#include "tests/engine/engine_dances.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+class ContinuousFlowEngineTest : public testing::Test {
+ protected:
+  ContinuousFlowEngineTest() {
+    SetTorchThreads(1);
+    ContinuousFlowConfig config;
+    config.width = 24;
+    config.layers = 2;
+    config.heads = 2;
+    config.condition = 8;
+    config.window_frames = 16;
+    config.styles = {"waltz"};
+    config.median_factors = {0.01, 0.02, 0.02, 0.015, 0.015};
+    path_ = std::filesystem::path(testing::TempDir()) /
+            ("continuous_" +
+             std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
+             std::to_string(getpid()) + ".safetensors");
+    WriteRandomContinuousFlow(path_, config, Skeleton::Smpl24(), 3);
+    engine_ = MakeEngine(path_, {}, 8);
+  }
+  ~ContinuousFlowEngineTest() override { std::filesystem::remove(path_); }
+
+  TransitionSpec Spec(uint64_t seed, int frames = 12) const {
+    TransitionSpec spec = RandomSpec(engine_->model(), seed, frames);
+    spec.temperature = 0.7F;
+    spec.beats = {-4, 8, 20, 32};
+    return spec;
+  }
+  std::vector<StepOutput> Dance(const TransitionSpec& spec) {
+    return DanceAlone(engine_.get(), spec);
+  }
+
+  std::filesystem::path path_;
+  std::unique_ptr<StepEngine> engine_;
+};
+
+double LargestDifference(const std::vector<StepOutput>& a, const std::vector<StepOutput>& b) {
+  double most = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    most = std::max(most, (a[i].pose.rotations - b[i].pose.rotations).cwiseAbs().maxCoeff());
+    most =
+        std::max(most, (a[i].pose.root_position - b[i].pose.root_position).cwiseAbs().maxCoeff());
+  }
+  return most;
+}
+
+TEST_F(ContinuousFlowEngineTest, TellsWhatItTakes) {
+  const ModelInfo& model = engine_->model();
+  EXPECT_TRUE(model.root_path && model.velocity_factors);
+  EXPECT_FALSE(model.deterministic);
+  ASSERT_EQ(model.velocity_references.size(), 1U);
+  EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
+  EXPECT_NEAR(model.default_temperature, 0.7, 1e-12);
+}
+
+TEST_F(ContinuousFlowEngineTest, GivesTheSameBitsAloneAndAmongOthers) {
+  std::vector<Dancer> dancers;
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    const TransitionSpec spec = Spec(seed, 8 + 4 * static_cast<int>(seed));
+    dancers.push_back({spec, engine_->Admit(spec), {}, {}});
+  }
+  ExpectError(ErrorCode::kResourceExhausted, "all 8 slots", [&] { engine_->Admit(Spec(9)); });
+  DanceTogether(engine_.get(), &dancers);
+  for (Dancer& dancer : dancers) engine_->Release(dancer.slot);
+  EXPECT_EQ(engine_->free_slots(), 8);
+  for (const Dancer& dancer : dancers) ExpectSameBits(dancer.outputs, Dance(dancer.spec));
+}
+
+TEST_F(ContinuousFlowEngineTest, SeedsAndCandidatesChangeItUnlessItIsTheMean) {
+  TransitionSpec spec = Spec(1);
+  TransitionSpec other = spec;
+  other.seed = 99;
+  EXPECT_GT(LargestDifference(Dance(spec), Dance(other)), 0.01);
+  other = spec;
+  ++other.candidate;
+  EXPECT_GT(LargestDifference(Dance(spec), Dance(other)), 0.01);
+  spec.temperature = other.temperature = 0;
+  ExpectSameBits(Dance(spec), Dance(other));
+}
+
+TEST_F(ContinuousFlowEngineTest, BeatsAndLimbsThatAreAskedForChangeIt) {
+  const TransitionSpec spec = Spec(2);
+  const auto plain = Dance(spec);
+  TransitionSpec other = spec;
+  for (double& beat : other.beats) beat += 5;
+  EXPECT_GT(LargestDifference(plain, Dance(other)), 1e-4);
+  other = spec;
+  other.controls.velocity_factors.setConstant(kBodyParts, spec.frames, 0.05F);
+  const auto lively = Dance(other);
+  EXPECT_GT(LargestDifference(plain, lively), 1e-4);
+  // What nobody asks for is unknown, whatever value stands there.
+  other.controls.parts_asked.fill(false);
+  ExpectSameBits(plain, Dance(other));
+}
+
+TEST_F(ContinuousFlowEngineTest, DancesWithoutAKeyWithAPathAndFromHeldHistory) {
+  TransitionSpec spec = Spec(3, 40);
+  spec.target.reset();
+  spec.controls.root_path.resize(3, spec.frames);
+  for (int i = 0; i < spec.frames; ++i)
+    spec.controls.root_path.col(i) << 0.01F * static_cast<float>(i), 0.9F, 0.0F;
+  spec.controls.path_heights = false;
+  const auto dance = Dance(spec);
+  for (int i = 0; i < spec.frames; ++i) {
+    EXPECT_NEAR(dance[static_cast<size_t>(i)].pose.root_position.x(), 0.01 * i, 1e-5);
+  }
+}
+
+TEST_F(ContinuousFlowEngineTest, AServedTransitionArrivesExactly) {
+  TransitionRequest request;
+  request.frames = 30;
+  request.seed = 4;
+  request.temperature = 0.7F;
+  WorldTarget target{RestPose(Skeleton::Smpl24()), {}};
+  target.pose.rotations(2, 16) = 1.0;
+  request.target = target;
+  std::optional<ArrivalResult> arrival;
+  RunTransition(*engine_, request, {}, &arrival);
+  ASSERT_TRUE(arrival);
+  EXPECT_LT(arrival->final_error_m, 1e-3);
+  EXPECT_LT(arrival->final_error_deg, 0.1);
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,194 @@
+#include "model/flow/flow_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
+#include "tests/support/synthetic_clips.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kTau = 10;
+
+FlowModelParts Parts() {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  const int dimensions = 3 + 3 * skeleton.joints();
+  Eigen::MatrixXd covariance(dimensions, 60);
+  for (int lag = 0; lag < covariance.cols(); ++lag)
+    covariance.col(lag).setConstant(1e-4 * std::exp(-0.5 * std::pow(lag / 6.0, 2)));
+  return {skeleton,
+          {.window_frames = 40},
+          MotionPrior(covariance),
+          Eigen::MatrixXd::Identity(dimensions, dimensions)};
+}
+
+// It has learnt nothing: dances are the prior's.
+class Silent : public FlowNetwork {
+ public:
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                           const Eigen::MatrixXf& mean, const WindowFeatures& features,
+                           float t) const override {
+    EXPECT_EQ(poses.cols(), z.cols() + kTau);
+    EXPECT_EQ(mean.cols(), z.cols() + kTau);
+    EXPECT_EQ(features.frames.rows(), FrameFeatures());
+    EXPECT_TRUE(features.frames.allFinite() && features.whole.allFinite());
+    EXPECT_TRUE(t >= 0 && t < 1);
+    ++evaluations;
+    return Eigen::MatrixXf::Zero(z.rows(), z.cols());
+  }
+  mutable int evaluations = 0;
+};
+
+// History and key out of a synthetic dance, in the canonical frame.
+struct Scene {
+  WindowRequest request;
+  std::vector<Pose> truth;
+};
+
+Scene MakeScene(int frames) {
+  const PreparedClip clip = testing_support::SyntheticClip("a", kTau + frames, 0.4, false);
+  std::vector<Pose> poses = clip.motion.frames;
+  const GroundFrame ground = GroundFrame::Of(poses[kTau - 1]);
+  for (Pose& pose : poses) pose = ground.ToLocal(pose);
+  Scene scene{{.frames = frames, .key = poses.back(), .to_key = frames}, {}};
+  scene.request.history.assign(poses.begin(), poses.begin() + kTau);
+  scene.truth.assign(poses.begin() + kTau, poses.end());
+  return scene;
+}
+
+double Apart(const Pose& a, const Pose& b) {
+  return ComparePoses(Skeleton::Smpl24(), a, b).position_m;
+}
+
+TEST(FlowWindow, DecodesWhatItEncodes) {
+  const Scene scene = MakeScene(40);
+  const FlowModelParts parts = Parts();
+  for (const bool keyed : {true, false}) {
+    WindowRequest request = scene.request;
+    if (!keyed) request.key.reset();
+    const FlowWindow window(parts.prior, request);
+    const auto x = window.Encode(scene.truth);
+    ASSERT_TRUE(x);
+    const std::vector<Pose> back = window.Decode(*x);
+    for (size_t i = 0; i < back.size(); ++i) EXPECT_LT(Apart(back[i], scene.truth[i]), 1e-9);
+    Eigen::MatrixXd z(x->rows(), x->cols());
+    for (int d = 0; d < z.rows(); ++d)
+      z.row(d) = window.Whiten(d, x->row(d).transpose()).transpose();
+    EXPECT_LT((window.Colour(z) - *x).norm(), 1e-9);
+  }
+}
+
+TEST(FlowWindow, ItsMeanIsTheKeyInItsLastFrameAndLeavesWhatTheKeyLeavesOpen) {
+  const Scene scene = MakeScene(30);
+  const FlowModelParts parts = Parts();
+  const auto last = [&](const WindowRequest& request) {
+    const FlowWindow window(parts.prior, request);
+    return window.Decode(Eigen::MatrixXd::Zero(parts.prior.dimensions(), 30)).back();
+  };
+  EXPECT_LT(Apart(last(scene.request), *scene.request.key), 2e-3);
+  WindowRequest arms = scene.request;
+  arms.mask.root_position = false;
+  arms.mask.joints.assign(24, false);
+  arms.mask.joints[16] = true;
+  const Pose reached = last(arms);
+  EXPECT_LT((reached.rotations.col(16) - scene.request.key->rotations.col(16)).norm(), 5e-3);
+  EXPECT_GT((reached.rotations.col(4) - scene.request.key->rotations.col(4)).norm(), 0.02);
+}
+
+TEST(FlowWindow, ARootGoesTheWayRoundThatIsExpected) {
+  const Eigen::Vector3d half(0, 3.0, 0);
+  EXPECT_LT((NearerWayRound(half, {0, 1, 0}) - half).norm(), 1e-12);
+  EXPECT_NEAR(NearerWayRound(half, {0, -1, 0}).y(), 3.0 - 2 * M_PI, 1e-12);
+}
+
+TEST(FlowSampler, TheMeanIsOneStepAndNoSeedChangesIt) {
+  const Scene scene = MakeScene(30);
+  const FlowModelParts parts = Parts();
+  const Silent network;
+  const auto one = SampleWindow(parts, network, scene.request, {.seed = 1});
+  EXPECT_EQ(network.evaluations, 1);
+  const auto other = SampleWindow(parts, network, scene.request, {.seed = 2});
+  for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(Apart(one[i], other[i]), 0);
+}
+
+TEST(FlowSampler, SeedsTakeOtherWaysToTheSameKey) {
+  const Scene scene = MakeScene(30);
+  const FlowModelParts parts = Parts();
+  const Silent network;
+  const auto sample = [&](uint64_t seed, double temperature) {
+    return SampleWindow(parts, network, scene.request, {.seed = seed, .temperature = temperature});
+  };
+  const auto a = sample(1, 1), b = sample(2, 1), calm = sample(1, 0.1), again = sample(1, 1);
+  const auto mean = sample(1, 0);
+  EXPECT_GT(Apart(a[15], b[15]), 0.02);
+  EXPECT_LT(Apart(calm[15], mean[15]), Apart(a[15], mean[15]));
+  EXPECT_LT(Apart(a.back(), b.back()), 5e-3);
+  for (size_t i = 0; i < a.size(); ++i) EXPECT_EQ(Apart(a[i], again[i]), 0);
+}
+
+TEST(FlowSampler, APathIsMetExactlyAndItsHeightsWhereTheyAreAskedFor) {
+  Scene scene = MakeScene(30);
+  scene.request.path.resize(3, 30);
+  for (int i = 0; i < 30; ++i)
+    scene.request.path.col(i) = scene.truth[static_cast<size_t>(i)].root_position;
+  const FlowModelParts parts = Parts();
+  const Silent network;
+  for (const bool heights : {false, true}) {
+    scene.request.path_heights = heights;
+    const auto poses = SampleWindow(parts, network, scene.request, {.seed = 3, .temperature = 1});
+    for (size_t i = 0; i < poses.size(); ++i) {
+      const Eigen::Vector3d miss = poses[i].root_position - scene.truth[i].root_position;
+      EXPECT_LT(std::hypot(miss.x(), miss.z()), 1e-9);
+      EXPECT_LT(heights ? std::abs(miss.y()) : 0, 1e-9);
+    }
+  }
+}
+
+TEST(FlowSampler, LongTransitionsAreCutWithoutAJumpAndReachTheirKey) {
+  const Scene scene = MakeScene(100);
+  const FlowModelParts parts = Parts();
+  const Silent network;
+  const auto poses = SampleTransition(parts, network, scene.request, {.seed = 5, .temperature = 1});
+  EXPECT_EQ(network.evaluations, 3 * parts.config.steps);
+  ASSERT_EQ(poses.size(), 100U);
+  EXPECT_LT(Apart(poses.back(), *scene.request.key), 1e-2);
+  double fastest = 0, at_cuts = 0;
+  for (size_t i = 1; i < poses.size(); ++i) {
+    const double step = Apart(poses[i - 1], poses[i]);
+    fastest = std::max(fastest, step);
+    if (i == 33 || i == 66) at_cuts = std::max(at_cuts, step);
+  }
+  EXPECT_LE(at_cuts, fastest);
+}
+
+TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
+  const Scene scene = MakeScene(60);
+  const FlowModelParts parts = Parts();
+  const Silent network;
+  const FlowNoise noise{.seed = 5, .temperature = 1};
+  const auto here = SampleTransition(parts, network, scene.request, noise);
+  const GroundFrame elsewhere{.origin = {1, 0, -2}, .heading = 0.7};
+  WindowRequest turned = scene.request;
+  for (Pose& pose : turned.history) pose = elsewhere.ToWorld(pose);
+  turned.key = elsewhere.ToWorld(*turned.key);
+  const auto there = SampleTransition(parts, network, turned, noise);
+  for (size_t i = 0; i < here.size(); ++i)
+    EXPECT_LT(Apart(elsewhere.ToWorld(here[i]), there[i]), 1e-6);
+}
+
+TEST(WindowFeatures, BeatsHaveAPhaseAndSlowOnesAreHalved) {
+  const std::vector<double> beats = {0, 10, 20};
+  EXPECT_NEAR(PhaseAt(beats, 5)->phase, 0.5, 1e-12);
+  EXPECT_NEAR(PhaseAt(beats, 27)->phase, 0.7, 1e-12);
+  EXPECT_NEAR(PhaseAt(beats, -2)->phase, 0.8, 1e-12);
+  const std::vector<double> slow = {0, 40};
+  EXPECT_NEAR(PhaseAt(slow, 30)->phase, 0.5, 1e-12);
+  EXPECT_NEAR(PhaseAt(slow, 30)->period, 20, 1e-12);
+  EXPECT_FALSE(PhaseAt(std::vector<double>{3}, 3));
+}
+
+}  // namespace
+}  // namespace choreo

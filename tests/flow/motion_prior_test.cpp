@@ -1,0 +1,80 @@
+#include "model/flow/motion_prior.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+// Velocities whose covariance falls off as a Gaussian, as smooth motion's does.
+Eigen::MatrixXd SmoothCovariance() {
+  Eigen::MatrixXd covariance(2, 60);
+  for (int lag = 0; lag < covariance.cols(); ++lag) {
+    covariance(0, lag) = 1e-4 * std::exp(-0.5 * std::pow(lag / 5.0, 2));
+    covariance(1, lag) = 4e-4 * std::exp(-0.5 * std::pow(lag / 8.0, 2));
+  }
+  return covariance;
+}
+
+TEST(MotionPrior, AMeanReachesItsKeyWhateverTheHistory) {
+  const MotionPrior prior(SmoothCovariance());
+  const auto bridges = prior.Bridges(30, 30);
+  for (const auto& bridge : *bridges) {
+    EXPECT_NEAR(bridge.key[29], 1, 1e-3);
+    EXPECT_NEAR(bridge.past.row(29).norm(), 0, 1e-2);
+  }
+}
+
+TEST(MotionPrior, AMeanLeavesWithTheLastVelocity) {
+  const MotionPrior prior(SmoothCovariance());
+  for (const int to_key : {0, 60}) {
+    const auto& bridge = prior.Bridges(60, to_key)->front();
+    // Of a dancer who goes steadily, and has no key or one that lies on her way.
+    const double first = bridge.past.row(0).sum() + 60.0 * bridge.key[0];
+    EXPECT_NEAR(first, 1, 0.1) << to_key;
+  }
+}
+
+TEST(MotionPrior, NothingIsLeftOpenAtTheKeyAndMostHalfway) {
+  const MotionPrior prior(SmoothCovariance());
+  const auto keyed = prior.Bridges(40, 40), free = prior.Bridges(40, 0);
+  const auto spread = [](const MotionPrior::Bridge& bridge, int frame) {
+    return bridge.spread.row(frame).norm();
+  };
+  for (size_t d = 0; d < 2; ++d) {
+    EXPECT_LT(spread((*keyed)[d], 39), 0.01 * spread((*keyed)[d], 20));
+    EXPECT_GT(spread((*free)[d], 39), spread((*free)[d], 20));
+    EXPECT_LT(spread((*keyed)[d], 20), spread((*free)[d], 20));
+  }
+}
+
+TEST(MotionPrior, AWindowBeforeAFarKeyIsTheBeginningOfTheWholeWay) {
+  const MotionPrior prior(SmoothCovariance());
+  const auto whole = prior.Bridges(50, 50), part = prior.Bridges(20, 50);
+  for (size_t d = 0; d < 2; ++d) {
+    EXPECT_LT(((*whole)[d].spread.topLeftCorner(20, 20) - (*part)[d].spread).norm(),
+              1e-6 * (*part)[d].spread.norm());
+    EXPECT_LT(((*whole)[d].key.head(20) - (*part)[d].key).norm(), 1e-6);
+  }
+}
+
+TEST(MotionPrior, SamplesAreAsSmoothAsTheMotionThatTheyAreOf) {
+  const MotionPrior prior(SmoothCovariance());
+  const auto& bridge = prior.Bridges(60, 60)->front();
+  // Variance of second differences in the middle: that of a velocity's step, 2 (r(0) - r(1)).
+  const Eigen::RowVectorXd second =
+      bridge.spread.row(31) - 2 * bridge.spread.row(30) + bridge.spread.row(29);
+  const double expected = 2e-4 * (1 - std::exp(-0.5 / 25));
+  EXPECT_NEAR(second.squaredNorm() / expected, 1, 0.25);
+}
+
+TEST(MotionPrior, RefusesWhatIsNoCovariance) {
+  ExpectError(ErrorCode::kInvalidArgument, "velocity_covariance",
+              [] { MotionPrior(Eigen::MatrixXd::Zero(2, 3)); });
+}
+
+}  // namespace
+}  // namespace choreo
