@@ -148,6 +148,7 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   const Tensor walk = torch::zeros({dimensions, kLags});
   walk.select(1, 0).fill_(1e-4);
   covariance_ = register_buffer("velocity_covariance", walk);
+  liveliness_ = register_buffer("liveliness", torch::zeros({1}));
   mixing_ = register_buffer("mixing", torch::eye(dimensions));
   spread_ = register_buffer("spread", torch::ones({dimensions}));
   const int64_t features = kFramesAToken * (5 * dimensions + FrameFeatures());
@@ -158,6 +159,7 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   blocks_ = register_module("blocks", torch::nn::ModuleList());
   for (int i = 0; i < config.layers; ++i)
     blocks_->push_back(FlowBlock(config.width, config.heads, config.condition));
+  inject_ = register_module("inject", torch::nn::Linear(config.condition, width));
   head_modulation_ =
       register_module("head_modulation", torch::nn::Linear(config.condition, 2 * width));
   head_ = register_module("head", torch::nn::Linear(width, 2 * kFramesAToken * dimensions));
@@ -179,9 +181,10 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   // An odd frame out stands in front, where history is oldest.
   if (x.size(1) % kFramesAToken != 0) x = torch::cat({x.narrow(1, 0, 1), x}, 1);
   const int64_t tokens = x.size(1) / kFramesAToken;
-  x = embed_(x.reshape({batch, tokens, -1}));
+
   const Tensor condition = torch::silu(
       condition_out_(torch::silu(condition_in_(torch::cat({whole, EmbedTime(t)}, -1)))));
+  x = embed_(x.reshape({batch, tokens, -1})) + inject_(condition).unsqueeze(1);
   const Tensor place = torch::arange(tokens, torch::TensorOptions().dtype(torch::kLong));
   const Tensor distance =
       (place.unsqueeze(0) - place.unsqueeze(1))
@@ -201,20 +204,22 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   return f[0] + f[1] * z;
 }
 
-void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& mixing,
-                                  const Eigen::VectorXd& spread) {
+void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, double liveliness,
+                                  const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread) {
   torch::NoGradGuard no_grad;
   const auto set = [](Tensor to, const Eigen::MatrixXd& from) {
     const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = from;
     to.copy_(torch::from_blob(const_cast<double*>(rows.data()), to.sizes(), torch::kFloat64));
   };
   set(covariance_, covariance);
+  liveliness_.fill_(liveliness);
   set(mixing_, mixing);
   set(spread_, spread);
 }
 
 FlowModelParts ContinuousFlowImpl::Parts() const {
-  return {skeleton_, config_, MotionPrior(ToEigen(covariance_)), ToEigen(mixing_)};
+  return {skeleton_, config_, MotionPrior(ToEigen(covariance_), liveliness_.item<double>()),
+          ToEigen(mixing_)};
 }
 
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model) {

@@ -31,7 +31,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
 
   /// `covariance` as MotionPrior has it; `mixing` as FlowModelParts; `spread` [dimensions]: of
   /// displacements over a window.
-  void SetPrior(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& mixing,
+  void SetPrior(const Eigen::MatrixXd& covariance, double liveliness, const Eigen::MatrixXd& mixing,
                 const Eigen::VectorXd& spread);
   /// What sampling needs besides the network.
   FlowModelParts Parts() const;
@@ -42,9 +42,9 @@ class ContinuousFlowImpl : public torch::nn::Module {
  private:
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
-  torch::Tensor covariance_, mixing_, spread_;
-  torch::nn::Linear embed_{nullptr}, condition_in_{nullptr}, condition_out_{nullptr},
-      head_{nullptr}, head_modulation_{nullptr};
+  torch::Tensor covariance_, liveliness_, mixing_, spread_;
+  torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
+      condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;
 };
 TORCH_MODULE(ContinuousFlow);

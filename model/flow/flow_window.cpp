@@ -70,11 +70,21 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   if (!whole) free_ = prior.Bridges(request.frames, 0);
 
   mean_.resize(dimensions, request.frames);
+  double squares = 0, known = 0;
   for (int d = 0; d < dimensions; ++d) {
     const MotionPrior::Bridge& bridge = At(d);
+    if (prior.Moves(d)) {
+      Eigen::VectorXd seen(bridge.precision.rows());
+      seen.head<MotionPrior::kPast>() = velocity.row(d).transpose();
+      if (seen.size() > MotionPrior::kPast) seen[MotionPrior::kPast] = displacement_[d];
+      squares += seen.dot(bridge.precision * seen);
+      known += static_cast<double>(seen.size());
+    }
     mean_.row(d) =
         (bridge.past * velocity.row(d).transpose() + bridge.key * displacement_[d]).transpose();
   }
+  surprise_ = squares / known;
+  scale_ = prior.Scale(surprise_);
   base_.resize(static_cast<size_t>(request.frames), last);
   for (int i = 0; i < request.frames; ++i) {
     Pose& pose = base_[static_cast<size_t>(i)];
@@ -120,11 +130,11 @@ Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
   for (int d = 0; d < z.rows(); ++d) {
     x.row(d) = (At(d).spread.triangularView<Eigen::Lower>() * z.row(d).transpose()).transpose();
   }
-  return x;
+  return scale_ * x;
 }
 
 Eigen::VectorXd FlowWindow::Whiten(int dimension, const Eigen::VectorXd& x) const {
-  return At(dimension).spread.triangularView<Eigen::Lower>().solve(x);
+  return At(dimension).spread.triangularView<Eigen::Lower>().solve(x) / scale_;
 }
 
 }  // namespace choreo

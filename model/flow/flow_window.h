@@ -53,6 +53,11 @@ class FlowWindow {
   /// Which dimensions the key fixes, [dimensions].
   const std::vector<bool>& keyed() const { return keyed_; }
 
+  /// How much what is known of the window moves, of what the prior expects: mean square.
+  double surprise() const { return surprise_; }
+  /// MotionPrior::Scale of that: white coordinates are in its units.
+  double scale() const { return scale_; }
+
   /// Poses of that many frames → x; none where a joint strays from the mean farther than the
   /// coordinates reach, or ends a turn away from the key.
   std::optional<Eigen::MatrixXd> Encode(std::span<const Pose> poses) const;
@@ -71,6 +76,7 @@ class FlowWindow {
   std::vector<bool> keyed_;
   Eigen::MatrixXd mean_, history_;
   Eigen::VectorXd displacement_;
+  double surprise_ = 1, scale_ = 1;
   std::vector<Pose> base_;  // the mean, as poses
 };
 

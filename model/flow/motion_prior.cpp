@@ -1,7 +1,9 @@
 #include "model/flow/motion_prior.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "model/core/error.h"
@@ -12,6 +14,8 @@ namespace {
 // Shares of the velocity's variance: what a history may be wrong by (it may have been danced), and
 // what keeps covariances invertible.
 constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
+constexpr double kStillness = 2e-4;  // a frame; slower dimensions don't move
+constexpr double kLeastScale = 0.25;
 constexpr size_t kKept = 96;  // bridges; one of 96 frames takes 5 MB
 
 }  // namespace
@@ -24,8 +28,10 @@ struct MotionPrior::Cache {
   std::list<Key> order;  // oldest first
 };
 
-MotionPrior::MotionPrior(Eigen::MatrixXd covariance)
-    : covariance_(std::move(covariance)), cache_(std::make_shared<Cache>()) {
+MotionPrior::MotionPrior(Eigen::MatrixXd covariance, double liveliness)
+    : covariance_(std::move(covariance)),
+      liveliness_(liveliness),
+      cache_(std::make_shared<Cache>()) {
   if (covariance_.cols() < 1 || !covariance_.allFinite() || covariance_.col(0).minCoeff() <= 0) {
     throw InvalidArgument("velocity_covariance", "is no covariance of a process in time");
   }
@@ -35,6 +41,14 @@ MotionPrior::MotionPrior(Eigen::MatrixXd covariance)
       sums[lag] = sums[lag - 1] + covariance_(d, lag);
     sums_.push_back(sums);
   }
+}
+
+bool MotionPrior::Moves(int dimension) const {
+  return covariance_(dimension, 0) > kStillness * kStillness;
+}
+
+double MotionPrior::Scale(double surprise) const {
+  return std::clamp(std::pow(surprise, 0.5 * liveliness_), kLeastScale, 1 / kLeastScale);
 }
 
 MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) const {
@@ -77,7 +91,8 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) con
   Bridge bridge{
       .past = weights.leftCols(kPast),
       .key = to_key > 0 ? Eigen::VectorXd(weights.col(kPast)) : Eigen::VectorXd::Zero(frames),
-      .spread = {}};
+      .spread = {},
+      .precision = observed.inverse()};
   for (double jitter = kJitter;; jitter *= 10) {
     own.diagonal().array() += jitter * velocity(0);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(own);

@@ -28,16 +28,25 @@ class MotionPrior {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
     Eigen::MatrixXd spread;
+    /// Inverse covariance of what is known: the last velocities, then the key's displacement.
+    Eigen::MatrixXd precision;
   };
 
-  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later. Throws
-  /// Error(kInvalidArgument) where it is no covariance.
-  explicit MotionPrior(Eigen::MatrixXd covariance);
+  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later.
+  /// `liveliness`: see Scale. Throws Error(kInvalidArgument) where it is no covariance.
+  explicit MotionPrior(Eigen::MatrixXd covariance, double liveliness = 0);
 
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
+  /// Who is known to be lively goes on so: the factor of all spreads where what is known of a
+  /// window has `surprise` times the squares that the covariance expects (1 on average). A power of
+  /// that, which training measured.
+  double Scale(double surprise) const;
   /// Standard deviation of a velocity, [dimensions].
   Eigen::VectorXd VelocitySpread() const { return covariance_.col(0).cwiseSqrt(); }
+
+  /// False for what recordings lack, as the joints of hands.
+  bool Moves(int dimension) const;
 
   /// By dimension: a window of `frames` frames whose key stands `to_key` frames behind the history
   /// (at least `frames`); 0: there is no key. The last few that were asked for are kept.
@@ -47,6 +56,7 @@ class MotionPrior {
   Bridge Make(int dimension, int frames, int to_key) const;
 
   Eigen::MatrixXd covariance_;
+  double liveliness_;
   // Of the displacement over n frames: its variance; and sums of the covariance up to lag n.
   std::vector<Eigen::VectorXd> sums_;
   struct Cache;

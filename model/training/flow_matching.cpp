@@ -86,20 +86,23 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor z = (1 - t) * noise + t * batch.z;
   const Tensor wanted = ((1 - t) * batch.z - t * noise) / a.sqrt();
   const Tensor poses =
-      torch::cat({batch.mean.narrow(1, 0, tau), batch.mean.narrow(1, tau, window) + colour(z)}, 1);
+      torch::cat({batch.mean.narrow(1, 0, tau),
+                  batch.mean.narrow(1, tau, window) + batch.scale.view({-1, 1, 1}) * colour(z)},
+                 1);
   const Tensor miss =
       model->forward(z, poses, batch.mean, batch.features, batch.whole, t.flatten()) - wanted;
   // Of a window's displacements, by dimension: how far real ones are spread.
   const Tensor variance =
       torch::where(batch.keyed > 0, spreads.to_key.square().sum(torch::IntArrayRef{1, 2}),
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
+  // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
+  // say.
+  const Tensor where =
+      ((colour(miss).square() * reach_).sum(torch::IntArrayRef{1, 2}) / (variance * reach_).sum(1) +
+       kNear)
+          .sqrt();
   return {{kWhite, 1.0, miss.square().mean()},
-          {kWhere, 1.0,
-           ((colour(miss).square() * reach_).sum(torch::IntArrayRef{1, 2}) /
-                (variance * reach_).sum(1) +
-            kNear)
-               .sqrt()
-               .mean()}};
+          {kWhere, 1.0, (where * ((1 - t) / a.sqrt()).flatten()).mean()}};
 }
 
 WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
@@ -107,6 +110,7 @@ WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(dimensions, dimensions);
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(dimensions);
   double poses = 0;
+  std::vector<Tensor> known, open;  // logarithms of squares, of each window
   for (const WindowBatch& batch : batches) {
     const Tensor z = batch.z.flatten(0, 1).to(torch::kFloat64);
     const Tensor product = torch::matmul(z.t(), z).contiguous();
@@ -116,12 +120,16 @@ WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
         batch.mean.square().sum(torch::IntArrayRef{0, 1}).to(torch::kFloat64).contiguous();
     squares += Eigen::Map<const Eigen::VectorXd>(square.data_ptr<double>(), dimensions);
     poses += static_cast<double>(batch.mean.size(0) * batch.mean.size(1));
+    known.push_back(batch.surprise.log());
+    open.push_back(batch.z.square().mean(torch::IntArrayRef{1, 2}).log());
   }
   const Eigen::VectorXd scale = products.diagonal().cwiseMax(1e-9).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd correlation = scale.asDiagonal() * products * scale.asDiagonal();
   correlation *= 1 - kShrinkage;
   correlation.diagonal().setOnes();
-  return {Eigen::MatrixXd(correlation.llt().matrixL()),
+  const Tensor x = torch::cat(known) - torch::cat(known).mean(), y = torch::cat(open);
+  return {((x * (y - y.mean())).sum() / x.square().sum()).item<double>(),
+          Eigen::MatrixXd(correlation.llt().matrixL()),
           (squares / poses).cwiseSqrt().cwiseMax(1e-3)};
 }
 

@@ -35,9 +35,11 @@ class FlowMatching {
   std::map<std::pair<int, int>, Spreads> spreads_;
 };
 
-/// Correlation of the white coordinates of real motion over dimensions, its Cholesky factor; and
-/// the spread of displacements [dimensions].
+/// Of real windows: how the variance of the white coordinates goes with surprise() (an exponent:
+/// MotionPrior::Scale); their correlation over dimensions, its Cholesky factor; and the spread of
+/// displacements [dimensions].
 struct WindowStatistics {
+  double liveliness;
   Eigen::MatrixXd mixing;
   Eigen::VectorXd spread;
 };

@@ -208,27 +208,27 @@ class FlowMatchingRun : public TrainingRun {
   void Measure() {
     const int dimensions = 3 + 3 * train_.skeleton().joints();
     const Eigen::MatrixXd covariance = train_.VelocityCovariance(kLags);
-    model_->SetPrior(covariance, Eigen::MatrixXd::Identity(dimensions, dimensions),
+    model_->SetPrior(covariance, 0, Eigen::MatrixXd::Identity(dimensions, dimensions),
                      Eigen::VectorXd::Ones(dimensions));
-    std::vector<WindowBatch> batches;
-    for (int i = 0; i < kStatisticsBatches; ++i) {
-      Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
-      batches.push_back(train_.Draw(model_->Parts(), kStatisticsWindows, 60, 60,
-                                    {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0}, &random));
-    }
-    const WindowStatistics measured = MeasureWindows(batches);
-    model_->SetPrior(covariance, measured.mixing, measured.spread);
-    for (const WindowBatch& batch : batches) {
-      std::printf(
-          "white variance: mean %.2f, frame 1 %.2f, 2 %.2f, 5 %.2f, 30 %.2f, 59 %.2f; beyond 5: "
-          "%.4f\n",
-          batch.z.square().mean().item<double>(),
-          batch.z.select(1, 0).square().mean().item<double>(),
-          batch.z.select(1, 1).square().mean().item<double>(),
-          batch.z.select(1, 4).square().mean().item<double>(),
-          batch.z.select(1, 29).square().mean().item<double>(),
-          batch.z.select(1, 58).square().mean().item<double>(),
-          (batch.z.abs() > 5).to(torch::kFloat32).mean().item<double>());
+    // The mixing is of coordinates that liveliness has scaled already.
+    for (int round = 0; round < 2; ++round) {
+      std::vector<WindowBatch> batches;
+      for (int i = 0; i < kStatisticsBatches; ++i) {
+        Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
+        batches.push_back(train_.Draw(model_->Parts(), kStatisticsWindows, 60, 60,
+                                      {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0}, &random));
+      }
+      const WindowStatistics measured = MeasureWindows(batches);
+      if (round == 0) liveliness_ = measured.liveliness;
+      model_->SetPrior(covariance, liveliness_, measured.mixing, measured.spread);
+      std::printf("liveliness %.2f\n", measured.liveliness);
+      for (const WindowBatch& batch : batches) {
+        std::printf("white variance: %.2f, of windows %.2f +- %.2f; beyond 4.9: %.4f\n",
+                    batch.z.square().mean().item<double>(),
+                    batch.z.square().mean(torch::IntArrayRef{1, 2}).log().mean().item<double>(),
+                    batch.z.square().mean(torch::IntArrayRef{1, 2}).log().std().item<double>(),
+                    (batch.z.abs() > 4.9).to(torch::kFloat32).mean().item<double>());
+      }
     }
   }
 
@@ -237,6 +237,7 @@ class FlowMatchingRun : public TrainingRun {
   nlohmann::json base_;
   std::vector<PreparedClip> prepared_;
   WindowClips train_, validation_;
+  double liveliness_ = 0;
   ContinuousFlow model_{nullptr}, average_{nullptr};
   std::unique_ptr<FlowMatching> matching_;
   std::unique_ptr<Adam> adam_;

@@ -197,6 +197,7 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
         "frames", "no clip has the " + std::to_string(needed) + " frames that a window needs");
   }
   WindowBatch result{.frames = frames, .to_key = to_key};
+  std::vector<double> surprise, scale;
   std::vector<torch::Tensor> z, keyed, mean, features, whole;
   while (static_cast<int>(z.size()) < batch) {
     const int64_t pick = random->Integer(0, windows);
@@ -277,6 +278,8 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
       fixed[d] = window.keyed()[static_cast<size_t>(d)] ? 1 : 0;
     z.push_back(Columns(white));
     mean.push_back(Columns(lines));
+    surprise.push_back(window.surprise());
+    scale.push_back(window.scale());
     keyed.push_back(Columns(fixed).squeeze(0));
     features.push_back(Columns(described.frames));
     whole.push_back(Columns(described.whole).squeeze(0));
@@ -285,6 +288,8 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
   }
   result.z = torch::stack(z);
   result.mean = torch::stack(mean);
+  result.surprise = torch::tensor(surprise, torch::kFloat32);
+  result.scale = torch::tensor(scale, torch::kFloat32);
   result.keyed = torch::stack(keyed);
   result.features = torch::stack(features);
   result.whole = torch::stack(whole);

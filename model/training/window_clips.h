@@ -17,6 +17,7 @@ namespace choreo {
 struct WindowBatch {
   int frames = 0, to_key = 0;
   torch::Tensor z = {};                       ///< [batch, w, dimensions] real motion, white
+  torch::Tensor surprise = {}, scale = {};    ///< [batch] as FlowWindow has them
   torch::Tensor keyed = {};                   ///< [batch, dimensions] in {0, 1}
   torch::Tensor mean = {};                    ///< [batch, tau + w, dimensions], history in front
   torch::Tensor features = {}, whole = {};    ///< of WindowFeatures
