@@ -60,7 +60,7 @@ fi
 # Prepared once, and again where the recordings or what prepares them has changed.
 stamp=$({
   find -L "$recordings/tang2018" "$recordings/dancedb" "$recordings/cmu_dance" -type f -printf '%P %s\n' | sort
-  cat model/{audio,body,formats,motion}/*.{cpp,h} model/training/{*recording*,jolts,prepare,prepare_command,prepared_clip}.{cpp,h}
+  cat model/{audio,body,formats,motion}/*.{cpp,h} model/training/{*recording*,beat_grid,jolts,prepare,prepare_command,prepared_clip}.{cpp,h}
 } | sha256sum)
 if [[ $(cat "$data/stamp" 2>/dev/null) != "$stamp" ]]; then
   rm -rf "$data/tang2018" "$data/dancedb" "$data/cmu"

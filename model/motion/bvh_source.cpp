@@ -41,34 +41,41 @@ struct SideNames {
   std::optional<std::string> toes, hand, eye, collar;
 };
 
+// Collarbones come first: where they are named, LeftShoulder is the shoulder, else the collarbone.
 SideNames FindSide(const BvhNames& names, bool left) {
   SideNames side;
-  side.hip = left ? names.Need({"LeftUpLeg", "LeftHip", "lThigh", "LeftThigh", "left_hip"})
-                  : names.Need({"RightUpLeg", "RightHip", "rThigh", "RightThigh", "right_hip"});
-  side.knee = left ? names.Need({"LeftLeg", "LeftKnee", "lShin", "LeftShin", "left_knee"})
-                   : names.Need({"RightLeg", "RightKnee", "rShin", "RightShin", "right_knee"});
-  side.ankle = left ? names.Need({"LeftFoot", "LeftAnkle", "lFoot", "left_ankle"})
-                    : names.Need({"RightFoot", "RightAnkle", "rFoot", "right_ankle"});
-  side.shoulder =
-      left ? names.Need({"LeftArm", "lShldr", "LeftUpArm", "LeftUpperArm", "left_shoulder"})
-           : names.Need({"RightArm", "rShldr", "RightUpArm", "RightUpperArm", "right_shoulder"});
-  side.elbow =
-      left ? names.Need({"LeftForeArm", "LeftElbow", "lForeArm", "LeftLowArm", "left_elbow"})
-           : names.Need({"RightForeArm", "RightElbow", "rForeArm", "RightLowArm", "right_elbow"});
-  side.wrist = left ? names.Need({"LeftHand", "LeftWrist", "lHand", "left_wrist"})
-                    : names.Need({"RightHand", "RightWrist", "rHand", "right_wrist"});
+  side.hip =
+      left ? names.Need({"LeftUpLeg", "LeftHip", "lThigh", "LeftThigh", "left_hip", "L_Thigh"})
+           : names.Need({"RightUpLeg", "RightHip", "rThigh", "RightThigh", "right_hip", "R_Thigh"});
+  side.knee =
+      left ? names.Need({"LeftLeg", "LeftKnee", "lShin", "LeftShin", "left_knee", "L_Calf"})
+           : names.Need({"RightLeg", "RightKnee", "rShin", "RightShin", "right_knee", "R_Calf"});
+  side.ankle = left ? names.Need({"LeftFoot", "LeftAnkle", "lFoot", "left_ankle", "L_Foot"})
+                    : names.Need({"RightFoot", "RightAnkle", "rFoot", "right_ankle", "R_Foot"});
+  side.shoulder = left ? names.Need({"LeftArm", "lShldr", "LeftUpArm", "LeftUpperArm",
+                                     "left_shoulder", "L_Upperarm", "LeftShoulder"})
+                       : names.Need({"RightArm", "rShldr", "RightUpArm", "RightUpperArm",
+                                     "right_shoulder", "R_Upperarm", "RightShoulder"});
+  side.elbow = left ? names.Need({"LeftForeArm", "LeftElbow", "lForeArm", "LeftLowArm",
+                                  "left_elbow", "L_Forearm"})
+                    : names.Need({"RightForeArm", "RightElbow", "rForeArm", "RightLowArm",
+                                  "right_elbow", "R_Forearm"});
+  side.wrist = left ? names.Need({"LeftHand", "LeftWrist", "lHand", "left_wrist", "L_Hand"})
+                    : names.Need({"RightHand", "RightWrist", "rHand", "right_wrist", "R_Hand"});
   side.toes = left ? names.Any({"LeftToeBase", "LeftToe", "LeftToes", "lFoot_end", "LeftFoot_end",
-                                "left_foot"})
+                                "left_foot", "L_ToeBase"})
                    : names.Any({"RightToeBase", "RightToe", "RightToes", "rFoot_end",
-                                "RightFoot_end", "right_foot"});
-  side.hand =
-      left
-          ? names.Any({"LeftHandMiddle1", "lMid1", "LeftHandIndex1", "LeftFingerBase", "left_hand"})
-          : names.Any(
-                {"RightHandMiddle1", "rMid1", "RightHandIndex1", "RightFingerBase", "right_hand"});
-  side.collar = left ? names.Any({"LeftShoulder", "LeftCollar", "lCollar", "left_collar"})
-                     : names.Any({"RightShoulder", "RightCollar", "rCollar", "right_collar"});
-  side.eye = left ? names.Any({"leftEye", "LeftEye"}) : names.Any({"rightEye", "RightEye"});
+                                "RightFoot_end", "right_foot", "R_ToeBase"});
+  side.hand = left ? names.Any({"LeftHandMiddle1", "lMid1", "LeftHandIndex1", "LeftFingerBase",
+                                "left_hand", "L_Mid1"})
+                   : names.Any({"RightHandMiddle1", "rMid1", "RightHandIndex1", "RightFingerBase",
+                                "right_hand", "R_Mid1"});
+  side.collar =
+      left ? names.Any({"LeftCollar", "lCollar", "left_collar", "L_Clavicle", "LeftShoulder"})
+           : names.Any({"RightCollar", "rCollar", "right_collar", "R_Clavicle", "RightShoulder"});
+  if (side.collar == side.shoulder) side.collar.reset();
+  side.eye = left ? names.Any({"leftEye", "LeftEye", "L_Eye"})
+                  : names.Any({"rightEye", "RightEye", "R_Eye"});
   return side;
 }
 
@@ -110,8 +117,9 @@ class SpineChain {
       heights_.push_back(heights_.back() + step);
       points_.push_back(point);
     };
-    for (const char* name : {"LowerBack", "Spine", "Spine1", "Spine2", "Spine3", "Spine4",
-                             "abdomen", "chest", "Chest", "Chest2", "Chest3", "Chest4"}) {
+    for (const char* name :
+         {"LowerBack", "Waist", "Spine", "Spine1", "Spine2", "Spine3", "Spine4", "Spine01",
+          "Spine02", "abdomen", "chest", "Chest", "Chest2", "Chest3", "Chest4"}) {
       if (const auto joint = names.Any({name})) append({{*joint, 1.0}});
     }
     append({{neck, 1.0}});
@@ -171,7 +179,7 @@ void AddCollar(const PositionClip& clip, const SpineChain& spine, const SideName
 
 void AddTrunk(const PositionClip& clip, const BvhNames& names, const SideNames& left,
               const SideNames& right, MappingBuilder& builder) {
-  const std::string neck = names.Need({"Neck", "Neck1", "neck"});
+  const std::string neck = names.Need({"Neck", "Neck1", "neck", "NeckTwist01"});
   const JointBlend hips = {{left.hip, 0.5}, {right.hip, 0.5}};
   const SpineChain spine(clip, names, hips, neck);
   builder.Add("hips", "", hips, MappingBuilder::Between("left_hip", "right_hip"));
@@ -198,6 +206,14 @@ void AddTrunk(const PositionClip& clip, const BvhNames& names, const SideNames& 
   AddCollar(clip, spine, left, right, false, builder);
 }
 
+// Where a toe joint stands on a flat foot, forward of the ankle and up: 33 degrees below it
+// (dancedb's median), where ours lies 26; end sites of feet lie 17 degrees below, iClone's toes 5.
+Eigen::Vector2d ToePoint(const std::string& toes) {
+  if (toes.ends_with("_end")) return {0.12, -0.037};
+  if (toes.ends_with("L_ToeBase") || toes.ends_with("R_ToeBase")) return {0.12, -0.011};
+  return {0.082, -0.055};
+}
+
 void AddLimbs(const SideNames& side, bool left, MappingBuilder& builder) {
   const std::string prefix = left ? "left_" : "right_";
   const double out = left ? 1 : -1;
@@ -208,12 +224,9 @@ void AddLimbs(const SideNames& side, bool left, MappingBuilder& builder) {
   builder.AddJoint(prefix + "ankle", prefix + "knee", side.ankle);
   builder.AddFoot(side.ankle);
   if (!side.toes) return;
-  // On a flat foot a toe joint lies 33 degrees below the ankle (dancedb's median), where ours lies
-  // 26; end sites of feet lie 17 degrees below.
-  const OurPoint point = side.toes->ends_with("_end")
-                             ? MappingBuilder::At(prefix + "ankle", out * 0.02, -0.037, 0.12)
-                             : MappingBuilder::At(prefix + "ankle", out * 0.02, -0.055, 0.082);
-  builder.Add(prefix + "toes", prefix + "ankle", {{*side.toes, 1.0}}, {point});
+  const Eigen::Vector2d point = ToePoint(*side.toes);
+  builder.Add(prefix + "toes", prefix + "ankle", {{*side.toes, 1.0}},
+              {MappingBuilder::At(prefix + "ankle", out * 0.02, point.y(), point.x())});
   builder.AddFoot(*side.toes);
 }
 

@@ -58,10 +58,18 @@ SourceMapping IdentitySource(const Skeleton& skeleton, double hands = 1);
 const std::vector<std::string>& Tang2018JointNames();
 SourceMapping Tang2018Source();
 
+/// The same dancers as they were first published: 21 joints, named in file order. The row that is
+/// called head is the left temple, the heels' rows are the middles between heel and toes, and the
+/// neck lies two thirds of the way from the waist to the temple, so that it tells nothing.
+const std::vector<std::string>& Tang61JointNames();
+SourceMapping Tang61Source();
+
 /// A recording of a BVH hierarchy, by its joint names:
 /// Hips/LeftUpLeg/LeftLeg/LeftFoot/LeftToeBase... (dancedb, LAFAN1, Mixamo with its prefix,
-/// conversions of CMU) and hip/lThigh/lShin/lFoot... (Poser-style, cmu_dance). End sites are named
-/// after their parent + "_end". The spine's proportions are measured on the clip. Throws
+/// conversions of CMU), hip/lThigh/lShin/lFoot... (Poser-style, cmu_dance),
+/// Hips/LeftHip/LeftKnee/LeftAnkle, LeftCollar/LeftShoulder/LeftElbow/LeftWrist (perfume) and
+/// CC_Base_L_Thigh/CC_Base_L_Calf/CC_Base_L_Foot... (iClone, cmu_modern). End sites are named after
+/// their parent + "_end". The spine's proportions are measured on the clip. Throws
 /// Error(kInvalidArgument) naming the first joint of those needed that is missing: hips, knees,
 /// ankles, shoulders, elbows, wrists, neck.
 SourceMapping BvhSource(const PositionClip& clip);

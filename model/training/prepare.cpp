@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -104,6 +105,12 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
   return rows;
 }
 
+void NoteBeats(const BeatGrid& grid, std::map<std::string, std::string>& notes) {
+  notes["beat_period_s"] = json(grid.period_s).dump();
+  notes["beat_offset_s"] = json(grid.offset_s).dump();
+  notes["beats_per_bar"] = json(grid.per_bar).dump();
+}
+
 struct Prepared {
   PreparedClip clip;
   json report;
@@ -193,6 +200,7 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   clip.motion = std::move(motion);
   clip.notes = {{"terms", options.terms}, {"preparation", report.dump()}};
   if (!recording.genre.empty()) clip.notes["genre"] = recording.genre;
+  if (recording.beats) NoteBeats(Skip(*recording.beats, skipped_s), clip.notes);
   return result;
 }
 

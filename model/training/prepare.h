@@ -11,13 +11,14 @@
 #include "model/motion/motion.h"
 #include "model/motion/position_clip.h"
 #include "model/motion/skeleton.h"
+#include "model/training/beat_grid.h"
 
 namespace choreo {
 
 /// Raw recordings → prepared clips (prepared_clip.h): the corrections that each layout needs, 30
 /// fps, rotations fitted to SMPL's skeleton or the data's own, contacts, and the rows of the music.
 struct PrepareOptions {
-  std::string layout;            ///< "tang2018" | "bvh" | "amass" | "aist" | "lafan1"
+  std::string layout;            ///< "tang2018" | "tang61" | "bvh" | "amass" | "aist" | "lafan1"
   std::filesystem::path input;   ///< folder
   std::filesystem::path output;  ///< folder, created
   /// Clips whose name starts with .first run at .second fps, whatever their file says (cmu_dance's
@@ -46,9 +47,10 @@ struct Recording {
   bool tilted_floor = false;               ///< fit and level a floor plane, take out height drift
   double cutoff_hz = 0;                    ///< low-pass before resampling; 0: none
   double time_scale = 1;
-  std::filesystem::path music;  ///< empty: none
-  double music_start_s = 0;     ///< of the motion's first frame within the music
-  bool expects_music = false;   ///< warn where there is none
+  std::filesystem::path music;    ///< empty: none
+  double music_start_s = 0;       ///< of the motion's first frame within the music
+  bool expects_music = false;     ///< warn where there is none
+  std::optional<BeatGrid> beats;  ///< that the motion stands on, of its own time
 };
 
 /// The value of the first prefix that a clip's name starts with.

@@ -11,9 +11,9 @@ namespace choreo {
 void AddPrepareCommand(CLI::App& app) {
   auto options = std::make_shared<PrepareOptions>();
   CLI::App* command = app.add_subcommand("prepare", "Turn recordings into training clips");
-  command->add_option("layout", options->layout, "tang2018 | bvh | amass | aist | lafan1")
+  command->add_option("layout", options->layout, "tang2018 | tang61 | bvh | amass | aist | lafan1")
       ->required()
-      ->check(CLI::IsMember({"tang2018", "bvh", "amass", "aist", "lafan1"}));
+      ->check(CLI::IsMember({"tang2018", "tang61", "bvh", "amass", "aist", "lafan1"}));
   command->add_option("input", options->input, "Folder of recordings")->required();
   command->add_option("output", options->output, "Folder for the clips")->required();
   command->add_option(

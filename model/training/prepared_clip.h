@@ -16,8 +16,9 @@ namespace choreo {
 ///   root_positions [frames, 3] metres, Y up, floor y = 0; rotations [frames, joints, 3]
 ///   axis-angle, local, radians; contacts [frames, 4]; audio [frames, 40] MFCC rows
 ///   (FeatureStream's), absent for a dance without music;
-/// and in the metadata: name, source, fps, skeleton (motion/skeleton_json.h), terms, and what
-/// preparation did ("corrections", "fit_error_m", ...).
+/// and in the metadata: name, source, fps, skeleton (motion/skeleton_json.h), terms, what
+/// preparation did ("corrections", "fit_error_m", ...), and for motion that stands on beats of its
+/// own beat_period_s, beat_offset_s and beats_per_bar (training/beat_grid.h).
 struct PreparedClip {
   std::string name;
   std::string source;  ///< "tang2018", "bvh", ... : the layout that it came from

@@ -1,111 +1,20 @@
 #include <algorithm>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
-#include "model/core/npy.h"
 #include "model/formats/amass_npz.h"
 #include "model/motion/tang2018_skeleton.h"
 #include "model/training/aist_recordings.h"
 #include "model/training/bvh_recording.h"
 #include "model/training/lafan1_recordings.h"
 #include "model/training/prepare.h"
+#include "model/training/tang_recordings.h"
 
 /// The layouts that `choreo-lab prepare` knows, each turned into Recordings.
 namespace choreo {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-
-constexpr double kTangFps = 25;
-constexpr double kTangMetresPerUnit = 0.01;
-constexpr double kTangCutoffHz = 8;        // interpolated frames and jitter; dance steps stay below
-constexpr double kTangTimeScale = 1.0125;  // waltz and rumba lock to their music here
-
-fs::path FirstExisting(const std::vector<fs::path>& candidates) {
-  for (const auto& path : candidates) {
-    if (fs::exists(path)) return path;
-  }
-  return {};
-}
-
-// One row for the world's centre, then one for each joint relative to it.
-int TangRows() { return 1 + static_cast<int>(Tang2018JointNames().size()); }
-
-PositionClip TangPositions(int64_t frames,
-                           const std::function<Eigen::Vector3d(int64_t, int)>& row) {
-  PositionClip clip;
-  clip.fps = kTangFps;
-  clip.joint_names = Tang2018JointNames();
-  const auto joints = static_cast<int>(clip.joint_names.size());
-  for (int64_t f = 0; f < frames; ++f) {
-    Eigen::Matrix3Xd positions(3, joints);
-    for (int j = 0; j < joints; ++j) positions.col(j) = row(f, 0) + row(f, j + 1);
-    clip.frames.push_back(positions * kTangMetresPerUnit);
-  }
-  return clip;
-}
-
-Recording Tang(const std::string& name, const PrepareOptions& options) {
-  Recording recording;
-  recording.name = name;
-  recording.mapping = Tang2018Source();
-  recording.tilted_floor = true;
-  recording.expects_music = true;
-  recording.cutoff_hz = kTangCutoffHz;
-  const bool locked = name.rfind("DANCE_W", 0) == 0 || name.rfind("DANCE_R", 0) == 0;
-  recording.time_scale = ForClip(options.time_scales, name, locked ? kTangTimeScale : 1.0);
-  return recording;
-}
-
-// NAME.npy [frames, rows, 3] beside NAME.ogg (.wav, .mp3), which begins with the motion.
-Recording ReadTangNpy(const fs::path& path, const PrepareOptions& options) {
-  Recording recording = Tang(path.stem().string(), options);
-  const NpyArray array = ReadNpy(path);
-  const int rows = TangRows();
-  if (array.shape.size() != 3 || array.shape[1] != rows || array.shape[2] != 3) {
-    throw InvalidArgument(path.string(),
-                          "its shape is not [frames, " + std::to_string(rows) + ", 3]");
-  }
-  const std::vector<double> values = array.As<double>();
-  recording.positions = TangPositions(array.shape[0], [&](int64_t f, int r) {
-    return Eigen::Vector3d(values.data() + (f * rows + r) * 3);
-  });
-  recording.music = FirstExisting({fs::path(path).replace_extension(".ogg"),
-                                   fs::path(path).replace_extension(".wav"),
-                                   fs::path(path).replace_extension(".mp3")});
-  return recording;
-}
-
-// The public layout: NAME/skeletons.json, config.json (the dance's start and end frame within the
-// music), audio.mp3.
-Recording ReadTangFolder(const fs::path& folder, const PrepareOptions& options) {
-  Recording recording = Tang(folder.filename().string(), options);
-  const auto load = [](const fs::path& path) {
-    std::ifstream file(path);
-    if (!file) throw Error(ErrorCode::kNotFound, path.string(), "no such file");
-    return json::parse(file);
-  };
-  const json skeletons = load(folder / "skeletons.json");
-  const json& center = skeletons.at("center");
-  const json& joints = skeletons.at("skeletons");
-  const auto point = [](const json& p) {
-    return Eigen::Vector3d(p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>());
-  };
-  recording.positions = TangPositions(
-      static_cast<int64_t>(std::min(center.size(), joints.size())), [&](int64_t f, int r) {
-        const auto frame = static_cast<size_t>(f);
-        return r == 0 ? point(center.at(frame))
-                      : point(joints.at(frame).at(static_cast<size_t>(r - 1)));
-      });
-  recording.music =
-      FirstExisting({folder / "audio.mp3", folder / "audio.wav", folder / "audio.ogg"});
-  recording.music_start_s =
-      load(folder / "config.json").at("start_position").get<double>() / kTangFps;
-  return recording;
-}
 
 Recording ReadAmassRecording(const fs::path& path, const std::string& name) {
   Recording recording;
@@ -164,12 +73,14 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
     const fs::path path = entry.path();
     if (options.layout == "tang2018") {
       if (path.extension() == ".npy") {
-        sources.push_back({path.stem().string(), [=] { return ReadTangNpy(path, options); }});
+        sources.push_back({path.stem().string(), [=] { return ReadTang2018Npy(path, options); }});
       } else if (path.filename() == "skeletons.json") {
         const fs::path folder = path.parent_path();
         sources.push_back(
-            {folder.filename().string(), [=] { return ReadTangFolder(folder, options); }});
+            {folder.filename().string(), [=] { return ReadTang2018Folder(folder, options); }});
       }
+    } else if (options.layout == "tang61" && path.extension() == ".npy") {
+      sources.push_back({path.stem().string(), [=] { return ReadTang61(path, options); }});
     } else if (options.layout == "bvh" && path.extension() == ".bvh") {
       // Files of sub-folders are told apart by the folder: salsa/01.bvh is salsa_01.
       const fs::path relative = fs::relative(path, options.input);

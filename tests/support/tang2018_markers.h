@@ -51,4 +51,33 @@ inline PositionClip Tang2018Markers(const Motion& motion) {
   return clip;
 }
 
+/// The rows of tang61 on a dancer of ours.
+inline PositionClip Tang61Markers(const Motion& motion) {
+  const PositionClip markers = Tang2018Markers(motion);
+  PositionClip clip;
+  clip.fps = motion.fps;
+  clip.joint_names = Tang61JointNames();
+  for (const Eigen::Matrix3Xd& frame : markers.frames) {
+    const auto place = [&](const std::string& name) -> Eigen::Vector3d {
+      return frame.col(FindJoint(markers, name));
+    };
+    Eigen::Matrix3Xd positions(3, clip.joint_names.size());
+    for (size_t i = 0; i < clip.joint_names.size(); ++i) {
+      const std::string& name = clip.joint_names[i];
+      Eigen::Vector3d position;
+      if (name == "neck") {
+        position = (place("waist") + 2 * place("left_temple")) / 3;
+      } else if (name.ends_with("_sole")) {
+        const std::string side = name.substr(0, name.size() - 4);
+        position = 0.5 * (place(side + "heel") + place(side + "toes"));
+      } else {
+        position = place(name);
+      }
+      positions.col(static_cast<Eigen::Index>(i)) = position;
+    }
+    clip.frames.push_back(positions);
+  }
+  return clip;
+}
+
 }  // namespace choreo
