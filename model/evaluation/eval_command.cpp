@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "model/evaluation/liveliness_table.h"
 #include "model/evaluation/long_tables.h"
 #include "model/evaluation/method_sheet.h"
+#include "model/evaluation/paired_sheets.h"
 #include "model/evaluation/stress_table.h"
 #include "model/evaluation/transition_tables.h"
 
@@ -138,6 +140,26 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
   return tables;
 }
 
+void DrawSheets(const Arguments& arguments, const Contest& contest,
+                const std::vector<ClipSet>& sets) {
+  const float temperature = arguments.options.temperature;
+  for (const ClipSet& set : sets) {
+    if (arguments.scope == Scope::kLiveliness) {
+      const auto png = [&](const std::string& clip) {
+        return arguments.paths.Picture("pair_" + set.name + "_" + clip);
+      };
+      const std::string answers = DrawPairedSheets(set, contest.methods.back(), temperature, png);
+      std::ofstream(arguments.paths.Picture("pair_" + set.name).replace_extension(".txt"))
+          << answers;
+      continue;
+    }
+    for (const Method& method : contest.methods) {
+      DrawMethodSheet(set, method, contest.judged().model(), temperature,
+                      arguments.paths.Picture("sheet_" + set.name + "_" + method.name));
+    }
+  }
+}
+
 void Evaluate(Arguments arguments) {
   // What can be refused is refused before the long work.
   SetNames(arguments.data);
@@ -168,13 +190,7 @@ void Evaluate(Arguments arguments) {
               {model.name, model.fingerprint, arguments.split, contest.stepped_by, summary,
                options.temperature},
               tables);
-  if (!arguments.sheets) return;
-  for (const ClipSet& set : sets) {
-    for (const Method& method : contest.methods) {
-      DrawMethodSheet(set, method, model, options.temperature,
-                      arguments.paths.Picture("sheet_" + set.name + "_" + method.name));
-    }
-  }
+  if (arguments.sheets) DrawSheets(arguments, contest, sets);
 }
 
 }  // namespace
@@ -220,7 +236,8 @@ void AddEvalCommand(CLI::App& app) {
                       "Also write the figures here, and plots beside it");
   command
       ->add_flag("--sheets", arguments->sheets,
-                 "Also draw ten random transitions of each method beside the JSON")
+                 "Also draw ten random transitions of each method beside the JSON; of --liveliness "
+                 "each clip beside the real one, which of the two is which in a text file")
       ->needs("--json");
   command->add_option("--markdown", arguments->paths.markdown,
                       "Also write the tables here; they show plots if there is a --json");

@@ -6,6 +6,7 @@
 #include "model/evaluation/keyed_dances.h"
 #include "model/evaluation/lively_figures.h"
 #include "model/evaluation/long_figures.h"
+#include "model/evaluation/spectrum_table.h"
 #include "model/evaluation/transition_judge.h"
 #include "model/metrics/critic.h"
 #include "model/metrics/groove.h"
@@ -224,10 +225,9 @@ Table Headed(const std::string& name, const std::string& title, const ClipSet& s
   return table;
 }
 
-Table LivelinessTable(const ClipSet& set, const Method& method, const EvalOptions& options,
-                      ProgressBar* progress) {
+Table LivelinessTable(const ClipSet& set, const Method& method, const KeyedDances& dances,
+                      const EvalOptions& options, ProgressBar* progress) {
   StepEngine& engine = *method.engine;
-  const KeyedDances dances = DanceKeyed(set, engine, options, progress);
   Rows rows;
   if (!dances.real.empty()) {
     AddMovement(dances, &rows);
@@ -246,6 +246,18 @@ Table LivelinessTable(const ClipSet& set, const Method& method, const EvalOption
   table.label_headings = {"figure"};
   table.columns = {{"real motion", 2}, {"real, foot lock", 2}, {"danced", 2}, {"danced ÷ real", 2}};
   table.rows = rows.Take();
+  return table;
+}
+
+Table BandTable(const ClipSet& set, const Method& method, const KeyedDances& dances) {
+  const Table heading = Headed("liveliness_bands_", "How fast in which band, ", set, method);
+  Table table = SpectrumTable(method.engine->model().skeleton, method.engine->model().fps,
+                              dances.real, dances.seeds[0]);
+  table.name = heading.name;
+  table.title = heading.title;
+  table.note =
+      "Speed over real motion's by frequency, through the same keys; the pelvis in the world, all "
+      "else as seen from it.";
   return table;
 }
 
@@ -286,8 +298,11 @@ Table DistanceTable(const ClipSet& set, const Method& method, const EvalOptions&
 
 std::vector<Table> EvaluateLiveliness(const ClipSet& set, const Method& method,
                                       const EvalOptions& options, ProgressBar* progress) {
-  return {LivelinessTable(set, method, options, progress),
-          DistanceTable(set, method, options, progress)};
+  const KeyedDances dances = DanceKeyed(set, *method.engine, options, progress);
+  std::vector<Table> tables = {LivelinessTable(set, method, dances, options, progress)};
+  if (!dances.real.empty()) tables.push_back(BandTable(set, method, dances));
+  tables.push_back(DistanceTable(set, method, options, progress));
+  return tables;
 }
 
 int64_t CountLivelyFrames(const ClipSet& set, const ModelInfo& model, const EvalOptions& options) {

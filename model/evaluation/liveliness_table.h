@@ -16,6 +16,7 @@ namespace choreo {
 ///                       part, hits on regular beats that it was told of, Frechet distances at
 ///                       60 frames (window_figures.h), the critic (metrics/critic.h). Without keys:
 ///                       long_figures.h.
+///   liveliness_bands_SET  how fast joints go in each band of frequency (spectrum_table.h)
 ///   liveliness_l2p_SET  L2P over interpolation's at temperature 0, at the served one, and of the
 ///                       best of EvalOptions::best_of samples there
 /// Everything is danced as it is served: engine, arrival, foot lock, closed loop. Figures named
