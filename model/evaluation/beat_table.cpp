@@ -5,7 +5,7 @@
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/long_plans.h"
-#include "model/evaluation/song_beats.h"
+#include "model/metrics/song_beats.h"
 
 namespace choreo {
 namespace {

@@ -5,7 +5,7 @@
 #include "model/core/error.h"
 #include "model/engine/engines.h"
 #include "model/evaluation/interpolation_engine.h"
-#include "model/evaluation/song_beats.h"
+#include "model/metrics/song_beats.h"
 
 namespace choreo {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "model/dance/control_track.h"
 #include "model/dance/quality_report.h"
-#include "model/evaluation/control_figures.h"
-#include "model/evaluation/joint_track.h"
+#include "model/metrics/control_figures.h"
+#include "model/metrics/joint_track.h"
 #include "model/motion/resample.h"
 
 namespace choreo {

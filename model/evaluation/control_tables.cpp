@@ -1,11 +1,11 @@
 #include "model/evaluation/control_tables.h"
 
 #include "model/evaluation/control_course.h"
-#include "model/evaluation/control_figures.h"
 #include "model/evaluation/drawn_table.h"
-#include "model/evaluation/joint_track.h"
 #include "model/evaluation/multiplier_tables.h"
-#include "model/evaluation/repetition.h"
+#include "model/metrics/control_figures.h"
+#include "model/metrics/joint_track.h"
+#include "model/metrics/repetition.h"
 #include "model/motion/facing_pose.h"
 
 namespace choreo {

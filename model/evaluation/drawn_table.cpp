@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "model/dance/quality_report.h"
-#include "model/evaluation/control_figures.h"
-#include "model/evaluation/joint_track.h"
+#include "model/metrics/control_figures.h"
+#include "model/metrics/joint_track.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 

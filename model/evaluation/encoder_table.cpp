@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "model/evaluation/frechet.h"
 #include "model/evaluation/long_plans.h"
+#include "model/metrics/frechet.h"
 
 namespace choreo {
 namespace {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -13,13 +14,17 @@
 #include "model/evaluation/control_tables.h"
 #include "model/evaluation/encoder_table.h"
 #include "model/evaluation/eval_report.h"
+#include "model/evaluation/liveliness_table.h"
 #include "model/evaluation/long_tables.h"
 #include "model/evaluation/method_sheet.h"
+#include "model/evaluation/paired_sheets.h"
 #include "model/evaluation/stress_table.h"
 #include "model/evaluation/transition_tables.h"
 
 namespace choreo {
 namespace {
+
+enum class Scope { kAll, kControls, kLiveliness };
 
 struct Arguments {
   ContestOptions contest;
@@ -29,7 +34,8 @@ struct Arguments {
   ReportPaths paths;
   EvalOptions options;
   float temperature = -1;
-  bool encode = true, sheets = false, controls_only = false;  // of the tables
+  Scope scope = Scope::kAll;
+  bool encode = true, sheets = false;  // of the tables
 };
 
 // Beside the progress on stderr.
@@ -77,26 +83,51 @@ std::string Summary(const Arguments& arguments, const Contest& contest) {
          " unless a row says otherwise. Engine: " + contest.stepped_by + ".";
 }
 
+// Of a set: those that are judged by themselves, not beside others.
+std::vector<const Method*> Judged(const std::vector<Method>& methods) {
+  std::vector<const Method*> judged;
+  for (const Method& method : methods) {
+    if (method.kind == Method::Kind::kEngine && method.network && method.keys)
+      judged.push_back(&method);
+  }
+  return judged;
+}
+
+int64_t CountFrames(const ClipSet& set, const Contest& contest, bool encode, Scope scope,
+                    const EvalOptions& options) {
+  const std::vector<Method>& methods = contest.methods;
+  int64_t frames = 0;
+  if (scope != Scope::kLiveliness) frames += CountControlFrames(set, methods, options);
+  if (scope != Scope::kControls) {
+    for (const Method* method : Judged(methods))
+      frames += CountLivelyFrames(set, method->engine->model(), options);
+  }
+  if (scope != Scope::kAll) return frames;
+  if (encode) frames += CountEncodedFrames(set, methods, options);
+  return frames + CountTransitionFrames(set, methods, options) +
+         CountLongFrames(set, contest.judged().model(), options);
+}
+
 std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& contest,
-                              const std::optional<MotionEncoder>& encoder, bool controls_only,
+                              const std::optional<MotionEncoder>& encoder, Scope scope,
                               const EvalOptions& options) {
   StepEngine& judged = contest.judged();
   int64_t frames = 0;
-  for (const ClipSet& set : sets) {
-    frames += CountControlFrames(set, contest.methods, options);
-    if (controls_only) continue;
-    frames += CountTransitionFrames(set, contest.methods, options) +
-              CountLongFrames(set, judged.model(), options);
-    if (encoder) frames += CountEncodedFrames(set, contest.methods, options);
-  }
+  for (const ClipSet& set : sets)
+    frames += CountFrames(set, contest, encoder.has_value(), scope, options);
   std::vector<Table> tables;
   const auto add = [&](std::vector<Table> more) {
     std::ranges::move(more, std::back_inserter(tables));
   };
   ProgressBar progress("evaluating", frames);
   for (const ClipSet& set : sets) {
-    add(EvaluateControls(set, contest.methods, options, &progress));
-    if (controls_only) continue;
+    if (scope != Scope::kLiveliness)
+      add(EvaluateControls(set, contest.methods, options, &progress));
+    if (scope != Scope::kControls) {
+      for (const Method* method : Judged(contest.methods))
+        add(EvaluateLiveliness(set, *method, options, &progress));
+    }
+    if (scope != Scope::kAll) continue;
     add(EvaluateTransitions(set, contest.methods, options, &progress));
     add(EvaluateLongDances(set, judged, options, &progress));
     if (encoder) add({EvaluateEncoded(set, contest.methods, *encoder, options, &progress)});
@@ -109,6 +140,26 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
   return tables;
 }
 
+void DrawSheets(const Arguments& arguments, const Contest& contest,
+                const std::vector<ClipSet>& sets) {
+  const float temperature = arguments.options.temperature;
+  for (const ClipSet& set : sets) {
+    if (arguments.scope == Scope::kLiveliness) {
+      const auto png = [&](const std::string& clip) {
+        return arguments.paths.Picture("pair_" + set.name + "_" + clip);
+      };
+      const std::string answers = DrawPairedSheets(set, contest.methods.back(), temperature, png);
+      std::ofstream(arguments.paths.Picture("pair_" + set.name).replace_extension(".txt"))
+          << answers;
+      continue;
+    }
+    for (const Method& method : contest.methods) {
+      DrawMethodSheet(set, method, contest.judged().model(), temperature,
+                      arguments.paths.Picture("sheet_" + set.name + "_" + method.name));
+    }
+  }
+}
+
 void Evaluate(Arguments arguments) {
   // What can be refused is refused before the long work.
   SetNames(arguments.data);
@@ -118,19 +169,19 @@ void Evaluate(Arguments arguments) {
   const Contest contest = MakeContest(arguments.contest);
   const ModelInfo& model = contest.judged().model();
   EvalOptions& options = arguments.options;
-  if (arguments.controls_only && !model.root_path)
-    throw InvalidArgument("--controls", model.name + " takes none");
-  if (!arguments.controls_only) CheckLengths(contest.methods, options.lengths);
+  const bool controls = arguments.scope == Scope::kControls;
+  if (controls && !model.root_path) throw InvalidArgument("--controls", model.name + " takes none");
+  if (!controls) CheckLengths(contest.methods, options.lengths);
   options.temperature = arguments.temperature >= 0 ? arguments.temperature
                                                    : static_cast<float>(model.default_temperature);
   const auto sets = LoadSets(arguments.data, arguments.splits, arguments.split, model.skeleton);
-  if (!arguments.controls_only) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
+  if (!controls) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
   std::optional<MotionEncoder> encoder;
-  if (arguments.encode && !arguments.controls_only) {
+  if (arguments.encode && arguments.scope == Scope::kAll) {
     encoder = MotionEncoder::Train(
         LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton));
   }
-  std::vector<Table> tables = MakeTables(sets, contest, encoder, arguments.controls_only, options);
+  std::vector<Table> tables = MakeTables(sets, contest, encoder, arguments.scope, options);
   NameJudged(arguments.contest.name, &tables);
   const std::string summary = Summary(arguments, contest);
   std::printf("%s\n", summary.c_str());
@@ -139,13 +190,7 @@ void Evaluate(Arguments arguments) {
               {model.name, model.fingerprint, arguments.split, contest.stepped_by, summary,
                options.temperature},
               tables);
-  if (!arguments.sheets) return;
-  for (const ClipSet& set : sets) {
-    for (const Method& method : contest.methods) {
-      DrawMethodSheet(set, method, model, options.temperature,
-                      arguments.paths.Picture("sheet_" + set.name + "_" + method.name));
-    }
-  }
+  if (arguments.sheets) DrawSheets(arguments, contest, sets);
 }
 
 }  // namespace
@@ -191,7 +236,8 @@ void AddEvalCommand(CLI::App& app) {
                       "Also write the figures here, and plots beside it");
   command
       ->add_flag("--sheets", arguments->sheets,
-                 "Also draw ten random transitions of each method beside the JSON")
+                 "Also draw ten random transitions of each method beside the JSON; of --liveliness "
+                 "each clip beside the real one, which of the two is which in a text file")
       ->needs("--json");
   command->add_option("--markdown", arguments->paths.markdown,
                       "Also write the tables here; they show plots if there is a --json");
@@ -225,13 +271,24 @@ void AddEvalCommand(CLI::App& app) {
       ->add_option_function<std::string>(
           "--controls",
           [arguments](const std::string& which) {
-            arguments->controls_only = true;
+            arguments->scope = Scope::kControls;
             arguments->options.all_controls = which == "all";
           },
           "all | paper: only the tables of controls, or of those paper C's alone; they have "
           "lengths "
           "of their own")
       ->check(CLI::IsMember({"all", "paper"}));
+  command
+      ->add_flag_callback(
+          "--liveliness", [arguments] { arguments->scope = Scope::kLiveliness; },
+          "Only the tables that tell whether the dance lives")
+      ->excludes("--controls");
+  command
+      ->add_option("--free-dances", options.free_dances,
+                   "Dances without keys in the table of liveliness; 0: none")
+      ->take_last()
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100000));
   command
       ->add_option("--temperature", arguments->temperature,
                    "From 0 to 2, instead of the model's own")

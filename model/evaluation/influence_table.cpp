@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/evaluation/long_plans.h"
-#include "model/evaluation/pose_distance.h"
+#include "model/metrics/pose_distance.h"
 
 namespace choreo {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "model/engine/step_engine.h"
-#include "model/evaluation/joint_track.h"
-#include "model/evaluation/pace.h"
 #include "model/evaluation/windows.h"
+#include "model/metrics/joint_track.h"
+#include "model/metrics/pace.h"
 
 namespace choreo {
 

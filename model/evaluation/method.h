@@ -32,6 +32,7 @@ struct EvalOptions {
   float temperature = 0;
   int long_seeds = 50;       ///< long dances of each kind; 0: none
   int long_frames = 1800;    ///< 60 s
+  int free_dances = 20;      ///< without keys, of the table of liveliness; 0: none
   bool all_controls = true;  ///< false: of the tables of controls, paper C's alone
 };
 

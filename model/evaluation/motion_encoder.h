@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "model/evaluation/joint_track.h"
 #include "model/evaluation/windows.h"
+#include "model/metrics/joint_track.h"
 
 namespace choreo {
 

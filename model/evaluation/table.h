@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/draw/plot.h"
-#include "model/evaluation/bootstrap.h"
+#include "model/metrics/bootstrap.h"
 
 namespace choreo {
 

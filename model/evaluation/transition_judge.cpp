@@ -1,6 +1,6 @@
 #include "model/evaluation/transition_judge.h"
 
-#include "model/evaluation/pose_distance.h"
+#include "model/metrics/pose_distance.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 

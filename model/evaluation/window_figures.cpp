@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "model/dance/quality_report.h"
-#include "model/evaluation/foot_contact_score.h"
-#include "model/evaluation/frechet.h"
-#include "model/evaluation/geometric_features.h"
-#include "model/evaluation/kinetic_features.h"
-#include "model/evaluation/npss.h"
-#include "model/evaluation/pose_distance.h"
+#include "model/metrics/foot_contact_score.h"
+#include "model/metrics/frechet.h"
+#include "model/metrics/geometric_features.h"
+#include "model/metrics/kinetic_features.h"
+#include "model/metrics/npss.h"
+#include "model/metrics/pose_distance.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {

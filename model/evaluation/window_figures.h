@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "model/evaluation/bootstrap.h"
-#include "model/evaluation/pace.h"
 #include "model/evaluation/table.h"
 #include "model/evaluation/windows.h"
+#include "model/metrics/bootstrap.h"
+#include "model/metrics/pace.h"
 
 namespace choreo {
 

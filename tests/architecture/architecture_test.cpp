@@ -29,7 +29,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
     const std::string core = "model/core", audio = "model/audio", motion = "model/motion",
                       body = "model/body", formats = "model/formats", draw = "model/draw",
                       flow = "model/flow", controllers = "model/controllers",
-                      engine = "model/engine", dance = "model/dance";
+                      engine = "model/engine", dance = "model/dance", metrics = "model/metrics";
     return std::vector<std::pair<std::string, std::set<std::string>>>{
         {core, {}},
         {audio, {core}},
@@ -42,7 +42,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {engine, {core, motion, flow, controllers}},
         {dance, {core, audio, motion, engine}},
         {"model/training", {core, audio, motion, formats, draw, flow, controllers, dance}},
-        {"model/evaluation", {core, audio, motion, draw, engine, dance, "model/training"}},
+        {metrics, {core, audio, motion}},
+        {"model/evaluation", {core, audio, motion, draw, engine, dance, "model/training", metrics}},
         {"model/lab", {core, engine, "model/training", "model/evaluation"}},
         {"server", {core, audio, motion, engine, dance, "choreo", "google"}},
         {"client", {core, audio, motion, formats, draw, "choreo", "google", "grpc"}},

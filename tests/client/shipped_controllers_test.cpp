@@ -8,7 +8,7 @@
 #include "client/choreo_client.h"
 #include "client/cli/local_server.h"
 #include "client/cli/pose_library.h"
-#include "model/evaluation/control_figures.h"
+#include "model/metrics/control_figures.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/motion/velocity_factors.h"

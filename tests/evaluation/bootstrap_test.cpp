@@ -1,4 +1,4 @@
-#include "model/evaluation/bootstrap.h"
+#include "model/metrics/bootstrap.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

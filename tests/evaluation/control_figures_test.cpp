@@ -1,11 +1,11 @@
-#include "model/evaluation/control_figures.h"
+#include "model/metrics/control_figures.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "model/evaluation/repetition.h"
+#include "model/metrics/repetition.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "model/core/random.h"
-#include "model/evaluation/frechet.h"
-#include "model/evaluation/geometric_features.h"
-#include "model/evaluation/kinetic_features.h"
+#include "model/metrics/frechet.h"
+#include "model/metrics/geometric_features.h"
+#include "model/metrics/kinetic_features.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 

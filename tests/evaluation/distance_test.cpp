@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "model/evaluation/foot_contact_score.h"
-#include "model/evaluation/npss.h"
-#include "model/evaluation/pace.h"
-#include "model/evaluation/pose_distance.h"
+#include "model/metrics/foot_contact_score.h"
+#include "model/metrics/npss.h"
+#include "model/metrics/pace.h"
+#include "model/metrics/pose_distance.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 

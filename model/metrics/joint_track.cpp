@@ -1,4 +1,4 @@
-#include "model/evaluation/joint_track.h"
+#include "model/metrics/joint_track.h"
 
 #include "model/motion/kinematics.h"
 

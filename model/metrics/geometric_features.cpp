@@ -1,4 +1,4 @@
-#include "model/evaluation/geometric_features.h"
+#include "model/metrics/geometric_features.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "model/evaluation/frechet.h"
+#include "model/metrics/frechet.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

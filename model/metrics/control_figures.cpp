@@ -1,4 +1,4 @@
-#include "model/evaluation/control_figures.h"
+#include "model/metrics/control_figures.h"
 
 #include <algorithm>
 #include <cmath>

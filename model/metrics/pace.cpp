@@ -1,4 +1,4 @@
-#include "model/evaluation/pace.h"
+#include "model/metrics/pace.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "model/evaluation/joint_track.h"
+#include "model/metrics/joint_track.h"
 
 namespace choreo {
 

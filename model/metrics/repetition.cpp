@@ -1,4 +1,4 @@
-#include "model/evaluation/repetition.h"
+#include "model/metrics/repetition.h"
 
 #include <cmath>
 #include <string>

@@ -1,4 +1,4 @@
-#include "model/evaluation/kinetic_features.h"
+#include "model/metrics/kinetic_features.h"
 
 #include <algorithm>
 #include <string>

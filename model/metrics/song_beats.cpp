@@ -1,4 +1,4 @@
-#include "model/evaluation/song_beats.h"
+#include "model/metrics/song_beats.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "model/evaluation/npss.h"
+#include "model/metrics/npss.h"
 
 #include <cmath>
 #include <string>

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "model/evaluation/joint_track.h"
+#include "model/metrics/joint_track.h"
 
 /// How far a dance is from the one that was really danced, frame by frame. Both have the same
 /// frames; throw Error(kInvalidArgument) where they do not.

@@ -1,4 +1,4 @@
-#include "model/evaluation/foot_contact_score.h"
+#include "model/metrics/foot_contact_score.h"
 
 #include <algorithm>
 #include <cmath>

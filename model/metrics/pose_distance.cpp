@@ -1,4 +1,4 @@
-#include "model/evaluation/pose_distance.h"
+#include "model/metrics/pose_distance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/evaluation/joint_track.h"
+#include "model/metrics/joint_track.h"
 #include "model/motion/velocity_factors.h"
 
 /// How well a transition does what it was asked: the three figures of paper C, Section 4.3, Eq.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/evaluation/joint_track.h"
+#include "model/metrics/joint_track.h"
 
 namespace choreo {
 

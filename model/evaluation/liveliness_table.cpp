@@ -1,0 +1,327 @@
+#include "model/evaluation/liveliness_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/evaluation/keyed_dances.h"
+#include "model/evaluation/lively_figures.h"
+#include "model/evaluation/long_figures.h"
+#include "model/evaluation/spectrum_table.h"
+#include "model/evaluation/transition_judge.h"
+#include "model/metrics/critic.h"
+#include "model/metrics/groove.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kSeeds = 3;
+constexpr int kFrechetFrames = 60;
+constexpr double kSlowest = 0.7, kFastest = 1.4;  // of real motion's median speed
+
+// What a dance is told of its music.
+struct Song {
+  double bpm = 0;
+  double phase = 0;
+  bool shuffled = false;
+};
+// The first three for their tempi, the next for its phase, the last as a control.
+constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true}};
+
+// All that is danced through keys, and what was really danced there.
+struct KeyedDances {
+  LivelyDances real, locked;
+  std::vector<LivelyDances> seeds;  // [kSeeds]
+  std::vector<LivelyDances> songs;  // one each of kSongs, seed 0
+};
+
+Cell Plain(double value) { return {value, {}}; }
+
+class Rows {
+ public:
+  void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio) {
+    rows_.push_back({{figure}, {real, locked, danced, ratio}});
+  }
+  void AddDanced(const std::string& figure, Cell danced, Cell ratio = {}) {
+    Add(figure, {}, {}, danced, ratio);
+  }
+  std::vector<TableRow> Take() { return std::move(rows_); }
+
+ private:
+  std::vector<TableRow> rows_;
+};
+
+std::vector<LivelyDances> Measure(const ModelInfo& model, const std::vector<LongPlan>& plans,
+                                  const std::vector<Chain>& chains, size_t repeats) {
+  std::vector<LivelyDances> all(repeats);
+  for (size_t i = 0; i < chains.size(); ++i) {
+    const size_t repeat = i / (chains.size() / repeats);
+    all[repeat].push_back(MeasureLiveliness(model, plans[i], chains[i].poses));
+  }
+  return all;
+}
+
+KeyedDances DanceKeyed(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
+                       ProgressBar* progress) {
+  const ModelInfo& model = engine.model();
+  const std::vector<LongPlan> plans = PlanKeyedDances(model, set, options.temperature);
+  KeyedDances dances;
+  for (const LongPlan& plan : plans) {
+    dances.real.push_back(MeasureLiveliness(model, plan, RealMotionBeside(plan, set)));
+    dances.locked.push_back(MeasureLiveliness(model, plan, RealThroughFootLock(model, plan, set)));
+  }
+  if (plans.empty()) return dances;
+  // All together: the fuller the batch, the cheaper.
+  std::vector<LongPlan> all;
+  for (uint64_t seed = 0; seed < kSeeds; ++seed)
+    std::ranges::copy(WithSeed(plans, seed), std::back_inserter(all));
+  for (const Song& song : kSongs) {
+    for (LongPlan plan : plans) {
+      const int frames = plan.chain.frames;
+      plan.chain.beats = song.shuffled ? ShuffledBeats(song.bpm, plan.clip, model.fps, frames)
+                                       : RegularBeats(song.bpm, song.phase, model.fps, frames);
+      all.push_back(std::move(plan));
+    }
+  }
+  const std::vector<Chain> chains = DanceLong(engine, all, set, progress);
+  dances.seeds = Measure(model, all, chains, kSeeds + std::size(kSongs));
+  dances.songs.assign(dances.seeds.begin() + kSeeds, dances.seeds.end());
+  dances.seeds.resize(kSeeds);
+  return dances;
+}
+
+// Of each seed one after the other; what stands beside them is repeated as often.
+LivelyDances Flat(const std::vector<LivelyDances>& seeds) {
+  LivelyDances all;
+  for (const LivelyDances& dances : seeds) all.insert(all.end(), dances.begin(), dances.end());
+  return all;
+}
+
+std::vector<ClipFigure> Scaled(std::vector<ClipFigure> figures, double unit) {
+  for (ClipFigure& figure : figures) figure.value *= unit;
+  return figures;
+}
+
+void AddMovement(const KeyedDances& dances, Rows* rows) {
+  const LivelyDances danced = Flat(dances.seeds);
+  const LivelyDances real = Flat(std::vector<LivelyDances>(kSeeds, dances.real));
+  const auto add = [&](const std::string& name, double LivelyFigures::*figure, double unit) {
+    const auto mean = [&](const LivelyDances& some) {
+      return Mean(Scaled(Of(some, figure), unit));
+    };
+    rows->Add(name, mean(dances.real), mean(dances.locked), mean(danced),
+              Ratio(Of(danced, figure), Of(real, figure)));
+  };
+  add("median speed cm/s", &LivelyFigures::median_speed, 100);
+  std::vector<ClipFigure> within;
+  for (size_t i = 0; i < danced.size(); ++i) {
+    const double ratio = danced[i].median_speed / real[i].median_speed;
+    within.push_back({danced[i].clip, ratio >= kSlowest && ratio <= kFastest ? 100.0 : 0.0});
+  }
+  rows->Add("dances at 0.7 to 1.4 of it %", Plain(100), {}, Mean(within), {});
+  const auto wandering = [&](const LivelyDances& some) {
+    return Ratio(Of(some, &LivelyFigures::limb_path), Of(some, &LivelyFigures::limb_chord));
+  };
+  rows->Add("limbs' path over chord m/m", wandering(dances.real), wandering(dances.locked),
+            wandering(danced),
+            Ratio(Of(danced, &LivelyFigures::limb_path), Of(real, &LivelyFigures::limb_path)));
+  add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
+  add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
+  add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
+  add("skating %", &LivelyFigures::skate_ratio, 100);
+  add("kinematic beats a minute", &LivelyFigures::kinematic_beats, 1);
+}
+
+void AddDifferences(const KeyedDances& dances, Rows* rows) {
+  std::vector<ClipFigure> seeds;
+  for (size_t a = 0; a < kSeeds; ++a) {
+    for (size_t b = a + 1; b < kSeeds; ++b) {
+      for (size_t i = 0; i < dances.real.size(); ++i) {
+        const LivelyDances one = {dances.seeds[a][i]}, other = {dances.seeds[b][i]};
+        seeds.push_back({dances.real[i].clip, DistanceCm(one, other).value});
+      }
+    }
+  }
+  rows->AddDanced("seeds differ cm", Mean(seeds));
+  rows->AddDanced("songs differ, 90 and 130 bpm cm", DistanceCm(dances.songs[0], dances.songs[2]));
+  rows->AddDanced("songs differ, half a beat apart cm",
+                  DistanceCm(dances.songs[1], dances.songs[3]));
+}
+
+void AddHits(const KeyedDances& dances, double fps, Rows* rows) {
+  for (size_t i = 0; i < std::size(kSongs); ++i) {
+    const Song& song = kSongs[i];
+    const auto hits = [&](const LivelyDances& some) {
+      return HitsOverChance(some, song.bpm, song.phase, fps);
+    };
+    std::string name = "hits over chance, " + std::to_string(std::lround(song.bpm)) + " bpm";
+    if (song.phase > 0) name += ", half a beat later";
+    if (song.shuffled) name += ", told shuffled beats";
+    rows->Add(name + " points", hits(dances.real), hits(dances.locked), hits(dances.songs[i]), {});
+  }
+}
+
+void AddFrechet(const ClipSet& set, const Method& method, const EvalOptions& options,
+                ProgressBar* progress, Rows* rows) {
+  const TransitionJudge judge(set, method.engine->model(), kFrechetFrames, options.windows_per_clip,
+                              progress);
+  if (judge.windows().empty()) return;
+  const RealFeatures features = GatherRealFeatures(set, kFrechetFrames);
+  const Figures real = judge.Run({"real", Method::Kind::kReal}, 0);
+  const Figures danced = judge.Run(method, options.temperature);
+  const auto add = [&](const std::string& name, const Eigen::MatrixXd& all, auto figure) {
+    const double own = CompareFeatures(all, real, figure).distance;
+    const double theirs = CompareFeatures(all, danced, figure).distance;
+    rows->Add(name, Plain(own), {}, Plain(theirs), Plain(theirs / own));
+  };
+  add("FID_k at 60 frames", features.kinetic, &WindowFigures::kinetic);
+  add("FID_g at 60 frames", features.geometric, &WindowFigures::geometric);
+}
+
+void AddCritic(const KeyedDances& dances, double fps, Rows* rows) {
+  const auto windows = [&](const LivelyDances& some) {
+    CriticWindows all;
+    for (const LivelyFigures& dance : some) all.Add(dance.track, fps, dance.clip);
+    return all;
+  };
+  const CriticWindows locked = windows(dances.locked);
+  rows->Add("critic's area under the curve", {}, Plain(RealAgainstReal(locked)),
+            Plain(CriticArea(locked, windows(dances.seeds[0]))), {});
+}
+
+void AddFree(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
+             ProgressBar* progress, Rows* rows) {
+  if (options.free_dances == 0) return;
+  const ModelInfo& model = engine.model();
+  const RealRange real = MeasureReal(set, model).range;
+  const std::vector<LongPlan> plans =
+      PlanLongDances(model, set, KeyTimes::kNone, options.free_dances, options);
+  std::vector<LongFigures> dances;
+  std::vector<float> speeds;
+  for (const Chain& chain : DanceLong(engine, plans, set, progress)) {
+    dances.push_back(MeasureLong(model.skeleton, model.fps, chain.poses, {}));
+    speeds.push_back(static_cast<float>(dances.back().median_speed));
+  }
+  const auto share = [&](auto is) {
+    return Plain(100.0 * static_cast<double>(std::ranges::count_if(dances, is)) /
+                 static_cast<double>(dances.size()));
+  };
+  const double speed = Percentile(speeds, 0.5);
+  rows->Add("free: median speed cm/s", Plain(100 * real.median_speed), {}, Plain(100 * speed),
+            Plain(speed / real.median_speed));
+  rows->AddDanced("free: frozen %", share([&](const auto& one) { return real.Frozen(one); }));
+  rows->AddDanced("free: exploded %", share([&](const auto& one) { return real.Exploded(one); }));
+  rows->AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }));
+}
+
+// The judged model's tables are the set's, others' carry a name.
+Table Headed(const std::string& name, const std::string& title, const ClipSet& set,
+             const Method& method) {
+  Table table;
+  table.name = name + set.name;
+  table.title = title + set.name;
+  if (method.name == kServed) return table;
+  table.name += "_" + method.name;
+  table.title += ", " + method.name;
+  return table;
+}
+
+Table LivelinessTable(const ClipSet& set, const Method& method, const KeyedDances& dances,
+                      const EvalOptions& options, ProgressBar* progress) {
+  StepEngine& engine = *method.engine;
+  Rows rows;
+  if (!dances.real.empty()) {
+    AddMovement(dances, &rows);
+    AddDifferences(dances, &rows);
+    AddHits(dances, engine.model().fps, &rows);
+    AddCritic(dances, engine.model().fps, &rows);
+  }
+  AddFrechet(set, method, options, progress, &rows);
+  AddFree(set, engine, options, progress, &rows);
+  Table table = Headed("liveliness_", "Does it live, ", set, method);
+  table.note = std::to_string(dances.real.size()) + " clips, " + std::to_string(kSeeds) +
+               " seeds, the clips' own poses each 2 s as keys and nothing else of them; free: " +
+               std::to_string(options.free_dances) +
+               " dances without keys. The critic is fair where it finds real motion against real "
+               "between 0.45 and 0.55.";
+  table.label_headings = {"figure"};
+  table.columns = {{"real motion", 2}, {"real, foot lock", 2}, {"danced", 2}, {"danced ÷ real", 2}};
+  table.rows = rows.Take();
+  return table;
+}
+
+Table BandTable(const ClipSet& set, const Method& method, const KeyedDances& dances) {
+  const Table heading = Headed("liveliness_bands_", "How fast in which band, ", set, method);
+  Table table = SpectrumTable(method.engine->model().skeleton, method.engine->model().fps,
+                              dances.real, dances.seeds[0]);
+  table.name = heading.name;
+  table.title = heading.title;
+  table.note =
+      "Speed over real motion's by frequency, through the same keys; the pelvis in the world, all "
+      "else as seen from it.";
+  return table;
+}
+
+Table DistanceTable(const ClipSet& set, const Method& method, const EvalOptions& options,
+                    ProgressBar* progress) {
+  Table table = Headed("liveliness_l2p_", "How near to the real way, ", set, method);
+  table.note = "L2P over interpolation's, at temperature 0, as served, best of " +
+               std::to_string(options.best_of) + " there.";
+  table.label_headings = {"frames"};
+  table.columns = {{"interpolation cm", 2},
+                   {"T = 0 ÷ interpolation", 3},
+                   {"served ÷ interpolation", 3},
+                   {"best ÷ interpolation", 3},
+                   {"best ÷ T = 0", 3}};
+  for (const int frames : options.lengths) {
+    const TransitionJudge judge(set, method.engine->model(), frames, options.windows_per_clip,
+                                progress);
+    if (judge.windows().empty()) continue;
+    const Figures line = judge.Run({"interpolation", Method::Kind::kInterpolation}, 0);
+    const Figures mean = judge.Run(method, 0);
+    const Figures served = judge.Run(method, options.temperature);
+    Figures best = served;
+    for (int sample = 1; sample < options.best_of; ++sample) {
+      const Figures another = judge.Run(method, options.temperature, static_cast<uint32_t>(sample));
+      for (size_t i = 0; i < best.size(); ++i) best[i].l2p = std::min(best[i].l2p, another[i].l2p);
+    }
+    const auto ratio = [](const Figures& above, const Figures& below) {
+      return Ratio(above, &WindowFigures::l2p, below, &WindowFigures::l2p);
+    };
+    table.rows.push_back({{std::to_string(frames)},
+                          {Mean(line, &WindowFigures::l2p, 100), ratio(mean, line),
+                           ratio(served, line), ratio(best, line), ratio(best, mean)}});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Table> EvaluateLiveliness(const ClipSet& set, const Method& method,
+                                      const EvalOptions& options, ProgressBar* progress) {
+  const KeyedDances dances = DanceKeyed(set, *method.engine, options, progress);
+  std::vector<Table> tables = {LivelinessTable(set, method, dances, options, progress)};
+  if (!dances.real.empty()) tables.push_back(BandTable(set, method, dances));
+  tables.push_back(DistanceTable(set, method, options, progress));
+  return tables;
+}
+
+int64_t CountLivelyFrames(const ClipSet& set, const ModelInfo& model, const EvalOptions& options) {
+  const auto frames_of = [](const std::vector<LongPlan>& plans) {
+    int64_t frames = 0;
+    for (const LongPlan& plan : plans) frames += plan.chain.frames;
+    return frames;
+  };
+  const auto windows = [&](int frames) {
+    return frames *
+           static_cast<int64_t>(
+               ChooseWindows(set, model.history_frames, frames, options.windows_per_clip).size());
+  };
+  int64_t frames = frames_of(PlanKeyedDances(model, set, 0)) *
+                   (kSeeds + static_cast<int64_t>(std::size(kSongs)));
+  frames += frames_of(PlanLongDances(model, set, KeyTimes::kNone, options.free_dances, options));
+  for (const int length : options.lengths)
+    frames += windows(length) * (1 + std::max(1, options.best_of));
+  return frames + windows(kFrechetFrames);
+}
+
+}  // namespace choreo

@@ -1,0 +1,70 @@
+#include "model/evaluation/lively_figures.h"
+
+#include <cmath>
+
+#include "model/dance/quality_report.h"
+#include "model/evaluation/beat_table.h"
+#include "model/evaluation/keyed_dances.h"
+#include "model/metrics/groove.h"
+#include "model/metrics/pace.h"
+#include "model/metrics/pose_distance.h"
+
+namespace choreo {
+
+LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
+                                const std::vector<Pose>& poses) {
+  LivelyFigures figures;
+  figures.clip = plan.clip;
+  std::vector<Pose> whole = {plan.chain.history.back()};
+  whole.insert(whole.end(), poses.begin(), poses.end());
+  figures.track = TrackJoints(model.skeleton, whole);
+  figures.speeds = MeanSpeeds(figures.track, model.fps);
+  figures.median_speed = Percentile(figures.speeds, 0.5);
+  std::vector<int> keys;
+  for (const auto& [frame, pose] : plan.chain.keys) keys.push_back(frame + 1);
+  const LimbTravel travel = MeasureLimbTravel(model.skeleton, figures.track, keys);
+  figures.limb_path = travel.path;
+  figures.limb_chord = travel.chord;
+  figures.bounce = PelvisBounce(figures.track, model.fps);
+  figures.jerk = SmoothJerk(figures.track, model.fps);
+  figures.raw_jerk = RawJerk(figures.track, model.fps);
+  figures.skate_ratio =
+      MeasureMotion(model.skeleton, {.fps = model.fps, .frames = whole}).skate_ratio;
+  figures.kinematic_beats = 60 * model.fps / static_cast<double>(poses.size()) *
+                            static_cast<double>(KinematicBeats(figures.speeds, model.fps).size());
+  return figures;
+}
+
+std::vector<ClipFigure> Of(const LivelyDances& dances, double LivelyFigures::*figure) {
+  std::vector<ClipFigure> figures;
+  for (const LivelyFigures& dance : dances) figures.push_back({dance.clip, dance.*figure});
+  return figures;
+}
+
+Cell DistanceCm(const LivelyDances& a, const LivelyDances& b) {
+  std::vector<ClipFigure> figures;
+  for (size_t i = 0; i < a.size(); ++i)
+    figures.push_back({a[i].clip, 100 * L2P(a[i].track, b[i].track)});
+  return Mean(figures);
+}
+
+Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps) {
+  const auto shifts = static_cast<int>(std::lround(60 * fps / bpm));
+  std::vector<ClipFigure> figures;
+  for (const LivelyFigures& dance : dances) {
+    const auto hits = [&](double at) {
+      const auto frames = static_cast<int>(dance.speeds.size()) + 1;
+      // The track begins a frame before the dance.
+      std::vector<double> beats = RegularBeats(bpm, at, fps, frames);
+      for (double& beat : beats) ++beat;
+      return 100 * ScoreBeats(dance.speeds, beats, fps).hit_rate;
+    };
+    double chance = 0;
+    for (int shift = 0; shift < shifts; ++shift)
+      chance += hits(phase + static_cast<double>(shift) / shifts) / shifts;
+    figures.push_back({dance.clip, hits(phase) - chance});
+  }
+  return Mean(figures);
+}
+
+}  // namespace choreo

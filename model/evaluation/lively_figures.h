@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "model/evaluation/chain.h"
+#include "model/evaluation/long_plans.h"
+#include "model/evaluation/table.h"
+#include "model/metrics/joint_track.h"
+
+namespace choreo {
+
+/// A dance through keys judged for how alive it is.
+struct LivelyFigures {
+  size_t clip = 0;                       ///< within its set
+  double median_speed = 0;               ///< over frames, of the mean joint speed, m/s
+  double limb_path = 0, limb_chord = 0;  ///< LimbTravel, m
+  double bounce = 0;                     ///< PelvisBounce, m
+  double jerk = 0, raw_jerk = 0;         ///< SmoothJerk, RawJerk, m/s^3
+  double skate_ratio = 0;                ///< quality_report.h
+  double kinematic_beats = 0;            ///< a minute
+  JointTrack track;                      ///< from the pose before the first frame on
+  std::vector<float> speeds;             ///< mean joint speed of each frame, m/s
+};
+
+/// `poses`: the dance of this plan, or what stands in for it.
+LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
+                                const std::vector<Pose>& poses);
+
+using LivelyDances = std::vector<LivelyFigures>;
+
+/// One figure of each dance.
+std::vector<ClipFigure> Of(const LivelyDances& dances, double LivelyFigures::*figure);
+
+/// Mean distance of all joints between the same frames of two dances of each plan, cm.
+Cell DistanceCm(const LivelyDances& a, const LivelyDances& b);
+
+/// Hit rate (ScoreBeats) less what the same dance hits by chance: the mean over these beats moved
+/// by each part of their distance, a frame apart. Percentage points.
+Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps);
+
+}  // namespace choreo

@@ -1,0 +1,67 @@
+#include "model/evaluation/spectrum_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/metrics/speed_spectrum.h"
+
+namespace choreo {
+namespace {
+
+// [kBands, joints], mean over windows, floor and height together.
+Eigen::MatrixXd MeanPower(const LivelyDances& dances, double fps) {
+  Eigen::MatrixXd sum;
+  int windows = 0;
+  const auto length = static_cast<std::ptrdiff_t>(std::lround(2 * fps));
+  for (const LivelyFigures& dance : dances) {
+    const JointTrack& track = dance.track;
+    for (auto from = track.begin(); track.end() - from >= length; from += length, ++windows) {
+      const Eigen::MatrixXd power = SpeedSpectrum(JointTrack(from, from + length), fps);
+      if (windows == 0) sum.setZero(kBands, power.cols() / 2);
+      for (Eigen::Index joint = 0; joint < sum.cols(); ++joint)
+        sum.col(joint) += power.col(2 * joint) + power.col(2 * joint + 1);
+    }
+  }
+  return sum / std::max(1, windows);
+}
+
+std::string WithoutSide(const std::string& joint) {
+  for (const std::string side : {"left_", "right_"})
+    if (joint.starts_with(side)) return joint.substr(side.size());
+  return joint;
+}
+
+}  // namespace
+
+Table SpectrumTable(const Skeleton& skeleton, double fps, const LivelyDances& real,
+                    const LivelyDances& danced) {
+  Table table;
+  table.label_headings = {"joint"};
+  for (int band = 0; band < kBands; ++band) {
+    char heading[64];
+    std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[static_cast<size_t>(band)],
+                  kBandEdges[static_cast<size_t>(band) + 1]);
+    table.columns.push_back({heading, 2});
+  }
+  const Eigen::MatrixXd theirs = MeanPower(real, fps), ours = MeanPower(danced, fps);
+  std::vector<std::string> names;
+  for (const std::string& joint : skeleton.joint_names) {
+    const std::string name = WithoutSide(joint);
+    if (std::ranges::find(names, name) != names.end()) continue;
+    names.push_back(name);
+    Eigen::VectorXd above = Eigen::VectorXd::Zero(kBands), below = above;
+    for (Eigen::Index j = 0; j < ours.cols(); ++j) {
+      if (WithoutSide(skeleton.joint_names[static_cast<size_t>(j)]) != name) continue;
+      above += ours.col(j);
+      below += theirs.col(j);
+    }
+    TableRow row{{name}, {}};
+    for (int band = 0; band < kBands; ++band)
+      row.cells.push_back({below[band] > 0 ? std::sqrt(above[band] / below[band]) : NAN, {}});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace choreo

@@ -1,0 +1,64 @@
+#include "model/metrics/groove.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/core/error.h"
+#include "model/metrics/band_filter.h"
+#include "model/metrics/pace.h"
+
+namespace choreo {
+namespace {
+
+std::array<Eigen::Index, 4> LimbEnds(const Skeleton& skeleton) {
+  std::array<Eigen::Index, 4> ends;
+  const std::array<int, 4> bends = {skeleton.left_knee, skeleton.right_knee, skeleton.left_elbow,
+                                    skeleton.right_elbow};
+  for (size_t limb = 0; limb < bends.size(); ++limb) {
+    const auto child = std::ranges::find(skeleton.parents, bends[limb]);
+    if (bends[limb] < 0 || child == skeleton.parents.end())
+      throw InvalidArgument("skeleton", skeleton.Describe() + " lacks knees, elbows or their ends");
+    ends[limb] = child - skeleton.parents.begin();
+  }
+  return ends;
+}
+
+}  // namespace
+
+LimbTravel MeasureLimbTravel(const Skeleton& skeleton, const JointTrack& track,
+                             const std::vector<int>& keys) {
+  LimbTravel travel;
+  for (const Eigen::Index joint : LimbEnds(skeleton)) {
+    size_t from = 0;
+    for (const int key : keys) {
+      const auto to = static_cast<size_t>(key);
+      for (size_t t = from; t < to; ++t)
+        travel.path += (track[t + 1].col(joint) - track[t].col(joint)).norm();
+      travel.chord += (track[to].col(joint) - track[from].col(joint)).norm();
+      from = to;
+    }
+  }
+  return travel;
+}
+
+double PelvisBounce(const JointTrack& track, double fps) {
+  Eigen::VectorXd heights(static_cast<Eigen::Index>(track.size()));
+  for (Eigen::Index t = 0; t < heights.size(); ++t)
+    heights[t] = track[static_cast<size_t>(t)](1, 0);
+  if (heights.size() == 0) return 0;
+  return std::sqrt(HighPass(heights, fps, kBounceHz).squaredNorm() /
+                   static_cast<double>(heights.size()));
+}
+
+double SmoothJerk(const JointTrack& track, double fps) {
+  return RawJerk(LowPass(track, fps, kJerkHz), fps);
+}
+
+double RawJerk(const JointTrack& track, double fps) {
+  Pace pace;
+  pace.Add(track, fps);
+  return pace.median_jerk();
+}
+
+}  // namespace choreo
