@@ -35,7 +35,7 @@ class Models {
  public:
   Models() {
     std::filesystem::create_directories(folder_);
-    for (const std::string shipped : {"default", "controllers"}) {
+    for (const std::string shipped : {"default", "free", "controllers"}) {
       paths_[shipped] = std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints" /
                         (shipped + ".safetensors");
     }
@@ -212,7 +212,7 @@ void Register(Models* models) {
   const bool bf16 = Bf16KernelsHere() != nullptr;
   std::vector<std::string> kinds = {"packed", "torch"};
   if (bf16) kinds.push_back("packed-bf16");
-  for (const std::string model : {"default", "paper"}) {
+  for (const std::string model : {"free", "paper"}) {
     const auto add = [&](const std::string& name, auto run) {
       benchmark::RegisterBenchmark((model + "/" + name).c_str(), run)
           ->Unit(benchmark::kMillisecond);
@@ -233,9 +233,9 @@ void Register(Models* models) {
       }
       add("admission/" + kind,
           [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind)); });
-      if (model != "default") continue;
+      if (model != "free") continue;
       add("admission/" + bare, [=](benchmark::State& state) {
-        Bare(state, PlanShapes(FlowConfig::Preset("default"), joints), 1, 1, half);
+        Bare(state, PlanShapes(FlowConfig::Preset("planned"), joints), 1, 1, half);
       });
     }
     add("admission/torch",
@@ -258,6 +258,8 @@ void Register(Models* models) {
   const auto add = [&](const char* name, auto run) {
     benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond);
   };
+  add("default/admission/torch",
+      [=](benchmark::State& state) { Admissions(state, models->Engine("default", "torch")); });
   add("controllers/torch/1",
       [=](benchmark::State& state) { Frames(state, models->Engine("controllers", "torch"), 1); });
   add("controllers/admission/torch",
@@ -269,7 +271,7 @@ int Measure(Models* models, int argc, char** argv) {
   if (argc == 3 && std::string(argv[1]) == "--probes") {
     const std::filesystem::path folder = argv[2];
     std::filesystem::create_directories(folder);
-    for (const std::string model : {"default", "paper"}) {
+    for (const std::string model : {"free", "paper"}) {
       const std::filesystem::path checkpoint = folder / (model + ".safetensors");
       std::filesystem::copy_file(models->Path(model), checkpoint,
                                  std::filesystem::copy_options::overwrite_existing);

@@ -21,7 +21,7 @@ struct ContinuousFlowConfig {
   int condition = 128;  ///< of what each block is modulated by: time, history, key, style
 
   int steps = 4;             ///< K, Euler steps from noise to motion
-  double temperature = 0.7;  ///< served by default: standard deviation of the noise; 0 is the mean
+  double temperature = 1;  ///< served by default: standard deviation of the noise; 0 is the mean
   std::vector<std::string> styles = {};  ///< that it was told of in training
   /// Medians of the velocity factors of the training clips, metres a frame.
   std::array<double, kBodyParts> median_factors = {};

@@ -43,7 +43,7 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
   FlowConfig config;
   config.name = name;
   if (name == "paper") return config;
-  if (name == "default") {
+  if (name == "planned") {
     config.flow_steps = 4;
     config.hidden = 192;
     config.recurrent = false;
@@ -74,7 +74,7 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     return config;
   }
   throw InvalidArgument("preset",
-                        "'" + name + "' is not one of paper, default, ablation, recurrent");
+                        "'" + name + "' is not one of paper, planned, ablation, recurrent");
 }
 
 }  // namespace choreo

@@ -28,12 +28,12 @@ inline constexpr float kStrayed = 1.5F;
 /// Shape and training-time switches of the flow model (paper F, Section 3.2). Stored in every
 /// checkpoint.
 struct FlowConfig {
-  std::string name = "default";  ///< as servers list the model; a preset's is its own
-  int history_frames = 10;       ///< tau
-  int audio_features = 40;       ///< MFCCs a row
-  bool hears_music = true;  ///< false: no training clip had music, which is then not listened to
-  int flow_steps = 16;      ///< K; 0: no flow, the plan is what is danced
-  int hidden = 512;         ///< width of each coupling's network
+  std::string name = "paper";  ///< as servers list the model; a preset's is its own
+  int history_frames = 10;     ///< tau
+  int audio_features = 40;     ///< MFCCs a row
+  bool hears_music = true;     ///< false: no training clip had music, which is then not listened to
+  int flow_steps = 16;         ///< K; 0: no flow, the plan is what is danced
+  int hidden = 512;            ///< width of each coupling's network
   bool recurrent = true;    ///< coupling network: 2-layer LSTM (the paper's) or 2-layer perceptron
   int condition_width = 0;  ///< 0: the raw condition goes to every coupling (the paper); else one
                             ///< shared encoding of this width
@@ -55,7 +55,7 @@ struct FlowConfig {
   double history_noise =
       0.0;  ///< standard deviation added to past frames in training, in standardised units
 
-  /// `paper` | `default` | `ablation` | `recurrent`. Throws Error(kInvalidArgument) for another
+  /// `paper` | `planned` | `ablation` | `recurrent`. Throws Error(kInvalidArgument) for another
   /// name.
   static FlowConfig Preset(const std::string& name);
 };

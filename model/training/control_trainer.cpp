@@ -235,14 +235,14 @@ class ControlRun : public TrainingRun {
   std::string Write() {
     nlohmann::json figures = nlohmann::json::object();
     for (const auto& [name, value] : last_figures_) figures[name] = value;
-    nlohmann::json card =
-        ModelCard(options(), plan_steps_, step() - plan_steps_, clips_, hash_, {});
+    nlohmann::json card = ModelCard(
+        options(), plan_steps_, step() - plan_steps_, clips_, hash_, {},
+        "Trained on transitions of " + std::to_string(options().shortest) + " to " +
+            std::to_string(options().longest) +
+            " frames at 30 fps. It hears no music and is deterministic. Away from the "
+            "keys it knows how fast limbs should be better than where: postures are those "
+            "of a mean dancer. Feet slide without the foot lock.");
     card["validation"] = figures;
-    card["limits"] = "Trained on transitions of " + std::to_string(options().shortest) + " to " +
-                     std::to_string(options().longest) +
-                     " frames at 30 fps. It hears no music and is deterministic. Away from the "
-                     "keys it knows how fast limbs should be better than where: postures are those "
-                     "of a mean dancer. Feet slide without the foot lock.";
     if (!base_.is_null()) card["planner_from"] = base_;
     return SaveControllers(options().run / "checkpoint.safetensors", model_, train_.MedianFactors(),
                            card);

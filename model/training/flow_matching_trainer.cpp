@@ -97,7 +97,7 @@ class FlowMatchingRun : public TrainingRun {
     WindowClips::Variation variation{.mirror = 0.5,
                                      .tempo = options_.tempo,
                                      .partial_key = 0.12,
-                                     .beats = 0.6,
+                                     .beats = 0.8,
                                      .energy = 0.4,
                                      .path = 0.2,
                                      .style = 0.6,
@@ -162,6 +162,7 @@ class FlowMatchingRun : public TrainingRun {
                       {"jerk_ratio_" + n, danced.jerk / real.jerk},
                       {"mean_jerk_ratio_" + n, planned.jerk / real.jerk}});
     }
+    last_figures_ = figures;
     return figures;
   }
 
@@ -197,7 +198,15 @@ class FlowMatchingRun : public TrainingRun {
 
   std::string Write() {
     nlohmann::json card =
-        ModelCard(options_, 0, options_.flow_steps, prepared_, hash_, /*rows=*/{});
+        ModelCard(options_, 0, options_.flow_steps, prepared_, hash_, /*rows=*/{},
+                  "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
+                      " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. "
+                      "Feet slide without the foot lock. What the data lacks (lying, acrobatics, "
+                      "props, partners) it can't do.");
+    card.erase("training_clips");
+    card["validation"] = nlohmann::json::object();
+    for (const auto& [name, value] : last_figures_) card["validation"][name] = value;
+
     if (!base_.is_null()) card["planner_from"] = base_;
     Safetensors weights;
     ExportTensors(*average_, "", &weights);
@@ -238,6 +247,7 @@ class FlowMatchingRun : public TrainingRun {
   std::vector<PreparedClip> prepared_;
   WindowClips train_, validation_;
   double liveliness_ = 0;
+  NamedFigures last_figures_;
   ContinuousFlow model_{nullptr}, average_{nullptr};
   std::unique_ptr<FlowMatching> matching_;
   std::unique_ptr<Adam> adam_;

@@ -6,7 +6,7 @@ namespace choreo {
 
 nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int64_t flow_steps,
                          const std::vector<PreparedClip>& clips, const std::string& hash,
-                         const std::vector<ValidationRow>& rows) {
+                         const std::vector<ValidationRow>& rows, const std::string& limits) {
   nlohmann::json figures = nlohmann::json::array();
   for (const ValidationRow& row : rows) {
     figures.push_back({{"frames", row.frames},
@@ -44,13 +44,7 @@ nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int
           {"command", options.Command()},
           {"steps", {{"planner", planner_steps}, {"flow", flow_steps}}},
           {options.with_validation ? "training_clips" : "validation", figures},
-          {"limits",
-           "Trained on transitions of " + std::to_string(options.shortest) + " to " +
-               std::to_string(options.longest) +
-               " frames at 30 fps. The plan does not hear the music, the flow around it does (if "
-               "there is one), and plans are timed to the beats when they are danced. Without keys "
-               "it is calmer than real dancers. Feet may slide in short transitions. "
-               "What the data lacks (lying, acrobatics, props, partners) it can't do."}};
+          {"limits", limits}};
 }
 
 }  // namespace choreo

@@ -14,7 +14,7 @@
 namespace choreo {
 namespace {
 
-constexpr const char* kContinuous = "continuous";
+constexpr const char* kContinuous = "default";
 
 // Switches that only flows, or only controllers (true), have.
 constexpr std::pair<const char*, bool> kAblations[] = {
@@ -30,8 +30,8 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   command
       ->add_option(
           "--preset", options->preset,
-          "default | paper | ablation | recurrent (the baseline of Harvey et al.) | controllers | "
-          "controllers-paper")
+          "default | paper | planned | ablation | recurrent (the baseline of Harvey et al.) | "
+          "controllers | controllers-paper")
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& name) {

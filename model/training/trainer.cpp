@@ -132,7 +132,14 @@ class FlowRun : public TrainingRun {
     const std::vector<ValidationRow> rows =
         choreo::Validate(model_, validation_, {10, 30, 60, 90}, kValidationWindows, true);
     nlohmann::json card =
-        ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows);
+        ModelCard(options_, planner_steps_, flow_steps_, train_.clips(), train_.Hash(), rows,
+                  "Trained on transitions of " + std::to_string(options_.shortest) + " to " +
+                      std::to_string(options_.longest) +
+                      " frames at 30 fps. The plan does not hear the music, the flow around it "
+                      "does (if there is one), and plans are timed to the beats when they are "
+                      "danced. Without keys it is calmer than real dancers. Feet may slide in "
+                      "short transitions. What the data lacks (lying, acrobatics, props, "
+                      "partners) it can't do.");
     if (!base_.is_null()) card["planner_from"] = base_;
     const std::string hash = SaveCheckpoint(options_.run / "checkpoint.safetensors", model_, card);
     std::printf("%s\n", card.dump(2).c_str());

@@ -158,7 +158,7 @@ TEST_F(NativeSkeletonTest, FromRecordingsToADanceOn23Joints) {
 }
 
 TEST_F(NativeSkeletonTest, ThePresetWithAPlannerToo) {
-  Serve("default");
+  Serve("planned");
   ExpectToDanceThroughAKey();
 }
 

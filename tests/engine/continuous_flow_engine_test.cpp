@@ -62,7 +62,7 @@ TEST_F(ContinuousFlowEngineTest, TellsWhatItTakes) {
   EXPECT_FALSE(model.deterministic);
   ASSERT_EQ(model.velocity_references.size(), 1U);
   EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
-  EXPECT_NEAR(model.default_temperature, 0.7, 1e-12);
+  EXPECT_EQ(model.default_temperature, 1);
 }
 
 TEST_F(ContinuousFlowEngineTest, GivesTheSameBitsAloneAndAmongOthers) {

@@ -16,7 +16,7 @@ namespace choreo {
 
 /// Every combination of parts that the flow has.
 enum class Shape {
-  kPlannerAndPerceptron,  ///< as preset `default`
+  kPlannerAndPerceptron,  ///< as preset `planned`
   kPlannerOnCondition,
   kPerceptronOnCondition,
   kRecurrent,         ///< as preset `paper`

@@ -66,7 +66,7 @@ TEST_P(PackedEngineTest, StepsAsTheTorchEngineDoes) {
 
 TEST(PackedEngine, DancesTheShippedModelAsTheTorchEngineDoes) {
   const auto path =
-      std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors";
+      std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/free.safetensors";
   EXPECT_LT(LargestDifference(path, 7, 90), 1e-4);
   EXPECT_LT(LargestDifference(path, 8, 40), 1e-4);
 }
@@ -76,7 +76,7 @@ TEST(PackedEngine, DancesTheShippedModelAsTheTorchEngineDoes) {
 TEST(PackedEngine, InBfloat16TheShippedModelDancesTheSameDance) {
   if (Bf16KernelsHere() == nullptr) GTEST_SKIP() << "this CPU has no AVX512-BF16";
   const auto path =
-      std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors";
+      std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/free.safetensors";
   const auto exact = MakeEngine(path, {}, 1, EngineKind::kPacked);
   const auto bf16 = MakeEngine(path, {}, 1, EngineKind::kPackedBf16);
   double mean = 0, largest = 0, farthest = 0;

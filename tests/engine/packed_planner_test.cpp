@@ -75,7 +75,7 @@ TEST_P(PackedPlannerTest, PlansAsLibTorchDoes) {
 TEST(PackedPlanner, PlansTheShippedModelAsLibTorchDoes) {
   SetTorchThreads(1);
   const Planners planners(std::filesystem::path(CHOREO_SOURCE_DIR) /
-                          "model/checkpoints/default.safetensors");
+                          "model/checkpoints/free.safetensors");
   for (const uint64_t seed : {7, 9, 10}) {
     for (const int frames : {5, 30, 60, 150}) {
       const TransitionSpec spec = RandomSpec(planners.model, seed, frames);
@@ -89,7 +89,7 @@ TEST(PackedPlanner, PlansTheShippedModelAsLibTorchDoes) {
 TEST(PackedPlanner, TurnsTheWayThatLibTorchTurns) {
   SetTorchThreads(1);
   const Planners planners(std::filesystem::path(CHOREO_SOURCE_DIR) /
-                          "model/checkpoints/default.safetensors");
+                          "model/checkpoints/free.safetensors");
   for (const double rate : {-0.2, 0.2}) {
     TransitionSpec spec = RandomSpec(planners.model, 7, 30);
     for (size_t t = 0; t < spec.history.size(); ++t)
@@ -105,7 +105,7 @@ TEST(PackedPlanner, TurnsTheWayThatLibTorchTurns) {
 TEST(PackedPlanner, APlanThatIsLedNowhereStaysWhereItIs) {
   SetTorchThreads(1);
   const Planners planners(std::filesystem::path(CHOREO_SOURCE_DIR) /
-                          "model/checkpoints/default.safetensors");
+                          "model/checkpoints/free.safetensors");
   for (const bool key : {false, true}) {
     TransitionSpec spec = RandomSpec(planners.model, 7, 90);
     spec.temperature = 0;

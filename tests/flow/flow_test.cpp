@@ -262,7 +262,7 @@ TEST(FlowPresets, HaveTheSizesThatTheyPromise) {
     for (const auto& parameter : model->parameters()) count += parameter.numel();
     return count;
   };
-  EXPECT_LE(parameters("default"), 4'000'000);
+  EXPECT_LE(parameters("planned"), 4'000'000);
   EXPECT_LE(parameters("ablation"), 500'000);
   EXPECT_NEAR(static_cast<double>(parameters("paper")), 99e6, 4e6);
   EXPECT_THROW(FlowConfig::Preset("large"), Error);

@@ -101,7 +101,7 @@ TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
 
 TEST_F(TrainerTest, AResumeBetweenTheStagesAndAnothersPlannerToo) {
   TrainOptions options = Options("whole", 2);
-  options.preset = "default";
+  options.preset = "planned";
   options.planner_steps = 2;
   Train(options);
   const Checkpoint whole = LoadCheckpoint(options.run / "checkpoint.safetensors");
@@ -115,7 +115,7 @@ TEST_F(TrainerTest, AResumeBetweenTheStagesAndAnothersPlannerToo) {
   EXPECT_EQ(halves.hash, whole.hash);
 
   TrainOptions further = Options("further", 2);
-  further.preset = "default";
+  further.preset = "planned";
   further.planner_steps = 0;
   further.planner = options.run / "checkpoint.safetensors";
   Train(further);
