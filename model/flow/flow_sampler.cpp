@@ -1,6 +1,7 @@
 #include "model/flow/flow_sampler.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "model/core/random.h"
 #include "model/motion/canonical.h"
@@ -43,24 +44,36 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
     for (int axis = 0; axis < 3; ++axis)
       path_z.row(axis) = window.Whiten(axis, path_x.row(axis).transpose()).transpose();
   }
-  const auto lead = [&](double t, Eigen::MatrixXd& z) {
-    for (const int axis : led) z.row(axis) = (1 - t) * start.row(axis) + t * path_z.row(axis);
-  };
-
   Eigen::MatrixXf mean(start.rows(), tau + frames), poses;
   mean << window.history().cast<float>(), window.mean().cast<float>();
   poses = mean;
-  Eigen::MatrixXd z = start;
-  const int steps = noise.temperature > 0 ? model.config.steps : 1;
-  for (int k = 0; k < steps; ++k) {
-    const double t = static_cast<double>(k) / steps, a = t * t + (1 - t) * (1 - t);
-    lead(t, z);
+  // F where the flow stands at `angle`: z = size (cos noise + sin motion), size = 1 / (cos + sin).
+  const auto evaluate = [&](const Eigen::MatrixXd& w, double angle) {
+    const double size = 1 / (std::cos(angle) + std::sin(angle));
+    const Eigen::MatrixXd z = size * w;
     poses.rightCols(frames) = (window.mean() + window.Colour(z)).cast<float>();
-    const Eigen::MatrixXf f =
-        network.Evaluate(z.cast<float>(), poses, mean, features, static_cast<float>(t));
-    z += ((2 * t - 1) / a * z + f.cast<double>() / std::sqrt(a)) / steps;
+    return Eigen::MatrixXd(network
+                               .Evaluate(z.cast<float>(), poses, mean, features,
+                                         static_cast<float>(size * std::sin(angle)))
+                               .cast<double>());
+  };
+
+  Eigen::MatrixXd w = start;
+  if (noise.temperature == 0) {
+    w = evaluate(w, 0);
+  } else {
+    const double step = std::numbers::pi / 2 / model.config.steps;
+    Eigen::MatrixXd before;
+    for (int k = 0; k < model.config.steps; ++k) {
+      const double angle = k * step;
+      for (const int axis : led)
+        w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * path_z.row(axis);
+      const Eigen::MatrixXd f = evaluate(w, angle);
+      w += step * (k == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before));
+      before = f;
+    }
   }
-  Eigen::MatrixXd x = window.Colour(z);
+  Eigen::MatrixXd x = window.Colour(w);
   for (const int axis : led) x.row(axis) = path_x.row(axis);
   return window.Decode(x);
 }

@@ -37,9 +37,11 @@ struct FlowNoise {
   double temperature = 0;   ///< 0: the mean, in one step
 };
 
-/// Samples one window: Euler steps along dz/dt = (2t - 1)/a z + F/sqrt(a), a = t² + (1 - t)², from
-/// noise at t = 0 to motion at t = 1 (flow matching, Lipman et al. 2023). The poses [w] stand in
-/// the request's frame. A path that is asked for is met exactly.
+/// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +
+/// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) and the
+/// angle tan = t/(1 - t) that is dw = F, solved by Adams and Bashforth's steps of second order:
+/// what is as lively as the prior expects stays so, however few steps are taken. The poses [w]
+/// stand in the request's frame. A path that is asked for is met exactly.
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
                                const WindowRequest& request, const FlowNoise& noise);
 
