@@ -137,8 +137,8 @@ TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
   // Without a key it stands.
   EXPECT_EQ(figure("free: frozen %", "danced"), 100);
   EXPECT_EQ(figure("free: exploded %", "danced"), 0);
-  for (const TableRow& row : tables[1].rows) {
-    EXPECT_NEAR(row.cells[1].value, 1, 0.05) << row.labels[0];
+  for (const TableRow& row : tables.back().rows) {
+    EXPECT_NEAR(row.cells[1].value, 1, 0.15) << row.labels[0];
     EXPECT_DOUBLE_EQ(row.cells[3].value, row.cells[2].value);  // all samples are one
   }
 }
@@ -149,7 +149,7 @@ TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
   const Method method{"other", Method::Kind::kEngine, &engine};
   const auto tables = EvaluateLiveliness(set, method, Short(), nullptr);
   const auto again = EvaluateLiveliness(set, method, Short(), nullptr);
-  ASSERT_EQ(tables.size(), 2U);
+  ASSERT_EQ(tables.size(), 3U);
   for (size_t i = 0; i < tables.size(); ++i) EXPECT_EQ(ToJson(tables[i]), ToJson(again[i]));
   EXPECT_EQ(tables[0].name, "liveliness_set_other");
   EXPECT_GT(Value(tables[0], "seeds differ cm", "danced"), 0);
@@ -158,7 +158,9 @@ TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
     EXPECT_EQ(row.cells.size(), tables[0].columns.size());
     EXPECT_TRUE(std::isfinite(row.cells[2].value)) << row.labels[0];
   }
-  for (const TableRow& row : tables[1].rows) EXPECT_LE(row.cells[3].value, row.cells[2].value);
+  EXPECT_EQ(tables[1].name, "liveliness_bands_set_other");
+  EXPECT_EQ(tables[1].rows[0].labels[0], "pelvis");
+  for (const TableRow& row : tables.back().rows) EXPECT_LE(row.cells[3].value, row.cells[2].value);
 }
 
 TEST(Liveliness, ClipsThatAreTooShortLeaveRowsOut) {
