@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/rounded.h"
 #include "model/motion/resample.h"
 
 namespace choreo::client {
@@ -13,6 +14,9 @@ constexpr double kRounding = 1e-6;      // of frame numbers
 constexpr double kMusicBeyond_s = 0.5;  // the last frame hears a little beyond itself
 
 using Contacts = std::array<float, 4>;
+
+constexpr double kDegrees = 180 / M_PI;
+constexpr double kBackwards = 15 / kDegrees;  // more than real knees, and errors of recordings
 
 /// New frames, at the model's rate, from `first` on.
 struct Part {
@@ -73,6 +77,7 @@ class Edit {
   void Splice(const Part& part, const std::optional<Pose>& next) {
     Motion& motion = result_.dance.motion;
     const double rate = motion.fps / fps();
+    WarnOfKnees(part);
     Motion curve{.fps = fps(), .frames = part.poses};
     int64_t start = part.first;  // of the curve
     int64_t first = 0;
@@ -117,6 +122,26 @@ class Edit {
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
     SetMusic(options_.audio, options_.model, first, &request);
     return request;
+  }
+
+  /// Of the frame in which one is bent furthest backwards, if that looks broken.
+  void WarnOfKnees(const Part& part) {
+    const Skeleton& skeleton = options_.model.skeleton;
+    Warning worst;
+    double furthest = kBackwards;
+    for (const Hinge& hinge : Hinges(skeleton)) {
+      if (hinge.joint != skeleton.left_knee && hinge.joint != skeleton.right_knee) continue;
+      for (size_t i = 0; i < part.poses.size(); ++i) {
+        const double bend = -hinge.axis.dot(part.poses[i].rotations.col(hinge.joint));
+        if (bend <= furthest) continue;
+        furthest = bend;
+        worst.frame = part.first + static_cast<int64_t>(i);
+        worst.message = skeleton.joint_names[static_cast<size_t>(hinge.joint)] + " bends " +
+                        Rounded(kDegrees * bend) + " degrees backwards at frame " +
+                        std::to_string(worst.frame) + "; 15 look broken";
+      }
+    }
+    if (!worst.message.empty()) result_.warnings.push_back(worst);
   }
 
   /// Those of the nearest new frame.

@@ -45,10 +45,10 @@ struct KeyEdit {
 /// What became of a dance.
 struct EditedDance {
   FinishedDance dance = {};
-  int64_t first_changed = 0;          ///< frame of the dance, at its own rate
-  int64_t end_changed = 0;            ///< the frame behind the last changed one, likewise
-  std::vector<KeyReached> keys = {};  ///< the one that was set
-  std::vector<Warning> warnings = {};
+  int64_t first_changed = 0;           ///< frame of the dance, at its own rate
+  int64_t end_changed = 0;             ///< the frame behind the last changed one, likewise
+  std::vector<KeyReached> keys = {};   ///< the one that was set
+  std::vector<Warning> warnings = {};  ///< the server's, and of knees bent backwards
 };
 
 /// Gives a transition as much of a song as its frames hear, of which `first` is the first: a

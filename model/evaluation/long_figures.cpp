@@ -105,6 +105,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
   for (const KeyReport& one : report.keys)
     figures.key_accelerations.push_back(static_cast<float>(one.max_acceleration));
   const JointTrack track = TrackJoints(skeleton, poses);
+  figures.snaps = CountSnaps(skeleton, fps, track);
   figures.speeds = MeanSpeeds(track, fps);
   const auto [early, late] = MeansOfEnds(figures.speeds, ten_seconds);
   if (early > 0) figures.pace_change = late / early;

@@ -7,6 +7,7 @@
 #include "model/evaluation/windows.h"
 #include "model/metrics/joint_track.h"
 #include "model/metrics/pace.h"
+#include "model/metrics/snaps.h"
 
 namespace choreo {
 
@@ -30,6 +31,7 @@ struct LongFigures {
   /// Share of (frame, hinge) pairs in which a knee or elbow is bent more than 15 degrees beyond
   /// straight.
   double bent_backwards = 0;
+  Snaps snaps;
   std::vector<double> joint_speeds;              ///< [joints] medians, m/s
   std::vector<float> speeds;                     ///< mean joint speed step by step, m/s
   double skate_ratio = 0, p95_acceleration = 0;  ///< quality_report.h

@@ -36,12 +36,16 @@ TableRow LongRow(const std::string& name, const std::vector<LongFigures>& dances
                 {}};
   };
   double reach = 0, lowest = INFINITY, highest = 0, backwards = 0, skating = 0, within = 0;
+  double minutes = 0, knee_snaps = 0, elbow_snaps = 0;
   std::vector<float> key_accelerations;
   for (const LongFigures& dance : dances) {
     reach = std::max(reach, dance.reach_m);
     lowest = std::min(lowest, dance.lowest_m);
     highest = std::max(highest, dance.highest_m);
     backwards += dance.bent_backwards / static_cast<double>(dances.size());
+    minutes += dance.seconds / 60;
+    knee_snaps += dance.snaps.knees;
+    elbow_snaps += dance.snaps.elbows;
     skating += dance.skate_ratio / static_cast<double>(dances.size());
     within += real.JointsWithin(dance) / static_cast<double>(dances.size());
     key_accelerations.insert(key_accelerations.end(), dance.key_accelerations.begin(),
@@ -67,6 +71,8 @@ TableRow LongRow(const std::string& name, const std::vector<LongFigures>& dances
            Cell{lowest, {}},
            Cell{highest, {}},
            Cell{100 * backwards, {}},
+           Cell{knee_snaps / minutes, {}},
+           Cell{elbow_snaps / minutes, {}},
            Cell{100 * within, {}},
            Cell{skating, {}},
            median([](const LongFigures& dance) { return dance.p95_acceleration; }),
@@ -108,7 +114,10 @@ Table LongHeadings(const ClipSet& set) {
       "higher or lower in the last 10 s than in the first, or the mean joint speed is another "
       "there, "
       "by more than in any real clip, and than 3 m/min, 15 cm, a factor of 2. Medians of these "
-      "three; heights are the extremes of all dances; a joint is at real speed if its median lies "
+      "three; heights are the extremes of all dances; a limb snaps in a step that bends or "
+      "stretches "
+      "it by more than 240 degrees a second (8 a frame) from or to less than 5 degrees of flexion; "
+      "a joint is at real speed if its median lies "
       "between the 5th and 95th percentile of real motion's; real motion's \"keys\" are its frames "
       "each 2 s; the real motion of the keys is what lies between them, which a clip that is "
       "shorter than the dance has forwards, backwards, forwards.";
@@ -129,6 +138,8 @@ Table LongHeadings(const ClipSet& set) {
                    {"root lowest m", 2},
                    {"root highest m", 2},
                    {"hinges backwards %", 3},
+                   {"knee snaps a minute", 1},
+                   {"elbow snaps a minute", 1},
                    {"joints at real speed %", 0},
                    {"skating", 2},
                    {"acc. p95 m/s²", 0},

@@ -24,10 +24,12 @@ struct Leg {
 double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vector3d& toes);
 
 /// Two-bone inverse kinematics: turns hip and knee so that the toes come to `toes`, the foot
-/// keeping its global rotation. The knee bends in its present plane (a straight leg: forward), and
-/// the leg turns about the hip by the smallest angle. Out of reach, the leg straightens towards it.
-/// `placement` is the forward kinematics of `pose`, in whose frame `toes` stands; afterwards it is
-/// stale. Rotations stay on their branch.
+/// keeping its global rotation. The knee bends in its present plane (a straight leg, and one that is
+/// bent backwards: forward), and the leg turns about the hip by the smallest angle. Continuous in
+/// pose and `toes`: asked for what is there, it changes nothing; towards its full length a leg
+/// straightens ever more slowly, so that toes may stay behind by a centimetre, and out of reach it
+/// points at them. `placement` is the forward kinematics of `pose`, in whose frame `toes` stands;
+/// afterwards it is stale. Rotations stay on their branch.
 void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
                const Eigen::Vector3d& toes, Pose* pose);
 

@@ -316,6 +316,24 @@ TEST(EditLibraryTest, HearsTheMusicAroundTheKeyAlone) {
   EXPECT_EQ(SetKey(client, dance, options, edit).keys.size(), 1U);
 }
 
+TEST(EditLibraryTest, WarnsOfTheKneeThatBendsFurthestBackwards) {
+  TestServer server;
+  const client::Client client({.addresses = {server.address()}});
+  client::EditOptions options;
+  options.model = client.GetServerInfo().models.front();
+  client::FinishedDance dance = Standing(100);
+  EXPECT_TRUE(CloseLoop(client, dance, options, 40).warnings.empty());
+  // A loop into a broken first frame, which is not a new one: the way there is.
+  dance.motion.frames[0].rotations(0, Body().left_knee) = -0.6;
+  const auto warnings = CloseLoop(client, dance, options, 40).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0].message, testing::MatchesRegex("left_knee bends [0-9.]+ degrees "
+                                                         "backwards at frame [0-9]+; 15 look "
+                                                         "broken"));
+  EXPECT_GT(warnings[0].frame, 80);
+  EXPECT_LT(warnings[0].frame, 100);
+}
+
 TEST(EditLibraryTest, RefusesWhatIsNoInterval) {
   TestServer server;
   const client::Client client({.addresses = {server.address()}});

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "model/dance/quality_report.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
@@ -130,6 +133,41 @@ TEST(FootLock, WhoStandsIsNotTouched) {
     EXPECT_LT(ComparePoses(Body(), pose, At(0)).position_m, 0.03);
   }
   EXPECT_EQ(MeasureMotion(Body(), dance).skate_ratio, 0);
+}
+
+// Degrees between thigh and shin; 0: in line.
+double Flexion(const Leg& leg, const Pose& pose) {
+  const Eigen::Matrix3Xd joints = JointPositions(Body(), pose);
+  const Eigen::Vector3d thigh = joints.col(leg.knee) - joints.col(leg.hip);
+  const Eigen::Vector3d shin = joints.col(leg.ankle) - joints.col(leg.knee);
+  return std::atan2(thigh.cross(shin).norm(), thigh.dot(shin)) * 180 / M_PI;
+}
+
+// Knees that snap into their full length, or out of it, are what shows most of a lock: eight
+// degrees in a frame from or to less than five, which no dancer does.
+TEST(FootLock, NoKneeSnapsThatWasStraight) {
+  const int frames = 150;
+  for (const double beyond : {0.0, 0.06, 0.11}) {  // radians; the last is as straight as legs get
+    Pose straight = RestPose(Body());
+    for (const Leg& leg : Leg::Of(Body())) straight.rotations(0, leg.knee) = -beyond;
+    for (const double glide : {0.0, 0.2, 0.4}) {
+      FootLock lock(Body(), kFps, frames, std::vector<Pose>(10, straight), std::nullopt);
+      Pose last = straight;
+      for (int t = 1; t <= frames; ++t) {
+        Pose model = straight;
+        model.root_position +=
+            Eigen::Vector3d(glide * t / kFps, 0.03 * std::sin(2 * M_PI * t / kFps), 0);
+        const Pose now = lock.Apply(model);
+        for (const Leg& leg : Leg::Of(Body())) {
+          const double from = Flexion(leg, last), to = Flexion(leg, now);
+          EXPECT_FALSE(std::min(from, to) < 5 && std::abs(to - from) > 8)
+              << beyond << ' ' << glide << " frame " << t << ": " << from << " to " << to;
+          EXPECT_GT(now.rotations(0, leg.knee), -beyond - 0.05);
+        }
+        last = now;
+      }
+    }
+  }
 }
 
 TEST(FootLock, AFootThatTheModelLiftsIsTheModels) {

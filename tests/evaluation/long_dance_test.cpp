@@ -128,6 +128,19 @@ TEST(LongFigures, SeeDriftFreezeExplosionAndABentKnee) {
   EXPECT_LT(range.JointsWithin(gone), 1);
 }
 
+TEST(LongFigures, CountSnapsOfTheWholeDance) {
+  Skeleton straight = Body();  // SMPL's legs are not, at rest
+  const Eigen::Vector3d thigh = straight.offsets.col(straight.left_knee);
+  straight.offsets.col(straight.feet[0]) =
+      straight.offsets.col(straight.feet[0]).norm() * thigh.normalized();
+  std::vector<Pose> poses(60, RestPose(straight));
+  for (const size_t t : {10U, 20U, 21U})
+    poses[t].rotations.col(straight.left_knee) = Eigen::Vector3d(0.5, 0, 0);
+  const LongFigures figures = MeasureLong(straight, 30, poses, {});
+  EXPECT_EQ(figures.snaps.knees, 4);
+  EXPECT_EQ(figures.snaps.elbows, 0);
+}
+
 TEST(LongFigures, StillestIsTheSlowestFifthWhereverItIs) {
   // Ten seconds at 1 m/s, but for 40 frames at a tenth of it; a fifth has 60 steps.
   const auto walk = [](int slow_from, int slow_frames) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "model/core/random.h"
 #include "model/motion/kinematics.h"
 
@@ -23,14 +26,14 @@ Pose Crouch(double bend) {
 TEST(Leg, ToesGoWhereTheyAreAskedAndTheFootKeepsItsTurn) {
   Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
-    Pose pose = Crouch(0.3);
+    Pose pose = Crouch(0.5);
     for (double& value : pose.rotations.reshaped()) value += 0.1 * random.Normal();
     const JointPlacement before = ForwardKinematics(Body(), pose);
     const Leg leg = Leg::Of(Body())[static_cast<size_t>(trial % 2)];
     const Eigen::Vector3d toes =
         before.positions.col(leg.toes) +
         0.04 * Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal());
-    if (Reach(leg, before, toes) > 0.99) continue;
+    if (Reach(leg, before, toes) > 0.94) continue;  // it would straighten softly
     Pose placed = pose;
     PlaceToes(leg, Body(), before, toes, &placed);
     const JointPlacement after = ForwardKinematics(Body(), placed);
@@ -46,16 +49,85 @@ TEST(Leg, ToesGoWhereTheyAreAskedAndTheFootKeepsItsTurn) {
   }
 }
 
+// Degrees between thigh and shin; 0: in line.
+double Flexion(const Leg& leg, const Pose& pose) {
+  const Eigen::Matrix3Xd joints = JointPositions(Body(), pose);
+  const Eigen::Vector3d thigh = joints.col(leg.knee) - joints.col(leg.hip);
+  const Eigen::Vector3d shin = joints.col(leg.ankle) - joints.col(leg.knee);
+  return std::atan2(thigh.cross(shin).norm(), thigh.dot(shin)) * 180 / M_PI;
+}
+
+// `pose` with its left toes put off their place by `offset`.
+Pose Moved(const Pose& pose, const Eigen::Vector3d& offset) {
+  const Leg leg = Leg::Of(Body())[0];
+  const JointPlacement before = ForwardKinematics(Body(), pose);
+  Pose placed = pose;
+  PlaceToes(leg, Body(), before, before.positions.col(leg.toes) + offset, &placed);
+  return placed;
+}
+
 TEST(Leg, AStraightLegBendsItsKneeForward) {
   const Pose pose = RestPose(Body());
   const JointPlacement before = ForwardKinematics(Body(), pose);
-  for (const Leg& leg : Leg::Of(Body())) {
-    Pose placed = pose;
-    PlaceToes(leg, Body(), before, before.positions.col(leg.toes) + Eigen::Vector3d(0, 0.1, 0),
-              &placed);
-    const Eigen::Matrix3Xd after = JointPositions(Body(), placed);
-    EXPECT_GT(after(2, leg.knee), before.positions(2, leg.knee) + 0.05);
-    EXPECT_NEAR(after(1, leg.toes), before.positions(1, leg.toes) + 0.1, 1e-9);
+  const Leg leg = Leg::Of(Body())[0];
+  const Eigen::Matrix3Xd after = JointPositions(Body(), Moved(pose, {0, 0.2, 0}));
+  EXPECT_GT(after(2, leg.knee), before.positions(2, leg.knee) + 0.05);
+  EXPECT_NEAR(after(1, leg.toes), before.positions(1, leg.toes) + 0.2, 1e-9);
+  // Where a straight leg begins to bend it gives way to what is asked by little more than a
+  // centimetre.
+  for (double up = 0; up < 0.2; up += 0.005) {
+    const Eigen::Matrix3Xd near = JointPositions(Body(), Moved(pose, {0, up, 0}));
+    EXPECT_NEAR(near(1, leg.toes), before.positions(1, leg.toes) + up, 0.012) << up;
+  }
+}
+
+// Recorded and generated knees go a little beyond straight. From there a knee that bent on the way
+// it has begun would break.
+TEST(Leg, AKneeThatIsBeyondStraightBendsForwardToo) {
+  const Leg leg = Leg::Of(Body())[0];
+  for (const double beyond : {0.02, 0.12, 0.2, 0.4}) {
+    for (const double side : {-0.15, 0.0, 0.15}) {
+      Pose pose = RestPose(Body());
+      pose.rotations.col(leg.knee) = Eigen::Vector3d(-beyond, 0, side);
+      for (double up = 0; up <= 0.15; up += 0.005) {
+        const double knee = Moved(pose, {0, up, 0}).rotations(0, leg.knee);
+        EXPECT_GE(knee, -beyond - 1e-9) << up;
+        if (up > 0.1) {
+          EXPECT_GT(knee, 0.3) << up;
+        }
+      }
+    }
+  }
+}
+
+// Through its full length and back a leg neither snaps straight nor out of it: toes that move by
+// three millimetres, the tenth of a metre a second, turn the knee by less than three degrees.
+TEST(Leg, StraightensSmoothlyWhateverItIsAskedFor) {
+  const Leg leg = Leg::Of(Body())[0];
+  for (const double bend : {-0.1, -0.055, 0.0, 0.1, 0.2, 0.4}) {
+    const Pose pose = Crouch(bend);
+    for (const Eigen::Vector3d& way :
+         {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0.6, 0.8, 0), Eigen::Vector3d(0, 0.6, -0.8)}) {
+      double last = Flexion(leg, Moved(pose, -0.2 * way));
+      for (double at = -0.197; at < 0.2; at += 0.003) {
+        const double now = Flexion(leg, Moved(pose, at * way));
+        EXPECT_LT(std::abs(now - last), 3) << bend << ' ' << at;
+        last = now;
+      }
+    }
+  }
+}
+
+TEST(Leg, AskedForWhatIsThereItChangesNothing) {
+  Random random(4);
+  for (int trial = 0; trial < 100; ++trial) {
+    // Near straight, on either side of it.
+    Pose pose = Crouch(0.1 * random.Normal());
+    for (double& value : pose.rotations.reshaped()) value += 0.05 * random.Normal();
+    for (const double off : {0.0, 1e-6}) {
+      const Pose placed = Moved(pose, {off, off, -off});
+      EXPECT_LT((placed.rotations - pose.rotations).cwiseAbs().maxCoeff(), 1e-8 + 1e3 * off);
+    }
   }
 }
 
@@ -68,7 +140,9 @@ TEST(Leg, OutOfReachItStretchesTowardsTheGoal) {
   Pose placed = pose;
   PlaceToes(leg, Body(), before, toes, &placed);
   const JointPlacement after = ForwardKinematics(Body(), placed);
-  EXPECT_NEAR(Reach(leg, after, after.positions.col(leg.toes)), 0.9995, 1e-6);
+  const double reach = Reach(leg, after, after.positions.col(leg.toes));
+  EXPECT_GT(reach, 0.99);
+  EXPECT_LT(reach, 1);
   const Eigen::Vector3d ankle =
       toes - (before.positions.col(leg.toes) - before.positions.col(leg.ankle));
   const Eigen::Vector3d wanted = (ankle - before.positions.col(leg.hip)).normalized();
