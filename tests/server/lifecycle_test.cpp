@@ -106,15 +106,16 @@ TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
 }
 
 TEST_F(LifecycleTest, TransitionsBeyondTheSlotsAreRefused) {
-  Start(/*slots=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
-  const auto first = OpenEndedDance();
-  ASSERT_TRUE(first->ReadFrames(5));
-  DanceClient second(stub());
-  second.Send(Config());
-  second.SendKeyframe(Key("a", 20));
-  const grpc::Status refused = second.Finish().status;
+  Start(/*slots=*/4, [](ServerConfig& config) { config.max_waiting = 1; });
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(5);
+  request.set_candidates(4);  // two have a slot, one may wait
+  const grpc::Status refused = Generate(request).status;
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_TRUE(DetailsOf(refused).retry_info);
+  request.set_candidates(3);
+  EXPECT_TRUE(Generate(request).status.ok());
 }
 
 // Nothing is read: HTTP/2 fills, the outbox fills, the dance pauses. Then all of it comes.
