@@ -85,7 +85,10 @@ TEST_F(LifecycleTest, CancelledTransitionsGiveTheirSlotsBack) {
 }
 
 TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
-  Start(16, [](ServerConfig& config) { config.max_streams = 2; });
+  Start(16, [](ServerConfig& config) {
+    config.max_streams = 2;
+    config.max_streams_of_peer = 10;
+  });
   const auto first = OpenEndedDance();
   const auto second = OpenEndedDance();
   ASSERT_TRUE(first->ReadFrames(5));
@@ -215,6 +218,21 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   }
   EXPECT_EQ(endless->Finish().status.error_code(), grpc::StatusCode::UNAVAILABLE);
   ExpectEventually([this] { return server->calls() == 0; }, "all calls are over");
+}
+
+TEST_F(LifecycleTest, WhoIsConnectedIsSentElsewhereWhileDancesGoOn) {
+  Start();
+  const auto client = OpenEndedDance();
+  ASSERT_TRUE(client->ReadFrames(5));
+  ASSERT_EQ(channel->GetState(false), GRPC_CHANNEL_READY);
+  const std::jthread drain([this] { server->Drain(60); });
+  EXPECT_TRUE(channel->WaitForStateChange(
+      GRPC_CHANNEL_READY, std::chrono::system_clock::now() + std::chrono::seconds(20)));
+  EXPECT_EQ(server->calls(), 1);
+  const std::string music = Music(2);
+  client->SendAudio(music.substr(music.size() / 2), 22'050);
+  EXPECT_TRUE(client->ReadFrames(50));
+  EXPECT_TRUE(client->Finish().status.ok());
 }
 
 // The connection was there before, and nobody looked at it when the server went.
