@@ -84,8 +84,8 @@ class Scheduler {
     int slots = 0;    ///< of all engines
     uint64_t frames = 0;
     uint64_t steps = 0;  ///< frames / steps = mean batch
-    /// Share of the engines' time that goes to frames which are due, over the last seconds, 0 to 1:
-    /// at 1 dances fall behind their music. Work done ahead does not count.
+    /// Share of the engines' time that goes to frames of dances which are due, over the last
+    /// seconds, 0 to 1: at 1 dances fall behind their music. Work done ahead does not count.
     double load = 0;
     /// How often an engine has failed in a row, be it a step or an admission; the largest of all.
     int failures = 0;

@@ -130,6 +130,8 @@ struct Scheduler::Impl {
     return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
   }
   static double DeadlineOf(const StepJob& job);
+  /// Whether a dance's listener waits for the job's next frame. Nobody does for those of groups.
+  static bool IsDue(const Entry& entry, Clock::time_point now);
 };
 
 }  // namespace choreo

@@ -17,6 +17,11 @@ double Scheduler::Impl::DeadlineOf(const StepJob& job) {
   return std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline;
 }
 
+bool Scheduler::Impl::IsDue(const Entry& entry, Clock::time_point now) {
+  return !entry.of_group &&
+         DeadlineOf(*entry.job) <= std::chrono::duration<double>(now.time_since_epoch()).count();
+}
+
 Scheduler::Impl::Worker* Scheduler::Impl::MostFreeWorker() {
   const auto free = [](const auto& worker) { return worker->slots - worker->taken; };
   const auto most =

@@ -154,9 +154,8 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
   }
   worker->failures.store(0, std::memory_order_relaxed);
   const Clock::time_point end = Clock::now();
-  const double due_by = std::chrono::duration<double>(end.time_since_epoch()).count();
-  const auto due = std::ranges::count_if(
-      worker->batch, [due_by](const Entry* entry) { return DeadlineOf(*entry->job) <= due_by; });
+  const auto due = std::ranges::count_if(worker->batch,
+                                         [end](const Entry* entry) { return IsDue(*entry, end); });
   worker->due_time += (end - begin) * (static_cast<double>(due) / static_cast<double>(size));
   steps.fetch_add(1, std::memory_order_relaxed);
   frames.fetch_add(size, std::memory_order_relaxed);
@@ -183,7 +182,7 @@ bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
     const Clock::time_point begin = Clock::now();
     entry->slot = AdmitToEngine(worker, spec);
     entry->moved_at = Clock::now();
-    worker->due_time += entry->moved_at - begin;
+    if (IsDue(*entry, entry->moved_at)) worker->due_time += entry->moved_at - begin;
     entry->asleep = false;
     worker->active.push_back(entry);
     return true;
