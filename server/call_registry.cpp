@@ -1,43 +1,131 @@
 #include "server/call_registry.h"
 
-#include <string>
-#include <vector>
+#include <algorithm>
 
 namespace choreo {
+namespace {
 
-void CallRegistry::Enter(const std::shared_ptr<Call>& call) {
+constexpr double kShareOfLast = 0.1;  // of the call that ended last in the mean of them all
+
+const char* const kGoingAway = "the server is going away; try another one";
+
+std::string WithoutPort(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
+
+std::string Seconds(std::chrono::milliseconds limit) {
+  const std::string text = std::to_string(std::chrono::duration<double>(limit).count());
+  return text.substr(0, text.find('.') + 2) + " s";
+}
+
+}  // namespace
+
+void CallRegistry::Enter(const std::shared_ptr<Call>& call, const std::string& peer) {
   const std::lock_guard lock(mutex_);
-  if (!admitting_) {
-    throw Error(ErrorCode::kUnavailable, "", "the server is going away; try another one");
-  }
-  if (static_cast<int>(calls_.size()) >= max_calls_) {
+  if (!admitting_) throw Error(ErrorCode::kUnavailable, "", kGoingAway);
+  std::string address = WithoutPort(peer);
+  int& calls = of_address_[address];
+  if (calls >= limits_.calls_of_peer) {
     ++refused_;
     throw Error(ErrorCode::kResourceExhausted, "",
-                "the server is full: " + std::to_string(calls_.size()) +
-                    " calls are in progress, of at most " + std::to_string(max_calls_));
+                address + " has " + std::to_string(calls) + " calls in progress, of at most " +
+                    std::to_string(limits_.calls_of_peer) + " from one address");
   }
-  calls_.emplace(call.get(), call);
+  ++calls;
+  calls_.emplace(call.get(), Entry{call, std::move(address), Clock::now()});
+}
+
+void CallRegistry::Admit(const Call* call) {
+  const std::lock_guard lock(mutex_);
+  const auto at = calls_.find(call);
+  if (!admitting_ || at == calls_.end()) throw Error(ErrorCode::kUnavailable, "", kGoingAway);
+  if (admitted_ >= limits_.calls) {
+    ++refused_;
+    throw Error(ErrorCode::kResourceExhausted, "",
+                "the server is full: " + std::to_string(admitted_) +
+                    " calls are in progress, of at most " + std::to_string(limits_.calls));
+  }
+  at->second.admitted = true;
+  at->second.since = Clock::now();
+  ++admitted_;
   ++total_;
 }
 
 void CallRegistry::Leave(const Call* call) {
   const std::lock_guard lock(mutex_);
-  calls_.erase(call);
+  const auto at = calls_.find(call);
+  if (at == calls_.end()) return;
+  const Entry& entry = at->second;
+  if (entry.admitted) {
+    --admitted_;
+    const double took = std::chrono::duration<double>(Clock::now() - entry.since).count();
+    mean_seconds_ += kShareOfLast * (took - mean_seconds_);
+  }
+  const auto others = of_address_.find(entry.address);
+  if (--others->second == 0) of_address_.erase(others);
+  calls_.erase(at);
   if (calls_.empty()) left_.notify_all();
 }
 
+void CallRegistry::EndIdle() {
+  struct Idle {
+    std::shared_ptr<Call> call;
+    bool unread;
+    Error error;
+  };
+  std::vector<Idle> idle;
+  {
+    const auto now = Clock::now();
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, entry] : calls_) {
+      const auto call = entry.call.lock();
+      if (!call) continue;
+      if (!entry.admitted) {
+        if (now - entry.since < limits_.first_message) continue;
+        idle.push_back({call, false,
+                        Error(ErrorCode::kDeadlineExceeded, "",
+                              "no first message came within " + Seconds(limits_.first_message))});
+        continue;
+      }
+      const CallProgress progress = call->progress();
+      const auto limit = progress.unread ? limits_.unread : limits_.idle;
+      if (now - std::max(progress.since, entry.since) < limit) continue;
+      idle.push_back(
+          {call, progress.unread,
+           Error(ErrorCode::kDeadlineExceeded, "",
+                 progress.unread ? "an answer was not taken within " + Seconds(limit)
+                                 : "nothing came from the client and nothing went there for " +
+                                       Seconds(limit))});
+    }
+  }
+  for (const Idle& one : idle) {
+    one.call->Abort(one.error);
+    if (one.unread) one.call->Reset();
+  }
+}
+
+std::vector<std::shared_ptr<Call>> CallRegistry::Calls(bool admitted) const {
+  std::vector<std::shared_ptr<Call>> calls;
+  for (const auto& [key, entry] : calls_) {
+    auto call = entry.call.lock();
+    if (call && entry.admitted == admitted) calls.push_back(std::move(call));
+  }
+  return calls;
+}
+
 void CallRegistry::StopAdmitting() {
-  const std::lock_guard lock(mutex_);
-  admitting_ = false;
+  std::vector<std::shared_ptr<Call>> silent;
+  {
+    const std::lock_guard lock(mutex_);
+    admitting_ = false;
+    silent = Calls(/*admitted=*/false);
+  }
+  for (const auto& call : silent) call->Abort(Error(ErrorCode::kUnavailable, "", kGoingAway));
 }
 
 void CallRegistry::AbortAll(const Error& error) {
   std::vector<std::shared_ptr<Call>> calls;
   {
     const std::lock_guard lock(mutex_);
-    for (const auto& [key, call] : calls_) {
-      if (auto alive = call.lock()) calls.push_back(std::move(alive));
-    }
+    calls = Calls(/*admitted=*/true);
   }
   for (const auto& call : calls) call->Abort(error);
 }
@@ -49,7 +137,12 @@ bool CallRegistry::WaitUntilEmpty(std::chrono::milliseconds limit) const {
 
 int CallRegistry::count() const {
   const std::lock_guard lock(mutex_);
-  return static_cast<int>(calls_.size());
+  return admitted_;
+}
+
+double CallRegistry::retry_after() const {
+  const std::lock_guard lock(mutex_);
+  return std::clamp(mean_seconds_ / std::max(1, admitted_), 1.0, 60.0);
 }
 
 uint64_t CallRegistry::total() const {

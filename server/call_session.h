@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -36,27 +37,39 @@ class CallSession : public Call {
   Outbox<Response>& outbox() { return outbox_; }
 
   void Abort(const Error& error) override {
-    outbox_.Abort(ToStatus(error));
+    outbox_.Abort(StatusOf(error));
     CancelDance();
   }
+
+  void Reset() override { outbox_.Reset(); }
+  CallProgress progress() const override { return outbox_.progress(); }
 
   /// What is queued still goes out, then the call ends with this error.
   void Fail(const Error& error) {
-    outbox_.Close(ToStatus(error));
+    End(error);
     CancelDance();
   }
 
+  /// Counts the call as one in progress; with its first message. Throws as CallRegistry::Admit.
+  void Admit() {
+    if (std::exchange(admitted_, true)) return;
+    serving_.calls.Admit(this);
+  }
+
   /// The reactor is done: frees the dance, which holds this session in turn, and logs the call.
-  void Release() {
+  void Release() noexcept {
     CancelDance();
     {
       const std::lock_guard lock(mutex_);
       dance_.reset();
     }
-    const grpc::Status status = outbox_.status();
-    spdlog::info("{} {}: {} frames in {:.3f} s, status {}{}", method_, peer_, frames_, Elapsed(),
-                 static_cast<int>(status.error_code()),
-                 status.ok() ? std::string() : " (" + status.error_message() + ')');
+    try {
+      const grpc::Status status = outbox_.status();
+      spdlog::info("{} {}: {} frames in {:.3f} s, status {}{}", method_, peer_, frames_, Elapsed(),
+                   static_cast<int>(status.error_code()),
+                   status.ok() ? std::string() : " (" + status.error_message() + ')');
+    } catch (const std::bad_alloc&) {  // a line of the log is nothing to die for
+    }
   }
 
  protected:
@@ -115,6 +128,20 @@ class CallSession : public Call {
     outbox_.Send(std::move(response));
   }
 
+  /// What is queued still goes out, then the call ends with this error. The dance has ended.
+  void End(const Error& error) {
+    try {
+      outbox_.Close(StatusOf(error));
+    } catch (const std::bad_alloc&) {
+      outbox_.Close({grpc::StatusCode::INTERNAL, "no memory"});  // short enough to need none
+    }
+  }
+
+  /// Its RetryInfo, if any, is from the measured load.
+  grpc::Status StatusOf(const Error& error) const {
+    return ToStatus(error, serving_.calls.retry_after());
+  }
+
   /// Calls of a sink come one at a time; so do those of the two below.
   void CountFrames(size_t frames) {
     if (frames_ == 0) first_frame_s_ = Elapsed();
@@ -149,6 +176,7 @@ class CallSession : public Call {
   const std::string method_;
   const std::string peer_;
   const Clock::time_point start_ = Clock::now();
+  bool admitted_ = false;  // of the sender of messages
 
   mutable std::mutex mutex_;      // guards the two below
   std::shared_ptr<Dance> dance_;  // null before the configuration and after the call

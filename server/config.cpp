@@ -69,11 +69,12 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_ENGINE")
       ->capture_default_str();
   app.add_option("--slots", config.slots,
-                 "Transitions in progress at once, for each model and device.")
+                 "Transitions in progress at once, for each model and device; those of "
+                 "GenerateTransition get half of them. 0: two for each of --max-streams.")
       ->envname("CHOREO_SLOTS")
       ->capture_default_str();
   app.add_option("--max-waiting", config.max_waiting,
-                 "Transitions that may wait for a slot, for each model.")
+                 "Transitions of GenerateTransition that may wait for a slot, for each model.")
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
   app.add_option("--max-streams", config.max_streams,
@@ -121,6 +122,47 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
+// What clients may take, and for how long they may do nothing.
+void AddLimits(CLI::App& app, ServerConfig& config) {
+  app.add_option("--max-streams-of-peer", config.max_streams_of_peer,
+                 "Calls in progress at once from one address. 0: seven eighths of --max-streams.")
+      ->envname("CHOREO_MAX_STREAMS_OF_PEER")
+      ->capture_default_str();
+  app.add_option("--first-message-seconds", config.first_message_seconds,
+                 "A call whose first message does not come within these is DEADLINE_EXCEEDED.")
+      ->envname("CHOREO_FIRST_MESSAGE_SECONDS")
+      ->capture_default_str();
+  app.add_option("--idle-seconds", config.idle_seconds,
+                 "So is one of which nothing comes and to which nothing goes for these.")
+      ->envname("CHOREO_IDLE_SECONDS")
+      ->capture_default_str();
+  app.add_option("--unread-seconds", config.unread_seconds,
+                 "A call whose client does not take an answer within these is reset.")
+      ->envname("CHOREO_UNREAD_SECONDS")
+      ->capture_default_str();
+  app.add_option(
+         "--max-sleep-seconds", config.max_sleep_seconds,
+         "A dance that waits for its music or for its client keeps its slot for these, once "
+         "others wait for one. It goes on later, and is the same.")
+      ->envname("CHOREO_MAX_SLEEP_SECONDS")
+      ->capture_default_str();
+  app.add_option("--max-connection-seconds", config.max_connection_seconds,
+                 "A connection of this age takes no new calls, so that clients spread over "
+                 "replicas anew; its calls go on. 0: none is too old.")
+      ->envname("CHOREO_MAX_CONNECTION_SECONDS")
+      ->capture_default_str();
+}
+
+void CheckLimits(const ServerConfig& config) {
+  constexpr double kDay = 86'400;
+  CheckRange("--max-streams-of-peer", config.max_streams_of_peer, 0, 65536);
+  CheckRange("--first-message-seconds", config.first_message_seconds, 0.1, kDay);
+  CheckRange("--idle-seconds", config.idle_seconds, 0.1, kDay);
+  CheckRange("--unread-seconds", config.unread_seconds, 0.1, kDay);
+  CheckRange("--max-sleep-seconds", config.max_sleep_seconds, 0, 60);
+  CheckRange("--max-connection-seconds", config.max_connection_seconds, 0, 30 * kDay);
+}
+
 }  // namespace
 
 void ServerConfig::Validate() const {
@@ -130,7 +172,7 @@ void ServerConfig::Validate() const {
   // Whether they are there is told when they are used; `auto` is whatever is there.
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
-  CheckRange("--slots", slots, 1, 4096);
+  CheckRange("--slots", slots, 0, 4096);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);
   CheckRange("--workers", workers, 0, 1024);
@@ -140,6 +182,7 @@ void ServerConfig::Validate() const {
   CheckRange("--outbox-kib", outbox_kib, 1, 65536);
   // At least one file has room.
   CheckRange("--max-file-music-mib", max_file_music_mib, kMaxAudioFileBytes >> 20, 1 << 20);
+  CheckLimits(*this);
   if (tls_certificate.empty() != tls_key.empty()) {
     throw InvalidArgument(tls_key.empty() ? "--tls-key" : "--tls-cert",
                           "missing; a certificate and its key go together");
@@ -166,6 +209,7 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
     return std::string("choreod: ") + error.what() + "; see --help\n";
   });
   AddOptions(app, config);
+  AddLimits(app, config);
   try {
     app.parse(argc, argv);
     config.Validate();

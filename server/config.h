@@ -17,8 +17,8 @@ struct ServerConfig {
   std::vector<std::filesystem::path> checkpoints;
   std::string device = "auto";  ///< auto, cpu, or cuda:N[,N...]
   std::string engine = "auto";  ///< auto (packed on the CPU), torch, packed
-  int slots = 16;               ///< transitions in progress at once, for each model and device
-  int max_waiting = 64;         ///< transitions that may wait for a slot, for each model
+  int slots = 0;                ///< transitions in progress at once, for each model; see Slots
+  int max_waiting = 64;         ///< of GenerateTransition that may wait for a slot, for each model
   int max_streams = 64;         ///< calls in progress at once; those beyond are refused
   int workers = 0;              ///< of the CPU, an engine each; 0: one for every usable core
   int threads = 1;              ///< of one matrix product; part of the fingerprint
@@ -29,6 +29,21 @@ struct ServerConfig {
   std::filesystem::path tls_certificate;  ///< PEM chain; empty: no TLS
   std::filesystem::path tls_key;          ///< PEM; goes with tls_certificate
   std::string log_level = "info";         ///< trace, debug, info, warning, error, critical, off
+
+  // What clients may take, and for how long they may do nothing.
+  int max_streams_of_peer = 0;        ///< calls of one address; 0: seven eighths of max_streams
+  double first_message_seconds = 10;  ///< within which a call's first message must come
+  double idle_seconds = 120;          ///< that a call may go on with nothing coming or going
+  double unread_seconds = 60;         ///< that an answer may wait for its client
+  double max_sleep_seconds = 0.5;     ///< that a dance which waits keeps a slot others wait for
+  double max_connection_seconds = 0;  ///< then a connection takes no new calls; 0: for ever
+
+  /// Slots of a model on each device. If not set, two for each call: half of them are for dances
+  /// alone (Scheduler), so whoever is admitted also dances.
+  int Slots() const { return slots > 0 ? slots : 2 * max_streams; }
+  int MaxStreamsOfPeer() const {
+    return max_streams_of_peer > 0 ? max_streams_of_peer : max_streams - max_streams / 8;
+  }
 
   /// Throws Error(kInvalidArgument) naming the first setting that cannot be used.
   void Validate() const;

@@ -34,12 +34,12 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
   // One small network does not keep several cores busy: each gets a worker, with its share of the
   // slots.
   std::vector<Device> workers = devices;
-  int slots = config.slots;
+  int slots = config.Slots();
   if (devices.front().kind == Device::Kind::kCpu) {
     const int wanted = config.workers == 0 ? UsableCores() : config.workers;
-    const int count = std::min(wanted, config.slots);
+    const int count = std::min(wanted, config.Slots());
     workers.assign(static_cast<size_t>(count), devices.front());
-    slots = (config.slots + count - 1) / count;
+    slots = (config.Slots() + count - 1) / count;
   }
   std::vector<Server::Engines> models;
   for (const auto& path : checkpoints) {

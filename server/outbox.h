@@ -2,11 +2,15 @@
 
 #include <grpcpp/support/status.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <mutex>
 #include <utility>
+
+#include "server/call_registry.h"
 
 namespace choreo {
 
@@ -33,7 +37,8 @@ class Outbox {
     virtual ~Wire() = default;
     virtual void Write(const Response* message) = 0;  ///< ends in OnWriteDone
     virtual void Finish(const grpc::Status& status) = 0;
-    virtual void Read() {}  ///< the client's next message; only after RequestRead
+    virtual void Read() {}   ///< the client's next message; only after RequestRead
+    virtual void Reset() {}  ///< ends the call, whatever the client does; OnWriteDone follows soon
   };
 
   enum class State {
@@ -102,10 +107,18 @@ class Outbox {
     Advance();
   }
 
+  /// After Abort: if the client does not even take the answer that is on its way, the call ends
+  /// without it.
+  void Reset() {
+    const std::lock_guard lock(mutex_);
+    if (writing_ && state_ != State::kFinished) wire_->Reset();
+  }
+
   /// The reactor is done with the client's last message: it may read the next one, as soon as there
   /// is room for its answer, unless the call ends before.
   void RequestRead() {
     const std::lock_guard lock(mutex_);
+    read_at_ = Clock::now();
     read_wanted_ = true;
     Advance();
   }
@@ -115,6 +128,7 @@ class Outbox {
     {
       const std::lock_guard lock(mutex_);
       writing_ = false;
+      written_at_ = Clock::now();
       bytes_ -= queue_.front().bytes;
       queue_.pop_front();
     }
@@ -127,6 +141,13 @@ class Outbox {
     } else {
       Abort({grpc::StatusCode::CANCELLED, "the client is gone"});
     }
+  }
+
+  /// Whether an answer waits for the client, and since when; if not, since when nothing came and
+  /// nothing went.
+  CallProgress progress() const {
+    const std::lock_guard lock(mutex_);
+    return {writing_, writing_ ? written_at_ : std::max(written_at_, read_at_)};
   }
 
   bool open() const {
@@ -142,6 +163,8 @@ class Outbox {
 
  private:
   static constexpr int kMaxJoinedFrames = 60;
+
+  using Clock = std::chrono::steady_clock;
 
   struct Item {
     Response message;
@@ -177,6 +200,7 @@ class Outbox {
     if (writing_ || state_ == State::kFinished) return;
     if (!queue_.empty()) {
       writing_ = true;
+      written_at_ = Clock::now();
       wire_->Write(&queue_.front().message);
     } else if (state_ == State::kClosing && holds_ == 0) {
       state_ = State::kFinished;
@@ -209,6 +233,8 @@ class Outbox {
   std::deque<Item> queue_;  // the front is being written while writing_
   size_t bytes_ = 0;        // of the queue
   bool writing_ = false;
+  Clock::time_point written_at_ = Clock::now();  // the last answer, or when its writing began
+  Clock::time_point read_at_ = Clock::now();     // the last message was dealt with
   bool read_wanted_ = false;
   int holds_ = 0;
   bool paused_ = false;

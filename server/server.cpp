@@ -10,12 +10,15 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <optional>
 #include <thread>
 
 #include "model/core/error.h"
 #include "server/read_request.h"
 #include "server/service.h"
 #include "server/serving.h"
+#include "server/watch.h"
 
 namespace choreo {
 namespace {
@@ -28,17 +31,31 @@ constexpr int kKeepaliveTimeoutMs = 10'000;
 constexpr int kClientPingMs = 10'000;  // clients may ping this often
 /// What calls that were told to end get to do so.
 constexpr milliseconds kAbortTime{2'000};
-constexpr milliseconds kShutdownTime{1'000};
-/// After the last call of a server that drains: how long those who come are still refused in words.
-/// A client may hold a connection and not look at it; once gRPC shuts down, its next call would end
-/// as CANCELLED, which tells nobody to go elsewhere. So the shutdown itself is short then.
+/// How often limits and engines are looked at.
+constexpr milliseconds kWatchInterval{100};
+/// An engine that has failed this often in a row is broken.
+constexpr int kBroken = 3;
+/// How long those who come to a server that drains are refused in words, before connections are
+/// closed to new calls: a client may hold a connection and not look at it, and once gRPC shuts down
+/// its next call there ends as CANCELLED, which tells nobody to go elsewhere.
 constexpr milliseconds kNotice{1'000};
-constexpr milliseconds kShutdownTimeAfterNotice{50};
 
 std::string ReadFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be read");
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+milliseconds Milliseconds(double seconds) {
+  return milliseconds(static_cast<int64_t>(seconds * 1e3));
+}
+
+CallLimits LimitsOf(const ServerConfig& config) {
+  return {.calls = config.max_streams,
+          .calls_of_peer = config.MaxStreamsOfPeer(),
+          .first_message = Milliseconds(config.first_message_seconds),
+          .idle = Milliseconds(config.idle_seconds),
+          .unread = Milliseconds(config.unread_seconds)};
 }
 
 std::shared_ptr<grpc::ServerCredentials> Credentials(const ServerConfig& config) {
@@ -50,12 +67,14 @@ std::shared_ptr<grpc::ServerCredentials> Credentials(const ServerConfig& config)
 }
 
 std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engines> models,
-                                                       int max_waiting) {
+                                                       const ServerConfig& config) {
   if (models.empty()) throw InvalidArgument("models", "a server needs at least one");
   std::vector<std::unique_ptr<Scheduler>> schedulers;
   for (auto& engines : models) {
     schedulers.push_back(std::make_unique<Scheduler>(
-        std::move(engines), Scheduler::Options{.max_waiting = max_waiting}));
+        std::move(engines),
+        Scheduler::Options{.max_waiting = config.max_waiting,
+                           .max_sleep = Milliseconds(config.max_sleep_seconds)}));
     const std::string& name = schedulers.back()->model().name;
     for (size_t i = 0; i + 1 < schedulers.size(); ++i) {
       if (schedulers[i]->model().name == name) {
@@ -70,10 +89,10 @@ std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engin
 
 struct Server::Impl {
   Impl(const ServerConfig& config, std::vector<Engines> models)
-      : serving(MakeSchedulers(std::move(models), config.max_waiting), config.max_streams,
+      : serving(MakeSchedulers(std::move(models), config), LimitsOf(config),
                 static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
-        service(serving) {
+        service(serving, config.max_sleep_seconds) {
     // Both plug into every server that is built from here on in this process.
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
@@ -84,6 +103,11 @@ struct Server::Impl {
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                                kClientPingMs);
+    if (config.max_connection_seconds > 0) {
+      builder.AddChannelArgument(
+          GRPC_ARG_MAX_CONNECTION_AGE_MS,
+          static_cast<int>(Milliseconds(config.max_connection_seconds).count()));
+    }
     // Two servers on one port would share its connections in silence.
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
     builder.RegisterService(&service);
@@ -92,10 +116,30 @@ struct Server::Impl {
       throw Error(ErrorCode::kUnavailable, "--listen",
                   '"' + config.listen + "\" cannot be listened on: taken, or no address of here");
     }
-    SetHealth(true);
+    UpdateHealth();
+    watch.emplace(kWatchInterval, [this] {
+      serving.calls.EndIdle();
+      UpdateHealth();
+    });
   }
 
-  void SetHealth(bool serves) {
+  // SERVING unless it drains or an engine is broken.
+  void UpdateHealth() {
+    const std::lock_guard lock(health_mutex);
+    bool serves = !drained;
+    for (const auto& scheduler : serving.models) {
+      const int failures = scheduler->stats().failures;
+      if (failures < kBroken) continue;
+      serves = false;
+      if (healthy) {
+        spdlog::error(
+            "model \"{}\": its engine has failed {} times in a row; health says "
+            "NOT_SERVING",
+            scheduler->model().name, failures);
+      }
+    }
+    if (serves == healthy) return;
+    healthy = serves;
     auto* health = server->GetHealthCheckService();
     health->SetServingStatus(serves);
     health->SetServingStatus(v1::Choreography::service_full_name(), serves);
@@ -106,6 +150,9 @@ struct Server::Impl {
   int port = 0;
   std::unique_ptr<grpc::Server> server;
   std::atomic<bool> drained = false;
+  std::mutex health_mutex;
+  bool healthy = false;        // as health tells it. Lock: health_mutex
+  std::optional<Watch> watch;  // last: it uses all of the above
 };
 
 Server::Server(const ServerConfig& config, std::vector<Engines> models)
@@ -119,7 +166,7 @@ int Server::transitions() const {
   int count = 0;
   for (const auto& scheduler : impl_->serving.models) {
     const Scheduler::Stats stats = scheduler->stats();
-    count += stats.active + stats.waiting;
+    count += stats.active + stats.waiting + stats.parked;
   }
   return count;
 }
@@ -129,20 +176,21 @@ int Server::calls() const { return impl_->serving.calls.count(); }
 void Server::Drain(double seconds) {
   if (impl_->drained.exchange(true)) return;
   CallRegistry& calls = impl_->serving.calls;
-  impl_->SetHealth(false);
+  impl_->UpdateHealth();
   calls.StopAdmitting();
-  if (!calls.WaitUntilEmpty(milliseconds(static_cast<int64_t>(seconds * 1e3)))) {
+  const milliseconds limit = Milliseconds(seconds), notice = std::min(kNotice, limit);
+  std::this_thread::sleep_for(notice);
+  // Sends GOAWAY, so that clients take their next calls elsewhere; those in progress go on.
+  const auto end = std::chrono::system_clock::now() + (limit - notice) + kAbortTime;
+  std::jthread shutdown([&] { impl_->server->Shutdown(end); });
+  if (!calls.WaitUntilEmpty(limit - notice)) {
     spdlog::warn("{} calls were still in progress after {} s; they end as UNAVAILABLE",
                  calls.count(), seconds);
     calls.AbortAll(Error(ErrorCode::kUnavailable, "",
                          "the server is going away; another one can go on from the last "
                          "continuation"));
-    calls.WaitUntilEmpty(kAbortTime);
   }
-  const milliseconds notice = std::min(kNotice, milliseconds(static_cast<int64_t>(seconds * 1e3)));
-  std::this_thread::sleep_for(notice);
-  impl_->server->Shutdown(std::chrono::system_clock::now() +
-                          (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
+  shutdown.join();
   uint64_t frames = 0;
   uint64_t steps = 0;
   for (const auto& scheduler : impl_->serving.models) {

@@ -17,9 +17,9 @@ class Server {
   using Engines = std::vector<std::unique_ptr<StepEngine>>;
 
   /// Listens when it returns. Of `config` only what concerns serving is read: listen, max_waiting,
-  /// max_streams, io_threads, outbox_kib, max_file_music_mib and TLS. Throws
-  /// Error(kInvalidArgument) for engines that do not go together, Error(kUnavailable) naming an
-  /// address that cannot be listened on.
+  /// max_streams, io_threads, outbox_kib, max_file_music_mib, TLS, and what clients may take.
+  /// Throws Error(kInvalidArgument) for engines that do not go together, Error(kUnavailable) naming
+  /// an address that cannot be listened on.
   Server(const ServerConfig& config, std::vector<Engines> models);
   ~Server();  ///< Drain(0)
   Server(const Server&) = delete;
@@ -27,14 +27,16 @@ class Server {
 
   /// The port that was chosen.
   int port() const;
-  /// Transitions that hold a slot or wait for one, over all models.
+  /// Transitions that hold a slot, wait for one, or have lost theirs while they slept, over all
+  /// models.
   int transitions() const;
-  /// Calls in progress.
+  /// Calls in progress; those without a first message do not count.
   int calls() const;
 
-  /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on; those in progress may
-  /// go on for `seconds`, then end as UNAVAILABLE. Those who come up to a second after the last one
-  /// are still told so (0 seconds: nobody is). When it returns the server is shut down. Idempotent.
+  /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on. A second later (0
+  /// seconds: at once) clients are told to take their next calls elsewhere (GOAWAY) and nobody can
+  /// connect. Calls in progress may go on for `seconds`, then end as UNAVAILABLE. When it returns
+  /// the server is shut down. Idempotent.
   void Drain(double seconds);
 
  private:

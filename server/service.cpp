@@ -12,6 +12,20 @@
 #include "server/write_response.h"
 
 namespace choreo {
+namespace {
+
+void FillLimits(const CallLimits& of_calls, v1::Limits* limits) {
+  const auto seconds = [](std::chrono::milliseconds time) {
+    return std::chrono::duration<double>(time).count();
+  };
+  limits->set_max_streams(of_calls.calls);
+  limits->set_max_streams_of_peer(of_calls.calls_of_peer);
+  limits->set_first_message_s(seconds(of_calls.first_message));
+  limits->set_idle_s(seconds(of_calls.idle));
+  limits->set_unread_s(seconds(of_calls.unread));
+}
+
+}  // namespace
 
 grpc::ServerWriteReactor<v1::GenerateTransitionResponse>* ChoreographyService::GenerateTransition(
     grpc::CallbackServerContext* context, const v1::GenerateTransitionRequest* request) {
@@ -35,7 +49,8 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
   limits->set_max_transition_frames(kMaxTransitionFrames);
   limits->set_max_candidates(kMaxCandidates);
   limits->set_max_frame_rate(kMaxOutputFps);
-  limits->set_max_streams(serving_.calls.max_calls());
+  FillLimits(serving_.calls.limits(), limits);
+  limits->set_max_sleep_s(max_sleep_s_);
   int slots = 0;
   for (const auto& scheduler : serving_.models) {
     FromModel(scheduler->model(), response->add_models());

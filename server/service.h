@@ -8,7 +8,8 @@ namespace choreo {
 /// choreo.v1.Choreography. Its calls may run at any time, from gRPC's threads.
 class ChoreographyService final : public v1::Choreography::CallbackService {
  public:
-  explicit ChoreographyService(Serving& serving) : serving_(serving) {}
+  ChoreographyService(Serving& serving, double max_sleep_s)
+      : serving_(serving), max_sleep_s_(max_sleep_s) {}
 
   grpc::ServerWriteReactor<v1::GenerateTransitionResponse>* GenerateTransition(
       grpc::CallbackServerContext* context, const v1::GenerateTransitionRequest* request) override;
@@ -20,6 +21,7 @@ class ChoreographyService final : public v1::Choreography::CallbackService {
 
  private:
   Serving& serving_;
+  const double max_sleep_s_;
 };
 
 }  // namespace choreo

@@ -15,16 +15,20 @@ namespace choreo {
 
 /// What the calls of one server share. Thread-safe after construction; outlives every call.
 struct Serving {
-  Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, int max_calls, size_t outbox_limit,
-          int64_t file_music_bytes, int io_threads)
+  Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, const CallLimits& limits,
+          size_t outbox_limit, int64_t file_music_bytes, int io_threads)
       : models(std::move(schedulers)),
-        calls(max_calls),
+        calls(limits),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
         tasks(io_threads) {}
 
   /// The first model for an empty name. Throws Error(kNotFound) that lists the models.
   Scheduler& FindModel(const std::string& name, const std::string& field) const;
+
+  /// Throws Error(kResourceExhausted) where the model's engines have no time left for one more: it
+  /// would be late from its first frame on, and make others late.
+  void RequireTime(const Scheduler& scheduler) const;
 
   /// A seed for those who name none.
   static uint64_t FreshSeed();

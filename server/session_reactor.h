@@ -1,5 +1,6 @@
 #pragma once
 
+#include <grpcpp/server_context.h>
 #include <grpcpp/support/status.h>
 
 #include <memory>
@@ -20,6 +21,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
 
   void Write(const Response* message) override { this->StartWrite(message); }
   void Finish(const grpc::Status& status) override { Grpc::Finish(status); }
+  void Reset() override { context_->TryCancel(); }
 
   // ---- gRPC's reactions
 
@@ -30,20 +32,22 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
   }
 
   void OnDone() override {
+    const std::unique_ptr<SessionReactor> own(this);
     session_->Release();
     serving_.calls.Leave(session_.get());
-    delete this;
   }
 
  protected:
-  SessionReactor(Serving& serving, std::string peer)
-      : serving_(serving), session_(std::make_shared<Session>(serving, this, std::move(peer))) {}
+  SessionReactor(Serving& serving, grpc::CallbackServerContext* context)
+      : serving_(serving),
+        session_(std::make_shared<Session>(serving, this, context->peer())),
+        context_(context) {}
 
   /// Tells the service of the call and runs `begin`; a service that is full fails the call.
   template <class Begin>
   void Enter(Begin begin) {
     try {
-      serving_.calls.Enter(session_);
+      serving_.calls.Enter(session_, context_->peer());
       begin();
     } catch (const Error& error) {
       session_->Fail(error);
@@ -52,6 +56,9 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
 
   Serving& serving_;
   const std::shared_ptr<Session> session_;
+
+ private:
+  grpc::CallbackServerContext* const context_;  // lives until OnDone
 };
 
 }  // namespace choreo

@@ -1,5 +1,6 @@
 #include "server/status.h"
 
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -9,7 +10,6 @@
 namespace choreo {
 namespace {
 
-constexpr int kRetrySeconds = 1;
 constexpr size_t kMostBytes = 600;  // of a message
 
 struct Mapping {
@@ -69,7 +69,7 @@ std::string OneShortLine(std::string_view text) {
 
 }  // namespace
 
-grpc::Status ToStatus(const Error& error) {
+grpc::Status ToStatus(const Error& error, double retry_after) {
   const Mapping mapping = Map(error.code());
   const std::string message = OneShortLine(error.what()), field = OneShortLine(error.field());
   google::rpc::Status status;
@@ -91,7 +91,9 @@ grpc::Status ToStatus(const Error& error) {
   }
   if (mapping.retry) {
     google::rpc::RetryInfo retry;
-    retry.mutable_retry_delay()->set_seconds(kRetrySeconds);
+    const double whole = std::floor(retry_after);
+    retry.mutable_retry_delay()->set_seconds(static_cast<int64_t>(whole));
+    retry.mutable_retry_delay()->set_nanos(static_cast<int32_t>(1e9 * (retry_after - whole)));
     status.add_details()->PackFrom(retry);
   }
   return {mapping.code, message, status.SerializeAsString()};

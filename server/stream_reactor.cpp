@@ -43,7 +43,10 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   bool IsHalfCloseLong() const { return !file_.empty(); }
 
   void Handle(const Request& request) {
-    Guard([&] { Take(request); });
+    Guard([&] {
+      Admit();
+      Take(request);
+    });
   }
 
   void HandleHalfClose() {
@@ -91,7 +94,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     outbox().Close(grpc::Status::OK);
   }
 
-  void OnError(const Error& error) override { outbox().Close(ToStatus(error)); }
+  void OnError(const Error& error) override { End(error); }
 
  private:
   void Take(const Request& request) {
@@ -127,6 +130,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   void Configure(const v1::DanceConfig& message) {
     if (scheduler_) throw InvalidArgument("config", "came before; it comes once");
     Scheduler& scheduler = serving_.FindModel(message.model(), "config.model");
+    serving_.RequireTime(scheduler);
     const ModelInfo& model = scheduler.model();
     const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
     scheduler_ = &scheduler;
@@ -222,7 +226,8 @@ class DanceSession final : public CallSession<Response, DanceStream>,
 class StreamReactor final
     : public SessionReactor<grpc::ServerBidiReactor<Request, Response>, Response, DanceSession> {
  public:
-  StreamReactor(Serving& serving, const std::string& peer) : SessionReactor(serving, peer) {
+  StreamReactor(Serving& serving, grpc::CallbackServerContext* context)
+      : SessionReactor(serving, context) {
     const Outbox<Response>::Hold hold(session_->outbox());
     Enter([this] { session_->outbox().RequestRead(); });
   }
@@ -256,7 +261,7 @@ class StreamReactor final
 
 grpc::ServerBidiReactor<Request, Response>* MakeStreamReactor(
     Serving& serving, grpc::CallbackServerContext* context) {
-  return new StreamReactor(serving, context->peer());
+  return new StreamReactor(serving, context);
 }
 
 }  // namespace choreo

@@ -32,6 +32,7 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     Guard([&] {
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       Scheduler& scheduler = serving_.FindModel(message.config().model(), "config.model");
+      serving_.RequireTime(scheduler);
       const ModelInfo& model = scheduler.model();
       GroupRequest request = ToGroupRequest(message, model, Serving::FreshSeed());
       AddMusic(message, &request);
@@ -91,7 +92,7 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     outbox().Close(grpc::Status::OK);
   }
 
-  void OnError(const Error& error) override { outbox().Close(ToStatus(error)); }
+  void OnError(const Error& error) override { End(error); }
 
  private:
   // The samples of a file, and the beats of the music if the client does not know them.
@@ -114,10 +115,11 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
 class TransitionReactor final
     : public SessionReactor<grpc::ServerWriteReactor<Response>, Response, TransitionSession> {
  public:
-  TransitionReactor(Serving& serving, const std::string& peer, const Request& request)
-      : SessionReactor(serving, peer) {
+  TransitionReactor(Serving& serving, grpc::CallbackServerContext* context, const Request& request)
+      : SessionReactor(serving, context) {
     auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
     Enter([&] {
+      session_->Admit();
       serving.tasks.Post([session = session_, hold, &request]() mutable {
         if (session->outbox().open()) session->Start(request);
         hold.reset();
@@ -131,7 +133,7 @@ class TransitionReactor final
 grpc::ServerWriteReactor<Response>* MakeTransitionReactor(Serving& serving,
                                                           grpc::CallbackServerContext* context,
                                                           const Request* request) {
-  return new TransitionReactor(serving, context->peer(), *request);
+  return new TransitionReactor(serving, context, *request);
 }
 
 }  // namespace choreo

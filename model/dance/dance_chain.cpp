@@ -15,55 +15,71 @@ class DanceChain::Job : public StepJob {
       std::vector<DanceWarning> warnings)
       : chain_(std::move(chain)),
         segment_(segment),
-        run_(chain_->model_, request),
+        request_(request),
+        run_(std::in_place, chain_->model_, request_),
+        start_time_(chain_->start_time_),
         warnings_(std::move(warnings)),
         row_(static_cast<size_t>(chain_->model_.audio_features)) {}
 
-  const TransitionSpec& spec() const override { return run_.spec(); }
+  const TransitionSpec& spec() const override { return run_->spec(); }
 
   bool NextInput(StepInput* input) override {
-    if (chain_->paused_) return false;
-    const int64_t frame = segment_.from + run_.done();
     std::lock_guard lock(chain_->mutex_);
-    if (!chain_->timeline_.Certain(frame)) return false;
+    if (!HasInput()) return false;
     if (chain_->audio_) {
-      if (!chain_->audio_->CopyRow(frame, row_)) return false;
+      chain_->audio_->CopyRow(segment_.from + run_->done(), row_);
       input->audio_row = row_;
     }
-    input->previous = run_.previous();
+    input->previous = run_->previous();
     return true;
+  }
+
+  bool Ready() const override {
+    std::lock_guard lock(chain_->mutex_);
+    return HasInput();
+  }
+
+  void OnRestart() override {
+    std::lock_guard lock(chain_->mutex_);
+    run_.emplace(chain_->model_, request_);
   }
 
   bool OnFrame(const StepOutput& raw) override {
     bool more = false;
     {
       std::lock_guard lock(chain_->mutex_);
-      const DanceFrame frame = run_.Take(raw);
-      chain_->Emit(segment_, run_, frame, warnings_);
+      const DanceFrame frame = run_->Take(raw);
+      if (run_->done() <= danced_) return true;  // told before a restart
+      danced_ = run_->done();
+      chain_->Emit(segment_, *run_, frame, warnings_);
       const std::optional<int64_t> end = chain_->timeline_.End();
-      more = run_.done() < run_.frames() && !(end && chain_->next_frame_ >= *end);
+      more = danced_ < run_->frames() && !(end && chain_->next_frame_ >= *end);
     }
     chain_->mailbox_.Deliver();
     return more;
   }
 
   void OnDone(const Error* failure) noexcept override {
-    {
-      std::lock_guard lock(chain_->mutex_);
-      chain_->job_ = nullptr;
-      if (failure != nullptr && !retired_) {
-        chain_->Fail(*failure);
-      } else {
-        if (run_.done() > 0) chain_->PostContinuation();
-        chain_->Advance(/*inherits=*/true);
+    try {
+      {
+        std::lock_guard lock(chain_->mutex_);
+        chain_->job_ = nullptr;
+        if (failure != nullptr && !retired_) {
+          chain_->Fail(*failure);
+        } else {
+          if (danced_ > 0) chain_->PostContinuation();
+          chain_->Advance(/*inherits=*/true);
+        }
       }
+      chain_->mailbox_.Deliver();
+    } catch (...) {
+      chain_->GiveUp();
     }
-    chain_->mailbox_.Deliver();
   }
 
   double NextDeadline() const override {
-    const int64_t frame = segment_.from + run_.done() - chain_->first_frame_;
-    return chain_->start_time_ + static_cast<double>(frame) / chain_->model_.fps;
+    const int64_t frame = segment_.from + danced_ - chain_->first_frame_;
+    return start_time_ + chain_->Seconds(frame);
   }
 
   bool Cancelled() const override { return retired_ || chain_->cancelled_; }
@@ -72,9 +88,19 @@ class DanceChain::Job : public StepJob {
   void Retire() { retired_ = true; }
 
  private:
+  // With the chain's mutex held.
+  bool HasInput() const {
+    if (chain_->paused_) return false;
+    const int64_t frame = segment_.from + run_->done();
+    return chain_->timeline_.Certain(frame) && (!chain_->audio_ || chain_->audio_->ready() > frame);
+  }
+
   const std::shared_ptr<DanceChain> chain_;
   const Segment segment_;
-  TransitionRun run_;
+  const TransitionRequest request_;
+  std::optional<TransitionRun> run_;  // changed with the chain's mutex held
+  std::atomic<int> danced_ = 0;       // frames that were told; more than run_ has after a restart
+  const double start_time_;
   std::vector<DanceWarning> warnings_;  // of its controls; told with the first frame
   std::vector<float> row_;
   std::atomic<bool> retired_ = false;
@@ -86,8 +112,8 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
       model_(scheduler.model()),
       config_(config),
       first_frame_(config.FirstFrame()),
-      start_time_(PlaybackClock()),
       mailbox_(std::move(sink)),
+      start_time_(PlaybackClock()),
       timeline_({model_.fps, first_frame_, config.end_frame, config.audio.has_value(),
                  model_.max_transition_frames}),
       controls_(model_),
@@ -149,21 +175,41 @@ void DanceChain::SetMusicBeats(std::vector<double> seconds) {
 void DanceChain::SetPaused(bool paused) {
   paused_ = paused;
   if (paused) return;
-  std::lock_guard lock(mutex_);
-  WakeJob();
+  try {
+    {
+      std::lock_guard lock(mutex_);
+      Advance(/*inherits=*/false);
+      WakeJob();
+    }
+    mailbox_.Deliver();
+  } catch (...) {
+    GiveUp();
+  }
 }
 
 void DanceChain::Cancel() noexcept {
   cancelled_ = true;
+  try {
+    {
+      std::lock_guard lock(mutex_);
+      if (job_ != nullptr) {
+        WakeJob();  // OnDone follows
+      } else {
+        Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
+      }
+    }
+    mailbox_.Deliver();
+  } catch (...) {
+    GiveUp();
+  }
+}
+
+void DanceChain::GiveUp() noexcept {
   {
     std::lock_guard lock(mutex_);
-    if (job_ != nullptr) {
-      WakeJob();  // OnDone follows
-    } else {
-      Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
-    }
+    over_ = true;
   }
-  mailbox_.Deliver();
+  mailbox_.GiveUp();
 }
 
 void DanceChain::WakeJob() {
@@ -177,7 +223,7 @@ void DanceChain::RetireIfOver() {
 }
 
 bool DanceChain::MayStart(bool inherits) const {
-  if (!timeline_.Certain(segment_->from)) return false;
+  if (paused_ || !timeline_.Certain(segment_->from)) return false;
   // A slot that is held already is kept while the music catches up; a new one is asked for when the
   // first frame can be made. Rows before the first frame are there once that frame's predecessor
   // has been danced.
@@ -194,6 +240,8 @@ void DanceChain::Advance(bool inherits) {
 }
 
 void DanceChain::Start() {
+  // Who waited for itself is due from now on: no right to be first grows out of waiting.
+  start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment_->from - first_frame_));
   TransitionRequest request;
   request.frames = static_cast<int>(segment_->to - segment_->from);
   if (segment_->key) request.target = WorldTarget{segment_->key->pose, segment_->key->mask};
@@ -228,6 +276,9 @@ void DanceChain::Start() {
   } catch (const Error& error) {
     job_ = nullptr;
     Fail(error);
+  } catch (...) {
+    job_ = nullptr;
+    throw;
   }
 }
 

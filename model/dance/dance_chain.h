@@ -57,6 +57,11 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
  private:
   class Job;
 
+  // When something failed that would have told the sink what failed. Without mutex_.
+  void GiveUp() noexcept;
+
+  double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }
+
   // Those below are called with mutex_ held.
   void Advance(bool inherits);
   void Start();
@@ -73,13 +78,13 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   const ModelInfo& model_;
   const DanceConfig config_;
   const int64_t first_frame_;
-  const double start_time_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
   Mailbox<DanceSink> mailbox_;
   std::optional<AudioFeed> audio_;
 
   mutable std::mutex mutex_;  // of what follows
+  double start_time_;         // of the playback: frames are due by it
   Timeline timeline_;
   ControlTrack controls_;
   // The last tau poses; empty until the first transition of a dance that is given none.

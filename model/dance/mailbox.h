@@ -6,6 +6,8 @@
 #include <mutex>
 #include <utility>
 
+#include "model/core/error.h"
+
 namespace choreo {
 
 /// Calls to a listener, made one at a time and in the order of Post, with no lock held, by
@@ -18,28 +20,58 @@ class Mailbox {
 
   void Post(std::function<void(Listener&)> call) {
     std::lock_guard lock(mutex_);
-    calls_.push_back(std::move(call));
+    if (!gave_up_) calls_.push_back(std::move(call));
   }
 
+  /// What a call throws passes through; the others wait for the next Deliver.
   void Deliver() {
     std::unique_lock lock(mutex_);
     if (delivering_) return;
     delivering_ = true;
-    while (!calls_.empty()) {
-      const std::function<void(Listener&)> call = std::move(calls_.front());
-      calls_.pop_front();
-      lock.unlock();
-      call(*listener_);
+    try {
+      while (!calls_.empty()) {
+        const std::function<void(Listener&)> call = std::move(calls_.front());
+        calls_.pop_front();
+        lock.unlock();
+        call(*listener_);
+        lock.lock();
+      }
+      if (std::exchange(last_words_, false)) {
+        lock.unlock();
+        listener_->OnError(failure_);
+        lock.lock();
+      }
+    } catch (...) {
       lock.lock();
+      delivering_ = false;
+      throw;
     }
     delivering_ = false;
   }
 
+  /// Drops what waits; OnError is the last call. For want of memory: it needs none itself, and if
+  /// the listener does, in vain, that is lost.
+  void GiveUp() noexcept {
+    {
+      std::lock_guard lock(mutex_);
+      if (gave_up_) return;
+      gave_up_ = last_words_ = true;
+      calls_.clear();
+    }
+    try {
+      Deliver();
+    } catch (...) {
+    }
+  }
+
  private:
   const std::shared_ptr<Listener> listener_;
+  const Error failure_{ErrorCode::kInternal, "", "it could not go on, maybe for want of memory"};
   std::mutex mutex_;
   std::deque<std::function<void(Listener&)>> calls_;
   bool delivering_ = false;
+  bool gave_up_ = false;
+  bool last_words_ = false;
 };
 
 }  // namespace choreo

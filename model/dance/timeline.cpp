@@ -159,6 +159,8 @@ void Timeline::GenerateUntil(int64_t frame) {
                               Frames(kMaxDanceFrames) + "]: it may only grow");
   }
   granted_ = frame;
+  // All is granted then, and with music whose end is unknown there is no last transition to plan.
+  if (complete_) return;
   explicit_grants_ = true;
   frontier_ = std::max(frontier_, frame);
   Plan();

@@ -102,7 +102,8 @@ class Timeline {
   /// Complete, when all is frozen.
   int64_t ControlFrom(const std::string& field) const;
 
-  /// Absolute, exclusive. Throws Error(kInvalidArgument) if it shrinks or is out of range.
+  /// Absolute, exclusive. Changes nothing after Complete. Throws Error(kInvalidArgument) if it
+  /// shrinks or is out of range.
   void GenerateUntil(int64_t frame);
 
   /// No more keys. Throws Error(kInvalidArgument) the second time.

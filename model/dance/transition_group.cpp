@@ -48,6 +48,9 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
  private:
   class Job;
 
+  // When something failed that would have told the sink what failed.
+  void GiveUp() noexcept;
+
   // With mutex_ held.
   void Done(CandidateReport report);
   void Fail(const Error& error);
@@ -76,7 +79,8 @@ class TransitionGroup::Impl::Job : public StepJob {
   Job(std::shared_ptr<Impl> group, int candidate, const TransitionRequest& request)
       : group_(std::move(group)),
         candidate_(candidate),
-        run_(group_->model_, request),
+        request_(request),
+        run_(std::in_place, group_->model_, request_),
         history_(FillHistory(group_->model_, request.history)),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
@@ -84,23 +88,29 @@ class TransitionGroup::Impl::Job : public StepJob {
         row_(static_cast<size_t>(group_->model_.audio_features)),
         start_time_(PlaybackClock()) {}
 
-  const TransitionSpec& spec() const override { return run_.spec(); }
+  const TransitionSpec& spec() const override { return run_->spec(); }
 
   bool NextInput(StepInput* input) override {
-    if (group_->paused_) return false;
+    if (!Ready()) return false;
     if (group_->audio_) {
-      group_->audio_->CopyRow(group_->first_frame_ + run_.done(), row_);
+      group_->audio_->CopyRow(group_->first_frame_ + run_->done(), row_);
       input->audio_row = row_;
     }
-    input->previous = run_.previous();
+    input->previous = run_->previous();
     return true;
   }
 
+  bool Ready() const override { return !group_->paused_; }
+
+  void OnRestart() override { run_.emplace(group_->model_, request_); }
+
   bool OnFrame(const StepOutput& raw) override {
-    const DanceFrame frame = run_.Take(raw);
+    const DanceFrame frame = run_->Take(raw);
+    if (run_->done() <= danced_) return true;  // told before a restart
+    danced_ = run_->done();
     meter_.Add(frame);
     MoveOn(frame.pose, &history_);
-    if (run_.arrival()) meter_.AddKey(group_->request_.target_id, *run_.arrival());
+    if (run_->arrival()) meter_.AddKey(group_->request_.target_id, *run_->arrival());
     OutputFrames frames = output_.Push(frame);
     if (!frames.poses.empty()) {
       group_->mailbox_.Post([candidate = candidate_, frames = std::move(frames)](GroupSink& sink) {
@@ -108,29 +118,34 @@ class TransitionGroup::Impl::Job : public StepJob {
       });
       group_->mailbox_.Deliver();
     }
-    return run_.done() < run_.frames();
+    return run_->done() < run_->frames();
   }
 
   void OnDone(const Error* failure) noexcept override {
-    {
-      std::lock_guard lock(group_->mutex_);
-      group_->jobs_[static_cast<size_t>(candidate_)] = nullptr;
-      if (failure != nullptr) {
-        group_->Fail(*failure);
-      } else {
-        group_->Done({candidate_,
-                      Quality(),
-                      {group_->first_frame_ + run_.done(), history_, group_->model_.fingerprint}});
+    try {
+      {
+        std::lock_guard lock(group_->mutex_);
+        group_->jobs_[static_cast<size_t>(candidate_)] = nullptr;
+        if (failure != nullptr) {
+          group_->Fail(*failure);
+        } else {
+          group_->Done(
+              {candidate_,
+               Quality(),
+               {group_->first_frame_ + run_->done(), history_, group_->model_.fingerprint}});
+        }
       }
+      group_->mailbox_.Deliver();
+    } catch (...) {
+      group_->GiveUp();
     }
-    group_->mailbox_.Deliver();
   }
 
-  double NextDeadline() const override { return start_time_ + run_.done() / group_->model_.fps; }
+  double NextDeadline() const override { return start_time_ + danced_ / group_->model_.fps; }
 
   bool Cancelled() const override { return group_->cancelled_; }
 
-  const TransitionRun& run() const { return run_; }
+  const TransitionRun& run() const { return *run_; }
 
  private:
   QualityReport Quality() const {
@@ -143,7 +158,9 @@ class TransitionGroup::Impl::Job : public StepJob {
 
   const std::shared_ptr<Impl> group_;
   const int candidate_;
-  TransitionRun run_;
+  const TransitionRequest request_;
+  std::optional<TransitionRun> run_;
+  std::atomic<int> danced_ = 0;  // frames that were told; more than run_ has after a restart
   std::vector<Pose> history_;
   QualityMeter meter_;
   OutputRate output_;
@@ -233,17 +250,13 @@ void TransitionGroup::Impl::Begin() {
     std::lock_guard lock(mutex_);
     jobs_.resize(jobs.size());
     running_ = static_cast<int>(jobs.size());
-    for (std::shared_ptr<Job>& job : jobs) {
-      Job* raw = job.get();
-      try {
-        scheduler_.Submit(std::move(job));
-      } catch (const Error&) {
-        over_ = true;  // the caller hears of it; the sink stays silent
-        cancelled_ = true;
-        WakeAll();
-        throw;
-      }
-      jobs_[static_cast<size_t>(raw->run().spec().candidate)] = raw;
+    for (size_t i = 0; i < jobs.size(); ++i) jobs_[i] = jobs[i].get();
+    try {
+      scheduler_.SubmitGroup({jobs.begin(), jobs.end()});
+    } catch (...) {
+      over_ = true;  // the caller hears of it; the sink stays silent
+      cancelled_ = true;
+      throw;
     }
     paused_ = false;
     WakeAll();
@@ -268,6 +281,15 @@ void TransitionGroup::Impl::Cancel() noexcept {
   cancelled_ = true;
   std::lock_guard lock(mutex_);
   WakeAll();
+}
+
+void TransitionGroup::Impl::GiveUp() noexcept {
+  {
+    std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  mailbox_.GiveUp();
+  Cancel();
 }
 
 void TransitionGroup::Impl::Done(CandidateReport report) {

@@ -16,7 +16,11 @@ Scheduler::Scheduler(std::vector<std::unique_ptr<StepEngine>> engines, Options o
   if (options.max_admissions < 1) {
     throw InvalidArgument("max_admissions", std::to_string(options.max_admissions) + " is below 1");
   }
+  if (options.max_sleep.count() < 0) {
+    throw InvalidArgument("max_sleep", std::to_string(options.max_sleep.count()) + " is below 0");
+  }
   impl_->options = options;
+  int slots_of_all = 0;
   const std::string fingerprint = engines[0]->model().fingerprint;
   for (size_t i = 0; i < engines.size(); ++i) {
     const std::string& other = engines[i]->model().fingerprint;
@@ -36,11 +40,13 @@ Scheduler::Scheduler(std::vector<std::unique_ptr<StepEngine>> engines, Options o
          {&worker->inbox, &worker->arrivals, &worker->active, &worker->ready, &worker->batch}) {
       list->reserve(slots);
     }
-    worker->suspects.reserve(static_cast<size_t>(options.max_waiting));
+    worker->suspects.reserve(Impl::kSuspects);
     worker->inputs.reserve(slots);
     worker->outputs.resize(slots);
+    slots_of_all += worker->slots;
     impl_->workers.push_back(std::move(worker));
   }
+  impl_->group_slots = std::max(1, slots_of_all / 2);
   for (const auto& worker : impl_->workers) {
     worker->thread = std::thread([this, one = worker.get()] { impl_->Run(one); });
   }
@@ -56,43 +62,10 @@ Scheduler::~Scheduler() {
   for (const auto& worker : impl_->workers) worker->thread.join();
 }
 
-void Scheduler::Submit(std::shared_ptr<StepJob> job) {
-  if (job == nullptr) throw InvalidArgument("job", "is null");
-  const StepJob* key = job.get();
-  auto entry = std::make_unique<Impl::Entry>();
-  entry->job = std::move(job);
+void Scheduler::Submit(std::shared_ptr<StepJob> job) { impl_->Accept({&job, 1}, false); }
 
-  Impl::Worker* here = Impl::current;
-  const bool inherits =
-      here != nullptr && here->owner == impl_.get() && here->in_on_done && here->heir == nullptr;
-
-  std::lock_guard lock(impl_->mutex);
-  if (impl_->phase == Impl::Phase::kStopped ||
-      (impl_->phase == Impl::Phase::kDraining && !inherits)) {
-    throw Error(ErrorCode::kUnavailable, "", "the scheduler takes no new jobs");
-  }
-  if (impl_->entries.contains(key)) throw InvalidArgument("job", "is submitted already");
-  Impl::Worker* worker = inherits ? here : impl_->MostFreeWorker();
-  if (worker == nullptr &&
-      impl_->waiting.size() >= static_cast<size_t>(impl_->options.max_waiting)) {
-    throw Error(
-        ErrorCode::kResourceExhausted, "",
-        "every slot is taken and " + std::to_string(impl_->waiting.size()) + " jobs wait already");
-  }
-  entry->order = impl_->submitted++;
-  entry->worker = worker;
-  Impl::Entry* raw = entry.get();
-  impl_->entries.emplace(key, std::move(entry));
-  ++impl_->live;
-  if (inherits) {
-    here->heir = raw;
-  } else if (worker != nullptr) {
-    ++worker->taken;
-    worker->inbox.push_back(raw);
-    worker->work.notify_one();
-  } else {
-    impl_->waiting.push_back(raw);
-  }
+void Scheduler::SubmitGroup(std::vector<std::shared_ptr<StepJob>> jobs) {
+  impl_->Accept(jobs, true);
 }
 
 void Scheduler::Wake(const StepJob* job) {
@@ -105,8 +78,8 @@ void Scheduler::Wake(const StepJob* job) {
     entry->worker->work.notify_one();
     return;
   }
-  // A waiting job is everyone's: the first worker to look at it ends it, if it was cancelled.
-  impl_->check_waiting = true;
+  // A job without a slot is everyone's: the first worker that comes looks at it.
+  impl_->check_slotless = true;
   for (const auto& worker : impl_->workers) worker->work.notify_one();
 }
 
@@ -134,10 +107,14 @@ Scheduler::Stats Scheduler::stats() const {
   stats.frames = impl_->frames.load(std::memory_order_relaxed);
   stats.steps = impl_->steps.load(std::memory_order_relaxed);
   std::lock_guard lock(impl_->mutex);
-  stats.waiting = static_cast<int>(impl_->waiting.size());
+  for (const Impl::Entry* entry : impl_->slotless) ++(entry->parked ? stats.parked : stats.waiting);
+  const auto now = Impl::Clock::now();
   for (const auto& worker : impl_->workers) {
     stats.active += worker->taken;
     stats.slots += worker->slots;
+    impl_->FoldLoad(worker.get(), now);
+    stats.load += worker->load / static_cast<double>(impl_->workers.size());
+    stats.failures = std::max(stats.failures, worker->failures.load(std::memory_order_relaxed));
   }
   return stats;
 }

@@ -14,7 +14,9 @@ namespace choreo {
 /// One transition as the scheduler sees it. All calls but Cancelled come from a worker thread, one
 /// at a time, with no lock of the scheduler held: a job may call Submit, Wake, Stop and stats from
 /// inside them. None may block. Implemented by dance/ (and by fakes in tests).
-/// What spec, NextInput or OnFrame throw ends this job alone, as a failure.
+/// A transition is a pure function, so a job that sleeps can lose its slot and be run again from
+/// its first frame later (OnRestart): its bits are the same. What spec, NextInput or OnFrame throw
+/// ends this job alone, as a failure.
 class StepJob {
  public:
   virtual ~StepJob() = default;
@@ -27,17 +29,25 @@ class StepJob {
   /// the input points to must live until OnFrame or OnDone.
   virtual bool NextInput(StepInput* input) = 0;
 
+  /// Whether NextInput would give an input now. May be called from any worker thread at any time
+  /// before OnDone, so it must be thread-safe.
+  virtual bool Ready() const = 0;
+
+  /// The slot went to another job while this one slept. Now it has one again and begins anew: frame
+  /// 0 is the next that is asked for, and all that it has taken come again.
+  virtual void OnRestart() = 0;
+
   /// Takes the model's frame. Returns true while more frames are wanted.
   virtual bool OnFrame(const StepOutput& raw) = 0;
 
   /// Once, last: after the final frame (nullptr), after cancellation (kCancelled), or when
-  /// something failed. The job's slot is free by then, and the first job submitted from inside
-  /// OnDone inherits it: that one goes before all that wait and is never refused for want of room.
-  /// (A job that ends while it waits has no slot to leave.)
+  /// something failed. The job's slot is free by then, and the first job that Submit takes from
+  /// inside OnDone inherits it, unless one that waits is due earlier. (A job that ends while it has
+  /// no slot leaves none.)
   virtual void OnDone(const Error* failure) noexcept = 0;
 
-  /// When this job's next frame is due on its listener's clock, seconds; earliest goes first when
-  /// not all fit into one step.
+  /// When this job's next frame is due on its listener's clock, seconds of std::steady_clock;
+  /// earliest goes first when not all fit into one step, or into the slots.
   virtual double NextDeadline() const = 0;
 
   /// Read before each step; a cancelled job frees its slot at once. May be called from any worker
@@ -48,24 +58,37 @@ class StepJob {
 /// Feeds engines: one worker thread per engine; ready jobs step together; earliest deadline first;
 /// no added delay. Admission takes as long as many steps, so there are few between two steps: a
 /// crowd that comes at once, or whose transitions end at once, does not stop those who dance. A job
-/// goes to the engine with most free slots, or waits, in order of submission, until some slot is
-/// free. Admission is bounded: Submit never blocks. Thread-safe. A job is held from Submit until
-/// its OnDone has returned.
+/// goes to the engine with most free slots, or waits until some slot is free. Who waits is given a
+/// slot when one is left, earliest deadline first, or when somebody who has one has slept for
+/// `max_sleep`: who waits for music or for its reader holds up nobody else.
+///
+/// There are jobs of dances, which were admitted elsewhere and are never refused for want of room,
+/// and jobs of groups, which are charged here and hold half of the slots at most (at least one), so
+/// that no burst of groups stands in a dance's way. Submit and SubmitGroup never block.
+/// Thread-safe. A job is held from its submission until its OnDone has returned.
 class Scheduler {
  public:
   struct Options {
-    int max_waiting = 64;  ///< jobs beyond the engines' slots that may wait for one, >= 0
+    int max_waiting = 64;  ///< jobs of groups beyond their slots that may wait for one, >= 0
     /// Most slots of one engine stepped at once, >= 1; its batch() at most.
     int max_batch = 4096;
     /// Most jobs that one engine admits between two steps, >= 1, earliest deadlines first.
     int max_admissions = 1;
+    /// How long a job that sleeps keeps its slot while others wait for one, >= 0.
+    std::chrono::milliseconds max_sleep{500};
   };
   struct Stats {
     int active = 0;   ///< jobs that hold a slot
     int waiting = 0;  ///< jobs that wait for one
+    int parked = 0;   ///< jobs that lost theirs while they slept, and sleep on
     int slots = 0;    ///< of all engines
     uint64_t frames = 0;
     uint64_t steps = 0;  ///< frames / steps = mean batch
+    /// Share of the engines' time that goes to frames of dances which are due, over the last
+    /// seconds, 0 to 1: at 1 dances fall behind their music. Work done ahead does not count.
+    double load = 0;
+    /// How often an engine has failed in a row, be it a step or an admission; the largest of all.
+    int failures = 0;
   };
 
   /// Throws Error(kInvalidArgument) for options out of range, for no engines, and for engines whose
@@ -75,9 +98,13 @@ class Scheduler {
   /// Stop(false), then joins. Not from inside a job's call.
   ~Scheduler();
 
-  /// Throws Error(kResourceExhausted) when full, Error(kUnavailable) after Stop,
-  /// Error(kInvalidArgument) for a null job and for one that is submitted already and not yet done.
+  /// A job of a dance. Throws Error(kUnavailable) after Stop, Error(kInvalidArgument) for a null
+  /// job and for one that is submitted already and not yet done.
   void Submit(std::shared_ptr<StepJob> job);
+
+  /// Jobs that come together: all are taken, or none. Throws as Submit does, and
+  /// Error(kResourceExhausted) where more than `max_waiting` would wait.
+  void SubmitGroup(std::vector<std::shared_ptr<StepJob>> jobs);
 
   /// The job may have become ready, or was cancelled. Cheap, from any thread. `job` is compared and
   /// never read: it may be done, destroyed, or not yet submitted. A call too many does no harm.

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <unordered_map>
 #include <utility>
@@ -12,25 +13,32 @@
 #include "model/engine/scheduler.h"
 
 /// The inside of Scheduler: scheduler.cpp is what callers see of it, scheduler_worker.cpp what its
-/// threads do.
+/// threads do, scheduler_slots.cpp who has a slot and who waits for one.
 namespace choreo {
 
 // One mutex guards who waits, who has which engine and who was woken. It is never held while a job
 // or an engine is called. A round takes it once, the end of a job twice more.
 struct Scheduler::Impl {
+  using Clock = std::chrono::steady_clock;
   struct Worker;
 
-  /// A job from Submit until its OnDone.
+  /// A job from its submission until its OnDone. It has a slot (`worker`), waits for one, or is
+  /// parked: it lost its slot while it slept, and sleeps on.
   struct Entry {
     std::shared_ptr<StepJob> job;
+    bool of_group = false;     ///< constant
     uint64_t order = 0;        ///< of submission; settles equal deadlines
-    Worker* worker = nullptr;  ///< whose slot it has or is given; null: it waits. Lock: mutex
+    Worker* worker = nullptr;  ///< whose slot it has or is given. Lock: mutex
+    bool parked = false;       ///< Lock: mutex
     bool woken = false;        ///< Wake was called since it was last looked at. Lock: mutex
 
+    double deadline = 0;  ///< Lock: mutex while it has no worker, else of the worker's thread
+
     // Of the worker's thread alone:
-    int slot = -1;        ///< of the engine, once admitted
-    bool asleep = false;  ///< NextInput said no, and no Wake has come since
-    double deadline = 0;  ///< asked for where not all can go at once
+    int slot = -1;                 ///< of the engine, once admitted
+    bool asleep = false;           ///< NextInput said no, and no Wake has come since
+    bool restarts = false;         ///< it was parked, and is to begin anew
+    Clock::time_point moved_at{};  ///< when it was admitted or last made a frame
   };
 
   /// One engine and the thread that alone touches it.
@@ -42,72 +50,88 @@ struct Scheduler::Impl {
     std::condition_variable work;  ///< BeginRound has something to see
 
     int taken = 0;              ///< slots given to jobs, in `inbox` or `active`. Lock: mutex
-    std::vector<Entry*> inbox;  ///< given a slot by Submit, not yet admitted. Lock: mutex
+    std::vector<Entry*> inbox;  ///< given a slot by others, not yet admitted. Lock: mutex
+    double load = 0;            ///< as Stats::load, at `load_at`. Lock: mutex
+    Clock::time_point load_at = Clock::now();  ///< Lock: mutex
+    std::atomic<int> failures = 0;             ///< of the engine, in a row
 
     // Of the worker's thread alone. Capacities are reserved at the start: a round allocates
     // nothing.
     std::vector<Entry*> arrivals;                    ///< have a slot, not yet admitted
-    std::vector<std::shared_ptr<StepJob>> suspects;  ///< woken while they wait: cancelled?
+    std::vector<std::shared_ptr<StepJob>> suspects;  ///< woken while they have no slot
     std::vector<Entry*> active;                      ///< admitted to the engine
     std::vector<Entry*> ready;                       ///< of `active`, those not asleep
     std::vector<Entry*> batch;                       ///< of `ready`, those that step
     std::vector<StepInput> inputs;
     std::vector<StepOutput> outputs;
+    std::chrono::duration<double> due_time{};  ///< spent on what was due, since `load_at`
     bool in_on_done = false;  ///< inside the OnDone of a job that has just left its slot
     Entry* heir = nullptr;    ///< submitted from inside that OnDone
   };
+
+  static constexpr size_t kSuspects = 64;  ///< looked at in one round
 
   enum class Phase { kOpen, kDraining, kStopped };
 
   Options options;
   std::vector<std::unique_ptr<Worker>> workers;
+  int group_slots = 1;  ///< that jobs of groups may hold, constant
 
   mutable std::mutex mutex;
   mutable std::condition_variable idle;                                ///< `live` became 0
   std::unordered_map<const StepJob*, std::unique_ptr<Entry>> entries;  ///< Lock: mutex
-  std::deque<Entry*> waiting;  ///< oldest first; filled only while no slot is free. Lock: mutex
-  size_t live = 0;             ///< `entries` and those inside OnDone. Lock: mutex
-  uint64_t submitted = 0;      ///< Lock: mutex
-  bool check_waiting = false;  ///< some of `waiting` were woken. Lock: mutex
-  Phase phase = Phase::kOpen;  ///< Lock: mutex
-  bool exit = false;           ///< workers end, after Phase::kStopped. Lock: mutex
+  std::vector<Entry*> slotless;  ///< wait or are parked. Room for all `entries`. Lock: mutex
+  int groups_active = 0;         ///< jobs of groups that have a slot. Lock: mutex
+  int groups_live = 0;           ///< of `entries`, those of groups. Lock: mutex
+  size_t live = 0;               ///< `entries` and those inside OnDone. Lock: mutex
+  uint64_t submitted = 0;        ///< Lock: mutex
+  bool check_slotless = false;   ///< some of `slotless` were woken. Lock: mutex
+  Phase phase = Phase::kOpen;    ///< Lock: mutex
+  bool exit = false;             ///< workers end, after Phase::kStopped. Lock: mutex
 
   std::atomic<uint64_t> frames = 0;
   std::atomic<uint64_t> steps = 0;
 
   static thread_local Worker* current;  ///< the worker whose thread this is
 
+  // ---- scheduler_slots.cpp
+
+  void Accept(std::span<const std::shared_ptr<StepJob>> jobs, bool of_group);
+  /// The caller of these holds the mutex.
+  void Place(Entry* entry);
+  void GiveSlot(Entry* entry, Worker* worker);
+  Entry* TakeNextWaiting(const Entry* heir);
+  Worker* MostFreeWorker();
+  std::unique_ptr<Entry> Extract(const StepJob* job);
+  void CountOut();
+  Entry* NextToPark(const Worker& worker) const;
+  void CollectSuspects(Worker* worker);
+  void FoldLoad(Worker* worker, Clock::time_point now) const;
+  /// What follows does not.
+  void PassSlotOn(Worker* worker, const Entry& left);
+  void LookAtSuspects(Worker* worker);
+  void ParkSleepers(Worker* worker);
+  void EndWaiting(std::unique_ptr<Entry> entry, const Error& failure);
+
+  // ---- scheduler_worker.cpp
+
   void Run(Worker* worker);
   bool BeginRound(Worker* worker, bool* stopped);
   void EndEverything(Worker* worker);
-  void EndCancelledSuspects(Worker* worker);
   void AdmitArrivals(Worker* worker);
   void GatherBatch(Worker* worker);
   void StepBatch(Worker* worker);
-
   bool Admit(Worker* worker, Entry* entry);
+  static int AdmitToEngine(Worker* worker, const TransitionSpec& spec);
   void Leave(Worker* worker, Entry* entry, const Error* failure);
-  void EndWaiting(std::unique_ptr<Entry> entry, const Error& failure);
 
   /// Earliest deadline first, then in order of submission.
   static bool GoesFirst(const Entry* a, const Entry* b) {
     return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
   }
-
-  // The caller of these holds the mutex.
-  std::unique_ptr<Entry> Extract(const StepJob* job) {
-    auto node = entries.extract(job);
-    return std::move(node.mapped());
-  }
-  void CountOut() {
-    if (--live == 0) idle.notify_all();
-  }
-  Worker* MostFreeWorker() {
-    const auto free = [](const auto& worker) { return worker->slots - worker->taken; };
-    const auto most = std::max_element(workers.begin(), workers.end(),
-                                       [&](auto& a, auto& b) { return free(a) < free(b); });
-    return free(*most) > 0 ? most->get() : nullptr;
-  }
+  static double DeadlineOf(const StepJob& job);
+  /// Whether a dance's listener waits for the job's next frame. Nobody does for those of groups.
+  static bool IsDue(const Entry& entry, Clock::time_point now);
 };
 
 }  // namespace choreo

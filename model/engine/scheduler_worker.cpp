@@ -1,6 +1,4 @@
-#include <cmath>
 #include <exception>
-#include <limits>
 
 #include "model/core/threads.h"
 #include "model/engine/scheduler_impl.h"
@@ -21,11 +19,6 @@ Error CurrentError() {
   }
 }
 
-double DeadlineOf(const StepJob& job) {
-  const double deadline = job.NextDeadline();
-  return std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline;
-}
-
 }  // namespace
 
 thread_local Scheduler::Impl::Worker* Scheduler::Impl::current = nullptr;
@@ -41,7 +34,8 @@ void Scheduler::Impl::Run(Worker* worker) {
       EndEverything(worker);
       continue;
     }
-    EndCancelledSuspects(worker);
+    LookAtSuspects(worker);
+    ParkSleepers(worker);
     AdmitArrivals(worker);
     GatherBatch(worker);
     if (!worker->batch.empty()) StepBatch(worker);
@@ -52,6 +46,7 @@ void Scheduler::Impl::Run(Worker* worker) {
 // end.
 bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
   std::unique_lock lock(mutex);
+  FoldLoad(worker, Clock::now());
   for (;;) {
     worker->arrivals.insert(worker->arrivals.end(), worker->inbox.begin(), worker->inbox.end());
     worker->inbox.clear();
@@ -62,17 +57,20 @@ bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
     }
     *stopped = phase == Phase::kStopped;
     if (*stopped) {
-      if (!worker->arrivals.empty() || !worker->active.empty() || !waiting.empty()) return true;
+      if (!worker->arrivals.empty() || !worker->active.empty() || !slotless.empty()) return true;
       if (exit) return false;
-    } else {
-      if (std::exchange(check_waiting, false)) {
-        for (Entry* entry : waiting) {
-          if (std::exchange(entry->woken, false)) worker->suspects.push_back(entry->job);
-        }
-      }
-      if (any_awake || !worker->arrivals.empty() || !worker->suspects.empty()) return true;
+      worker->work.wait(lock);
+      continue;
     }
-    worker->work.wait(lock);
+    if (check_slotless) CollectSuspects(worker);
+    if (any_awake || !worker->arrivals.empty() || !worker->suspects.empty()) return true;
+    const Entry* sleeper = NextToPark(*worker);
+    if (sleeper == nullptr) {
+      worker->work.wait(lock);
+    } else if (worker->work.wait_until(lock, sleeper->moved_at + options.max_sleep) ==
+               std::cv_status::timeout) {
+      return true;
+    }
   }
 }
 
@@ -88,30 +86,12 @@ void Scheduler::Impl::EndEverything(Worker* worker) {
     std::unique_ptr<Entry> entry;
     {
       std::lock_guard lock(mutex);
-      if (waiting.empty()) return;
-      entry = Extract(waiting.front()->job.get());
-      waiting.pop_front();
+      if (slotless.empty()) return;
+      entry = Extract(slotless.back()->job.get());
+      slotless.pop_back();
     }
     EndWaiting(std::move(entry), stopping);
   }
-}
-
-void Scheduler::Impl::EndCancelledSuspects(Worker* worker) {
-  for (const std::shared_ptr<StepJob>& job : worker->suspects) {
-    if (!job->Cancelled()) continue;
-    std::unique_ptr<Entry> entry;
-    {
-      std::lock_guard lock(mutex);
-      // In the meantime another worker may have taken it; then it is that worker's to end.
-      const auto at = std::find_if(waiting.begin(), waiting.end(),
-                                   [&](const Entry* other) { return other->job == job; });
-      if (at == waiting.end()) continue;
-      waiting.erase(at);
-      entry = Extract(job.get());
-    }
-    EndWaiting(std::move(entry), Error(ErrorCode::kCancelled, "", "cancelled while waiting"));
-  }
-  worker->suspects.clear();
 }
 
 void Scheduler::Impl::AdmitArrivals(Worker* worker) {
@@ -162,18 +142,26 @@ void Scheduler::Impl::GatherBatch(Worker* worker) {
 
 void Scheduler::Impl::StepBatch(Worker* worker) {
   const size_t size = worker->batch.size();
+  const Clock::time_point begin = Clock::now();
   try {
     worker->engine->Step(worker->inputs, std::span(worker->outputs).first(size));
   } catch (...) {
     // Some of them may have advanced and some not: none can go on.
     const Error failure = CurrentError();
+    worker->failures.fetch_add(1, std::memory_order_relaxed);
     for (Entry* entry : worker->batch) Leave(worker, entry, &failure);
     return;
   }
+  worker->failures.store(0, std::memory_order_relaxed);
+  const Clock::time_point end = Clock::now();
+  const auto due = std::ranges::count_if(worker->batch,
+                                         [end](const Entry* entry) { return IsDue(*entry, end); });
+  worker->due_time += (end - begin) * (static_cast<double>(due) / static_cast<double>(size));
   steps.fetch_add(1, std::memory_order_relaxed);
   frames.fetch_add(size, std::memory_order_relaxed);
   for (size_t i = 0; i < size; ++i) {
     Entry* entry = worker->batch[i];
+    entry->moved_at = end;
     try {
       if (!entry->job->OnFrame(worker->outputs[i])) Leave(worker, entry, nullptr);
     } catch (...) {
@@ -189,7 +177,13 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
 bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
   try {
     if (entry->job->Cancelled()) throw Error(ErrorCode::kCancelled, "", "cancelled");
-    entry->slot = worker->engine->Admit(entry->job->spec());
+    if (std::exchange(entry->restarts, false)) entry->job->OnRestart();
+    const TransitionSpec& spec = entry->job->spec();
+    const Clock::time_point begin = Clock::now();
+    entry->slot = AdmitToEngine(worker, spec);
+    entry->moved_at = Clock::now();
+    if (IsDue(*entry, entry->moved_at)) worker->due_time += entry->moved_at - begin;
+    entry->asleep = false;
     worker->active.push_back(entry);
     return true;
   } catch (...) {
@@ -199,7 +193,20 @@ bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
   }
 }
 
-// Frees a job's slot, tells the job, and gives its place to its heir, else to the longest waiting.
+// A spec that is refused is its job's fault; anything else that goes wrong is the engine's.
+int Scheduler::Impl::AdmitToEngine(Worker* worker, const TransitionSpec& spec) {
+  try {
+    return worker->engine->Admit(spec);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kInternal) worker->failures.fetch_add(1);
+    throw;
+  } catch (...) {
+    worker->failures.fetch_add(1);
+    throw;
+  }
+}
+
+// Frees a job's slot, tells the job, and passes the slot on.
 void Scheduler::Impl::Leave(Worker* worker, Entry* entry, const Error* failure) {
   if (entry->slot >= 0) {
     worker->engine->Release(entry->slot);
@@ -213,28 +220,8 @@ void Scheduler::Impl::Leave(Worker* worker, Entry* entry, const Error* failure) 
   worker->in_on_done = true;
   own->job->OnDone(failure);
   worker->in_on_done = false;
-  own.reset();
-
-  std::lock_guard lock(mutex);
-  CountOut();
-  Entry* next = std::exchange(worker->heir, nullptr);
-  if (next == nullptr && !waiting.empty() && phase != Phase::kStopped) {
-    next = waiting.front();
-    waiting.pop_front();
-    next->worker = worker;
-  }
-  if (next == nullptr) {
-    --worker->taken;
-  } else {
-    worker->arrivals.push_back(next);
-  }
-}
-
-void Scheduler::Impl::EndWaiting(std::unique_ptr<Entry> entry, const Error& failure) {
-  entry->job->OnDone(&failure);
-  entry.reset();
-  std::lock_guard lock(mutex);
-  CountOut();
+  own->job.reset();
+  PassSlotOn(worker, *own);
 }
 
 }  // namespace choreo

@@ -150,7 +150,8 @@ TEST(DanceStream, CancellationFreesTheSlot) {
   EXPECT_TRUE(Perform(*scheduler, RandomDance(19)).summary);
 }
 
-TEST(DanceStream, AFullSchedulerRefusesAndServesOn) {
+// The only slot goes to who can dance, and the first is the same as alone.
+TEST(DanceStream, WhoWaitsForMusicHoldsUpNobody) {
   const auto scheduler = FakeScheduler(1, 1, 0);
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
@@ -159,11 +160,37 @@ TEST(DanceStream, AFullSchedulerRefusesAndServesOn) {
   first.KeysComplete();
   first.PushAudio(Song(22050, 0.5), 0);
   first_sink->WaitForFrames(1);
-  const Recording refused = Perform(*scheduler, RandomDance(20));
-  ASSERT_TRUE(refused.error);
-  EXPECT_EQ(refused.error->code(), ErrorCode::kResourceExhausted);
+  EXPECT_TRUE(Perform(*scheduler, RandomDance(20)).summary);
+  first.PushAudio(Song(22050, 1.5), 11025);
   first.EndOfAudio();
-  EXPECT_TRUE(first_sink->WaitForEnd().summary);
+  const Recording interrupted = first_sink->WaitForEnd();
+  ASSERT_TRUE(interrupted.summary);
+
+  auto sink = std::make_shared<Recorder>();
+  DanceStream alone(*scheduler, config, sink);
+  alone.KeysComplete();
+  alone.PushAudio(Song(22050, 0.5), 0);
+  alone.PushAudio(Song(22050, 1.5), 11025);
+  alone.EndOfAudio();
+  EXPECT_TRUE(SameDance(sink->WaitForEnd(), interrupted));
+}
+
+/// Has no memory when it is told where it could go on.
+class ForgetfulRecorder final : public Recorder {
+ public:
+  void OnContinuation(const Continuation&) override { throw std::bad_alloc(); }
+};
+
+TEST(DanceStream, EndsInAnErrorWhereMemoryIsOut) {
+  const auto scheduler = FakeScheduler();
+  auto sink = std::make_shared<ForgetfulRecorder>();
+  DanceStream stream(*scheduler, {}, sink);
+  stream.SetKey("a", AtFrame{20}, RestPose(Skeleton::Smpl24()));
+  const Recording recording = sink->WaitForEnd();
+  ASSERT_TRUE(recording.error);
+  EXPECT_EQ(recording.error->code(), ErrorCode::kInternal);
+  EXPECT_TRUE(scheduler->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_TRUE(Perform(*scheduler, RandomDance(20)).summary);
 }
 
 /// Gives a pose that is not a number at one frame.

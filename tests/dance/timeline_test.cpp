@@ -61,6 +61,19 @@ TEST(Timeline, EachKeyGrantsUpToItself) {
   EXPECT_EQ(timeline.End(), 91);
 }
 
+// A client that paces itself may go on after its last key; nobody knows yet where the music ends.
+TEST(Timeline, GrantsBehindTheLastKeyChangeNothing) {
+  Timeline timeline({.has_music = true});
+  timeline.Complete();
+  timeline.GenerateUntil(0);
+  timeline.GenerateUntil(500);
+  EXPECT_THAT(Refusal([&] { timeline.GenerateUntil(499); }),
+              HasSubstr("generate_until.frame: 499"));
+  timeline.SetAudioEnd(100);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 120, ""}}));
+  EXPECT_EQ(timeline.End(), 100);
+}
+
 TEST(Timeline, TimesRoundToTheGrid) {
   Timeline timeline({});
   Set(timeline, "a", AtTime{1.016});       // 30.48

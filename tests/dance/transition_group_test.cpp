@@ -181,7 +181,7 @@ TEST(TransitionGroup, MeetsTheMotionThatFollows) {
 }
 
 TEST(TransitionGroup, CancellationAndRefusalFreeEverySlot) {
-  const auto scheduler = FakeScheduler(2, 1, 3);
+  const auto scheduler = FakeScheduler(4, 1, 3);
   GroupRequest request = RandomRequest(5);
   request.frames = 1800;
   request.candidates = 5;

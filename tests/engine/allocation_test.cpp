@@ -39,6 +39,8 @@ class CountedJob : public StepJob {
   CountedJob(TransitionSpec spec, double deadline) : spec_(std::move(spec)), deadline_(deadline) {}
   const TransitionSpec& spec() const override { return spec_; }
   bool NextInput(StepInput*) override { return true; }
+  bool Ready() const override { return true; }
+  void OnRestart() override { frames_ = 0; }
   bool OnFrame(const StepOutput&) override { return ++frames_ < spec_.frames; }
   void OnDone(const Error*) noexcept override {}
   double NextDeadline() const override { return deadline_ + frames_; }

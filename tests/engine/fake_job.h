@@ -53,9 +53,16 @@ class FakeJob : public StepJob {
     input->previous = frames_.empty() ? nullptr : &frames_.back().pose;
     return true;
   }
+  bool Ready() const override { return count_ < allowed_frames; }
+  void OnRestart() override {
+    ++restarts_;
+    frames_.clear();
+    count_ = 0;
+  }
   bool OnFrame(const StepOutput& raw) override {
     if (on_frame) on_frame();
     frames_.push_back(raw);
+    ++count_;
     return static_cast<int>(frames_.size()) < spec_.frames;
   }
   void OnDone(const Error* failure) noexcept override {
@@ -81,6 +88,7 @@ class FakeJob : public StepJob {
   /// Read these after WaitDone.
   const std::vector<StepOutput>& frames() const { return frames_; }
   int times_done() const { return done_; }
+  int restarts() const { return restarts_; }
   std::optional<ErrorCode> failure() const {
     return failure_ ? std::optional(failure_->code()) : std::nullopt;
   }
@@ -88,6 +96,8 @@ class FakeJob : public StepJob {
  private:
   TransitionSpec spec_;
   std::vector<StepOutput> frames_;
+  std::atomic<int> count_ = 0;  // of frames_
+  std::atomic<int> restarts_ = 0;
   std::mutex mutex_;
   std::condition_variable changed_;
   int refusals_ = 0;

@@ -33,21 +33,25 @@ TEST_F(SchedulerTest, ChainsThatEndTogetherGoOnOneByOne) {
                           UnorderedElementsAre(1, 13), ElementsAre(1)));
 }
 
-TEST_F(SchedulerTest, AChainKeepsItsSlotBeforeAllThatWait) {
-  Start(1, {.max_waiting = 1, .max_batch = 1});
+// Its next transition is due before the rival, the one after that is not.
+TEST_F(SchedulerTest, AChainKeepsItsSlotWhileItIsDueFirst) {
+  Start(1, {.max_batch = 1});
   HoldWorker();
   auto first = Job(1, 2), second = Job(2, 2), third = Job(3, 2);
+  third->deadline = 2;
   first->when_done = [&](const Error*) { scheduler_->Submit(second); };
   second->when_done = [&](const Error*) { scheduler_->Submit(third); };
   scheduler_->Submit(first);
   ASSERT_TRUE(gate_.PassOne());  // 99 is done, first stands at the gate
-  auto rival = SubmitJob(50, 1);
-  EXPECT_EQ(scheduler_->stats().waiting, 1);  // full, and yet the chain goes on
+  auto rival = Job(50, 1);
+  rival->deadline = 1;
+  scheduler_->Submit(rival);
+  EXPECT_EQ(scheduler_->stats().waiting, 1);
   gate_.Open();
-  ASSERT_TRUE(rival->WaitDone());
+  ASSERT_TRUE(third->WaitDone());
   EXPECT_THAT(gate_.steps(),
               ElementsAre(ElementsAre(99), ElementsAre(1), ElementsAre(1), ElementsAre(2),
-                          ElementsAre(2), ElementsAre(3), ElementsAre(3), ElementsAre(50)));
+                          ElementsAre(2), ElementsAre(50), ElementsAre(3), ElementsAre(3)));
 }
 
 TEST_F(SchedulerTest, AChainMissesNoStep) {
@@ -83,7 +87,7 @@ TEST_F(SchedulerTest, AJobMayBeSubmittedAgainFromItsOwnEnd) {
 }
 
 TEST_F(SchedulerTest, OnlyTheFirstFollowUpInherits) {
-  Start(1, {.max_waiting = 2, .max_batch = 1});
+  Start(1, {.max_batch = 1});
   HoldWorker();
   auto parent = Job(1, 1), heir = Job(2, 1), sibling = Job(3, 1);
   parent->when_done = [&](const Error*) {
@@ -91,8 +95,10 @@ TEST_F(SchedulerTest, OnlyTheFirstFollowUpInherits) {
     scheduler_->Submit(sibling);
   };
   scheduler_->Submit(parent);
-  auto rival = SubmitJob(50, 1);
-  // 99's place goes to the parent, so one place is left to wait in.
+  auto rival = Job(50, 1);
+  rival->deadline = 1;
+  sibling->deadline = 2;
+  scheduler_->Submit(rival);
   gate_.Open();
   ASSERT_TRUE(sibling->WaitDone());
   EXPECT_THAT(gate_.steps(), ElementsAre(ElementsAre(99), ElementsAre(1), ElementsAre(2),

@@ -30,7 +30,7 @@ TEST_F(SchedulerTest, CancellingASleepingJobFreesItsSlotAtOnce) {
 }
 
 TEST_F(SchedulerTest, CancellingAWaitingJobFreesItsPlace) {
-  Start(1, {.max_waiting = 2, .max_batch = 1});
+  Start(1, {.max_batch = 1});
   auto sleeper = SubmitSleeper(1);
   auto first = SubmitJob(2, 2), second = SubmitJob(3, 2);
   EXPECT_EQ(scheduler_->stats().waiting, 2);

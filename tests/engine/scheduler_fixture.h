@@ -28,10 +28,13 @@ inline ErrorCode CodeOf(const std::function<void()>& action) {
 /// A scheduler with one engine whose steps a gate lets through.
 class SchedulerTest : public ::testing::Test {
  protected:
-  void Start(int slots, Scheduler::Options options = {}, uint64_t poison = 0) {
+  // Nobody loses a slot for sleeping, unless `max_sleep` says so.
+  void Start(int slots, Scheduler::Options options = {}, uint64_t poison = 0,
+             std::chrono::milliseconds max_sleep = kLong) {
     std::vector<std::unique_ptr<StepEngine>> engines;
     engines.push_back(std::make_unique<GatedEngine>(slots, &gate_, poison));
     options.max_admissions = admissions_;
+    options.max_sleep = max_sleep;
     scheduler_ = std::make_unique<Scheduler>(std::move(engines), options);
   }
   // Its seed names it in gate_.steps().

@@ -141,16 +141,13 @@ TEST_F(SchedulerTest, WakingUnknownAndFinishedJobsDoesNothing) {
   EXPECT_EQ(next->frames().size(), 3U);
 }
 
-TEST_F(SchedulerTest, AdmissionIsBoundedAndInOrder) {
-  Start(2, {.max_waiting = 2, .max_batch = 1});
+TEST_F(SchedulerTest, WhoWaitsGoesInOrder) {
+  Start(2, {.max_batch = 1});
   auto a = SubmitSleeper(1), b = SubmitSleeper(2);
   auto c = SubmitJob(3, 1), d = SubmitJob(4, 1);
   const Scheduler::Stats stats = scheduler_->stats();
   EXPECT_EQ(stats.active, 2);
   EXPECT_EQ(stats.waiting, 2);
-  auto e = Job(5, 1);
-  EXPECT_EQ(CodeOf([&] { scheduler_->Submit(e); }), ErrorCode::kResourceExhausted);
-  EXPECT_EQ(e.use_count(), 1);
   a->allowed_frames = 10;
   scheduler_->Wake(a.get());
   ASSERT_TRUE(d->WaitDone());
@@ -158,8 +155,21 @@ TEST_F(SchedulerTest, AdmissionIsBoundedAndInOrder) {
   ASSERT_EQ(steps.size(), 12U);
   EXPECT_THAT(steps[10], ElementsAre(3));
   EXPECT_THAT(steps[11], ElementsAre(4));
-  scheduler_->Submit(e);
-  ASSERT_TRUE(e->WaitDone());
+}
+
+TEST_F(SchedulerTest, OfThoseWhoWaitTheEarliestDeadlineGoesFirst) {
+  Start(1, {.max_batch = 1});
+  HoldWorker();
+  std::vector<std::shared_ptr<FakeJob>> jobs;
+  for (uint64_t i = 1; i <= 3; ++i) {
+    jobs.push_back(Job(i, 1));
+    jobs.back()->deadline = 10.0 - static_cast<double>(i);
+    scheduler_->Submit(jobs.back());
+  }
+  gate_.Open();
+  ASSERT_TRUE(jobs.front()->WaitDone());
+  EXPECT_THAT(gate_.steps(),
+              ElementsAre(ElementsAre(99), ElementsAre(3), ElementsAre(2), ElementsAre(1)));
 }
 
 TEST_F(SchedulerTest, RefusesNullAndDoubleSubmission) {

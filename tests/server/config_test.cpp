@@ -19,7 +19,8 @@ TEST(ServerConfigTest, DefaultsAreValid) {
   const CommandLine line = Parse({});
   ASSERT_TRUE(line.config);
   EXPECT_EQ(line.config->listen, "127.0.0.1:50051");
-  EXPECT_EQ(line.config->slots, 16);
+  EXPECT_EQ(line.config->Slots(), 128);
+  EXPECT_EQ(line.config->MaxStreamsOfPeer(), 56);
 }
 
 TEST(ServerConfigTest, FlagsGoBeforeFileBeforeEnvironment) {

@@ -66,6 +66,12 @@ TEST_F(InfoTest, TellsModelLimitsAndDevices) {
   EXPECT_EQ(info.limits().max_message_bytes(), 16 << 20);
   EXPECT_EQ(info.limits().max_keyframes(), 1000);
   EXPECT_EQ(info.limits().max_candidates(), 32);
+  EXPECT_EQ(info.limits().max_streams(), 64);
+  EXPECT_EQ(info.limits().max_streams_of_peer(), 56);
+  EXPECT_EQ(info.limits().first_message_s(), 10);
+  EXPECT_EQ(info.limits().idle_s(), 120);
+  EXPECT_EQ(info.limits().unread_s(), 60);
+  EXPECT_EQ(info.limits().max_sleep_s(), 0.5);
   ASSERT_EQ(info.devices_size(), 1);
   EXPECT_EQ(info.devices(0), "fake:0");
   EXPECT_EQ(info.slots(), 5);
@@ -138,6 +144,44 @@ TEST_F(InfoTest, HealthServes) {
   const std::string name = v1::Choreography::service_full_name();
   const std::string request = std::string("\x0a") + static_cast<char>(name.size()) + name;
   EXPECT_EQ(CallRaw(channel, "/grpc.health.v1.Health/Check", request, false), serving);
+}
+
+/// Fails while it is told to, as a device that is gone.
+class FailingEngine final : public FakeEngine {
+ public:
+  explicit FailingEngine(const std::atomic<bool>* fails) : fails_(fails) {}
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    if (*fails_) throw std::runtime_error("the device is gone");
+    FakeEngine::Step(in, out);
+  }
+
+ private:
+  const std::atomic<bool>* const fails_;
+};
+
+TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
+  std::atomic<bool> fails = true;
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  std::vector<Server::Engines> models(1);
+  models[0].push_back(std::make_unique<FailingEngine>(&fails));
+  Connect(std::make_unique<Server>(config, std::move(models)));
+  const auto health = [this] {
+    return CallRaw(channel, "/grpc.health.v1.Health/Check", "", false);
+  };
+  const std::string serving("\x08\x01", 2), not_serving("\x08\x02", 2);
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(5);
+  EXPECT_EQ(health(), serving);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(Generate(request).status.error_code(), grpc::StatusCode::INTERNAL);
+  }
+  ExpectEventually([&] { return health() == not_serving; }, "health tells of it");
+  fails = false;
+  EXPECT_TRUE(Generate(request).status.ok());
+  ExpectEventually([&] { return health() == serving; }, "and of its recovery");
+  server.reset();  // it looks at `fails`
 }
 
 TEST_F(InfoTest, ReflectionListsTheService) {

@@ -85,7 +85,10 @@ TEST_F(LifecycleTest, CancelledTransitionsGiveTheirSlotsBack) {
 }
 
 TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
-  Start(16, [](ServerConfig& config) { config.max_streams = 2; });
+  Start(16, [](ServerConfig& config) {
+    config.max_streams = 2;
+    config.max_streams_of_peer = 10;
+  });
   const auto first = OpenEndedDance();
   const auto second = OpenEndedDance();
   ASSERT_TRUE(first->ReadFrames(5));
@@ -106,15 +109,16 @@ TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
 }
 
 TEST_F(LifecycleTest, TransitionsBeyondTheSlotsAreRefused) {
-  Start(/*slots=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
-  const auto first = OpenEndedDance();
-  ASSERT_TRUE(first->ReadFrames(5));
-  DanceClient second(stub());
-  second.Send(Config());
-  second.SendKeyframe(Key("a", 20));
-  const grpc::Status refused = second.Finish().status;
+  Start(/*slots=*/4, [](ServerConfig& config) { config.max_waiting = 1; });
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(5);
+  request.set_candidates(4);  // two have a slot, one may wait
+  const grpc::Status refused = Generate(request).status;
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_TRUE(DetailsOf(refused).retry_info);
+  request.set_candidates(3);
+  EXPECT_TRUE(Generate(request).status.ok());
 }
 
 // Nothing is read: HTTP/2 fills, the outbox fills, the dance pauses. Then all of it comes.
@@ -214,6 +218,21 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   }
   EXPECT_EQ(endless->Finish().status.error_code(), grpc::StatusCode::UNAVAILABLE);
   ExpectEventually([this] { return server->calls() == 0; }, "all calls are over");
+}
+
+TEST_F(LifecycleTest, WhoIsConnectedIsSentElsewhereWhileDancesGoOn) {
+  Start();
+  const auto client = OpenEndedDance();
+  ASSERT_TRUE(client->ReadFrames(5));
+  ASSERT_EQ(channel->GetState(false), GRPC_CHANNEL_READY);
+  const std::jthread drain([this] { server->Drain(60); });
+  EXPECT_TRUE(channel->WaitForStateChange(
+      GRPC_CHANNEL_READY, std::chrono::system_clock::now() + std::chrono::seconds(20)));
+  EXPECT_EQ(server->calls(), 1);
+  const std::string music = Music(2);
+  client->SendAudio(music.substr(music.size() / 2), 22'050);
+  EXPECT_TRUE(client->ReadFrames(50));
+  EXPECT_TRUE(client->Finish().status.ok());
 }
 
 // The connection was there before, and nobody looked at it when the server went.

@@ -1,0 +1,205 @@
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "tests/server/fixture.h"
+
+namespace choreo {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// Ends the program, which a test that hangs would never do.
+class Watchdog {
+ public:
+  explicit Watchdog(seconds limit)
+      : thread_([this, limit] {
+          std::unique_lock lock(mutex_);
+          if (over_.wait_for(lock, limit, [this] { return done_; })) return;
+          std::fprintf(stderr, "the server hangs: not over after %d s\n",
+                       static_cast<int>(limit.count()));
+          std::abort();
+        }) {}
+  ~Watchdog() {
+    {
+      const std::lock_guard lock(mutex_);
+      done_ = true;
+    }
+    over_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool done_ = false;
+  std::jthread thread_;
+};
+
+/// What a client sends, and whether it ends in good order.
+struct Script {
+  std::vector<v1::StreamDanceRequest> messages;
+  bool cancels = false;
+};
+
+/// Messages in an order that a seed decides: most of them would be good ones in another order.
+class ScriptWriter {
+ public:
+  explicit ScriptWriter(uint32_t seed) : random_(seed) {}
+
+  template <class MakeConfig, class MakeKey>
+  Script Write(const std::string& music, MakeConfig make_config, MakeKey make_key) {
+    Script script;
+    v1::StreamDanceRequest config;
+    *config.mutable_config() = make_config(Chance(0.6), Chance(0.3) ? Below(200) : -1);
+    if (Chance(0.95)) script.messages.push_back(config);
+    const int count = Below(12);
+    for (int i = 0; i < count; ++i) {
+      v1::StreamDanceRequest& next = script.messages.emplace_back();
+      switch (Below(20)) {
+        case 0:
+          break;  // empty
+        case 1:
+          next = config;
+          break;
+        case 2:
+        case 3:
+          next.mutable_end_of_audio();
+          break;
+        case 4:
+        case 5:
+          next.mutable_keyframes_complete();
+          break;
+        case 6:
+          next.mutable_remove_keyframe()->set_id(std::to_string(Below(4)));
+          break;
+        case 7:
+        case 8:
+        case 9:
+        case 10:
+          next.mutable_generate_until()->set_frame(Chance(0.1) ? -1 : granted_ += Below(80));
+          break;
+        case 11:
+        case 12:
+        case 13:
+        case 14:
+          *next.mutable_keyframe() = make_key(std::to_string(Below(4)), Below(240));
+          break;
+        default: {
+          const size_t at = std::min<size_t>(sent_, music.size());
+          const size_t size = std::min<size_t>(2 * Below(30'000), music.size() - at);
+          next.mutable_audio()->set_data(music.substr(at, size));
+          next.mutable_audio()->set_first_sample(static_cast<int64_t>(at / 2) + Chance(0.03));
+          sent_ += size;
+        }
+      }
+    }
+    script.cancels = Chance(0.2);
+    return script;
+  }
+
+ private:
+  int Below(int limit) { return std::uniform_int_distribution<int>(0, limit - 1)(random_); }
+  bool Chance(double share) { return std::bernoulli_distribution(share)(random_); }
+
+  std::mt19937 random_;
+  int64_t granted_ = 0;
+  size_t sent_ = 0;
+};
+
+class DisorderTest : public ServerTest {
+ protected:
+  static constexpr milliseconds kPatience{30'000};
+
+  Script WriteScript(uint32_t seed) const {
+    return ScriptWriter(seed).Write(
+        music_,
+        [](bool music, int frames) {
+          v1::DanceConfig config = Config();
+          if (music) *config.mutable_audio_format() = MusicFormat();
+          if (frames >= 0) config.set_frames(frames);
+          return config;
+        },
+        [](const std::string& id, int frame) { return Key(id, frame); });
+  }
+
+  Answer Play(const Script& script) {
+    DanceClient client(stub(), kPatience);
+    for (const auto& message : script.messages) {
+      if (!client.Send(message)) break;
+    }
+    return script.cancels ? client.Cancel() : client.Finish();
+  }
+
+  // That a stream ended as it may.
+  static void ExpectAnAnswer(const Script& script, const Answer& answer) {
+    switch (answer.status.error_code()) {
+      case grpc::StatusCode::OK:
+        ASSERT_TRUE(answer.summary);
+        EXPECT_EQ(answer.Join().count, answer.summary->report().frames());
+        break;
+      case grpc::StatusCode::CANCELLED:
+        EXPECT_TRUE(script.cancels) << answer.status.error_message();
+        break;
+      case grpc::StatusCode::INVALID_ARGUMENT:
+      case grpc::StatusCode::OUT_OF_RANGE:
+      case grpc::StatusCode::NOT_FOUND:
+      case grpc::StatusCode::FAILED_PRECONDITION:
+        EXPECT_TRUE(DetailsOf(answer.status).bad_request) << answer.status.error_message();
+        break;
+      default:
+        ADD_FAILURE() << answer.status.error_code() << ": " << answer.status.error_message();
+    }
+  }
+
+  const std::string music_ = Music(4);
+};
+
+// Nothing of the music has come, so nobody knows where the dance ends.
+TEST_F(DisorderTest, PacingOnBehindTheLastKeyIsHarmless) {
+  const Watchdog watchdog(seconds(60));
+  Start(/*slots=*/2);
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  *config.mutable_audio_format() = MusicFormat();
+  client.Send(config);
+  client.SendKeyframesComplete();
+  client.SendGenerateUntil(0);
+  client.SendGenerateUntil(20);
+  client.SendAudio(music_, 0);
+  client.SendGenerateUntil(40);
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join().count, 120);
+  ExpectIdle();
+}
+
+// Four at once on two slots: also what a stream answers must not depend on the others.
+TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
+  const Watchdog watchdog(seconds(240));
+  Start(/*slots=*/2);
+  constexpr uint32_t kClients = 4;
+  constexpr uint32_t kScripts = 100;
+  std::vector<std::jthread> clients;
+  for (uint32_t client = 0; client < kClients; ++client) {
+    clients.emplace_back([this, client] {
+      for (uint32_t i = 0; i < kScripts; ++i) {
+        const uint32_t seed = client * kScripts + i;
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Script script = WriteScript(seed);
+        const Answer answer = Play(script);
+        ExpectAnAnswer(script, answer);
+        if (!answer.status.ok()) continue;
+        EXPECT_TRUE(Play(script).Join() == answer.Join()) << "the same messages, another dance";
+      }
+    });
+  }
+  clients.clear();
+  ExpectIdle();
+}
+
+}  // namespace
+}  // namespace choreo

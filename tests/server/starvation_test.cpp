@@ -1,0 +1,263 @@
+#include <gmock/gmock.h>
+#include <grpcpp/create_channel.h>
+
+#include <thread>
+
+#include "server/call_registry.h"
+#include "tests/server/fixture.h"
+
+namespace choreo {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+/// Clients that do nothing, or too much, while others want to dance.
+class StarvationTest : public ServerTest {
+ protected:
+  static v1::DanceConfig MusicConfig() {
+    v1::DanceConfig config = Config();
+    *config.mutable_audio_format() = MusicFormat();
+    return config;
+  }
+
+  // A dance that waits for more of its music.
+  std::unique_ptr<DanceClient> OpenEndedDance() {
+    auto client = std::make_unique<DanceClient>(stub());
+    client->Send(MusicConfig());
+    client->SendKeyframesComplete();
+    client->SendAudio(Music(1), 0);
+    return client;
+  }
+
+  // A dance of which nothing is read: HTTP/2, whose windows are small, fills, the outbox fills, it
+  // pauses.
+  std::unique_ptr<DanceClient> UnreadDance() {
+    grpc::ChannelArguments small_windows;
+    small_windows.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+    const auto own = grpc::CreateCustomChannel("127.0.0.1:" + std::to_string(server->port()),
+                                               grpc::InsecureChannelCredentials(), small_windows);
+    const auto own_stub = v1::Choreography::NewStub(own);
+    auto client = std::make_unique<DanceClient>(*own_stub);
+    v1::DanceConfig config = Config();
+    config.set_encoding(v1::ROTATION_ENCODING_MATRIX);  // 900 bytes a frame
+    config.set_frames(kUnreadFrames);
+    client->Send(config);
+    client->SendKeyframesComplete();
+    return client;
+  }
+
+  Answer DanceToAKey() {
+    DanceClient client(stub());
+    client.Send(Config());
+    client.SendKeyframe(Key("a", 20));
+    return client.Finish();
+  }
+  void ExpectServes() {
+    const grpc::Status status = DanceToAKey().status;
+    EXPECT_TRUE(status.ok()) << status.error_message();
+  }
+
+  static constexpr int64_t kUnreadFrames = 1'000;
+};
+
+TEST_F(StarvationTest, SilentCallsTakeNobodysPlaceAndEnd) {
+  Start(4, [](ServerConfig& config) {
+    config.max_streams = 2;
+    config.max_streams_of_peer = 20;
+    config.first_message_seconds = 0.3;
+  });
+  std::vector<std::unique_ptr<DanceClient>> silent;
+  for (int i = 0; i < 10; ++i) silent.push_back(std::make_unique<DanceClient>(stub()));
+  ExpectServes();
+  for (const auto& client : silent) {
+    EXPECT_FALSE(client->ReadOne());
+    const grpc::Status status = client->Finish().status;
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+    EXPECT_THAT(status.error_message(), HasSubstr("no first message came within 0.3 s"));
+  }
+  ExpectServes();
+}
+
+TEST_F(StarvationTest, ACallOfWhichNothingComesEnds) {
+  Start(4, [](ServerConfig& config) { config.idle_seconds = 0.5; });
+  const auto client = OpenEndedDance();
+  while (client->ReadOne()) {
+  }
+  const grpc::Status status = client->Finish().status;
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+  EXPECT_THAT(status.error_message(), HasSubstr("for 0.5 s"));
+  ExpectIdle();
+}
+
+TEST_F(StarvationTest, ACallWhoseAnswersNobodyTakesIsReset) {
+  Start(4, [](ServerConfig& config) {
+    config.outbox_kib = 16;
+    config.unread_seconds = 0.5;
+  });
+  const auto client = UnreadDance();
+  ExpectEventually([this] { return server->calls() == 1; }, "it dances");
+  ExpectIdle();
+  EXPECT_EQ(client->Finish().status.error_code(), grpc::StatusCode::CANCELLED);
+}
+
+TEST_F(StarvationTest, WhoDoesNotReadHoldsUpItselfAloneWithOneSlot) {
+  Start(/*slots=*/1, [](ServerConfig& config) {
+    config.outbox_kib = 16;
+    config.max_sleep_seconds = 0.05;
+  });
+  const Answer::Joined alone = UnreadDance()->Finish().Join();
+  probe->frames = 0;
+  const auto slow = UnreadDance();
+  ExpectEventually([this] { return probe->frames > 20; }, "it dances");
+  for (int i = 0; i < 5; ++i) ExpectServes();
+  const Answer& answer = slow->Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join().count, kUnreadFrames);
+  EXPECT_TRUE(answer.Join() == alone);
+}
+
+// Two dances whose music comes bit by bit take turns in the only slot.
+TEST_F(StarvationTest, WhoWaitsForMusicHoldsUpNobodyWithOneSlot) {
+  Start(/*slots=*/1, [](ServerConfig& config) { config.max_sleep_seconds = 0.02; });
+  const std::string music = Music(3);
+  const auto play = [&](DanceClient& client, size_t from, size_t to) {
+    client.SendAudio(music.substr(from, to - from), static_cast<int64_t>(from / 2));
+  };
+  DanceClient alone(stub());
+  alone.Send(MusicConfig());
+  play(alone, 0, music.size());
+  const Answer expected = alone.Finish();
+  ASSERT_TRUE(expected.status.ok());
+
+  DanceClient first(stub()), second(stub());
+  for (DanceClient* client : {&first, &second}) {
+    client->Send(MusicConfig());
+    client->SendKeyframesComplete();
+  }
+  constexpr size_t kPiece = 2 * 11'025;  // half a second
+  for (size_t at = 0; at < music.size(); at += kPiece) {
+    const auto frames = static_cast<int64_t>(15 * (at / kPiece + 1)) - 5;
+    for (DanceClient* client : {&first, &second}) {
+      play(*client, at, std::min(at + kPiece, music.size()));
+      ASSERT_TRUE(client->ReadFrames(frames));
+    }
+  }
+  EXPECT_TRUE(first.Finish().Join() == expected.Join());
+  EXPECT_TRUE(second.Finish().Join() == expected.Join());
+}
+
+// It gives its slot back between two transitions. Then come more transitions than there is room
+// for.
+TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
+  Start(/*slots=*/2, [](ServerConfig& config) { config.max_waiting = 3; });
+  DanceClient live(stub());
+  live.Send(Config());
+  live.SendGenerateUntil(0);
+  live.SendKeyframe(Key("a", 30));
+  live.SendKeyframe(Key("b", 60));
+  live.SendGenerateUntil(31);
+  ASSERT_TRUE(live.ReadFrames(31));
+  ExpectEventually([this] { return server->transitions() == 0; }, "the slot is free");
+
+  probe->closed = true;
+  std::vector<std::jthread> burst;
+  std::atomic<int> refused = 0, served = 0;
+  for (int i = 0; i < 8; ++i) {
+    burst.emplace_back([&] {
+      v1::GenerateTransitionRequest request;
+      *request.mutable_config() = Config();
+      request.set_frames(30);
+      const Answer answer = Generate(request);
+      if (answer.status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) {
+        EXPECT_TRUE(DetailsOf(answer.status).retry_info);
+        ++refused;
+      } else {
+        EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
+        ++served;
+      }
+    });
+  }
+  ExpectEventually([&] { return refused == 4; }, "the others are told at once");
+  live.SendGenerateUntil(61);
+  probe->closed = false;
+  EXPECT_TRUE(live.ReadFrames(61));
+  EXPECT_TRUE(live.Finish().status.ok()) << live.answer().status.error_message();
+  burst.clear();
+  EXPECT_EQ(served, 4);
+}
+
+TEST_F(StarvationTest, WhoCannotBeServedInTimeIsToldAtOnce) {
+  /// Takes longer for a frame than the frame lasts.
+  class SlowEngine final : public FakeEngine {
+   public:
+    using FakeEngine::FakeEngine;
+    void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+      std::this_thread::sleep_for(milliseconds(50));
+      FakeEngine::Step(in, out);
+    }
+  };
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  std::vector<Server::Engines> models(1);
+  models[0].push_back(std::make_unique<SlowEngine>(4));
+  Connect(std::make_unique<Server>(config, std::move(models)));
+  DanceClient first(stub());
+  v1::DanceConfig long_dance = Config();
+  long_dance.set_frames(1'000);
+  first.Send(long_dance);
+  first.SendKeyframesComplete();
+  ASSERT_TRUE(first.ReadFrames(120));
+  const grpc::Status refused = DanceToAKey().status;
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(refused.error_message(), HasSubstr("frames that are due now, of at most 90 %"));
+  EXPECT_TRUE(DetailsOf(refused).retry_info);
+  first.Cancel();
+}
+
+TEST_F(StarvationTest, OneAddressDoesNotTakeAllCalls) {
+  Start(16, [](ServerConfig& config) { config.max_streams = 8; });
+  std::vector<std::unique_ptr<DanceClient>> clients;
+  for (int i = 0; i < 7; ++i) {
+    clients.push_back(OpenEndedDance());
+    ASSERT_TRUE(clients.back()->ReadFrames(5));
+  }
+  const grpc::Status refused = DanceToAKey().status;
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(refused.error_message(),
+              HasSubstr("127.0.0.1 has 7 calls in progress, of at most 7 from one address"));
+  EXPECT_TRUE(DetailsOf(refused).retry_info);
+}
+
+class FakeCall final : public Call {
+ public:
+  void Abort(const Error&) override {}
+  void Reset() override {}
+  CallProgress progress() const override { return {}; }
+};
+
+TEST(CallRegistryTest, AddressesHaveTheirOwnPlaces) {
+  CallRegistry calls({.calls = 3, .calls_of_peer = 2});
+  std::vector<std::shared_ptr<Call>> entered;
+  const auto enter = [&](const std::string& peer) {
+    entered.push_back(std::make_shared<FakeCall>());
+    calls.Enter(entered.back(), peer);
+    calls.Admit(entered.back().get());
+  };
+  enter("ipv4:10.0.0.1:1000");
+  enter("ipv4:10.0.0.1:1001");
+  EXPECT_THROW(enter("ipv4:10.0.0.1:1002"), Error);
+  enter("ipv6:%5B::1%5D:1000");
+  EXPECT_THROW(enter("ipv4:10.0.0.2:1000"), Error);  // all three are taken
+  calls.Leave(entered[0].get());
+  enter("ipv4:10.0.0.2:1001");
+  EXPECT_EQ(calls.count(), 3);
+  EXPECT_EQ(calls.refused(), 2U);
+  for (const auto& call : entered) calls.Leave(call.get());
+  EXPECT_EQ(calls.count(), 0);
+  EXPECT_TRUE(calls.WaitUntilEmpty(milliseconds(0)));
+}
+
+}  // namespace
+}  // namespace choreo
