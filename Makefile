@@ -35,7 +35,7 @@ bench: build  ## Run the benchmarks; writes docs/performance.md
 	@scripts/install_packages.sh bench
 	@scripts/bench.sh $(BUILD)/bin
 
-verify: build  ## Everything too long for `make test`: figures (CHOREO_RECORDINGS=folder CHOREO_RUNS=folder), sanitizers, no gRPC, the installed package, the container (as root)
+verify: build  ## Everything too long for `make test`: figures (CHOREO_RECORDINGS=folder), sanitizers, no gRPC, the installed package, the container (as root)
 	@scripts/install_packages.sh test
 	@scripts/verify.sh $(BUILD)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, the container, a
 # build without the service, and the tests under sanitizers.
-# CHOREO_RECORDINGS names the folder of recordings that figures are measured on, CHOREO_RUNS (default: runs) the one of checkpoints that
-# they are compared with (scripts/evaluate.sh). Without the first nothing is measured, which the last line says.
+# CHOREO_RECORDINGS names the folder of recordings that figures are measured on (scripts/evaluate.sh). Without it nothing is measured,
+# which the last line says.
 #   scripts/verify.sh BUILD_DIRECTORY
 set -euo pipefail
 build=$(realpath "$1")
@@ -11,18 +11,18 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$root"
 
-echo "== What docs/results.md and README.md quote is what docs/tables*.md say"
+echo "== What docs/results.md and README.md quote is what docs/figures say"
 scripts/quote_figures.py --check
 
 if [[ -n ${CHOREO_RECORDINGS:-} ]]; then
-  echo "== The figures of docs/tables*.md can be measured again"
-  pages=('docs/tables*.md' docs/results.md README.md)
+  echo "== The figures can be measured again"
+  pages=(docs/figures docs/results.md README.md)
   # A change that nobody has committed is no figure to hold others against.
   git diff --exit-code --stat HEAD -- "${pages[@]}" || {
     echo "verify.sh: commit the pages above first, or take them back" >&2
     exit 1
   }
-  scripts/evaluate.sh "$build/bin" "$CHOREO_RECORDINGS" "${CHOREO_RUNS:-$root/runs}"
+  scripts/evaluate.sh "$build/bin" "$CHOREO_RECORDINGS"
   git diff --exit-code -- "${pages[@]}" || {
     echo "verify.sh: other figures than the committed ones. Where they are meant to be (a new checkpoint, another metric), read docs/results.md" >&2
     echo "again and commit docs/; otherwise find what changed them: model, data, or code" >&2

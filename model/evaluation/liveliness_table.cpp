@@ -128,6 +128,8 @@ void AddMovement(const KeyedDances& dances, Rows* rows) {
   add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
   add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
   add("skating %", &LivelyFigures::skate_ratio, 100);
+  add("knee snaps a minute", &LivelyFigures::knee_snaps, 1);
+  add("elbow snaps a minute", &LivelyFigures::elbow_snaps, 1);
   add("kinematic beats a minute", &LivelyFigures::kinematic_beats, 1);
 }
 

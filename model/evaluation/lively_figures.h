@@ -11,15 +11,16 @@ namespace choreo {
 
 /// A dance through keys judged for how alive it is.
 struct LivelyFigures {
-  size_t clip = 0;                       ///< within its set
-  double median_speed = 0;               ///< over frames, of the mean joint speed, m/s
-  double limb_path = 0, limb_chord = 0;  ///< LimbTravel, m
-  double bounce = 0;                     ///< PelvisBounce, m
-  double jerk = 0, raw_jerk = 0;         ///< SmoothJerk, RawJerk, m/s^3
-  double skate_ratio = 0;                ///< quality_report.h
-  double kinematic_beats = 0;            ///< a minute
-  JointTrack track;                      ///< from the pose before the first frame on
-  std::vector<float> speeds;             ///< mean joint speed of each frame, m/s
+  size_t clip = 0;                         ///< within its set
+  double median_speed = 0;                 ///< over frames, of the mean joint speed, m/s
+  double limb_path = 0, limb_chord = 0;    ///< LimbTravel, m
+  double bounce = 0;                       ///< PelvisBounce, m
+  double jerk = 0, raw_jerk = 0;           ///< SmoothJerk, RawJerk, m/s^3
+  double skate_ratio = 0;                  ///< quality_report.h
+  double kinematic_beats = 0;              ///< a minute
+  double knee_snaps = 0, elbow_snaps = 0;  ///< CountSnaps, a minute
+  JointTrack track;                        ///< from the pose before the first frame on
+  std::vector<float> speeds;               ///< mean joint speed of each frame, m/s
 };
 
 /// `poses`: the dance of this plan, or what stands in for it.

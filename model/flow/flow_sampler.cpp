@@ -70,6 +70,7 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
         w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * path_z.row(axis);
       const Eigen::MatrixXd f = evaluate(w, angle);
       w += step * (k == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before));
+      w = w.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
       before = f;
     }
   }

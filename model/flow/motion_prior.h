@@ -19,6 +19,8 @@ namespace choreo {
 class MotionPrior {
  public:
   static constexpr int kPast = 3;  ///< velocities of the history that are known
+  /// Deviations from the mean that white coordinates go: what recordings have beyond are faults.
+  static constexpr double kMostWhite = 5;
 
   /// What is known of the displacements f_1..f_w from the last history frame of one degree of
   /// freedom. `past` [w, kPast] and `key` [w] weigh the last velocities (latest first) and the

@@ -14,18 +14,21 @@ namespace {
 
 using nlohmann::json;
 
-// Clip by clip the group that the file has it in. One that were in two could train and test.
-std::map<std::string, std::string> ReadGroups(const std::filesystem::path& splits_file) {
+// Set by set, clip by clip, the group that the file has it in. A clip in two groups could train and
+// test.
+using Groups = std::map<std::string, std::map<std::string, std::string>>;
+
+Groups ReadGroups(const std::filesystem::path& splits_file) {
   std::ifstream file(splits_file);
   if (!file) throw Error(ErrorCode::kNotFound, splits_file.string(), "no such splits file");
   const json splits = json::parse(file, nullptr, false);
   if (!splits.is_object()) throw InvalidArgument(splits_file.string(), "not a JSON object");
-  std::map<std::string, std::string> groups;
+  Groups groups;
   for (const auto& [set, parts] : splits.items()) {
     for (const auto& [group, names] : parts.items()) {
       for (const json& name : names) {
         if (!name.is_string()) continue;
-        const auto [known, added] = groups.emplace(name.get<std::string>(), group);
+        const auto [known, added] = groups[set].emplace(name.get<std::string>(), group);
         if (added || known->second == group) continue;
         throw InvalidArgument(splits_file.string(), "'" + known->first + "' is both in '" +
                                                         known->second + "' and in '" + group + "'");
@@ -33,6 +36,25 @@ std::map<std::string, std::string> ReadGroups(const std::filesystem::path& split
     }
   }
   return groups;
+}
+
+// Two sets may name their clips alike; a folder that is called as one of them holds that one's.
+std::string GroupOf(const Groups& groups, const std::filesystem::path& folder,
+                    const std::string& clip, const std::filesystem::path& splits_file) {
+  std::optional<std::string> found;
+  const auto own = groups.find(folder.filename().string());
+  for (const auto& [set, names] : groups) {
+    if (own != groups.end() && set != own->first) continue;
+    const auto named = names.find(clip);
+    if (named == names.end()) continue;
+    if (found && *found != named->second) {
+      throw InvalidArgument(splits_file.string(),
+                            "'" + clip + "' is both in '" + *found + "' and in '" + named->second +
+                                "', and no set is called as the folder " + folder.string());
+    }
+    found = named->second;
+  }
+  return found.value_or(kTrainGroup);
 }
 
 std::vector<std::filesystem::path> ListFolder(const std::filesystem::path& folder) {
@@ -53,7 +75,7 @@ std::string Quote(const std::set<std::string>& names) {
 std::vector<PreparedClip> LoadGroups(const std::vector<std::filesystem::path>& folders,
                                      const std::filesystem::path& splits_file,
                                      const std::set<std::string>& wanted) {
-  const std::map<std::string, std::string> groups = ReadGroups(splits_file);
+  const Groups groups = ReadGroups(splits_file);
   std::vector<PreparedClip> clips;
   std::set<std::string> there;
   std::optional<std::pair<std::filesystem::path, Skeleton>> first;
@@ -67,9 +89,8 @@ std::vector<PreparedClip> LoadGroups(const std::vector<std::filesystem::path>& f
                                   first->first.string() + " " + first->second.Describe() +
                                   "; a model has one skeleton, bone lengths included");
       }
-      const auto named = groups.find(clip.name);
       const std::string& group =
-          *there.insert(named == groups.end() ? kTrainGroup : named->second).first;
+          *there.insert(GroupOf(groups, folder, clip.name, splits_file)).first;
       if (wanted.contains(group)) clips.push_back(std::move(clip));
     }
   }

@@ -13,12 +13,14 @@ inline const char* const kTrainGroup = "train";
 
 /// Which clips training sees, from a splits file {set: {"train": [...], "validation": [...],
 /// "test": [...]}}. It sees no other group that the file may have ("test_unseen_genre", "unused").
-/// A clip's name is one clip's, whatever set it stands in.
+/// Where two sets name clips alike, a folder holds the clips of the set
+/// that is called as it is.
 enum class Split { kTrain, kValidation, kTrainAndValidation };
 
 /// Reads every clip of `folders` that belongs to `split`, sorted by folder and name. Throws Error
-/// where a folder or the file is missing, the file has a clip in two groups, two clips of `folders`
-/// have different skeletons, or nothing is left: then it names the groups that the clips are in.
+/// where a folder or the file is missing, the file has a clip of a set in two groups, two clips of
+/// `folders` have different skeletons, or nothing is left: then it names the groups that the clips
+/// are in.
 std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
                                     const std::filesystem::path& splits_file, Split split);
 

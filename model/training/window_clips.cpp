@@ -25,7 +25,6 @@ constexpr double kCovarianceSigma = 30;  // frames, of the taper that keeps cova
 constexpr double kFastBeat = 11, kSlowBeat = 24;  // frames, of beats that are read into a dance
 constexpr double kUneven = 0.3;                   // that such beats may be apart from even ones
 constexpr int kBeatTries = 12;
-constexpr double kMostWhite = 5;  // standard deviations: what is beyond are faults of recordings
 constexpr double kLeastSpeed = 1e-4;  // radians a frame
 
 const std::map<std::string, std::string>& StyleOfWord() {
@@ -271,7 +270,7 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     Eigen::MatrixXd white(x->rows(), x->cols());
     for (int d = 0; d < white.rows(); ++d)
       white.row(d) = window.Whiten(d, x->row(d).transpose()).transpose();
-    white = white.cwiseMax(-kMostWhite).cwiseMin(kMostWhite);
+    white = white.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
     Eigen::MatrixXd lines(x->rows(), tau + frames);
     lines << window.history(), window.mean();
     const WindowFeatures described =

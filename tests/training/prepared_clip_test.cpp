@@ -126,6 +126,14 @@ TEST(LoadClips, RefusesAClipOfTwoGroupsWhichCouldTrainAndTest) {
   }
 }
 
+TEST(LoadClips, AFolderThatIsCalledAsASetHoldsTheClipsOfThatSet) {
+  const TemporaryFolder folder;
+  WriteSyntheticData(folder / "one");
+  const auto splits = folder / "one" / "splits.json";
+  std::ofstream(splits) << R"({"one": {"validation": ["last"]}, "two": {"test": ["last"]}})";
+  EXPECT_THAT(Names(LoadClips({folder / "one"}, splits, Split::kValidation)), ElementsAre("last"));
+}
+
 TEST(LoadClips, SaysWhatIsWrongWithAFolder) {
   const TemporaryFolder folder;
   WriteSyntheticData(folder / "clips");
