@@ -13,7 +13,8 @@
 #include <thread>
 
 #include "model/core/error.h"
-#include "server/read_request.h"
+#include "server/connection_limits.h"
+#include "server/listener.h"
 #include "server/service.h"
 #include "server/serving.h"
 
@@ -25,7 +26,7 @@ using std::chrono::milliseconds;
 /// A client that vanished without a word is noticed after these.
 constexpr int kKeepaliveMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
-constexpr int kClientPingMs = 10'000;  // clients may ping this often
+constexpr int kClientPingMs = 500;  // clients may ping this often, to notice a silent network
 /// What calls that were told to end get to do so.
 constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
@@ -73,26 +74,30 @@ struct Server::Impl {
       : serving(MakeSchedulers(std::move(models), config.max_waiting), config.max_streams,
                 static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
-        service(serving) {
+        service(serving),
+        listener(config.listen) {
     // Both plug into every server that is built from here on in this process.
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;
-    builder.AddListeningPort(config.listen, Credentials(config), &port);
-    builder.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
+    acceptor = builder.experimental().AddExternalConnectionAcceptor(
+        grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
+        Credentials(config));
+    LimitConnections(config, &builder);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                                kClientPingMs);
-    // Two servers on one port would share its connections in silence.
-    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
     builder.RegisterService(&service);
     server = builder.BuildAndStart();
-    if (!server || port == 0) {
-      throw Error(ErrorCode::kUnavailable, "--listen",
-                  '"' + config.listen + "\" cannot be listened on: taken, or no address of here");
-    }
+    if (!server) throw Error(ErrorCode::kUnavailable, "", "gRPC could not start");
     SetHealth(true);
+    listener.Start([this](int listening, int connection) {
+      grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
+      parameters.listener_fd = listening;
+      parameters.fd = connection;
+      acceptor->HandleNewConnection(&parameters);
+    });
   }
 
   void SetHealth(bool serves) {
@@ -103,8 +108,9 @@ struct Server::Impl {
 
   Serving serving;
   ChoreographyService service;
-  int port = 0;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<grpc::Server> server;
+  Listener listener;
   std::atomic<bool> drained = false;
 };
 
@@ -113,7 +119,7 @@ Server::Server(const ServerConfig& config, std::vector<Engines> models)
 
 Server::~Server() { Drain(0); }
 
-int Server::port() const { return impl_->port; }
+int Server::port() const { return impl_->listener.port(); }
 
 int Server::transitions() const {
   int count = 0;
@@ -141,6 +147,7 @@ void Server::Drain(double seconds) {
   }
   const milliseconds notice = std::min(kNotice, milliseconds(static_cast<int64_t>(seconds * 1e3)));
   std::this_thread::sleep_for(notice);
+  impl_->listener.Stop();
   impl_->server->Shutdown(std::chrono::system_clock::now() +
                           (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
   uint64_t frames = 0;

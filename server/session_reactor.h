@@ -8,6 +8,7 @@
 
 #include "model/core/error.h"
 #include "server/call_session.h"
+#include "server/read_message.h"
 
 namespace choreo {
 
@@ -18,7 +19,10 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
  public:
   // ---- Wire
 
-  void Write(const Response* message) override { this->StartWrite(message); }
+  void Write(const Response* message) override {
+    written_ = WriteMessage(*message);
+    this->StartWrite(&written_);
+  }
   void Finish(const grpc::Status& status) override { Grpc::Finish(status); }
 
   // ---- gRPC's reactions
@@ -52,6 +56,9 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
 
   Serving& serving_;
   const std::shared_ptr<Session> session_;
+
+ private:
+  grpc::ByteBuffer written_;
 };
 
 }  // namespace choreo
