@@ -23,7 +23,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
     if (status.ok()) return;
     const auto wait = patience.Next(status, replicas->Leave(server));
     if (!wait) {
-      const Error error = ToError(status);
+      const Error error = ToError(patience.Verdict());
       if (error.code() != ErrorCode::kUnavailable) throw error;
       throw Error(ErrorCode::kUnavailable, server.address, error.what());
     }

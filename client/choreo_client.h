@@ -27,13 +27,17 @@ namespace choreo::client {
 
 /// How to reach the servers, and how patiently.
 struct Options {
-  /// HOST:PORT or unix:PATH. Several are replicas: when one fails, the next is asked.
+  /// HOST:PORT or unix:PATH. Several are replicas: when one fails, or is of another fingerprint
+  /// than the dance, the next is asked.
   std::vector<std::string> addresses = {"127.0.0.1:50051"};
   bool tls = false;
   /// PEM file of the authority to trust, where `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};
   double connect_timeout_s = 5;  ///< for one attempt at one address
-  double deadline_s = 0;         ///< for a call, from its first attempt to its last frame; 0: none
+  /// A server of which nothing is heard for so long during a call, not even the answer to a ping,
+  /// is taken for lost, seconds; at least 2, or 0: never. Dances may pause longer.
+  double silence_s = 5;
+  double deadline_s = 0;  ///< for a call, from its first attempt to its last frame; 0: none
   /// How long to try again and again, at one address or at all of them, since a call last made
   /// progress, seconds. A time, not a count: it is what a server takes to come back that matters.
   /// 0: not at all, so no resume either.

@@ -121,7 +121,7 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
   if (cancelled_) throw Error(ErrorCode::kCancelled, "", "the dance was cancelled");
   const auto wait = patience_.Next(status, replicas_->Leave(failed));
   if (!wait) {
-    const Error error = ToError(status);
+    const Error error = ToError(patience_.Verdict());
     if (error.code() != ErrorCode::kUnavailable) throw error;
     throw Error(ErrorCode::kUnavailable, failed.address, error.what());
   }

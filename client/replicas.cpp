@@ -14,6 +14,7 @@ namespace choreo::client {
 namespace {
 
 constexpr double kLongestBackoff = 2;  // seconds
+constexpr double kLeastSilence = 2;    // seconds; servers take no pings that come much faster
 
 std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
   if (!options.tls) return grpc::InsecureChannelCredentials();
@@ -44,6 +45,11 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   CheckNotNegative("deadline_s", options_.deadline_s);
   CheckNotNegative("first_backoff_s", options_.first_backoff_s);
   CheckNotNegative("retry_s", options_.retry_s);
+  CheckNotNegative("silence_s", options_.silence_s);
+
+  if (options_.silence_s > 0 && options_.silence_s < kLeastSilence) {
+    throw InvalidArgument("silence_s", "neither 0 nor at least 2 s");
+  }
 
   const auto credentials = Credentials(options_);
   grpc::ChannelArguments arguments;
@@ -53,6 +59,13 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
                    static_cast<int>(options_.connect_timeout_s * 1000));
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  if (options_.silence_s > 0) {
+    // Half of the time until a ping, half for its answer.
+    const auto half = static_cast<int>(std::min(options_.silence_s, 1e6) * 500);
+    arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, half);
+    arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, half);
+    arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number
+  }
   for (const std::string& address : options_.addresses) {
     if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
     const auto channel = grpc::CreateCustomChannel(address, credentials, arguments);
@@ -76,6 +89,7 @@ Patience::Patience(const Options& options)
     : retry_s_(options.retry_s),
       first_backoff_s_(options.first_backoff_s),
       before_retry_(options.before_retry),
+      servers_(options.addresses.size()),
       jitter_(std::random_device{}()) {
   if (options.deadline_s > 0) {
     deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -83,13 +97,23 @@ Patience::Patience(const Options& options)
   }
 }
 
+void Patience::Reset() {
+  failures_ = 0;
+  refusals_ = 0;
+  verdict_ = grpc::Status();
+}
+
 std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& failed,
                                                             bool elsewhere) {
   const RetryAdvice advice = AdviceFor(failed);
   const auto now = std::chrono::steady_clock::now();
   if (failures_ == 0) failing_since_ = now;
+  if (!advice.here || verdict_.ok() || AdviceFor(verdict_).here) verdict_ = failed;
+  // Once all have refused there is no other one left to do better.
+  refusals_ = advice.here ? 0 : refusals_ + 1;
+  const bool useful = advice.here || (advice.elsewhere && refusals_ < servers_);
   const std::chrono::duration<double> spent = now - failing_since_;
-  if (!advice.retry || spent.count() >= retry_s_) return std::nullopt;
+  if (!useful || spent.count() >= retry_s_) return std::nullopt;
   const double doubled = std::min(kLongestBackoff, first_backoff_s_ * std::exp2(failures_));
   ++failures_;
   // Clients that lost the same server should not all come back at once.

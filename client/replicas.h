@@ -54,15 +54,21 @@ class Patience {
   /// (`elsewhere`); none if trying again would not help, or is no longer allowed. Throws what
   /// Options::before_retry does.
   std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed, bool elsewhere);
+  /// After Next gave none: what to tell the caller. Why a server that is there would not serve says
+  /// more than that another one is away.
+  const grpc::Status& Verdict() const { return verdict_; }
   /// There was progress: count from the beginning.
-  void Reset() { failures_ = 0; }
+  void Reset();
 
  private:
   double retry_s_;
   double first_backoff_s_;
   std::function<void()> before_retry_;
   std::optional<Clock::time_point> deadline_;
-  int failures_ = 0;  // since the last progress
+  size_t servers_;
+  int failures_ = 0;     // since the last progress
+  size_t refusals_ = 0;  // of servers that would refuse again, one after another
+  grpc::Status verdict_;
   std::chrono::steady_clock::time_point failing_since_;
   std::minstd_rand jitter_;
 };

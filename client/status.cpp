@@ -42,14 +42,25 @@ bool FindDetail(const grpc::Status& status, T* detail) {
   return false;
 }
 
+/// That the server found fault with; empty where it names none.
+std::string FieldOf(const grpc::Status& status) {
+  google::rpc::BadRequest bad_request;
+  if (!FindDetail(status, &bad_request) || bad_request.field_violations_size() == 0) return "";
+  return bad_request.field_violations(0).field();
+}
+
+/// What another replica may have been started with.
+bool IsTheReplicas(const std::string& field) {
+  return field == "config.model" || field == "config.continuation.fingerprint" ||
+         field == "config.continuation.skeleton";
+}
+
 }  // namespace
 
 Error ToError(const grpc::Status& status) {
-  std::string field;
+  const std::string field = FieldOf(status);
   std::string message = status.error_message();
-  google::rpc::BadRequest bad_request;
-  if (FindDetail(status, &bad_request) && bad_request.field_violations_size() > 0) {
-    field = bad_request.field_violations(0).field();
+  if (!field.empty()) {
     // Error puts the field in front itself.
     if (message.starts_with(field + ": ")) message.erase(0, field.size() + 2);
   }
@@ -63,7 +74,10 @@ RetryAdvice AdviceFor(const grpc::Status& status) {
   const double wait = invited ? static_cast<double>(info.retry_delay().seconds()) +
                                     1e-9 * info.retry_delay().nanos()
                               : 0.0;
-  return {invited || status.error_code() == grpc::StatusCode::UNAVAILABLE, wait};
+  const grpc::StatusCode code = status.error_code();
+  const bool here = invited || code == grpc::StatusCode::UNAVAILABLE;
+  const bool broken = code == grpc::StatusCode::INTERNAL || code == grpc::StatusCode::UNKNOWN;
+  return {here, here || broken || IsTheReplicas(FieldOf(status)), wait};
 }
 
 }  // namespace choreo::client

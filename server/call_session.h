@@ -105,6 +105,11 @@ class CallSession : public Call {
     }
   }
 
+  /// For work that takes long: throws Error(kCancelled) once nobody waits for it.
+  void RequireOpen() const {
+    if (!outbox_.open()) throw Error(ErrorCode::kCancelled, "", "the call is over");
+  }
+
   void SendHeader(const ModelInfo& model, const v1::DanceConfig& message, const DanceConfig& config,
                   int64_t first_frame, bool exact_resume) {
     Response response;

@@ -48,7 +48,7 @@ void CheckFile(const std::string& name, const std::filesystem::path& path) {
 void AddOptions(CLI::App& app, ServerConfig& config) {
   app.add_option("--listen", config.listen,
                  "HOST:PORT to listen on. Port 0 picks a free one, which is printed. The default "
-                 "serves this machine alone; 0.0.0.0:50051 serves all.")
+                 "serves this machine alone; [::]:50051 serves all.")
       ->envname("CHOREO_LISTEN")
       ->capture_default_str();
   app.add_option("--checkpoint", config.checkpoints,
@@ -91,7 +91,7 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_THREADS")
       ->capture_default_str();
   app.add_option("--io-threads", config.io_threads,
-                 "Threads that decode files and long pieces of music.")
+                 "Threads that decode files, and as many that digest long pieces of music.")
       ->envname("CHOREO_IO_THREADS")
       ->capture_default_str();
   app.add_option("--drain-seconds", config.drain_seconds,
@@ -109,6 +109,17 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
          "go beyond are refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_FILE_MUSIC_MIB")
       ->capture_default_str();
+  app.add_option("--max-network-mib", config.max_network_mib,
+                 "Memory for what clients are sending and have not finished, over all connections, "
+                 "MiB. Beyond it gRPC takes less at a time, then ends calls.")
+      ->envname("CHOREO_MAX_NETWORK_MIB")
+      ->capture_default_str();
+  app.add_option(
+         "--kernels", config.kernels,
+         "Instructions of the packed engine: portable, avx2, avx512 or avx512_bf16. Without "
+         "it, the fastest here. Replicas on different CPUs take over each other's dances "
+         "where all have the slowest one's.")
+      ->envname("CHOREO_KERNELS");
   app.add_option("--tls-cert", config.tls_certificate,
                  "PEM file with the certificate chain. Without it, connections are not encrypted.")
       ->envname("CHOREO_TLS_CERT");
@@ -183,6 +194,8 @@ void ServerConfig::Validate() const {
   // At least one file has room.
   CheckRange("--max-file-music-mib", max_file_music_mib, kMaxAudioFileBytes >> 20, 1 << 20);
   CheckLimits(*this);
+  // A largest message has room.
+  CheckRange("--max-network-mib", max_network_mib, 64, 1 << 20);
   if (tls_certificate.empty() != tls_key.empty()) {
     throw InvalidArgument(tls_key.empty() ? "--tls-key" : "--tls-cert",
                           "missing; a certificate and its key go together");

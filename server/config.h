@@ -22,10 +22,12 @@ struct ServerConfig {
   int max_streams = 64;         ///< calls in progress at once; those beyond are refused
   int workers = 0;              ///< of the CPU, an engine each; 0: one for every usable core
   int threads = 1;              ///< of one matrix product; part of the fingerprint
-  int io_threads = 2;           ///< that decode files and long pieces of music
+  int io_threads = 2;           ///< that decode files, and as many for long pieces of music
   double drain_seconds = 20;    ///< that streams get to finish after SIGTERM
   int outbox_kib = 256;         ///< of answers that wait for a slow client before its dance pauses
   int max_file_music_mib = 1024;  ///< of music files that have not come whole, over all calls
+  int max_network_mib = 512;  ///< of bytes that come from or go to clients, over all connections
+  std::string kernels;        ///< of the packed engine; empty: the fastest of this machine
   std::filesystem::path tls_certificate;  ///< PEM chain; empty: no TLS
   std::filesystem::path tls_key;          ///< PEM; goes with tls_certificate
   std::string log_level = "info";         ///< trace, debug, info, warning, error, critical, off

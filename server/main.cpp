@@ -12,6 +12,7 @@
 #include "model/engine/devices.h"
 #include "model/engine/engines.h"
 #include "server/config.h"
+#include "server/listener.h"
 #include "server/server.h"
 
 namespace choreo {
@@ -43,7 +44,8 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
   }
   std::vector<Server::Engines> models;
   for (const auto& path : checkpoints) {
-    models.push_back(MakeEngines(path, workers, slots, ParseEngineKind(config.engine)));
+    models.push_back(
+        MakeEngines(path, workers, slots, ParseEngineKind(config.engine), config.kernels));
     const StepEngine& engine = *models.back().front();
     spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...) of {} slots",
                  path.string(), engine.model().name, engine.model().fingerprint, workers.size(),
@@ -61,6 +63,7 @@ void Run(const ServerConfig& config) {
   FlushDenormals();
   spdlog::info("BLAS {}", blas.name);
 
+  RaiseDescriptorLimit();
   Server server(config, LoadModels(config));
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
   // Whoever starts a choreod waits for this line.

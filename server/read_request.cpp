@@ -17,7 +17,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
 
-constexpr int kMaxAfterPoses = 60;
 constexpr int kMostBeats = 20 * kMaxAudioSeconds;  // 20 a second of the longest music
 
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
@@ -220,10 +219,6 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   if (!message.target_id().empty()) {
     if (!message.has_target()) throw InvalidArgument("target_id", "there is no target");
     request.target_id = message.target_id();
-  }
-  if (message.after_size() > kMaxAfterPoses) {
-    throw InvalidArgument("after", std::to_string(message.after_size()) + " poses, more than " +
-                                       std::to_string(kMaxAfterPoses));
   }
   if (message.after_size() > 0 && !message.has_target()) {
     throw InvalidArgument("after", "there is no target");

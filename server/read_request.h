@@ -14,7 +14,6 @@
 /// Pure functions, thread-safe.
 namespace choreo {
 
-inline constexpr int64_t kMaxMessageBytes = 16 << 20;
 /// Music of a file is handed to a stream at the features' own rate: its format is not known before
 /// the file has come.
 inline constexpr double kFileAudioRate = 22'050;

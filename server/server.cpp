@@ -15,7 +15,8 @@
 #include <thread>
 
 #include "model/core/error.h"
-#include "server/read_request.h"
+#include "server/connection_limits.h"
+#include "server/listener.h"
 #include "server/service.h"
 #include "server/serving.h"
 #include "server/watch.h"
@@ -28,7 +29,7 @@ using std::chrono::milliseconds;
 /// A client that vanished without a word is noticed after these.
 constexpr int kKeepaliveMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
-constexpr int kClientPingMs = 10'000;  // clients may ping this often
+constexpr int kClientPingMs = 500;  // clients may ping this often, to notice a silent network
 /// What calls that were told to end get to do so.
 constexpr milliseconds kAbortTime{2'000};
 /// How often limits and engines are looked at.
@@ -92,13 +93,16 @@ struct Server::Impl {
       : serving(MakeSchedulers(std::move(models), config), LimitsOf(config),
                 static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
-        service(serving, config.max_sleep_seconds) {
+        service(serving, config.max_sleep_seconds),
+        listener(config.listen) {
     // Both plug into every server that is built from here on in this process.
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;
-    builder.AddListeningPort(config.listen, Credentials(config), &port);
-    builder.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
+    acceptor = builder.experimental().AddExternalConnectionAcceptor(
+        grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
+        Credentials(config));
+    LimitConnections(config, &builder);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
@@ -108,18 +112,19 @@ struct Server::Impl {
           GRPC_ARG_MAX_CONNECTION_AGE_MS,
           static_cast<int>(Milliseconds(config.max_connection_seconds).count()));
     }
-    // Two servers on one port would share its connections in silence.
-    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
     builder.RegisterService(&service);
     server = builder.BuildAndStart();
-    if (!server || port == 0) {
-      throw Error(ErrorCode::kUnavailable, "--listen",
-                  '"' + config.listen + "\" cannot be listened on: taken, or no address of here");
-    }
+    if (!server) throw Error(ErrorCode::kUnavailable, "", "gRPC could not start");
     UpdateHealth();
     watch.emplace(kWatchInterval, [this] {
       serving.calls.EndIdle();
       UpdateHealth();
+    });
+    listener.Start([this](int listening, int connection) {
+      grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
+      parameters.listener_fd = listening;
+      parameters.fd = connection;
+      acceptor->HandleNewConnection(&parameters);
     });
   }
 
@@ -147,8 +152,9 @@ struct Server::Impl {
 
   Serving serving;
   ChoreographyService service;
-  int port = 0;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<grpc::Server> server;
+  Listener listener;
   std::atomic<bool> drained = false;
   std::mutex health_mutex;
   bool healthy = false;        // as health tells it. Lock: health_mutex
@@ -160,7 +166,7 @@ Server::Server(const ServerConfig& config, std::vector<Engines> models)
 
 Server::~Server() { Drain(0); }
 
-int Server::port() const { return impl_->port; }
+int Server::port() const { return impl_->listener.port(); }
 
 int Server::transitions() const {
   int count = 0;
@@ -180,6 +186,7 @@ void Server::Drain(double seconds) {
   calls.StopAdmitting();
   const milliseconds limit = Milliseconds(seconds), notice = std::min(kNotice, limit);
   std::this_thread::sleep_for(notice);
+  impl_->listener.Stop();
   // Sends GOAWAY, so that clients take their next calls elsewhere; those in progress go on.
   const auto end = std::chrono::system_clock::now() + (limit - notice) + kAbortTime;
   std::jthread shutdown([&] { impl_->server->Shutdown(end); });

@@ -17,9 +17,9 @@ class Server {
   using Engines = std::vector<std::unique_ptr<StepEngine>>;
 
   /// Listens when it returns. Of `config` only what concerns serving is read: listen, max_waiting,
-  /// max_streams, io_threads, outbox_kib, max_file_music_mib, TLS, and what clients may take.
-  /// Throws Error(kInvalidArgument) for engines that do not go together, Error(kUnavailable) naming
-  /// an address that cannot be listened on.
+  /// max_streams, io_threads, outbox_kib, max_file_music_mib, max_network_mib, TLS, and what clients
+  /// may take. Throws Error(kInvalidArgument) for engines that do not go together,
+  /// Error(kUnavailable) naming an address that cannot be listened on.
   Server(const ServerConfig& config, std::vector<Engines> models);
   ~Server();  ///< Drain(0)
   Server(const Server&) = delete;

@@ -6,7 +6,7 @@
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 #include "server/music_file.h"
-#include "server/read_request.h"
+#include "server/read_message.h"
 #include "server/stream_reactor.h"
 #include "server/transition_reactor.h"
 #include "server/write_response.h"
@@ -27,13 +27,13 @@ void FillLimits(const CallLimits& of_calls, v1::Limits* limits) {
 
 }  // namespace
 
-grpc::ServerWriteReactor<v1::GenerateTransitionResponse>* ChoreographyService::GenerateTransition(
-    grpc::CallbackServerContext* context, const v1::GenerateTransitionRequest* request) {
+grpc::ServerWriteReactor<grpc::ByteBuffer>* ChoreographyService::GenerateTransition(
+    grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) {
   return MakeTransitionReactor(serving_, context, request);
 }
 
-grpc::ServerBidiReactor<v1::StreamDanceRequest, v1::StreamDanceResponse>*
-ChoreographyService::StreamDance(grpc::CallbackServerContext* context) {
+grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* ChoreographyService::StreamDance(
+    grpc::CallbackServerContext* context) {
   return MakeStreamReactor(serving_, context);
 }
 
@@ -45,6 +45,10 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
   limits->set_max_message_bytes(kMaxMessageBytes);
   limits->set_max_audio_s(kMaxAudioSeconds);
   limits->set_max_audio_file_bytes(kMaxAudioFileBytes);
+  limits->set_max_audio_file_samples(kMaxFileSamples);
+  limits->set_max_other_bytes(kMaxOtherBytes);
+  limits->set_max_history_poses(kMaxHistoryPoses);
+  limits->set_max_after_poses(kMaxAfterPoses);
   limits->set_max_keyframes(kMaxKeys);
   limits->set_max_transition_frames(kMaxTransitionFrames);
   limits->set_max_candidates(kMaxCandidates);

@@ -5,15 +5,19 @@
 
 namespace choreo {
 
-/// choreo.v1.Choreography. Its calls may run at any time, from gRPC's threads.
-class ChoreographyService final : public v1::Choreography::CallbackService {
+/// choreo.v1.Choreography. Its calls may run at any time, from gRPC's threads. Requests of the two
+/// that dance come as bytes: ReadMessage looks at them before they are made into messages.
+class ChoreographyService final
+    : public v1::Choreography::WithRawCallbackMethod_GenerateTransition<
+          v1::Choreography::WithRawCallbackMethod_StreamDance<
+              v1::Choreography::WithCallbackMethod_GetServerInfo<v1::Choreography::Service>>> {
  public:
   ChoreographyService(Serving& serving, double max_sleep_s)
       : serving_(serving), max_sleep_s_(max_sleep_s) {}
 
-  grpc::ServerWriteReactor<v1::GenerateTransitionResponse>* GenerateTransition(
-      grpc::CallbackServerContext* context, const v1::GenerateTransitionRequest* request) override;
-  grpc::ServerBidiReactor<v1::StreamDanceRequest, v1::StreamDanceResponse>* StreamDance(
+  grpc::ServerWriteReactor<grpc::ByteBuffer>* GenerateTransition(
+      grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) override;
+  grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* StreamDance(
       grpc::CallbackServerContext* context) override;
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
                                           const v1::GetServerInfoRequest* request,

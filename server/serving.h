@@ -21,6 +21,7 @@ struct Serving {
         calls(limits),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
+        decoding(io_threads),
         tasks(io_threads) {}
 
   /// The first model for an empty name. Throws Error(kNotFound) that lists the models.
@@ -37,7 +38,9 @@ struct Serving {
   CallRegistry calls;
   const size_t outbox_bytes;
   MusicBudget file_music;
-  TaskPool tasks;  // last: its threads use all of the above
+  // Last: their threads use all of the above.
+  TaskPool decoding;  ///< music files, which take long: nobody else waits for them
+  TaskPool tasks;     ///< what is too long for gRPC's threads, yet takes no more than seconds
 };
 
 }  // namespace choreo

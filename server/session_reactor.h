@@ -9,6 +9,7 @@
 
 #include "model/core/error.h"
 #include "server/call_session.h"
+#include "server/read_message.h"
 
 namespace choreo {
 
@@ -19,7 +20,10 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
  public:
   // ---- Wire
 
-  void Write(const Response* message) override { this->StartWrite(message); }
+  void Write(const Response* message) override {
+    written_ = WriteMessage(*message);
+    this->StartWrite(&written_);
+  }
   void Finish(const grpc::Status& status) override { Grpc::Finish(status); }
   void Reset() override { context_->TryCancel(); }
 
@@ -59,6 +63,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
 
  private:
   grpc::CallbackServerContext* const context_;  // lives until OnDone
+  grpc::ByteBuffer written_;
 };
 
 }  // namespace choreo

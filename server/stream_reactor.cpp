@@ -13,6 +13,7 @@
 #include "server/call_session.h"
 #include "server/music_file.h"
 #include "server/read_controls.h"
+#include "server/read_message.h"
 #include "server/read_pose.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
@@ -35,12 +36,19 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   DanceSession(Serving& serving, Wire* wire, std::string peer)
       : CallSession(serving, wire, "StreamDance", std::move(peer)), file_(serving.file_music) {}
 
-  /// True for a message that takes long.
-  bool IsLong(const Request& request) const {
-    return request.audio().data().size() > kLongAudioBytes ||
-           (request.has_end_of_audio() && !file_.empty());
+  /// False where the call fails for it.
+  bool Read(const grpc::ByteBuffer& bytes, Request* request) {
+    Guard([&] { ReadMessage(bytes, request); });
+    return outbox().open();
   }
-  bool IsHalfCloseLong() const { return !file_.empty(); }
+
+  /// Who handles a message (null: the half-close) that takes long; null: whoever has it.
+  TaskPool* PoolFor(const Request* request) const {
+    const bool ends_music = request == nullptr || request->has_end_of_audio();
+    if (ends_music && !file_.empty()) return &serving_.decoding;
+    const bool is_long = request && request->audio().data().size() > kLongAudioBytes;
+    return is_long ? &serving_.tasks : nullptr;
+  }
 
   void Handle(const Request& request) {
     Guard([&] {
@@ -166,7 +174,8 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   void DecodeFile(DanceStream& stream) {
     if (!audio_ || audio_->encoding() != v1::AUDIO_ENCODING_FILE || file_decoded_) return;
     file_decoded_ = true;
-    const std::vector<float> mono = DecodeMono(AudioReader::OpenMemory(file_.bytes(), "audio"));
+    const std::vector<float> mono =
+        DecodeMono(AudioReader::OpenMemory(file_.bytes(), "audio"), [this] { RequireOpen(); });
     file_.Clear();
     if (beats_.empty()) {
       beats_ = FindBeats(mono).Seconds();
@@ -224,7 +233,8 @@ class DanceSession final : public CallSession<Response, DanceStream>,
 };
 
 class StreamReactor final
-    : public SessionReactor<grpc::ServerBidiReactor<Request, Response>, Response, DanceSession> {
+    : public SessionReactor<grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>, Response,
+                            DanceSession> {
  public:
   StreamReactor(Serving& serving, grpc::CallbackServerContext* context)
       : SessionReactor(serving, context) {
@@ -232,13 +242,14 @@ class StreamReactor final
     Enter([this] { session_->outbox().RequestRead(); });
   }
 
-  void Read() override { StartRead(&request_); }
+  void Read() override { StartRead(&bytes_); }
 
   void OnReadDone(bool ok) override {
     auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
-    const bool long_work = ok ? session_->IsLong(request_) : session_->IsHalfCloseLong();
-    if (!long_work || !session_->outbox().open()) return Process(ok);
-    serving_.tasks.Post([this, ok, session = session_, hold]() mutable {
+    if (ok && !session_->Read(bytes_, &request_)) return;
+    TaskPool* pool = session_->PoolFor(ok ? &request_ : nullptr);
+    if (pool == nullptr || !session_->outbox().open()) return Process(ok);
+    pool->Post([this, ok, session = session_, hold]() mutable {
       Process(ok);
       hold.reset();  // `this` may be gone from here on; the session is not
     });
@@ -254,12 +265,13 @@ class StreamReactor final
     session_->outbox().RequestRead();
   }
 
+  grpc::ByteBuffer bytes_;
   Request request_;
 };
 
 }  // namespace
 
-grpc::ServerBidiReactor<Request, Response>* MakeStreamReactor(
+grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* MakeStreamReactor(
     Serving& serving, grpc::CallbackServerContext* context) {
   return new StreamReactor(serving, context);
 }

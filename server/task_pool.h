@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// A few threads for work that is too long for gRPC's: decoding a file, the features of minutes of
+/// A few threads for work that is too long for gRPC's: decoding files, the features of minutes of
 /// music. Every call has at most one task here at a time, so the queue is as bounded as the calls.
 /// Thread-safe.
 class TaskPool {

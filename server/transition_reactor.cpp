@@ -9,6 +9,7 @@
 #include "model/audio/decode.h"
 #include "model/dance/transition_group.h"
 #include "server/call_session.h"
+#include "server/read_message.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
 #include "server/write_response.h"
@@ -27,33 +28,28 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   TransitionSession(Serving& serving, Wire* wire, std::string peer)
       : CallSession(serving, wire, "GenerateTransition", std::move(peer)) {}
 
-  /// Takes long: reads and digests the music.
-  void Start(const Request& message) {
+  /// Takes long: reads and digests the music, that of a file among its like. The call lasts at
+  /// least as long as `hold`, so there are never more files waiting than calls.
+  void Start(const grpc::ByteBuffer& bytes, std::shared_ptr<Outbox<Response>::Hold> hold) {
     Guard([&] {
+      Request message;
+      ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       Scheduler& scheduler = serving_.FindModel(message.config().model(), "config.model");
       serving_.RequireTime(scheduler);
-      const ModelInfo& model = scheduler.model();
-      GroupRequest request = ToGroupRequest(message, model, Serving::FreshSeed());
-      AddMusic(message, &request);
-      request.Validate(model);
-      model_ = &model;
-      encoding_ = message.config().encoding();
-      if (message.config().has_audio_format()) audio_ = message.config().audio_format();
-      seed_ = request.seed;
-
-      DanceConfig config;  // as far as the header tells of it
-      config.seed = request.seed;
-      config.temperature = request.temperature;
-      config.output_fps = request.output_fps;
-      if (request.sample_rate != 0) {
-        config.audio = DanceConfig::Audio{request.sample_rate, request.channels, 0};
+      GroupRequest request = ToGroupRequest(message, scheduler.model(), Serving::FreshSeed());
+      if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
+        return Begin(scheduler, message, std::move(request));
       }
-      const auto& continuation = request.continuation;
-      SendHeader(model, message.config(), config,
-                 continuation ? continuation->frame : request.first_frame,
-                 !continuation || continuation->fingerprint == model.fingerprint);
-      Adopt(std::make_shared<TransitionGroup>(scheduler, request, shared_from_this()));
+      serving_.decoding.Post([session = shared_from_this(), hold = std::move(hold), &scheduler,
+                              message = std::move(message),
+                              request = std::move(request)]() mutable {
+        session->Guard([&] {
+          session->AddMusic(message.audio(), &request);
+          session->Begin(scheduler, message, std::move(request));
+        });
+        hold.reset();
+      });
     });
   }
 
@@ -96,13 +92,36 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
 
  private:
   // The samples of a file, and the beats of the music if the client does not know them.
-  static void AddMusic(const Request& message, GroupRequest* request) {
-    if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) return;
-    request->samples = DecodeMono(
-        AudioReader::OpenMemory(std::as_bytes(std::span(message.audio().data())), "audio"));
+  void AddMusic(const v1::Audio& audio, GroupRequest* request) {
+    RequireOpen();
+    request->samples =
+        DecodeMono(AudioReader::OpenMemory(std::as_bytes(std::span(audio.data())), "audio"),
+                   [this] { RequireOpen(); });
     request->sample_rate = kModelSampleRate;
     request->channels = 1;
     if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
+  }
+
+  void Begin(Scheduler& scheduler, const Request& message, GroupRequest request) {
+    const ModelInfo& model = scheduler.model();
+    request.Validate(model);
+    model_ = &model;
+    encoding_ = message.config().encoding();
+    if (message.config().has_audio_format()) audio_ = message.config().audio_format();
+    seed_ = request.seed;
+
+    DanceConfig config;  // as far as the header tells of it
+    config.seed = request.seed;
+    config.temperature = request.temperature;
+    config.output_fps = request.output_fps;
+    if (request.sample_rate != 0) {
+      config.audio = DanceConfig::Audio{request.sample_rate, request.channels, 0};
+    }
+    const auto& continuation = request.continuation;
+    SendHeader(model, message.config(), config,
+               continuation ? continuation->frame : request.first_frame,
+               !continuation || continuation->fingerprint == model.fingerprint);
+    Adopt(std::make_shared<TransitionGroup>(scheduler, request, shared_from_this()));
   }
 
   // Written before the group is there. Nothing of the message itself: it may go before the group.
@@ -112,16 +131,17 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   uint64_t seed_ = 0;
 };
 
-class TransitionReactor final
-    : public SessionReactor<grpc::ServerWriteReactor<Response>, Response, TransitionSession> {
+class TransitionReactor final : public SessionReactor<grpc::ServerWriteReactor<grpc::ByteBuffer>,
+                                                      Response, TransitionSession> {
  public:
-  TransitionReactor(Serving& serving, grpc::CallbackServerContext* context, const Request& request)
+  TransitionReactor(Serving& serving, grpc::CallbackServerContext* context,
+                    const grpc::ByteBuffer& request)
       : SessionReactor(serving, context) {
     auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
     Enter([&] {
       session_->Admit();
       serving.tasks.Post([session = session_, hold, &request]() mutable {
-        if (session->outbox().open()) session->Start(request);
+        if (session->outbox().open()) session->Start(request, std::move(hold));
         hold.reset();
       });
     });
@@ -130,9 +150,8 @@ class TransitionReactor final
 
 }  // namespace
 
-grpc::ServerWriteReactor<Response>* MakeTransitionReactor(Serving& serving,
-                                                          grpc::CallbackServerContext* context,
-                                                          const Request* request) {
+grpc::ServerWriteReactor<grpc::ByteBuffer>* MakeTransitionReactor(
+    Serving& serving, grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) {
   return new TransitionReactor(serving, context, *request);
 }
 

@@ -91,6 +91,15 @@ struct AudioReader::State {
   int64_t read = 0;  // samples of each channel so far
 
   int64_t limit() const { return int64_t{kMaxAudioSeconds} * info.samplerate; }
+  /// Of `samples` of each channel.
+  void CheckAmount(int64_t samples) const {
+    if (samples > limit()) FailTooLong(samples);
+    if (samples * info.channels <= kMaxFileSamples) return;
+    throw InvalidArgument(name, std::to_string(samples * info.channels) + " samples or more (" +
+                                    std::to_string(info.channels) + " channels at " +
+                                    std::to_string(info.samplerate) + " Hz), at most " +
+                                    std::to_string(kMaxFileSamples) + " are decoded");
+  }
   [[noreturn]] void FailTooLong(int64_t samples) const {
     throw InvalidArgument(name, std::to_string(samples / info.samplerate) +
                                     " s or more of audio, at most " +
@@ -122,7 +131,7 @@ AudioReader::AudioReader(std::unique_ptr<ByteSource> source, std::string name)
         std::string(known && format.name ? format.name : "another format") + " is not " + kFormats);
   }
   CheckAudioFormat(s.info.samplerate, s.info.channels, s.name);
-  if (s.info.frames != SF_COUNT_MAX && s.info.frames > s.limit()) s.FailTooLong(s.info.frames);
+  if (s.info.frames != SF_COUNT_MAX) s.CheckAmount(s.info.frames);
 }
 
 AudioReader::~AudioReader() = default;
@@ -161,7 +170,7 @@ int64_t AudioReader::Read(std::span<float> interleaved) {
   CheckFinite(interleaved.first(static_cast<size_t>(got) * channels_count), s.info.channels, s.read,
               s.name);
   s.read += got;
-  if (s.read > s.limit()) s.FailTooLong(s.read);
+  s.CheckAmount(s.read);
   if (got < wanted) {
     if (s.read == 0) throw InvalidArgument(s.name, "0 samples of audio");
     if (s.read < stated_samples()) {
@@ -204,7 +213,7 @@ std::vector<float> ToModelRate(const DecodedAudio& audio) {
   return mono;
 }
 
-std::vector<float> DecodeMono(AudioReader reader) {
+std::vector<float> DecodeMono(AudioReader reader, const std::function<void()>& between) {
   Resampler resampler(reader.sample_rate(), reader.channels());
   const size_t channels = static_cast<size_t>(reader.channels());
   std::vector<float> piece(kPieceSamples * channels);
@@ -212,6 +221,7 @@ std::vector<float> DecodeMono(AudioReader reader) {
   while (const int64_t got = reader.Read(piece)) {
     resampler.Push(std::span(piece).first(static_cast<size_t>(got) * channels));
     resampler.Pull(mono);
+    if (between) between();
   }
   resampler.Finish();
   resampler.Pull(mono);

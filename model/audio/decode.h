@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -61,7 +62,7 @@ struct DecodedAudio {
   double seconds() const { return static_cast<double>(samples()) / sample_rate; }
 };
 
-/// All of a sound file at once (ten minutes of it may be 3.7 GB), or its first `seconds`, rounded
+/// All of a sound file at once (which may be a gigabyte), or its first `seconds`, rounded
 /// up to whole pieces: what lies behind them is not read. Errors as AudioReader.
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
                              double seconds = std::numeric_limits<double>::infinity());
@@ -70,7 +71,8 @@ DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
 std::vector<float> ToModelRate(const DecodedAudio& audio);
 
 /// The same straight from the file, decoded in pieces, so that no more is held than the result (53
-/// MB at most). The same bits. Errors as AudioReader.
-std::vector<float> DecodeMono(AudioReader reader);
+/// MB at most). The same bits. Errors as AudioReader. `between` is called between two pieces, some
+/// milliseconds apart; what it throws ends the work.
+std::vector<float> DecodeMono(AudioReader reader, const std::function<void()>& between = {});
 
 }  // namespace choreo

@@ -14,6 +14,9 @@ inline constexpr int kMinSampleRate = 8000;    ///< Hz
 inline constexpr int kMaxSampleRate = 192000;  ///< Hz
 inline constexpr int kMaxChannels = 8;
 inline constexpr int kMaxAudioSeconds = 600;
+/// Of all channels of a file together: ten minutes of 192 kHz in stereo, or of 48 kHz in 8
+/// channels.
+inline constexpr int64_t kMaxFileSamples = 240'000'000;
 
 /// Throws Error(kInvalidArgument) unless `sample_rate` is a whole number of Hz, and it and
 /// `channels` are within the limits above. The fields are `name`.sample_rate and `name`.channels.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/motion/resample.h"
+#include "model/motion/signs.h"
 
 namespace choreo {
 namespace {
@@ -37,7 +38,7 @@ OutputFrames OutputRate::Push(const DanceFrame& frame) {
       continue;
     }
     const double t = at - (now - 1);
-    out.poses.push_back(RoundToFloat(InterpolatePoses(last_, frame.pose, t)));
+    out.poses.push_back(RoundToFloat(KeepSigns(InterpolatePoses(last_, frame.pose, t), last_)));
     out.contacts.push_back(frame.contacts);
   }
   last_ = frame.pose;

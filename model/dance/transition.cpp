@@ -8,6 +8,7 @@
 #include "model/dance/timeline.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
+#include "model/motion/signs.h"
 
 namespace choreo {
 namespace {
@@ -48,10 +49,7 @@ std::optional<WorldTarget> Placed(std::optional<WorldTarget> target,
 }
 
 Pose Near(Pose pose, const Pose& previous) {
-  for (int joint = 0; joint < pose.rotations.cols(); ++joint) {
-    pose.rotations.col(joint) =
-        NearestBranch(pose.rotations.col(joint), previous.rotations.col(joint));
-  }
+  MakeContinuous(pose, previous);
   return pose;
 }
 
@@ -155,18 +153,23 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
                    after);
 }
 
-void TransitionRun::CheckFinite(const StepOutput& raw) const {
-  bool finite = raw.pose.root_position.allFinite() && raw.pose.rotations.allFinite() &&
-                std::isfinite(raw.log_likelihood);
-  for (float contact : raw.contacts) finite = finite && std::isfinite(contact);
-  if (finite && raw.pose.rotations.cols() == model_->skeleton.joints()) return;
-  throw Error(
-      ErrorCode::kInternal, "",
-      "the model's frame " + std::to_string(spec_.first_frame + done_) + " is not a finite pose");
+void TransitionRun::CheckFinite(const Pose& pose, std::span<const float> contacts,
+                                const std::string& whose) const {
+  bool finite = pose.root_position.allFinite() && pose.rotations.allFinite();
+  for (float contact : contacts) finite = finite && std::isfinite(contact);
+  if (finite && pose.rotations.cols() == model_->skeleton.joints()) return;
+  throw Error(ErrorCode::kInternal, "",
+              "frame " + std::to_string(spec_.first_frame + done_) + ", " + whose +
+                  ", is not a finite pose");
 }
 
 DanceFrame TransitionRun::Take(const StepOutput& raw) {
-  CheckFinite(raw);
+  CheckFinite(raw.pose, raw.contacts, "as the model makes it");
+  if (!std::isfinite(raw.log_likelihood)) {
+    throw Error(
+        ErrorCode::kInternal, "",
+        "the likelihood of frame " + std::to_string(spec_.first_frame + done_) + " is not finite");
+  }
   if (done_ >= spec_.frames) {
     throw Error(ErrorCode::kInternal, "", "the transition is over");
   }
@@ -177,7 +180,9 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
                              ComparePoses(model_->skeleton, raw.pose, steered_, mask).position_m);
   }
   const Pose emitted = foot_lock_ ? foot_lock_->Apply(steered_) : steered_;
-  world_ = RoundToFloat(Near(ground_.ToWorld(emitted), world_));
+  world_ = RoundToFloat(KeepSigns(ground_.ToWorld(emitted), world_));
+  const std::array<float, 4>& contacts = foot_lock_ ? foot_lock_->contacts() : raw.contacts;
+  CheckFinite(world_, contacts, "as arrival and foot lock leave it");
   ++done_;
   if (done_ == spec_.frames && spec_.target) {
     const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
@@ -185,7 +190,7 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
         ArrivalResult{ComparePoses(model_->skeleton, raw.pose, spec_.target->pose, mask).position_m,
                       final.position_m, final.angle_deg, correction_m_};
   }
-  DanceFrame frame{world_, foot_lock_ ? foot_lock_->contacts() : raw.contacts, raw.log_likelihood};
+  DanceFrame frame{world_, contacts, raw.log_likelihood};
   const auto& factors = spec_.controls.velocity_factors;
   if (factors.cols() > 0)
     std::ranges::copy(factors.col(done_ - 1), frame.asked_speeds.emplace().begin());

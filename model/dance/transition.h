@@ -111,8 +111,8 @@ class TransitionRun {
   /// Null before the first frame.
   const Pose* previous() const { return done_ == 0 ? nullptr : &steered_; }
 
-  /// The model's next frame → the dance's. Throws Error(kInternal) if the model gave a value that
-  /// is not finite.
+  /// The model's next frame → the dance's. Throws Error(kInternal) for a value that is not finite,
+  /// be it the model's or made of its frame here.
   DanceFrame Take(const StepOutput& raw);
 
   /// After the last frame of a transition with a target.
@@ -121,7 +121,8 @@ class TransitionRun {
   std::optional<RequiredSpeed> required_speed() const;
 
  private:
-  void CheckFinite(const StepOutput& raw) const;
+  void CheckFinite(const Pose& pose, std::span<const float> contacts,
+                   const std::string& whose) const;
 
   const ModelInfo* model_;
   TransitionSpec spec_;
@@ -133,7 +134,7 @@ class TransitionRun {
   std::optional<ArrivalResult> arrival_result_;
   double correction_m_ = 0;
   Pose steered_;  // canonical
-  Pose world_;    // last emitted, for continuous branches
+  Pose world_;    // last emitted, whose signs are kept
   int done_ = 0;
 };
 

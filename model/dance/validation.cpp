@@ -106,6 +106,11 @@ bool ValidateContinuation(const ModelInfo& model, const Continuation& continuati
   }
   ValidateHistory(model.skeleton, continuation.poses, field + ".poses");
   if (continuation.fingerprint == model.fingerprint) return true;
+  if (continuation.fingerprint.size() > kMaxFingerprintLength) {
+    throw InvalidArgument(field + ".fingerprint",
+                          "has " + std::to_string(continuation.fingerprint.size()) +
+                              " bytes, at most " + std::to_string(kMaxFingerprintLength));
+  }
   if (allow_inexact) return false;
   throw Error(ErrorCode::kFailedPrecondition, field + ".fingerprint",
               "\"" + continuation.fingerprint + "\" is not this server's, \"" + model.fingerprint +

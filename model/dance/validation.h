@@ -19,7 +19,8 @@ inline constexpr double kMaxRotation =
     6.2832;  ///< radians: 2π, rounded up for senders that compute in floats
 inline constexpr double kMaxTemperature = 2.0;
 inline constexpr int kMaxCandidates = 32;
-inline constexpr size_t kMaxIdLength = 256;  ///< bytes
+inline constexpr size_t kMaxIdLength = 256;            ///< bytes
+inline constexpr size_t kMaxFingerprintLength = 1024;  ///< bytes
 inline constexpr double kMinOutputFps = 1;
 inline constexpr double kMaxOutputFps = 120;
 
@@ -45,7 +46,8 @@ void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
 void ValidateTemperature(float temperature, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
 /// tau poses, a frame of a dance, and this model's fingerprint: another one throws
-/// Error(kFailedPrecondition) unless `allow_inexact`. Returns whether going on from it is exact.
+/// Error(kFailedPrecondition) unless `allow_inexact`; what can't be one throws as the rest. Returns
+/// whether going on from it is exact.
 bool ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field);
 

@@ -59,26 +59,41 @@ std::string LicenceOf(const std::string& card) {
   return json.is_object() ? json.value("licence", "") : "";
 }
 
-// The fastest kernels that keep rows apart.
-const PackedKernels& VerifiedKernels() {
-  for (const PackedKernels* kernels : PackedKernelsHere()) {
-    if (RowsAreIndependent(*kernels)) return *kernels;
-    std::clog << "choreo: with " << kernels->name
-              << " a row's bits depend on its batch, so slower instructions are used\n";
+struct KernelSet {
+  const PackedKernels* exact;
+  /// Of the networks: the exact ones, or those of bfloat16, whose dances have the same figures
+  /// (docs/decisions.md, 32).
+  const PackedKernels* products;
+};
+
+// What this machine and this engine have, fastest first.
+std::vector<KernelSet> KernelSetsHere(EngineKind kind) {
+  std::vector<KernelSet> sets;
+  if (const PackedKernels* bf16 = Bf16KernelsHere(); bf16 && kind != EngineKind::kPacked) {
+    sets.push_back({PackedKernelsHere().front(), bf16});
   }
-  throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
+  if (kind == EngineKind::kPackedBf16) return sets;
+  for (const PackedKernels* kernels : PackedKernelsHere()) sets.push_back({kernels, kernels});
+  return sets;
 }
 
-// For the networks' products: `exact`, or those of bfloat16, whose dances have the same figures
-// (docs/decisions.md, 32).
-const PackedKernels& ProductKernels(EngineKind kind, const PackedKernels& exact) {
-  if (kind == EngineKind::kPacked) return exact;
-  const PackedKernels* bf16 = Bf16KernelsHere();
-  if (bf16 != nullptr && bf16->panel == exact.panel && RowsAreIndependent(*bf16)) return *bf16;
-  if (kind == EngineKind::kPackedBf16) {
+// The fastest that keep rows apart; those of this name, where there is one.
+KernelSet ChooseKernels(EngineKind kind, const std::string& name) {
+  const std::vector<KernelSet> here = KernelSetsHere(kind);
+  if (here.empty()) {
     throw InvalidArgument("engine", "packed-bf16 needs a CPU with AVX512-BF16, which this is not");
   }
-  return exact;
+  std::string known;
+  bool found = false;
+  for (const KernelSet& set : here) {
+    known += (known.empty() ? "" : ", ") + std::string(set.products->name);
+    if (!name.empty() && name != set.products->name) continue;
+    found = true;
+    if (RowsAreIndependent(*set.exact) && RowsAreIndependent(*set.products)) return set;
+    std::clog << "choreo: with " << set.products->name << " a row's bits depend on its batch\n";
+  }
+  if (!found) throw InvalidArgument("kernels", '"' + name + "\" is none of " + known);
+  throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
 }
 
 std::string Fingerprint(const std::string& preset, const std::string& hash,
@@ -165,7 +180,8 @@ Loaded LoadContinuousFlow(const Safetensors& content, const std::filesystem::pat
   return loaded;
 }
 
-Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind kind) {
+Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind kind,
+            const std::string& kernel_name) {
   const c10::InferenceMode inference;
   // Exact float32 everywhere: bits before speed.
   at::globalContext().setAllowTF32CuBLAS(false);
@@ -188,8 +204,9 @@ Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind 
     if (!there.is_cpu()) {
       throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
     }
-    const PackedKernels& exact = VerifiedKernels();
-    const PackedKernels& products = ProductKernels(kind, exact);
+    const KernelSet set = ChooseKernels(kind, kernel_name);
+    const PackedKernels& exact = *set.exact;
+    const PackedKernels& products = *set.products;
     const std::string name = std::string("packed ") + products.name;
     loaded.packed =
         std::make_shared<PackedFlow>(content, config, model->feature_width(), exact, products);
@@ -253,7 +270,7 @@ void SetTorchThreads(int threads) {
 
 std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& path,
                                                      std::span<const Device> devices, int slots,
-                                                     EngineKind kind) {
+                                                     EngineKind kind, const std::string& kernels) {
   if (slots < 1 || slots > 4096) {
     throw InvalidArgument("slots", std::to_string(slots) + " is not in [1, 4096]");
   }
@@ -261,7 +278,7 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
   std::vector<std::unique_ptr<StepEngine>> engines;
   for (const Device& device : devices) {
     const auto [here, is_new] = loaded.try_emplace(device);
-    if (is_new) here->second = Load(path, device, kind);
+    if (is_new) here->second = Load(path, device, kind, kernels);
     engines.push_back(here->second.Engine(device, slots));
   }
   return engines;
@@ -274,7 +291,7 @@ std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
 
 std::shared_ptr<const TransitionPlanner> MakeTransitionPlanner(
     const std::filesystem::path& checkpoint, const Device& device, EngineKind kind) {
-  return Load(checkpoint, device, kind).planner;
+  return Load(checkpoint, device, kind, "").planner;
 }
 
 }  // namespace choreo

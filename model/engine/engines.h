@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "model/engine/devices.h"
@@ -29,9 +30,14 @@ void SetTorchThreads(int threads);
 /// one device share its weights. Throws as LoadCheckpoint does (model/flow/checkpoint.h), and
 /// Error(kInvalidArgument) unless slots is in [1, 4096], and for kPacked on another device than the
 /// CPU, or kPackedBf16 on one without AVX512-BF16.
+///
+/// `kernels`: a PackedKernels::name, so that packed engines on different CPUs have one fingerprint;
+/// empty: the fastest here. Throws Error(kInvalidArgument, "kernels") for those that this machine
+/// or `kind` does not have. What LibTorch runs is left alone.
 std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& checkpoint,
                                                      std::span<const Device> devices, int slots,
-                                                     EngineKind kind = EngineKind::kAuto);
+                                                     EngineKind kind = EngineKind::kAuto,
+                                                     const std::string& kernels = "");
 std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
                                        const Device& device, int slots,
                                        EngineKind kind = EngineKind::kAuto);

@@ -151,6 +151,29 @@ TEST_P(DecodeFormatTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(DecodeMono(AudioReader::OpenFile(path)), mono);
 }
 
+// Ten minutes of 8 channels at 192 kHz, as the header says: refused before any is decoded.
+TEST_F(DecodeTest, RefusesMoreSamplesThanADanceNeeds) {
+  const std::vector<float> wave(8 * 5000);
+  std::string bytes = Bytes(Write(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 192'000, 8, wave));
+  // The last 36 bits of the 8 bytes at 18 are the samples of each channel.
+  constexpr uint64_t kSamples = uint64_t{600} * 192'000;
+  for (size_t i = 0; i < 4; ++i) bytes[22 + i] = static_cast<char>(kSamples >> (24 - 8 * i));
+  EXPECT_EQ(Refusal(bytes),
+            "song: 921600000 samples or more (8 channels at 192000 Hz), at most 240000000 are "
+            "decoded");
+}
+
+TEST_F(DecodeTest, EndsWhenItIsTold) {
+  const auto path = Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, 1, std::vector<float>(300'000));
+  int pieces = 0;
+  EXPECT_THROW(DecodeMono(AudioReader::OpenFile(path),
+                          [&] {
+                            if (++pieces == 2) throw Error(ErrorCode::kCancelled, "", "enough");
+                          }),
+               Error);
+  EXPECT_EQ(pieces, 2);
+}
+
 TEST_P(DecodeFormatTest, ReadsInPieces) {
   const auto path = WriteWave();
   const DecodedAudio whole = DecodeAudioFile(path);

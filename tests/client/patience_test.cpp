@@ -34,5 +34,24 @@ TEST(PatienceTest, WhatWouldFailAgainIsNotTriedAgain) {
   EXPECT_FALSE(Patience({.retry_s = 1e6}).Next({grpc::StatusCode::INVALID_ARGUMENT, "no"}, true));
 }
 
+const grpc::Status kBroken(grpc::StatusCode::INTERNAL, "the device is gone");
+
+TEST(PatienceTest, WhatIsBrokenIsTriedElsewhereUntilAllAre) {
+  EXPECT_FALSE(Patience({.retry_s = 1e6}).Next(kBroken, false));
+  Patience patience({.addresses = {"a:1", "b:1", "c:1"}, .retry_s = 1e6});
+  EXPECT_TRUE(patience.Next(kBroken, true));
+  EXPECT_TRUE(patience.Next(kBroken, true));
+  EXPECT_FALSE(patience.Next(kBroken, true));
+}
+
+TEST(PatienceTest, OneThatIsAwayMayComeBackAndDoBetter) {
+  Patience patience({.addresses = {"a:1", "b:1"}, .retry_s = 1e6, .first_backoff_s = 1e-6});
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(patience.Next(kBroken, true));
+    ASSERT_TRUE(patience.Next(kGone, true));
+  }
+  EXPECT_EQ(patience.Verdict().error_message(), "the device is gone");
+}
+
 }  // namespace
 }  // namespace choreo::client

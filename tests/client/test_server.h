@@ -32,11 +32,13 @@ class BreakingEngine final : public FakeEngine {
 /// A real server in this process, on a free port.
 class TestServer {
  public:
-  explicit TestServer(const std::string& fingerprint = "fake-1")
-      : TestServer(std::make_unique<NamedFakeEngine>(fingerprint)) {}
-  explicit TestServer(std::unique_ptr<StepEngine> engine) {
+  explicit TestServer(const std::string& fingerprint = "fake-1",
+                      const std::string& listen = "127.0.0.1:0")
+      : TestServer(std::make_unique<NamedFakeEngine>(fingerprint), listen) {}
+  explicit TestServer(std::unique_ptr<StepEngine> engine,
+                      const std::string& listen = "127.0.0.1:0") {
     ServerConfig config;
-    config.listen = "127.0.0.1:0";
+    config.listen = listen;
     std::vector<Server::Engines> models(1);
     models[0].push_back(std::move(engine));
     server_ = std::make_unique<Server>(config, std::move(models));
@@ -44,6 +46,7 @@ class TestServer {
   }
 
   const std::string& address() const { return address_; }
+  int port() const { return server_->port(); }
   int calls() const { return server_->calls(); }
   int transitions() const { return server_->transitions(); }
   void Drain(double seconds) { server_->Drain(seconds); }

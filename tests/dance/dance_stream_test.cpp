@@ -40,20 +40,6 @@ TEST(DanceStream, HitsEveryKeyAndReportsIt) {
   EXPECT_EQ(recording.continuations.size(), dance.keys.size());
 }
 
-TEST(DanceStream, BranchesStayContinuous) {
-  const auto scheduler = FakeScheduler();
-  Dance dance = RandomDance(12);
-  const Recording recording = Perform(*scheduler, dance);
-  for (size_t i = 1; i < recording.poses.size(); ++i) {
-    for (int joint = 0; joint < 24; ++joint) {
-      const Eigen::Vector3d now = recording.poses[i].rotations.col(joint);
-      const Eigen::Vector3d before = recording.poses[i - 1].rotations.col(joint);
-      EXPECT_LE((now - before).norm(),
-                (NearestBranch(LogMap(ExpMap(now)), before) - before).norm() + 1e-5);
-    }
-  }
-}
-
 TEST(DanceStream, AKeyOnFrameZeroIsTheFirstFrame) {
   const auto scheduler = FakeScheduler();
   std::mt19937 random(3);

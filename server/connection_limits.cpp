@@ -1,0 +1,35 @@
+#include "server/connection_limits.h"
+
+#include <grpc/compression.h>
+#include <grpcpp/resource_quota.h>
+
+#include "server/read_message.h"
+
+namespace choreo {
+namespace {
+
+/// Calls of one connection beyond max_streams: those are told that the server is full, and others
+/// ask for its health. Further ones wait at the client.
+constexpr int kSpareCalls = 100;
+/// From a connection to its first words of HTTP/2.
+constexpr int kHandshakeMs = 20'000;
+/// A connection without calls is closed; clients make a new one when they need it.
+constexpr int kIdleMs = 300'000;
+
+}  // namespace
+
+void LimitConnections(const ServerConfig& config, grpc::ServerBuilder* builder) {
+  builder->SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
+  builder->SetResourceQuota(
+      grpc::ResourceQuota("choreod").Resize(static_cast<size_t>(config.max_network_mib) << 20));
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, config.max_streams + kSpareCalls);
+  builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdleMs);
+  // The first refuses calls that announce compression, the second sees to it that nothing is ever
+  // inflated.
+  builder->AddChannelArgument(GRPC_COMPRESSION_CHANNEL_ENABLED_ALGORITHMS_BITSET,
+                              1 << GRPC_COMPRESS_NONE);
+  builder->AddChannelArgument(GRPC_ARG_ENABLE_PER_MESSAGE_DECOMPRESSION, 0);
+}
+
+}  // namespace choreo

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <grpcpp/server_builder.h>
+
+#include "server/config.h"
+
+namespace choreo {
+
+/// Bounds what clients may take of the server before one of its calls sees them: bytes on their
+/// way, calls of one connection, time without a word; and refuses compressed requests, which gRPC
+/// 1.51 would inflate before it looks at their size. Reads max_streams and max_network_mib.
+void LimitConnections(const ServerConfig& config, grpc::ServerBuilder* builder);
+
+}  // namespace choreo

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include "client/choreo_client.h"
+#include "tests/client/test_server.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/tcp_proxy.h"
+
+/// Replicas that are there and would not, or not soon, do what is asked.
+namespace choreo::client {
+namespace {
+
+Options Replicas(std::vector<std::string> addresses) {
+  Options options;
+  options.addresses = std::move(addresses);
+  options.first_backoff_s = 0.01;
+  return options;
+}
+
+struct Danced {
+  Motion motion;
+  std::vector<Resumed> resumed;
+};
+
+/// Free dancing for 250 frames: three transitions and more. `between` is called at the first
+/// continuation.
+Danced Dance(const Client& client, const std::function<void()>& between = {}) {
+  const auto dance = client.StartDance({.seed = 4, .frames = 250});
+  dance->GenerateUntil(120);
+  Danced danced;
+  bool first = true;
+  while (const std::optional<Message> message = dance->Next()) {
+    if (const auto* block = std::get_if<FrameBlock>(&*message)) {
+      danced.motion.frames.insert(danced.motion.frames.end(), block->poses.begin(),
+                                  block->poses.end());
+    } else if (const auto* resumed = std::get_if<Resumed>(&*message)) {
+      danced.resumed.push_back(*resumed);
+    } else if (std::holds_alternative<Continuation>(*message) && first) {
+      first = false;
+      if (between) between();
+      dance->CompleteKeys();
+    }
+  }
+  return danced;
+}
+
+void ExpectSame(const Motion& a, const Motion& b) {
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (size_t i = 0; i < a.frames.size(); ++i) {
+    ASSERT_EQ(a.frames[i].root_position, b.frames[i].root_position) << "frame " << i;
+    ASSERT_EQ(a.frames[i].rotations, b.frames[i].rotations) << "frame " << i;
+  }
+}
+
+Motion Undisturbed() {
+  TestServer server;
+  return Dance(Client(Replicas({server.address()}))).motion;
+}
+
+TEST(FailoverTest, PassesAReplicaOfAnotherFingerprint) {
+  TestServer dying;
+  TestServer other("fake-2");
+  TestServer heir;
+  const Danced danced = Dance(Client(Replicas({dying.address(), other.address(), heir.address()})),
+                              [&] { dying.Die(); });
+  ExpectSame(danced.motion, Undisturbed());
+  ASSERT_EQ(danced.resumed.size(), 1U);
+  EXPECT_EQ(danced.resumed[0].address, heir.address());
+  EXPECT_TRUE(danced.resumed[0].exact);
+}
+
+// The one that dies comes back meanwhile.
+TEST(FailoverTest, ComesBackToAReplicaOfTheSameFingerprint) {
+  auto first = std::make_unique<TestServer>();
+  const std::string address = first->address();
+  TestServer other("fake-2");
+  Options options = Replicas({address, other.address()});
+  options.retry_s = 60;
+  int tries = 0;
+  options.before_retry = [&] {
+    if (++tries == 5) first = std::make_unique<TestServer>("fake-1", address);
+  };
+  const Danced danced = Dance(Client(options), [&] { first.reset(); });
+  ExpectSame(danced.motion, Undisturbed());
+  ASSERT_EQ(danced.resumed.size(), 1U);
+  EXPECT_EQ(danced.resumed[0].address, address);
+}
+
+TEST(FailoverTest, EndsWithTheReasonOfThoseThatAreThere) {
+  TestServer dying;
+  TestServer other("fake-2");
+  Options options = Replicas({dying.address(), other.address()});
+  options.retry_s = 0.3;
+  ExpectError(ErrorCode::kFailedPrecondition, "fake-2",
+              [&] { Dance(Client(options), [&] { dying.Die(); }); });
+}
+
+TEST(FailoverTest, EndsOnceAllHaveRefused) {
+  TestServer one("fake-1");
+  TestServer other("fake-2");
+  DanceConfig config{.frames = 200};
+  Continuation ended;
+  const auto dance = Client(Replicas({one.address()})).StartDance(config);
+  dance->CompleteKeys();
+  while (const std::optional<Message> message = dance->Next()) {
+    if (const auto* continuation = std::get_if<Continuation>(&*message)) ended = *continuation;
+  }
+  TestServer third("fake-3");
+  Options options = Replicas({other.address(), third.address()});
+  options.retry_s = 1e6;  // no reason to wait for that
+  config = {.continuation = ended, .frames = 300};
+  ExpectError(ErrorCode::kFailedPrecondition, "fake-3",
+              [&] { Client(options).Dance(config, {}, {}); });
+}
+
+TEST(FailoverTest, TriesElsewhereWhatAReplicaBreaksAt) {
+  TestServer breaking(std::make_unique<BreakingEngine>(130));
+  TestServer sound;
+  const Danced danced = Dance(Client(Replicas({breaking.address(), sound.address()})));
+  ExpectSame(danced.motion, Undisturbed());
+  ASSERT_EQ(danced.resumed.size(), 1U);
+  EXPECT_EQ(danced.resumed[0].address, sound.address());
+  EXPECT_EQ(danced.resumed[0].reason, "the device is gone");
+
+  TestServer broken(std::make_unique<BreakingEngine>(5));
+  const TransitionRequest request{.config = {.seed = 1}, .frames = 10};
+  EXPECT_EQ(Client(Replicas({broken.address(), sound.address()}))
+                .GenerateTransition(request)
+                .candidates.front()
+                .motion.frames.size(),
+            10U);
+}
+
+// Its packets are lost, and nobody says so: it is left for the next one within seconds.
+TEST(FailoverTest, LeavesASilentNetwork) {
+  TestServer cut;
+  TestServer heir;
+  TcpProxy network(cut.port());
+  Options options = Replicas({network.address(), heir.address()});
+  options.silence_s = 2;
+  options.retry_s = 0.5;  // since it was noticed
+  const Danced danced = Dance(Client(options), [&] { network.FallSilent(); });
+  ExpectSame(danced.motion, Undisturbed());
+  ASSERT_EQ(danced.resumed.size(), 1U);
+  EXPECT_EQ(danced.resumed[0].address, heir.address());
+}
+
+// Waiting is not silence: a server that has nothing to say still answers pings.
+TEST(FailoverTest, LetsADancePauseLongerThanSilence) {
+  TestServer server;
+  Options options = Replicas({server.address()});
+  options.silence_s = 2;
+  const Danced danced =
+      Dance(Client(options), [] { std::this_thread::sleep_for(std::chrono::milliseconds(4'500)); });
+  EXPECT_EQ(danced.motion.frames.size(), 250U);
+  EXPECT_TRUE(danced.resumed.empty());
+}
+
+TEST(FailoverTest, SilenceIsNotShorterThanServersArePinged) {
+  ExpectError(ErrorCode::kInvalidArgument, "silence_s", [] { Client({.silence_s = 1}); });
+}
+
+}  // namespace
+}  // namespace choreo::client

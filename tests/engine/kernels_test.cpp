@@ -1,0 +1,50 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "model/core/error.h"
+#include "model/engine/engines.h"
+#include "model/engine/packed_kernels.h"
+#include "tests/engine/engine_dances.h"
+
+/// Which instructions the packed engine is told to use.
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+std::string Fingerprint(const SmallCheckpoint& checkpoint, const std::string& kernels,
+                        EngineKind kind = EngineKind::kAuto) {
+  const Device cpu;
+  return MakeEngines(checkpoint.path(), {&cpu, 1}, 1, kind, kernels).front()->model().fingerprint;
+}
+
+TEST(KernelsTest, AreThoseThatAreNamed) {
+  const SmallCheckpoint checkpoint(Shape::kPlannerAndPerceptron);
+  for (const PackedKernels* kernels : PackedKernelsHere()) {
+    EXPECT_THAT(Fingerprint(checkpoint, kernels->name),
+                HasSubstr("/packed " + std::string(kernels->name)));
+  }
+  if (const PackedKernels* bf16 = Bf16KernelsHere()) {
+    EXPECT_EQ(Fingerprint(checkpoint, bf16->name),
+              Fingerprint(checkpoint, "", EngineKind::kPackedBf16));
+  }
+}
+
+TEST(KernelsTest, ThatAreNotHereAreNamed) {
+  const SmallCheckpoint checkpoint(Shape::kPlannerAndPerceptron);
+  const auto refusal = [&](const std::string& kernels, EngineKind kind) -> std::string {
+    try {
+      return Fingerprint(checkpoint, kernels, kind);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      return error.what();
+    }
+  };
+  EXPECT_THAT(refusal("sse9", EngineKind::kAuto), HasSubstr("kernels: \"sse9\" is none of "));
+  EXPECT_THAT(refusal("sse9", EngineKind::kAuto), HasSubstr("portable"));
+  EXPECT_THAT(refusal("avx512_bf16", EngineKind::kPacked),
+              HasSubstr("kernels: \"avx512_bf16\" is none of "));
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,172 @@
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <grpcpp/create_channel.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "choreo/v1/choreography.grpc.pb.h"
+#include "client/cli/local_server.h"
+#include "model/core/error.h"
+#include "server/listener.h"
+
+namespace choreo {
+namespace {
+
+using cli::LocalServer;
+
+/// For this process and those that it starts, while it lives.
+class DescriptorLimit {
+ public:
+  explicit DescriptorLimit(rlim_t count) {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit lower = before_;
+    lower.rlim_cur = count;
+    setrlimit(RLIMIT_NOFILE, &lower);
+  }
+  ~DescriptorLimit() { setrlimit(RLIMIT_NOFILE, &before_); }
+  DescriptorLimit(const DescriptorLimit&) = delete;
+  DescriptorLimit& operator=(const DescriptorLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// Connections that say nothing.
+class SilentConnections {
+ public:
+  SilentConnections(const std::string& server, int count) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port =
+        htons(static_cast<uint16_t>(std::stoi(server.substr(server.rfind(':') + 1))));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    for (int i = 0; i < count; ++i) {
+      const int fd = socket(AF_INET, SOCK_STREAM, 0);
+      EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+      fcntl(fd, F_SETFL, O_NONBLOCK);
+      connections_.push_back(fd);
+    }
+  }
+  ~SilentConnections() {
+    for (const int fd : connections_) close(fd);
+  }
+  SilentConnections(const SilentConnections&) = delete;
+  SilentConnections& operator=(const SilentConnections&) = delete;
+
+  /// How many the server has closed.
+  int Closed() const {
+    int closed = 0;
+    for (const int fd : connections_) {
+      char byte;
+      ssize_t count = 1;
+      while (count > 0) count = recv(fd, &byte, 1, 0);  // the server greets first
+      closed += count == 0 || errno != EAGAIN ? 1 : 0;
+    }
+    return closed;
+  }
+
+ private:
+  std::vector<int> connections_;
+};
+
+bool Serves(const LocalServer& server) {
+  const auto channel = grpc::CreateChannel(server.address(), grpc::InsecureChannelCredentials());
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(5));
+  v1::GetServerInfoResponse info;
+  return v1::Choreography::NewStub(channel)->GetServerInfo(&context, {}, &info).ok();
+}
+
+bool Eventually(const std::function<bool()>& condition) {
+  for (int i = 0; i < 1000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+// More connections than the server may have descriptors: those beyond are sent away, and once the
+// others are gone it serves as before.
+TEST(DescriptorsTest, ComeBackAfterTooManyConnections) {
+  constexpr int kDescriptors = 200;
+  constexpr int kConnections = 260;
+  std::optional<LocalServer> server;
+  {
+    const DescriptorLimit limit(kDescriptors);
+    server.emplace(FAKE_CHOREOD);
+  }
+  for (int round = 0; round < 2; ++round) {
+    {
+      const SilentConnections silent(server->address(), kConnections);
+      int closed = 0;
+      EXPECT_TRUE(Eventually([&] {
+        closed = silent.Closed();
+        return closed >= kConnections - (kDescriptors - 64);
+      })) << closed
+          << " sent away";
+      EXPECT_LT(closed, kConnections - 50) << "the others stay";
+      EXPECT_FALSE(Serves(*server)) << "there is no room";
+    }
+    EXPECT_TRUE(Eventually([&] { return Serves(*server); })) << "in round " << round;
+  }
+}
+
+TEST(DescriptorsTest, TheLimitIsRaisedAsFarAsAllowed) {
+  const DescriptorLimit limit(100);
+  RaiseDescriptorLimit();
+  rlimit raised{};
+  getrlimit(RLIMIT_NOFILE, &raised);
+  EXPECT_EQ(raised.rlim_cur, raised.rlim_max);
+}
+
+TEST(ListenerTest, TakesEveryAddressOfAHostWithOnePort) {
+  for (const char* address : {"127.0.0.1:0", "localhost:0", "0.0.0.0:0"}) {
+    Listener listener(address);
+    EXPECT_GT(listener.port(), 0) << address;
+    const SilentConnections one("127.0.0.1:" + std::to_string(listener.port()), 1);
+  }
+}
+
+TEST(ListenerTest, NamesWhatCanNotBeListenedOn) {
+  const Listener taken("127.0.0.1:0");
+  for (const std::string& address :
+       {"127.0.0.1:" + std::to_string(taken.port()), std::string("203.0.113.1:0"),
+        std::string("no.such.host.invalid:0")}) {
+    try {
+      const Listener listener(address);
+      ADD_FAILURE() << address;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kUnavailable);
+      EXPECT_NE(std::string(error.what()).find(address), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(ListenerTest, HandsConnectionsOnUntilItStops) {
+  Listener listener("127.0.0.1:0");
+  const std::string address = "127.0.0.1:" + std::to_string(listener.port());
+  const SilentConnections early(address, 1);  // waits
+  std::atomic<int> taken = 0;
+  listener.Start([&](int, int connection) {
+    close(connection);
+    ++taken;
+  });
+  const SilentConnections later(address, 3);
+  EXPECT_TRUE(Eventually([&] { return taken == 4; }));
+  listener.Stop();
+  listener.Stop();
+  EXPECT_TRUE(Eventually([&] { return early.Closed() + later.Closed() == 4; }));
+}
+
+}  // namespace
+}  // namespace choreo

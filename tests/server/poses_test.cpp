@@ -1,0 +1,67 @@
+#include <cmath>
+
+#include "tests/server/fixture.h"
+#include "tests/support/turning_engine.h"
+
+/// Poses as they stand on the wire.
+namespace choreo {
+namespace {
+
+/// From its 20th frame on farther away than a float can tell.
+class LostEngine final : public FakeEngine {
+ public:
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    FakeEngine::Step(in, out);
+    if (++steps_ >= 20) out[0].pose.root_position.x() = 1e39;
+  }
+
+ private:
+  int steps_ = 0;
+};
+
+class PosesTest : public ServerTest {
+ protected:
+  void StartWith(std::unique_ptr<StepEngine> engine) {
+    ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    std::vector<Server::Engines> models(1);
+    models[0].push_back(std::move(engine));
+    Connect(std::make_unique<Server>(config, std::move(models)));
+  }
+};
+
+TEST_F(PosesTest, AreFiniteOrTheDanceFails) {
+  StartWith(std::make_unique<LostEngine>());
+  v1::StreamDanceRequest request;
+  *request.mutable_config() = Config();
+  request.mutable_config()->set_frames(60);
+  const Answer answer = Dance({request});
+  EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INTERNAL);
+  EXPECT_EQ(answer.status.error_message(),
+            "frame 19, as arrival and foot lock leave it, is not a finite pose");
+  const Answer::Joined joined = answer.Join();
+  EXPECT_EQ(joined.count, 19);
+  for (const float number : joined.root_positions) ASSERT_TRUE(std::isfinite(number));
+}
+
+TEST_F(PosesTest, QuaternionsKeepTheirSignsThroughWholeTurns) {
+  StartWith(std::make_unique<TurningEngine>(0.2, 0.3));
+  v1::StreamDanceRequest request;
+  *request.mutable_config() = Config();
+  request.mutable_config()->set_encoding(v1::ROTATION_ENCODING_QUATERNION);
+  request.mutable_config()->set_frames(200);
+  const Answer answer = Dance({request});
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  const Answer::Joined joined = answer.Join();
+  ASSERT_EQ(joined.rotations.size(), 200U * 24 * 4);
+  for (size_t i = 24 * 4; i < joined.rotations.size(); i += 4) {
+    const float* now = &joined.rotations[i];
+    const float* before = now - 24 * 4;
+    float product = 0;
+    for (int k = 0; k < 4; ++k) product += now[k] * before[k];
+    ASSERT_GT(product, 0) << "frame " << i / (24 * 4);
+  }
+}
+
+}  // namespace
+}  // namespace choreo
