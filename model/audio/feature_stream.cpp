@@ -32,7 +32,7 @@ FeatureStream::FeatureStream(double sample_rate, int channels, int64_t first_sam
     mono_start_ = -kHalfWindow;
   }
   first_row_ = CeilDivide(mono_start_ + kHalfWindow, kFeatureHop);
-  silence_ = RowOf(std::vector<float>(kFftSize));
+  silence_ = RowOf(std::vector<float>(kFftSize), nullptr);
 }
 
 void FeatureStream::Push(std::span<const float> interleaved) {
@@ -74,7 +74,8 @@ void FeatureStream::ComputeRows() {
   for (;;) {
     start = (first_row_ + static_cast<int64_t>(rows_.size())) * kFeatureHop - kHalfWindow;
     if (start + kFftSize > end) break;
-    rows_.push_back(RowOf(std::span(mono_).subspan(static_cast<size_t>(start - mono_start_))));
+    rows_.push_back(
+        RowOf(std::span(mono_).subspan(static_cast<size_t>(start - mono_start_)), &onset_));
   }
   const int64_t done = std::min(start, end) - mono_start_;
   if (done > 0) {
@@ -83,14 +84,15 @@ void FeatureStream::ComputeRows() {
   }
 }
 
-FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples) {
+FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples, RowOnset* onset) {
   // Its work space is several times what a stream itself holds.
   thread_local MelSpectrum spectrum;
   std::array<double, kMelBands> db{};
   const auto power = spectrum.Power(samples);
   std::transform(power.begin(), power.end(), db.begin(), PowerToDb);
   RowValues row{};
-  MfccOfMelDb(db, row);
+  MfccOfMelDb(db, row.mfcc);
+  if (onset != nullptr) row.onset = onset->Add(db);
   return row;
 }
 
@@ -106,7 +108,10 @@ int64_t FeatureStream::audio_rows() const {
   return 1 + mono / kFeatureHop;
 }
 
-std::span<const float> FeatureStream::Row(int64_t row) const {
+std::span<const float> FeatureStream::Row(int64_t row) const { return ValuesOf(row).mfcc; }
+float FeatureStream::Onset(int64_t row) const { return ValuesOf(row).onset; }
+
+const FeatureStream::RowValues& FeatureStream::ValuesOf(int64_t row) const {
   if (row < first_row_ || row >= final_rows()) {
     throw Error(ErrorCode::kOutOfRange, "audio row",
                 std::to_string(row) + " is not within " + std::to_string(first_row_) + " to " +

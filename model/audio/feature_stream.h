@@ -8,6 +8,7 @@
 
 #include "model/audio/mel.h"
 #include "model/audio/mfcc.h"
+#include "model/audio/pulse.h"
 #include "model/audio/resample.h"
 
 namespace choreo {
@@ -50,6 +51,9 @@ class FeatureStream {
   /// kMfccCount values, valid until they are forgotten. Throws Error(kOutOfRange) for a row that is
   /// not final or before first_row().
   std::span<const float> Row(int64_t row) const;
+  /// RowOnset of a row, which must be final and not forgotten; 0 beyond the audio. In a stream that
+  /// starts later, that of the first RowOnset::kOnsetMemory rows is not what the whole music has.
+  float Onset(int64_t row) const;
   /// Rows before `row` are needed no more: first_row() moves up to it, or to the first row that is
   /// not final.
   void Forget(int64_t row);
@@ -68,10 +72,14 @@ class FeatureStream {
   static int64_t FirstSampleFor(int64_t row, double sample_rate);
 
  private:
-  using RowValues = std::array<float, kMfccCount>;
+  struct RowValues {
+    std::array<float, kMfccCount> mfcc{};
+    float onset = 0;
+  };
 
+  const RowValues& ValuesOf(int64_t row) const;
   void ComputeRows();
-  static RowValues RowOf(std::span<const float> samples);  // the first kFftSize
+  static RowValues RowOf(std::span<const float> samples, RowOnset* onset);  // the first kFftSize
 
   double sample_rate_;
   int channels_;
@@ -83,6 +91,7 @@ class FeatureStream {
   int64_t mono_start_ = 0;   // absolute index of mono_[0]
   int64_t first_row_ = 0;
   std::deque<RowValues> rows_;  // a deque, so that rows stay where they are
+  RowOnset onset_;
   RowValues silence_{};
 };
 

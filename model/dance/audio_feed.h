@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "model/audio/feature_stream.h"
 #include "model/audio/mfcc.h"
@@ -43,6 +44,9 @@ class AudioFeed {
   bool CopyRow(int64_t row, std::span<float> to) const;
   /// The `count` rows before `frame`, oldest first, one a column; all must be ready.
   Eigen::MatrixXf History(int64_t frame, int count) const;
+  /// Onset strengths of the last kPulseMemory rows before `row`, or of as many as there are of the
+  /// music; all must be ready.
+  std::vector<float> Onsets(int64_t row) const;
   /// Rows before this one are needed no more: a stream of an hour holds what a second's does.
   void Forget(int64_t row);
 
@@ -60,6 +64,8 @@ class AudioFeed {
   int64_t first_row_;
   int64_t ready_;
   std::deque<RowValues> rows_;  // from first_row_ on; those behind its end are silence's
+  int64_t first_onset_;
+  std::deque<float> onsets_;  // from first_onset_ on; behind its end there is none
 };
 
 }  // namespace choreo

@@ -1,0 +1,254 @@
+#include "model/audio/pulse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace choreo {
+namespace {
+
+constexpr double kRowRate = 30;  // a second
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+constexpr double kRangeDb = 40;  // what lies further below the loudest band is not heard
+
+// ---- Onsets, evened out.
+constexpr double kMeanSeconds = 1;   // over which steady rustle is taken away
+constexpr double kLevelSeconds = 3;  // over which loud and soft passages become alike
+constexpr double kQuietDb = 0.02;    // mean rise a band and row below which nothing happens
+constexpr double kLoudest = 8;       // times the mean; a crash counts no more
+
+// ---- The bank. Tempi are steps of 1/64 octave above kSlowestBpm.
+constexpr double kSlowestBpm = 60;
+constexpr size_t kOctave = 64, kTempi = 7 * kOctave / 4, kResonators = kTempi + 2 * kOctave;
+constexpr double kRingSeconds = 3.5;                // in which a resonator forgets
+constexpr std::array<double, 3> kParts{1, 1, 0.5};  // of a beat, of half and quarter beats
+
+// ---- The choice.
+constexpr double kLikelyBpm = 100, kLikelyOctaves = 0.6;  // what people tap, and its deviation
+constexpr size_t kPhases = 96;
+constexpr int kChoiceRows = 3;  // the pulse is looked for so often
+constexpr double kClearlyBetter = 1.15;
+constexpr double kPatienceRows = 30;  // for which another pulse must be better
+
+// ---- Trust.
+constexpr size_t kAhead = 30;        // rows between saying a beat and hearing it
+constexpr double kTrustSeconds = 5;  // over which that is averaged
+constexpr double kDoubtRows = 30;    // as many average onsets are taken to have been off the beat
+constexpr double kLeastConfidence = 0.13;
+
+double Kept(double seconds) { return std::exp(-1 / (kRowRate * seconds)); }
+
+// Times of the phases of a beat as phasors.
+const std::array<std::pair<double, double>, kPhases>& PhaseTable() {
+  static const auto table = [] {
+    std::array<std::pair<double, double>, kPhases> made;
+    for (size_t i = 0; i < kPhases; ++i) {
+      const double angle = kTwoPi * static_cast<double>(i) / kPhases;
+      made[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return made;
+  }();
+  return table;
+}
+
+// What of each resonator is left a row later, turned by its tempo; how likely each tempo is.
+struct Tables {
+  std::array<double, kResonators> turn_re, turn_im;
+  std::array<double, kTempi> likely;
+
+  Tables() {
+    for (size_t k = 0; k < kResonators; ++k) {
+      const double angle = kTwoPi / PeriodOf(static_cast<double>(k));
+      turn_re[k] = Kept(kRingSeconds) * std::cos(angle);
+      turn_im[k] = Kept(kRingSeconds) * std::sin(angle);
+    }
+    for (size_t k = 0; k < kTempi; ++k) {
+      const double octaves = std::log2(kSlowestBpm / kLikelyBpm) +
+                             static_cast<double>(k) / static_cast<double>(kOctave);
+      likely[k] = std::exp(-0.5 * octaves * octaves / (kLikelyOctaves * kLikelyOctaves));
+    }
+  }
+
+  // In rows.
+  static double PeriodOf(double step) {
+    return 60 * kRowRate / (kSlowestBpm * std::exp2(step / static_cast<double>(kOctave)));
+  }
+};
+
+// A tempo and where in its beat the last row stands; its strength.
+struct Choice {
+  size_t tempo = 0, phase = 0;
+  double strength = 0;
+};
+
+class Listener {
+ public:
+  void Hear(double onset) {
+    const double kept = Kept(kMeanSeconds), level_kept = Kept(kLevelSeconds);
+    mean_ = rows_ == 0 ? onset : kept * mean_ + (1 - kept) * onset;
+    const double over = std::max(0.0, onset - mean_);
+    level_ = level_kept * level_ + (1 - level_kept) * over;
+    const double even = level_ > kQuietDb ? std::min(over / level_, kLoudest) : 0;
+    Ring(even);
+    Judge(even);
+    if (rows_ % kChoiceRows == 0) Choose();
+    if (pulse_.period > 0 && rows_ % kChoiceRows != 0) --pulse_.next;
+    while (pulse_.period > 0 && pulse_.next <= 0) pulse_.next += pulse_.period;
+    said_[rows_ % kAhead] = pulse_;
+    ++rows_;
+  }
+
+  Pulse Heard() const {
+    Pulse pulse = pulse_;
+    if (pulse.period > 0) pulse.confidence = std::clamp(met_ / (heard_ + kDoubtRows), 0.0, 1.0);
+    return pulse;
+  }
+
+ private:
+  void Ring(double onset) {
+    for (size_t k = 0; k < kResonators; ++k) {
+      const double re = re_[k] * tables_.turn_re[k] - im_[k] * tables_.turn_im[k] + onset;
+      im_[k] = re_[k] * tables_.turn_im[k] + im_[k] * tables_.turn_re[k];
+      re_[k] = re;
+    }
+  }
+
+  // How well what was said then is met now: onsets on the beat count for it, those half way between
+  // less than nothing.
+  void Judge(double onset) {
+    if (rows_ < kAhead) return;
+    const Pulse& then = said_[rows_ % kAhead];
+    if (then.period == 0) return;
+    const double phase = kTwoPi * (static_cast<double>(kAhead) - then.next) / then.period;
+    const double kept = Kept(kTrustSeconds);
+    double near = 0;
+    for (size_t part = 0; part < kParts.size(); ++part)
+      near += kParts[part] * std::cos(phase * static_cast<double>(1 << part));
+    met_ = kept * met_ + onset * near / (kParts[0] + kParts[1] + kParts[2]);
+    heard_ = kept * heard_ + onset;
+  }
+
+  double Strength(size_t tempo, size_t phase) const {
+    double sum = 0;
+    for (size_t part = 0; part < kParts.size(); ++part) {
+      const size_t k = tempo + part * kOctave;
+      const auto& [cosine, sine] = phases_[(phase << part) % kPhases];
+      sum += kParts[part] * (re_[k] * cosine + im_[k] * sine);
+    }
+    return sum;
+  }
+
+  // The best of some tempi and all phases, or those near one.
+  Choice Best(size_t from, size_t to, size_t phase, size_t phases) const {
+    Choice best;
+    for (size_t tempo = from; tempo < to; ++tempo) {
+      double most = 0;
+      for (size_t part = 0; part < kParts.size(); ++part) {
+        const size_t k = tempo + part * kOctave;
+        most += kParts[part] * std::sqrt(re_[k] * re_[k] + im_[k] * im_[k]);
+      }
+      if (most * tables_.likely[tempo] <= best.strength) continue;
+      for (size_t i = 0; i < phases; ++i) {
+        const size_t at = (phase + i) % kPhases;
+        const double strength = Strength(tempo, at) * tables_.likely[tempo];
+        if (strength > best.strength) best = {tempo, at, strength};
+      }
+    }
+    return best;
+  }
+
+  void Choose() {
+    constexpr size_t kNear = 8;
+    Choice choice = Best(0, kTempi, 0, kPhases);
+    if (pulse_.period > 0) {
+      // Where the present pulse is by now.
+      const double turns = (pulse_.period - pulse_.next + 1) / pulse_.period;
+      const auto phase = static_cast<size_t>(std::lround(turns * kPhases)) % kPhases;
+      const size_t least = tempo_ < 2 ? 0 : tempo_ - 2;
+      const Choice same =
+          Best(least, std::min(tempo_ + 3, kTempi), phase + kPhases - kNear, 2 * kNear + 1);
+      const bool better = choice.strength > kClearlyBetter * same.strength;
+      rival_rows_ = std::max(0.0, rival_rows_ + (better ? kChoiceRows : -kChoiceRows));
+      if (rival_rows_ < kPatienceRows && same.strength > 0) {
+        choice = same;
+      } else {
+        rival_rows_ = 0;
+      }
+    }
+    Take(choice);
+  }
+
+  // Between the steps of tempo and phase a parabola leads over the summit.
+  static double Summit(double left, double middle, double right) {
+    const double bend = left - 2 * middle + right;
+    return bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0;
+  }
+
+  void Take(const Choice& choice) {
+    pulse_ = {};
+    if (choice.strength <= 0) return;
+    const auto [tempo, phase, strength] = choice;
+    tempo_ = tempo;
+    double step = static_cast<double>(tempo);
+    const size_t around = phase + kPhases - 6;
+    const auto strongest = [&](size_t at) {
+      double most = Strength(at, around);
+      for (size_t i = 1; i <= 12; ++i) most = std::max(most, Strength(at, around + i));
+      return most;
+    };
+    if (tempo > 0 && tempo + 1 < kTempi)
+      step += Summit(strongest(tempo - 1), strongest(tempo), strongest(tempo + 1));
+    const double turns =
+        (static_cast<double>(phase) + Summit(Strength(tempo, phase + kPhases - 1),
+                                             Strength(tempo, phase), Strength(tempo, phase + 1))) /
+        kPhases;
+    pulse_.period = Tables::PeriodOf(step);
+    pulse_.next = (1 - turns) * pulse_.period;
+  }
+
+  static const Tables tables_;
+  const std::array<std::pair<double, double>, kPhases>& phases_ = PhaseTable();
+
+  size_t rows_ = 0;
+  double mean_ = 0, level_ = 0;
+  std::array<double, kResonators> re_{}, im_{};
+  Pulse pulse_;
+  size_t tempo_ = 0;
+  double rival_rows_ = 0;
+  std::array<Pulse, kAhead> said_{};
+  double met_ = 0, heard_ = 0;
+};
+
+const Tables Listener::tables_;
+
+}  // namespace
+
+float RowOnset::Add(std::span<const double, kMelBands> db) {
+  const auto at = static_cast<size_t>(rows_);
+  loudest_[at % kLoudness] = *std::max_element(db.begin(), db.end());
+  const size_t known = std::min(at + 1, kLoudness);
+  const double floor =
+      *std::max_element(loudest_.begin(), loudest_.begin() + static_cast<std::ptrdiff_t>(known)) -
+      kRangeDb;
+  double rise = 0;
+  auto& before = before_[at % kBack];
+  for (size_t band = 0; band < kMelBands; ++band) {
+    if (at >= kBack) rise += std::max(0.0, db[band] - std::max(before[band], floor));
+    before[band] = db[band];
+  }
+  ++rows_;
+  return static_cast<float>(rise / kMelBands);
+}
+
+bool Pulse::Certain() const { return confidence >= kLeastConfidence; }
+
+Pulse HearPulse(std::span<const float> onsets) {
+  Listener listener;
+  for (const float onset : onsets.last(std::min<size_t>(onsets.size(), kPulseMemory)))
+    listener.Hear(onset);
+  return listener.Heard();
+}
+
+}  // namespace choreo
