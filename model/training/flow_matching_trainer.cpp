@@ -93,7 +93,8 @@ class FlowMatchingRun : public TrainingRun {
   void TrainStep() override {
     Random random(options_.seed, static_cast<uint32_t>(step() + 1));
     torch::manual_seed(options_.seed + static_cast<uint64_t>(step()) * 1000003);
-    const int frames = kLengths[random.Integer(0, std::size(kLengths))];
+    const int most = train_.Longest(model_->config().history_frames);
+    const int frames = std::min(kLengths[random.Integer(0, std::size(kLengths))], most);
     WindowClips::Variation variation{.mirror = 0.5,
                                      .tempo = options_.tempo,
                                      .partial_key = 0.12,
@@ -108,10 +109,10 @@ class FlowMatchingRun : public TrainingRun {
     const double kind = random.Uniform();
     if (kind < kNoKeys) {
       variation.no_key = 1;
-      window = to_key = std::max(frames, 30);
+      window = to_key = std::min(std::max(frames, 30), most);
     } else if (kind < kNoKeys + kFarKeys) {
-      window = 72;
-      to_key = 96 + 24 * static_cast<int>(random.Integer(0, 5));
+      window = std::min(72, most);
+      to_key = std::min(96 + 24 * static_cast<int>(random.Integer(0, 5)), most);
     }
     const WindowBatch batch = train_.Draw(matching_->parts(), WindowsOf(options_.batch, window),
                                           window, to_key, variation, &random);
@@ -129,6 +130,7 @@ class FlowMatchingRun : public TrainingRun {
     const Skeleton& skeleton = train_.skeleton();
     NamedFigures figures;
     for (const int frames : {10, 30, 60, 90}) {
+      if (frames > validation_.Longest(parts.config.history_frames)) continue;
       Random random(20240607, static_cast<uint32_t>(frames));
       const WindowBatch batch =
           validation_.Draw(parts, kValidationWindows, frames, frames, {}, &random);
@@ -219,25 +221,18 @@ class FlowMatchingRun : public TrainingRun {
     const Eigen::MatrixXd covariance = train_.VelocityCovariance(kLags);
     model_->SetPrior(covariance, 0, Eigen::MatrixXd::Identity(dimensions, dimensions),
                      Eigen::VectorXd::Ones(dimensions));
+    const int frames = std::min(60, train_.Longest(model_->config().history_frames));
     // The mixing is of coordinates that liveliness has scaled already.
     for (int round = 0; round < 2; ++round) {
       std::vector<WindowBatch> batches;
       for (int i = 0; i < kStatisticsBatches; ++i) {
         Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
-        batches.push_back(train_.Draw(model_->Parts(), kStatisticsWindows, 60, 60,
+        batches.push_back(train_.Draw(model_->Parts(), kStatisticsWindows, frames, frames,
                                       {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0}, &random));
       }
       const WindowStatistics measured = MeasureWindows(batches);
       if (round == 0) liveliness_ = measured.liveliness;
       model_->SetPrior(covariance, liveliness_, measured.mixing, measured.spread);
-      std::printf("liveliness %.2f\n", measured.liveliness);
-      for (const WindowBatch& batch : batches) {
-        std::printf("white variance: %.2f, of windows %.2f +- %.2f; beyond 4.9: %.4f\n",
-                    batch.z.square().mean().item<double>(),
-                    batch.z.square().mean(torch::IntArrayRef{1, 2}).log().mean().item<double>(),
-                    batch.z.square().mean(torch::IntArrayRef{1, 2}).log().std().item<double>(),
-                    (batch.z.abs() > 4.9).to(torch::kFloat32).mean().item<double>());
-      }
     }
   }
 

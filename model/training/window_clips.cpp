@@ -298,6 +298,13 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
   return result;
 }
 
+int WindowClips::Longest(int history) const {
+  size_t longest = 0;
+  for (size_t clip = 0; clip < clips_; ++clip)
+    longest = std::max(longest, tracks_[clip].poses.size());
+  return static_cast<int>(longest) - history - 1;
+}
+
 std::array<double, kBodyParts> WindowClips::MedianFactors() const {
   std::array<double, kBodyParts> medians;
   for (int part = 0; part < kBodyParts; ++part) {

@@ -44,6 +44,8 @@ class WindowClips {
   WindowBatch Draw(const FlowModelParts& model, int batch, int frames, int to_key,
                    const Variation& variation, Random* random) const;
 
+  /// The longest way to a key behind `history` frames that some clip has.
+  int Longest(int history) const;
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<std::string>& styles() const { return styles_; }
   std::array<double, kBodyParts> MedianFactors() const;

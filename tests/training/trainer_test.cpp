@@ -8,6 +8,7 @@
 #include "model/flow/checkpoint.h"
 #include "model/training/adam.h"
 #include "model/training/control_trainer.h"
+#include "model/training/flow_matching_trainer.h"
 #include "model/training/losses.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
@@ -178,6 +179,34 @@ TEST_F(TrainerTest, ControllersGoOnFromAnotherNetwork) {
   further.one_lstm = true;
   EXPECT_THAT([&] { TrainControllers(further); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("its shape does not fit")));
+}
+
+TEST_F(TrainerTest, TheContinuousFlowResumesAsIfUndisturbedAndGoesOnFromAnother) {
+  TrainOptions options = Options("whole", 3);
+  options.preset = "default";
+  options.batch = 4;
+  TrainContinuousFlow(options);
+  const auto weights = [](const TrainOptions& run) {
+    return ReadSafetensors(run.run / "checkpoint.safetensors");
+  };
+  const Safetensors whole = weights(options);
+  options.run = folder_.path() / "parts";
+  for (const int64_t stop : {1, 2, 0}) {
+    options.stop_after = stop;
+    TrainContinuousFlow(options);
+    options.resume = true;
+  }
+  const Safetensors parts = weights(options);
+  for (const auto& [name, tensor] : whole.tensors)
+    EXPECT_EQ(parts.tensors.at(name).data, tensor.data) << name;
+
+  TrainOptions further = Options("further", 1);
+  further.preset = "default";
+  further.batch = 4;
+  further.planner = options.run / "checkpoint.safetensors";
+  further.flow_rate = 0;  // what it took up stays as it was
+  TrainContinuousFlow(further);
+  EXPECT_EQ(weights(further).tensors.at("head.weight").data, whole.tensors.at("head.weight").data);
 }
 
 TEST_F(TrainerTest, ABaselineWithoutAFlowIsItsPlan) {
