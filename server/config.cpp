@@ -157,6 +157,12 @@ void AddLimits(CLI::App& app, ServerConfig& config) {
          "others wait for one. It goes on later, and is the same.")
       ->envname("CHOREO_MAX_SLEEP_SECONDS")
       ->capture_default_str();
+  app.add_option(
+         "--max-load", config.max_load,
+         "Share of a model's time that goes to frames which are due: beyond it new calls are "
+         "refused (RESOURCE_EXHAUSTED). Above 1: none are.")
+      ->envname("CHOREO_MAX_LOAD")
+      ->capture_default_str();
   app.add_option("--max-connection-seconds", config.max_connection_seconds,
                  "A connection of this age takes no new calls, so that clients spread over "
                  "replicas anew; its calls go on. 0: none is too old.")
@@ -171,6 +177,7 @@ void CheckLimits(const ServerConfig& config) {
   CheckRange("--idle-seconds", config.idle_seconds, 0.1, kDay);
   CheckRange("--unread-seconds", config.unread_seconds, 0.1, kDay);
   CheckRange("--max-sleep-seconds", config.max_sleep_seconds, 0, 60);
+  CheckRange("--max-load", config.max_load, 0.1, 2);
   CheckRange("--max-connection-seconds", config.max_connection_seconds, 0, 30 * kDay);
 }
 

@@ -32,14 +32,16 @@ constexpr int kKeepaliveTimeoutMs = 10'000;
 constexpr int kClientPingMs = 500;  // clients may ping this often, to notice a silent network
 /// What calls that were told to end get to do so.
 constexpr milliseconds kAbortTime{2'000};
+constexpr milliseconds kShutdownTime{1'000};
 /// How often limits and engines are looked at.
 constexpr milliseconds kWatchInterval{100};
 /// An engine that has failed this often in a row is broken.
 constexpr int kBroken = 3;
-/// How long those who come to a server that drains are refused in words, before connections are
-/// closed to new calls: a client may hold a connection and not look at it, and once gRPC shuts down
-/// its next call there ends as CANCELLED, which tells nobody to go elsewhere.
+/// After the last call of a server that drains: how long those who come are still refused in words.
+/// A client may hold a connection and not look at it; once gRPC shuts down, its next call would end
+/// as CANCELLED, which tells nobody to go elsewhere. So the shutdown itself is short then.
 constexpr milliseconds kNotice{1'000};
+constexpr milliseconds kShutdownTimeAfterNotice{50};
 
 std::string ReadFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -54,6 +56,7 @@ milliseconds Milliseconds(double seconds) {
 CallLimits LimitsOf(const ServerConfig& config) {
   return {.calls = config.max_streams,
           .calls_of_peer = config.MaxStreamsOfPeer(),
+          .load = config.max_load,
           .first_message = Milliseconds(config.first_message_seconds),
           .idle = Milliseconds(config.idle_seconds),
           .unread = Milliseconds(config.unread_seconds)};
@@ -184,20 +187,19 @@ void Server::Drain(double seconds) {
   CallRegistry& calls = impl_->serving.calls;
   impl_->UpdateHealth();
   calls.StopAdmitting();
-  const milliseconds limit = Milliseconds(seconds), notice = std::min(kNotice, limit);
-  std::this_thread::sleep_for(notice);
-  impl_->listener.Stop();
-  // Sends GOAWAY, so that clients take their next calls elsewhere; those in progress go on.
-  const auto end = std::chrono::system_clock::now() + (limit - notice) + kAbortTime;
-  std::jthread shutdown([&] { impl_->server->Shutdown(end); });
-  if (!calls.WaitUntilEmpty(limit - notice)) {
+  if (!calls.WaitUntilEmpty(Milliseconds(seconds))) {
     spdlog::warn("{} calls were still in progress after {} s; they end as UNAVAILABLE",
                  calls.count(), seconds);
     calls.AbortAll(Error(ErrorCode::kUnavailable, "",
                          "the server is going away; another one can go on from the last "
                          "continuation"));
+    calls.WaitUntilEmpty(kAbortTime);
   }
-  shutdown.join();
+  const milliseconds notice = std::min(kNotice, Milliseconds(seconds));
+  std::this_thread::sleep_for(notice);
+  impl_->listener.Stop();
+  impl_->server->Shutdown(std::chrono::system_clock::now() +
+                          (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
   uint64_t frames = 0;
   uint64_t steps = 0;
   for (const auto& scheduler : impl_->serving.models) {

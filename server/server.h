@@ -33,10 +33,9 @@ class Server {
   /// Calls in progress; those without a first message do not count.
   int calls() const;
 
-  /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on. A second later (0
-  /// seconds: at once) clients are told to take their next calls elsewhere (GOAWAY) and nobody can
-  /// connect. Calls in progress may go on for `seconds`, then end as UNAVAILABLE. When it returns
-  /// the server is shut down. Idempotent.
+  /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on; those in progress may
+  /// go on for `seconds`, then end as UNAVAILABLE. Those who come up to a second after the last one
+  /// are still told so (0 seconds: nobody is). When it returns the server is shut down. Idempotent.
   void Drain(double seconds);
 
  private:

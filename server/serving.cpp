@@ -16,13 +16,14 @@ Scheduler& Serving::FindModel(const std::string& name, const std::string& field)
 }
 
 void Serving::RequireTime(const Scheduler& scheduler) const {
-  constexpr double kFull = 0.9;  // the rest is for what is not measured: gRPC, decoding
   const double load = scheduler.stats().load;
-  if (load < kFull) return;
+  const double most = calls.limits().load;
+  if (load <= most) return;
   throw Error(ErrorCode::kResourceExhausted, "",
               "model \"" + scheduler.model().name +
                   "\" is busy: " + std::to_string(static_cast<int>(100 * load)) +
-                  " % of its time goes to frames that are due now, of at most 90 %");
+                  " % of its time goes to frames that are due now, of at most " +
+                  std::to_string(static_cast<int>(100 * most)) + " %");
 }
 
 uint64_t Serving::FreshSeed() {

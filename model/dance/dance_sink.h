@@ -37,7 +37,7 @@ class DanceSink {
   /// At each transition's end, after its frames and events.
   virtual void OnContinuation(const Continuation& continuation) = 0;
   virtual void OnSummary(const QualityReport& report) = 0;
-  /// kCancelled after Cancel; kResourceExhausted if the scheduler had no room; else what failed.
+  /// kCancelled after Cancel, else what failed.
   virtual void OnError(const Error& error) = 0;
 };
 

@@ -220,21 +220,6 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   ExpectEventually([this] { return server->calls() == 0; }, "all calls are over");
 }
 
-TEST_F(LifecycleTest, WhoIsConnectedIsSentElsewhereWhileDancesGoOn) {
-  Start();
-  const auto client = OpenEndedDance();
-  ASSERT_TRUE(client->ReadFrames(5));
-  ASSERT_EQ(channel->GetState(false), GRPC_CHANNEL_READY);
-  const std::jthread drain([this] { server->Drain(60); });
-  EXPECT_TRUE(channel->WaitForStateChange(
-      GRPC_CHANNEL_READY, std::chrono::system_clock::now() + std::chrono::seconds(20)));
-  EXPECT_EQ(server->calls(), 1);
-  const std::string music = Music(2);
-  client->SendAudio(music.substr(music.size() / 2), 22'050);
-  EXPECT_TRUE(client->ReadFrames(50));
-  EXPECT_TRUE(client->Finish().status.ok());
-}
-
 // The connection was there before, and nobody looked at it when the server went.
 TEST_F(LifecycleTest, WhoComesLateIsNotCancelled) {
   for (int round = 0; round < 3; ++round) {
