@@ -3,6 +3,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <fstream>
@@ -29,6 +30,23 @@ int64_t ElementCount(const std::vector<int64_t>& shape) {
     count *= extent;
   }
   return count;
+}
+
+// Smaller tensors save nothing worth a second form.
+constexpr size_t kLeastHalved = 4096;
+
+// Whether nothing is lost in bfloat16, the upper half of a float.
+bool IsBfloat16(const NamedTensor& tensor) {
+  return tensor.data.size() >= kLeastHalved && std::ranges::all_of(tensor.data, [](float value) {
+           return (std::bit_cast<uint32_t>(value) & 0xFFFFU) == 0;
+         });
+}
+
+std::vector<uint16_t> UpperHalves(const std::vector<float>& values) {
+  std::vector<uint16_t> halves;
+  for (const float value : values)
+    halves.push_back(static_cast<uint16_t>(std::bit_cast<uint32_t>(value) >> 16U));
+  return halves;
 }
 
 }  // namespace
@@ -59,14 +77,17 @@ Safetensors ReadSafetensors(const std::filesystem::path& path) {
         content.metadata = entry.get<std::map<std::string, std::string>>();
         continue;
       }
-      if (entry.at("dtype") != "F32") throw fail("tensor " + name + " is not F32");
+      const bool halved = entry.at("dtype") == "BF16";
+      if (!halved && entry.at("dtype") != "F32")
+        throw fail("tensor " + name + " is neither F32 nor BF16");
+      const size_t width = halved ? sizeof(uint16_t) : sizeof(float);
       NamedTensor tensor;
       tensor.shape = entry.at("shape").get<std::vector<int64_t>>();
       const auto begin = entry.at("data_offsets").at(0).get<uint64_t>();
       const auto end = entry.at("data_offsets").at(1).get<uint64_t>();
       const int64_t count = ElementCount(tensor.shape);
       if (count < 0 || begin > end || end > data_bytes ||
-          end - begin != static_cast<uint64_t>(count) * sizeof(float)) {
+          end - begin != static_cast<uint64_t>(count) * width) {
         throw fail("tensor " + name + " at bytes " + std::to_string(begin) + " to " +
                    std::to_string(end) + " of " + std::to_string(data_bytes) +
                    " does not fit its shape (truncated?)");
@@ -84,8 +105,12 @@ Safetensors ReadSafetensors(const std::filesystem::path& path) {
       if (end > begin) extents.emplace(begin, end);
       tensor.data.resize(static_cast<size_t>(count));
       file.seekg(static_cast<std::streamoff>(8 + header_bytes + begin));
-      file.read(reinterpret_cast<char*>(tensor.data.data()),
+      std::vector<uint16_t> halves(halved ? tensor.data.size() : 0);
+      file.read(halved ? reinterpret_cast<char*>(halves.data())
+                       : reinterpret_cast<char*>(tensor.data.data()),
                 static_cast<std::streamsize>(end - begin));
+      for (size_t i = 0; i < halves.size(); ++i)
+        tensor.data[i] = std::bit_cast<float>(static_cast<uint32_t>(halves[i]) << 16U);
       if (!file) throw fail("tensor " + name + " can't be read");
       content.tensors.emplace(name, std::move(tensor));
     }
@@ -100,9 +125,11 @@ void WriteSafetensors(const std::filesystem::path& path, const Safetensors& cont
   if (!content.metadata.empty()) header["__metadata__"] = content.metadata;
   uint64_t offset = 0;
   for (const auto& [name, tensor] : content.tensors) {
-    const uint64_t bytes = tensor.data.size() * sizeof(float);
-    header[name] = {
-        {"dtype", "F32"}, {"shape", tensor.shape}, {"data_offsets", {offset, offset + bytes}}};
+    const bool halved = IsBfloat16(tensor);
+    const uint64_t bytes = tensor.data.size() * (halved ? sizeof(uint16_t) : sizeof(float));
+    header[name] = {{"dtype", halved ? "BF16" : "F32"},
+                    {"shape", tensor.shape},
+                    {"data_offsets", {offset, offset + bytes}}};
     offset += bytes;
   }
   std::string text = header.dump();
@@ -114,6 +141,12 @@ void WriteSafetensors(const std::filesystem::path& path, const Safetensors& cont
   file.write(reinterpret_cast<const char*>(&header_bytes), 8);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
   for (const auto& [name, tensor] : content.tensors) {
+    if (IsBfloat16(tensor)) {
+      const std::vector<uint16_t> halves = UpperHalves(tensor.data);
+      file.write(reinterpret_cast<const char*>(halves.data()),
+                 static_cast<std::streamsize>(halves.size() * sizeof(uint16_t)));
+      continue;
+    }
     file.write(reinterpret_cast<const char*>(tensor.data.data()),
                static_cast<std::streamsize>(tensor.data.size() * sizeof(float)));
   }

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/engine/plan_timing.h"
+#include "model/engine/temperature.h"
 
 namespace choreo {
 
@@ -53,6 +55,9 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
                                  .candidate = spec.candidate,
                                  .first_frame = spec.first_frame,
                                  .temperature = spec.temperature});
+  // Where a path says when to be where, time is not the beats' to bend.
+  if (!spec.beats.empty() && spec.controls.root_path.cols() == 0)
+    slot.poses = TimeToBeats(spec.history, slot.poses, spec.beats, Keyed(spec));
   Motion motion{.fps = info_.fps, .frames = {spec.history.back()}};
   motion.frames.insert(motion.frames.end(), slot.poses.begin(), slot.poses.end());
   slot.contacts = DetectContacts(info_.skeleton, motion);

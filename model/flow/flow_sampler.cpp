@@ -1,5 +1,6 @@
 #include "model/flow/flow_sampler.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,8 @@
 
 namespace choreo {
 namespace {
+
+constexpr double kHottest = 1.25;  // farther beyond the sampled way nobody dances
 
 // [dimensions, w], standard normal, correlated over dimensions as motion is.
 Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int frames) {
@@ -34,7 +37,8 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
   if (request.path.cols() > 0 && request.path_heights) led.push_back(1);
 
   Eigen::MatrixXd start = Eigen::MatrixXd::Zero(model.prior.dimensions(), frames);
-  if (noise.temperature > 0) start = noise.temperature * Noise(model, noise, frames);
+  const double temperature = std::min(noise.temperature, kHottest);
+  if (temperature > 0) start = Noise(model, noise, frames);
   // Where the root is asked to be is known: its noise fades into that.
   Eigen::MatrixXd path_x, path_z;
   if (!led.empty()) {
@@ -58,10 +62,10 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
                                .cast<double>());
   };
 
+  Eigen::MatrixXd mean_way;
+  if (temperature != 1) mean_way = evaluate(Eigen::MatrixXd::Zero(start.rows(), frames), 0);
   Eigen::MatrixXd w = start;
-  if (noise.temperature == 0) {
-    w = evaluate(w, 0);
-  } else {
+  if (temperature > 0) {
     const double step = std::numbers::pi / 2 / model.config.steps;
     Eigen::MatrixXd before;
     for (int k = 0; k < model.config.steps; ++k) {
@@ -74,6 +78,7 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
       before = f;
     }
   }
+  if (temperature != 1) w = mean_way + temperature * (w - mean_way);
   Eigen::MatrixXd x = window.Colour(w);
   for (const int axis : led) x.row(axis) = path_x.row(axis);
   return window.Decode(x);

@@ -34,7 +34,9 @@ struct FlowNoise {
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of the window's first frame
-  double temperature = 0;   ///< 0: the mean, in one step
+  /// How far from the mean way (0, in one step) to a sampled one (1) and a little beyond (1.25 at
+  /// most). Noise itself is never scaled: the network would take a calm one for a calm dancer.
+  double temperature = 0;
 };
 
 /// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +

@@ -50,6 +50,21 @@ TEST_F(SafetensorsTest, WhatIsWrittenIsRead) {
   EXPECT_EQ(ContentHash(read), ContentHash(content));
 }
 
+TEST_F(SafetensorsTest, WhatFitsIntoBfloat16TakesHalfTheBytes) {
+  std::vector<float> fits(5001), exact(5001);
+  for (size_t i = 0; i < fits.size(); ++i) {
+    fits[i] = static_cast<float>(i % 200) * 0.25F - 20;
+    exact[i] = 0.1F * static_cast<float>(i);
+  }
+  const Safetensors content = {{{"exact", {{5001}, exact}}, {"fits", {{5001}, fits}}}, {}};
+  WriteSafetensors(path_, content);
+  EXPECT_LT(std::filesystem::file_size(path_), 5001 * 6 + 300);
+  const Safetensors read = ReadSafetensors(path_);
+  EXPECT_EQ(read.tensors.at("fits").data, fits);
+  EXPECT_EQ(read.tensors.at("exact").data, exact);
+  EXPECT_EQ(ContentHash(read), ContentHash(content));
+}
+
 TEST_F(SafetensorsTest, TensorsMayStandInAnyOrder) {
   Write(8, 16, 0, 8);
   EXPECT_EQ(ReadSafetensors(path_).tensors.at("a").data, (std::vector<float>{3, 4}));
