@@ -6,6 +6,7 @@
 #include "model/core/error.h"
 #include "model/engine/plan_timing.h"
 #include "model/engine/temperature.h"
+#include "model/motion/body_limits.h"
 
 namespace choreo {
 
@@ -55,6 +56,9 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
                                  .candidate = spec.candidate,
                                  .first_frame = spec.first_frame,
                                  .temperature = spec.temperature});
+  LimitHinges(info_.skeleton, slot.poses);
+  if (!spec.target && !(spec.controls.root_path.cols() > 0 && spec.controls.path_heights))
+    ReturnToFloor(info_.skeleton, slot.poses);
   // Where a path says when to be where, time is not the beats' to bend.
   if (!spec.beats.empty() && spec.controls.root_path.cols() == 0)
     slot.poses = TimeToBeats(spec.history, slot.poses, spec.beats, Keyed(spec));

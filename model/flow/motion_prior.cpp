@@ -15,7 +15,7 @@ namespace {
 // what keeps covariances invertible.
 constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
 constexpr double kStillness = 2e-4;  // a frame; slower dimensions don't move
-constexpr double kLeastScale = 0.25;
+constexpr double kLeastScale = 0.5;
 constexpr size_t kKept = 96;  // bridges; one of 96 frames takes 5 MB
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
+#include <mutex>
+
 #include <functional>
 #include <thread>
 
@@ -158,9 +161,18 @@ TEST_F(DanceContract, StoppingTheSchedulerDrainsOrEndsDances) {
     const auto scheduler = FakeScheduler();
     auto sink = std::make_shared<Recorder>();
     DanceStream stream(*scheduler, dance.config, sink);
-    stream.SetPaused(true);  // so that it is surely under way when the stop comes
+    // Paused at its first frames, it is surely under way when the stop comes.
+    std::promise<void> began;
+    std::once_flag once;
+    sink->on_frames = [&](size_t) {
+      std::call_once(once, [&] {
+        stream.SetPaused(true);
+        began.set_value();
+      });
+    };
     for (const Key& key : dance.keys) SendKey(stream, key);
     stream.KeysComplete();
+    began.get_future().wait();
     scheduler->Stop(drain);
     stream.SetPaused(false);
     const Recording recording = sink->WaitForEnd();
