@@ -170,10 +170,10 @@ Loaded LoadContinuousFlow(const Safetensors& content, const std::filesystem::pat
                  .skeleton = checkpoint.model->skeleton(),
                  .fps = 30,
                  .history_frames = config.history_frames,
-                 .audio_features = 0,  // it hears beats, not sounds
+                 .audio_features = 40,
                  .max_transition_frames = config.max_transition_frames,
                  .default_temperature = config.temperature,
-                 .hears_music = false,
+                 .hears_music = false,  // but its beats
                  .root_path = true,
                  .velocity_factors = true,
                  .velocity_references = {median}};

@@ -104,13 +104,13 @@ TEST_F(ShippedControllersTest, SaysWhatItTakes) {
   EXPECT_FALSE(server.models.front().deterministic) << "the flow draws";
 }
 
-TEST_F(ShippedControllersTest, AModelWithoutAControlNamesThatWhichHasIt) {
+TEST_F(ShippedControllersTest, TheDefaultModelTakesThemToo) {
   const TemporaryFolder folder;
   const Outcome outcome = Choreo("dance --seconds 4 --velocity all=2 --server " +
                                  server_->address() + " -o " + (folder / "d.npz").string());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said,
-              testing::HasSubstr("does not have this control, but --model controllers"));
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, testing::HasSubstr("by model \"default\""));
+  EXPECT_THAT(outcome.said, testing::HasSubstr("speeds danced (and asked)"));
 }
 
 TEST_F(ShippedControllersTest, KeepsToADrawnPathThroughKeys) {

@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadSetting{"--listen", "127.0.0.1:65536"},
                     BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
                     BadSetting{"--max-file-music-mib", "127"},
-                    BadSetting{"--max-network-mib", "63"}, BadSetting{"--slots", "0"},
+                    BadSetting{"--max-network-mib", "63"}, BadSetting{"--slots", "-1"},
                     BadSetting{"--slots", "many"}, BadSetting{"--max-streams", "-1"},
                     BadSetting{"--engine", "fast"}, BadSetting{"--device", "gpu"},
                     BadSetting{"--log-level", "loud"},
