@@ -188,8 +188,9 @@ void Scheduler::Impl::LookAtSuspects(Worker* worker) {
 }
 
 // Of the jobs that sleep, and in whose place another could go on, the one that has slept longest;
-// null: none.
+// null: none. Whoever it is, TakeNextWaiting then has somebody for its slot.
 Scheduler::Impl::Entry* Scheduler::Impl::NextToPark(const Worker& worker) const {
+  if (phase == Phase::kStopped) return nullptr;
   bool dance_waits = false, group_waits = false;
   for (const Entry* entry : slotless) {
     if (!entry->parked) (entry->of_group ? group_waits : dance_waits) = true;

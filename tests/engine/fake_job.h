@@ -40,6 +40,7 @@ class FakeJob : public StepJob {
   std::function<void()> on_frame;               ///< called first in OnFrame; may throw
   std::function<void(const Error*)> when_done;  ///< called last in OnDone
   std::function<void()> before_input;           ///< called first in NextInput; may throw
+  std::function<void()> before_ready;           ///< called first in Ready, on a worker's thread
 
   const TransitionSpec& spec() const override { return spec_; }
   bool NextInput(StepInput* input) override {
@@ -53,7 +54,10 @@ class FakeJob : public StepJob {
     input->previous = frames_.empty() ? nullptr : &frames_.back().pose;
     return true;
   }
-  bool Ready() const override { return count_ < allowed_frames; }
+  bool Ready() const override {
+    if (before_ready) before_ready();
+    return count_ < allowed_frames;
+  }
   void OnRestart() override {
     ++restarts_;
     frames_.clear();

@@ -63,6 +63,26 @@ TEST_F(SchedulerTest, WhoIsCancelledWhileParkedEnds) {
   EXPECT_TRUE(scheduler_->WaitUntilIdle(kLong));
 }
 
+// It is stopped in the moment between seeing that a sleeper could make room and making it.
+TEST_F(SchedulerTest, WhoSleepsMakesNoRoomOnceAllIsStopped) {
+  Start(1, {}, 0, milliseconds(0));
+  auto waiting = Job(2, 2);
+  waiting->before_ready = [this] { scheduler_->Stop(false); };
+  auto sleeper = Job(1, 10);
+  sleeper->allowed_frames = 0;
+  sleeper->before_input = [&] {
+    if (scheduler_->stats().waiting > 0) return;
+    scheduler_->Submit(waiting);
+    scheduler_->Wake(waiting.get());
+  };
+  scheduler_->Submit(sleeper);
+  for (const auto& job : {sleeper, waiting}) {
+    ASSERT_TRUE(job->WaitDone());
+    EXPECT_EQ(job->failure(), ErrorCode::kUnavailable);
+  }
+  EXPECT_TRUE(scheduler_->WaitUntilIdle(kLong));
+}
+
 TEST_F(SchedulerTest, GroupsAreTakenWholeOrNotAtAll) {
   Start(4, {.max_waiting = 1});
   gate_.Close();
