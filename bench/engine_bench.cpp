@@ -122,9 +122,12 @@ void Admissions(benchmark::State& state, StepEngine& engine) {
   state.SetItemsProcessed(state.iterations());
 }
 
+FlowConfig ConfigOf(const std::string& model) {
+  return FlowConfig::Preset(model == "free" ? "planned" : model);
+}
+
 /// The packed engine's products of one frame.
-std::vector<BareProducts::Shape> Shapes(const std::string& model, int width) {
-  const FlowConfig config = FlowConfig::Preset(model);
+std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   const int tau = config.history_frames, hidden = config.hidden, low = width / 2;
   const int live = tau * width + (tau + 1) * config.audio_features + 1;
   const int condition = config.condition_width > 0 ? config.condition_width : live;
@@ -228,14 +231,14 @@ void Register(Models* models) {
       const std::string bare = half ? "bare-bf16" : "bare", kind = half ? "packed-bf16" : "packed";
       for (const int rows : {1, 8, 32, 64}) {
         add(bare + "/" + std::to_string(rows), [=](benchmark::State& state) {
-          Bare(state, Shapes(model, 3 + 3 * joints + 3 + 4), rows, rows, half);
+          Bare(state, Shapes(ConfigOf(model), 3 + 3 * joints + 3 + 4), rows, rows, half);
         });
       }
       add("admission/" + kind,
           [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind)); });
       if (model != "free") continue;
       add("admission/" + bare, [=](benchmark::State& state) {
-        Bare(state, PlanShapes(FlowConfig::Preset("planned"), joints), 1, 1, half);
+        Bare(state, PlanShapes(ConfigOf(model), joints), 1, 1, half);
       });
     }
     add("admission/torch",

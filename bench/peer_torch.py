@@ -155,7 +155,7 @@ def main(folder):
     torch.set_flush_denormal(True)
     report = {"torch": torch.__version__}
     with torch.inference_mode():
-        for model in ("default", "paper"):
+        for model in ("free", "paper"):
             flow = Flow(Path(folder) / f"{model}.safetensors")
             probe, _ = read_safetensors(Path(folder) / f"{model}.probe.safetensors")
             difference = largest_difference(flow, probe)

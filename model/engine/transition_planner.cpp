@@ -4,23 +4,14 @@
 #include <numbers>
 
 #include "model/motion/rotation.h"
+#include "model/motion/way_round.h"
 
 namespace choreo {
 namespace {
 
-// Frames that a dancer goes on turning as she does; training plans by the same rule where nobody
-// tells the way (WayRound in model/flow/planner.cpp).
-constexpr double kTurnHorizon = 12;
-constexpr double kSwing = 0.14;      // radians a frame: a turn of the whole body in 1.5 s
-constexpr double kLeastTurn = 1e-3;  // radians
+constexpr double kSwing = 0.14;  // radians a frame: a turn of the whole body in 1.5 s
 // Who swings round on a turn of less has no calmer other way, but a somersault or a spin.
 constexpr double kLeastSwung = std::numbers::pi / 2;
-
-// The other of the two turns that end alike; there is none to next to no turn, whose axis is noise.
-Eigen::Vector3d OtherWay(const Eigen::Vector3d& turn) {
-  const double angle = turn.norm();
-  return angle < kLeastTurn ? turn : turn * (1 - 2 * std::numbers::pi / angle);
-}
 
 // Of the two ways round the one that the history's turning leads to; `turn` where it says nothing.
 Eigen::Vector3d AsTurning(const Eigen::Vector3d& turn, const TransitionSpec& spec) {
@@ -29,8 +20,7 @@ Eigen::Vector3d AsTurning(const Eigen::Vector3d& turn, const TransitionSpec& spe
   const Eigen::Vector3d rate = 0.5 * RotationDifference(spec.history[history - 3].rotations.col(0),
                                                         spec.history[history - 1].rotations.col(0));
   const Eigen::Vector3d expected = std::min<double>(kTurnHorizon, spec.frames) * rate;
-  const Eigen::Vector3d other = OtherWay(turn);
-  return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
+  return NearerWayRound(turn, expected);
 }
 
 // The most that the root turns in a frame, radians.
@@ -55,7 +45,7 @@ TransitionPlan TransitionPlanner::Plan(const TransitionSpec& spec) const {
   TransitionPlan plan = PlanTurning(spec, turn);
   const double fastest = FastestTurn(plan, spec);
   if (fastest < kSwing || turn.norm() < kLeastSwung) return plan;
-  TransitionPlan other = PlanTurning(spec, OtherWay(turn));
+  TransitionPlan other = PlanTurning(spec, OtherWayRound(turn));
   return FastestTurn(other, spec) < fastest ? other : plan;
 }
 

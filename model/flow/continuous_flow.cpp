@@ -16,7 +16,6 @@ using torch::Tensor;
 
 namespace {
 
-constexpr int64_t kLags = 121;      // of the prior's covariance
 constexpr int64_t kTimeWidth = 32;  // of the embedded time of the flow
 constexpr double kTimeScale = 100;  // of that time, so that the embedding tells small steps
 constexpr int64_t kFramesAToken = 2;
@@ -25,7 +24,7 @@ constexpr int64_t kFramesAToken = 2;
 // is known of the whole window (adaptive layer norm, Peebles & Xie 2023).
 class FlowBlockImpl : public torch::nn::Module {
  public:
-  FlowBlockImpl(int width, int heads, int condition) : heads_(heads) {
+  FlowBlockImpl(int width, int heads, int condition) {
     using torch::nn::LayerNormOptions;
     const auto norm = [&] {
       return torch::nn::LayerNorm(LayerNormOptions({width}).elementwise_affine(false));
@@ -44,19 +43,9 @@ class FlowBlockImpl : public torch::nn::Module {
   }
 
   Tensor forward(const Tensor& x, const Tensor& condition, const Tensor& distance) {
-    const int64_t batch = x.size(0), time = x.size(1), width = x.size(2);
     const std::vector<Tensor> m = modulation_(condition).unsqueeze(1).chunk(6, -1);
-    const Tensor qkv = qkv_(attention_norm_(x) * (1 + m[0]) + m[1])
-                           .view({batch, time, 3, heads_, width / heads_})
-                           .permute({2, 0, 3, 1, 4});
-    const Tensor bias = distance_bias_.index_select(0, distance.flatten())
-                            .view({time, time, heads_})
-                            .permute({2, 0, 1});
-    const double scale = 1 / std::sqrt(static_cast<double>(width / heads_));
-    const Tensor attention =
-        torch::softmax(torch::matmul(qkv[0] * scale, qkv[1].transpose(-1, -2)) + bias, -1);
     const Tensor mixed =
-        torch::matmul(attention, qkv[2]).transpose(1, 2).reshape({batch, time, width});
+        AttendInTime(qkv_(attention_norm_(x) * (1 + m[0]) + m[1]), distance_bias_, distance);
     const Tensor attended = x + (1 + m[2]) * out_(mixed);
     return attended + (1 + m[5]) * down_(torch::gelu(up_(mlp_norm_(attended) * (1 + m[3]) + m[4])));
   }
@@ -64,7 +53,6 @@ class FlowBlockImpl : public torch::nn::Module {
   static constexpr int64_t kMostTokensApart = 64;
 
  private:
-  int heads_;
   torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
   torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr},
       modulation_{nullptr};
@@ -145,7 +133,7 @@ constexpr const char* kFormat = "choreo-continuous-flow-1";
 ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const Skeleton& skeleton)
     : config_(config), skeleton_(skeleton) {
   const int64_t dimensions = 3 + 3 * skeleton.joints(), width = config.width;
-  const Tensor walk = torch::zeros({dimensions, kLags});
+  const Tensor walk = torch::zeros({dimensions, MotionPrior::kLags});
   walk.select(1, 0).fill_(1e-4);
   covariance_ = register_buffer("velocity_covariance", walk);
   liveliness_ = register_buffer("liveliness", torch::zeros({1}));
@@ -185,11 +173,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   const Tensor condition = torch::silu(
       condition_out_(torch::silu(condition_in_(torch::cat({whole, EmbedTime(t)}, -1)))));
   x = embed_(x.reshape({batch, tokens, -1})) + inject_(condition).unsqueeze(1);
-  const Tensor place = torch::arange(tokens, torch::TensorOptions().dtype(torch::kLong));
-  const Tensor distance =
-      (place.unsqueeze(0) - place.unsqueeze(1))
-          .clamp(-FlowBlockImpl::kMostTokensApart, FlowBlockImpl::kMostTokensApart) +
-      FlowBlockImpl::kMostTokensApart;
+  const Tensor distance = TimeDistances(tokens, z.device(), FlowBlockImpl::kMostTokensApart);
   {
     const Bfloat16Products fast(is_training());
     for (const auto& block : *blocks_) x = block->as<FlowBlock>()->forward(x, condition, distance);

@@ -3,27 +3,18 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "model/motion/rotation.h"
+#include "model/motion/way_round.h"
 
 namespace choreo {
 namespace {
 
-constexpr double kTurnHorizon = 12;  // frames that a dancer goes on turning as she does
-constexpr double kLeastTurn = 1e-3;  // radians; the axis of less is noise
 // Radians from the mean that coordinates reach: with a key, less than the half turn at which the
 // other way round is nearer; without one, less than the whole turn at which they are singular.
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
 
 }  // namespace
-
-Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected) {
-  const double angle = turn.norm();
-  if (angle < kLeastTurn) return turn;
-  const Eigen::Vector3d other = turn * (1 - 2 * std::numbers::pi / angle);
-  return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
-}
 
 FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   const Pose& last = request.history.back();

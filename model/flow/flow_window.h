@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -79,9 +80,5 @@ class FlowWindow {
   double surprise_ = 1, scale_ = 1;
   std::vector<Pose> base_;  // the mean, as poses
 };
-
-/// The way round that the root turns to a key: of `turn` and the turn that ends alike, the one
-/// nearer to what `expected` says; a turn by next to nothing has no other way.
-Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);
 
 }  // namespace choreo

@@ -18,7 +18,8 @@ namespace choreo {
 /// Units: metres a frame for the root's position, radians a frame for rotations. Thread-safe.
 class MotionPrior {
  public:
-  static constexpr int kPast = 3;  ///< velocities of the history that are known
+  static constexpr int kLags = 121;  ///< of a trained covariance: four seconds at 30 fps
+  static constexpr int kPast = 3;    ///< velocities of the history that are known
   /// Deviations from the mean that white coordinates go: what recordings have beyond are faults.
   static constexpr double kMostWhite = 5;
 
@@ -59,7 +60,7 @@ class MotionPrior {
 
   Eigen::MatrixXd covariance_;
   double liveliness_;
-  // Of the displacement over n frames: its variance; and sums of the covariance up to lag n.
+  // By dimension, [lags]: sums of the covariance over lags from 1 on.
   std::vector<Eigen::VectorXd> sums_;
   struct Cache;
   std::shared_ptr<Cache> cache_;

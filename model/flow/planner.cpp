@@ -7,6 +7,7 @@
 #include "model/flow/recurrent_planner.h"
 #include "model/flow/time_block.h"
 #include "model/flow/torch_kinematics.h"
+#include "model/motion/way_round.h"
 
 namespace choreo {
 
@@ -22,7 +23,6 @@ constexpr double kVelocityScale = 8;     // a step of an eighth of a feature's s
 constexpr double kBasis = 10000;         // Eq. 9
 constexpr double kLeastAlong = 0.25, kAlongSoftness = 0.1;  // of BoundedSixD
 constexpr double kFreeTurn = 0.625;  // of BoundedSixD's root: share of its bound that is free
-constexpr double kTurnHorizon = 12;  // frames that a dancer goes on turning as she does
 constexpr double kEaseFrames = 30;   // over which WithoutWalk begins
 // Frames of the residual's low-pass: a plan that changes its mind about the way round does so over
 // some frames, with limbs that can follow; what is quicker than that is the flow's.

@@ -8,14 +8,7 @@ namespace choreo {
 
 using torch::Tensor;
 
-namespace {
-
-constexpr int64_t kMaxDistance = 96;  // frames; farther apart counts as this far
-
-}  // namespace
-
-TimeBlockImpl::TimeBlockImpl(int width, int heads, double dropout)
-    : heads_(heads), dropout_(dropout) {
+TimeBlockImpl::TimeBlockImpl(int width, int heads, double dropout) : dropout_(dropout) {
   using torch::nn::LayerNormOptions;
   attention_norm_ =
       register_module("attention_norm", torch::nn::LayerNorm(LayerNormOptions({width})));
@@ -28,28 +21,29 @@ TimeBlockImpl::TimeBlockImpl(int width, int heads, double dropout)
 }
 
 Tensor TimeBlockImpl::forward(const Tensor& x, const Tensor& distance) {
-  const int64_t batch = x.size(0), time = x.size(1), width = x.size(2);
-  const Tensor qkv = qkv_(attention_norm_(x))
-                         .view({batch, time, 3, heads_, width / heads_})
-                         .permute({2, 0, 3, 1, 4});  // [3, batch, heads, time, head width]
-  const Tensor bias = distance_bias_.index_select(0, distance.flatten())
-                          .view({time, time, heads_})
-                          .permute({2, 0, 1});
-  const double scale = 1 / std::sqrt(static_cast<double>(width / heads_));
-  const Tensor attention =
-      torch::softmax(torch::matmul(qkv[0] * scale, qkv[1].transpose(-1, -2)) + bias, -1);
-  const Tensor mixed =
-      torch::matmul(attention, qkv[2]).transpose(1, 2).reshape({batch, time, width});
+  const Tensor mixed = AttendInTime(qkv_(attention_norm_(x)), distance_bias_, distance);
   const auto drop = [this](const Tensor& y) { return torch::dropout(y, dropout_, is_training()); };
   const Tensor attended = x + drop(out_(mixed));
   return attended + drop(down_(torch::gelu(up_(mlp_norm_(attended)))));
 }
 
-Tensor TimeDistances(int64_t time, torch::Device device) {
+Tensor AttendInTime(const Tensor& qkv, const Tensor& bias, const Tensor& distance) {
+  const int64_t batch = qkv.size(0), time = qkv.size(1), width = qkv.size(2) / 3;
+  const int64_t heads = bias.size(1);
+  // [3, batch, heads, time, head width]
+  const Tensor parts = qkv.view({batch, time, 3, heads, width / heads}).permute({2, 0, 3, 1, 4});
+  const Tensor added =
+      bias.index_select(0, distance.flatten()).view({time, time, heads}).permute({2, 0, 1});
+  const double scale = 1 / std::sqrt(static_cast<double>(width / heads));
+  const Tensor attention =
+      torch::softmax(torch::matmul(parts[0] * scale, parts[1].transpose(-1, -2)) + added, -1);
+  return torch::matmul(attention, parts[2]).transpose(1, 2).reshape({batch, time, width});
+}
+
+Tensor TimeDistances(int64_t time, torch::Device device, int64_t most) {
   const Tensor steps =
       torch::arange(time, torch::TensorOptions().dtype(torch::kLong).device(device));
-  return (steps.unsqueeze(0) - steps.unsqueeze(1)).clamp(-kMaxDistance, kMaxDistance) +
-         kMaxDistance;
+  return (steps.unsqueeze(0) - steps.unsqueeze(1)).clamp(-most, most) + most;
 }
 
 Tensor SmoothInTime(const Tensor& x, double sigma) {

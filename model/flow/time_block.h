@@ -16,7 +16,6 @@ class TimeBlockImpl : public torch::nn::Module {
   torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& distance);
 
  private:
-  int heads_;
   double dropout_;
   torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
   torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr};
@@ -24,8 +23,16 @@ class TimeBlockImpl : public torch::nn::Module {
 };
 TORCH_MODULE(TimeBlock);
 
-/// [time, time] indices into the blocks' bias tables.
-torch::Tensor TimeDistances(int64_t time, torch::Device device);
+/// Attention over time with a learnt bias for each distance. qkv [batch, time, 3 width]: queries,
+/// keys, values; `bias` [distances, heads]; `distance` as TimeDistances has it → [batch, time,
+/// width].
+torch::Tensor AttendInTime(const torch::Tensor& qkv, const torch::Tensor& bias,
+                           const torch::Tensor& distance);
+
+/// Places farther apart than this count as so far.
+inline constexpr int64_t kMaxDistance = 96;
+/// [time, time] indices into bias tables of 2 `most` + 1 distances.
+torch::Tensor TimeDistances(int64_t time, torch::Device device, int64_t most = kMaxDistance);
 
 /// Low-pass of x [..., time, features] over time: a Gaussian of `sigma` frames, its weights' sum
 /// one near both ends too.

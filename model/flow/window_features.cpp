@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/flow/time_embedding.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
 
 constexpr int kTimeWidth = 16;         // of each embedded number of frames
-constexpr double kBasis = 10000;       // Eq. 9 of paper F
 constexpr double kSlowBeat = 27;       // frames: slower beats are halved, as dancers do
 constexpr double kUsualBeat = 15;      // frames
 constexpr double kLeastEnergy = 1e-3;  // metres a frame, below which logarithms are flat
@@ -21,16 +21,6 @@ constexpr int kBeatFeatures = 6, kPathFeatures = 5, kEnergyFeatures = 2 * kBodyP
 constexpr int kIsHistory = 0, kBeat = 1, kPath = kBeat + kBeatFeatures,
               kEnergy = kPath + kPathFeatures, kSince = kEnergy + kEnergyFeatures,
               kLeft = kSince + kTimeWidth, kWidth = kLeft + kTimeWidth;
-
-// Eq. 9 of paper F, as TimeEmbedding of model/flow/planner.h.
-template <typename Out>
-void Embed(double count, Out out) {
-  for (int i = 0; i < kTimeWidth / 2; ++i) {
-    const double phase = count * std::pow(kBasis, -2.0 * i / kTimeWidth);
-    out[2 * i] = static_cast<float>(std::sin(phase));
-    out[2 * i + 1] = static_cast<float>(std::cos(phase));
-  }
-}
 
 }  // namespace
 
@@ -68,6 +58,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   for (int t = 0; t < tau + frames; ++t) {
     const int i = t - tau;  // frame of the window
     auto at = features.frames.col(t);
+    const auto place = [&](int first) { return std::span(at.data() + first, kTimeWidth); };
     at[kIsHistory] = i < 0 ? 1 : 0;
     if (const auto beat = PhaseAt(request.beats, i)) {
       const double angle = 2 * std::numbers::pi * beat->phase;
@@ -76,8 +67,8 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
           static_cast<float>(std::cos(2 * angle)),
           static_cast<float>(2 * std::log(beat->period / kUsualBeat));
     }
-    Embed(i, at.segment<kTimeWidth>(kSince));
-    if (request.key) Embed(request.to_key - 1 - i, at.segment<kTimeWidth>(kLeft));
+    EmbedCount(i, place(kSince));
+    if (request.key) EmbedCount(request.to_key - 1 - i, place(kLeft));
     if (i < 0) continue;
     if (request.path.cols() > 0) {
       Eigen::Vector3d off = request.path.col(i) - last.root_position;
@@ -111,7 +102,8 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   for (int d = 0; d < dimensions; ++d) put(window.displacement()[d]);
   for (int d = 0; d < dimensions; ++d) put(window.keyed()[static_cast<size_t>(d)] ? 1 : 0);
   put(request.key ? 1 : 0);
-  if (request.key) Embed(8 * std::log2(request.to_key), features.whole.segment(next, kTimeWidth));
+  if (request.key)
+    EmbedCount(8 * std::log2(request.to_key), {features.whole.data() + next, kTimeWidth});
   next += kTimeWidth;
   if (request.style >= 0) features.whole[next + request.style] = 1;
   return features;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <span>
 
 #include "model/flow/continuous_flow_config.h"
 #include "model/flow/flow_window.h"

@@ -60,6 +60,11 @@ FlowMatching::FlowMatching(const ContinuousFlow& model)
       torch::from_blob(const_cast<float*>(mixing.data()), {mixing.cols(), mixing.rows()}).clone();
 }
 
+const std::vector<std::string>& FlowMatching::TermNames() {
+  static const std::vector<std::string> names = {kWhite, kWhere};
+  return names;
+}
+
 const FlowMatching::Spreads& FlowMatching::Of(int frames, int to_key) {
   const auto [place, is_new] = spreads_.try_emplace({frames, to_key});
   if (is_new) {

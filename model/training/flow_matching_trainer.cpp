@@ -21,7 +21,6 @@
 namespace choreo {
 namespace {
 
-constexpr int kLags = 121;
 constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48;
 constexpr int kValidationWindows = 24;
 // Samples lean and reach farther than bodies do; nearer to the mean they stand, and still live.
@@ -94,7 +93,7 @@ class FlowMatchingRun : public TrainingRun {
     Copy(1);
     average_->eval();
     adam_ = std::make_unique<Adam>(*model_, "");
-    NameLosses({"white_mse", "where_distance"});
+    NameLosses(FlowMatching::TermNames());
     Open();
   }
 
@@ -234,7 +233,7 @@ class FlowMatchingRun : public TrainingRun {
   // The prior first; white coordinates are of a model that has it.
   void Measure() {
     const int dimensions = 3 + 3 * train_.skeleton().joints();
-    const Eigen::MatrixXd covariance = train_.VelocityCovariance(kLags);
+    const Eigen::MatrixXd covariance = train_.VelocityCovariance(MotionPrior::kLags);
     model_->SetPrior(covariance, 0, Eigen::MatrixXd::Identity(dimensions, dimensions),
                      Eigen::VectorXd::Ones(dimensions));
     const int frames = std::min(60, train_.Longest(model_->config().history_frames));

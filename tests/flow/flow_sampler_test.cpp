@@ -1,4 +1,5 @@
 #include "model/flow/flow_sampler.h"
+#include "model/motion/way_round.h"
 
 #include <gtest/gtest.h>
 
