@@ -67,6 +67,8 @@ Tensor EmbedTime(const Tensor& t) {
   return torch::cat({phase.sin(), phase.cos()}, -1);
 }
 
+constexpr double kReach = 0.3;  // metres: the spread of joints about the body
+
 // While it lives, products of matrices are made in bfloat16 where `on`: training is twice as fast.
 class Bfloat16Products {
  public:
@@ -109,16 +111,17 @@ class TorchFlowNetwork : public FlowNetwork {
  public:
   explicit TorchFlowNetwork(ContinuousFlow model) : model_(std::move(model)) {}
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
-                           const Eigen::MatrixXf& mean, const WindowFeatures& features,
-                           float t) const override {
+                           const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
+                           const WindowFeatures& features, float t) const override {
     const c10::InferenceMode inference;
     auto& model = const_cast<ContinuousFlow&>(model_);
     const Tensor whole =
         torch::from_blob(const_cast<float*>(features.whole.data()), {1, features.whole.size()});
-    const Tensor f = model
-                         ->forward(TimeFirst(z), TimeFirst(poses), TimeFirst(mean),
-                                   TimeFirst(features.frames), whole, torch::full({1}, t))
-                         .contiguous();
+    const Tensor f =
+        model
+            ->forward(TimeFirst(z), TimeFirst(poses), TimeFirst(joints), TimeFirst(mean),
+                      TimeFirst(features.frames), whole, torch::full({1}, t))
+            .contiguous();
     return Eigen::Map<const Eigen::MatrixXf>(f.data_ptr<float>(), z.rows(), z.cols());
   }
 
@@ -126,7 +129,7 @@ class TorchFlowNetwork : public FlowNetwork {
   ContinuousFlow model_;
 };
 
-constexpr const char* kFormat = "choreo-continuous-flow-1";
+constexpr const char* kFormat = "choreo-continuous-flow-2";
 
 }  // namespace
 
@@ -136,10 +139,10 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   const Tensor walk = torch::zeros({dimensions, MotionPrior::kLags});
   walk.select(1, 0).fill_(1e-4);
   covariance_ = register_buffer("velocity_covariance", walk);
-  liveliness_ = register_buffer("liveliness", torch::zeros({1}));
+  powers_ = register_buffer("variance_powers", torch::zeros({4}));
   mixing_ = register_buffer("mixing", torch::eye(dimensions));
   spread_ = register_buffer("spread", torch::ones({dimensions}));
-  const int64_t features = kFramesAToken * (5 * dimensions + FrameFeatures());
+  const int64_t features = kFramesAToken * (6 * dimensions - 3 + FrameFeatures());
   embed_ = register_module("embed", torch::nn::Linear(features, width));
   condition_in_ = register_module(
       "condition_in", torch::nn::Linear(WholeFeatures(skeleton, config) + kTimeWidth, width));
@@ -157,14 +160,15 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   }
 }
 
-Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const Tensor& mean,
-                                   const Tensor& frames, const Tensor& whole, const Tensor& t) {
+Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const Tensor& joints,
+                                   const Tensor& mean, const Tensor& frames, const Tensor& whole,
+                                   const Tensor& t) {
   const int64_t batch = z.size(0), window = z.size(1), dimensions = z.size(2);
   const int64_t tau = poses.size(1) - window;
   const Tensor velocity = covariance_.select(1, 0).sqrt();
   const Tensor silent = torch::zeros({batch, tau, dimensions}, z.options());
   Tensor x = torch::cat({torch::cat({silent, z}, 1), poses / spread_, Steps(poses) / velocity,
-                         mean / spread_, Steps(mean) / velocity, frames},
+                         mean / spread_, Steps(mean) / velocity, frames, joints / kReach},
                         -1);
   // An odd frame out stands in front, where history is oldest.
   if (x.size(1) % kFramesAToken != 0) x = torch::cat({x.narrow(1, 0, 1), x}, 1);
@@ -188,7 +192,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   return f[0] + f[1] * z;
 }
 
-void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, double liveliness,
+void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
                                   const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread) {
   torch::NoGradGuard no_grad;
   const auto set = [](Tensor to, const Eigen::MatrixXd& from) {
@@ -196,13 +200,27 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, double live
     to.copy_(torch::from_blob(const_cast<double*>(rows.data()), to.sizes(), torch::kFloat64));
   };
   set(covariance_, covariance);
-  liveliness_.fill_(liveliness);
+  set(powers_,
+      Eigen::Vector4d(powers.surprise, powers.offset, powers.known_surprise, powers.level));
   set(mixing_, mixing);
   set(spread_, spread);
 }
 
 FlowModelParts ContinuousFlowImpl::Parts() const {
-  return {skeleton_, config_, MotionPrior(ToEigen(covariance_), liveliness_.item<double>()),
+  const Eigen::MatrixXd numbers = ToEigen(powers_);
+  VariancePowers powers{.surprise = numbers(0),
+                        .offset = numbers(1),
+                        .known_surprise = numbers(2),
+                        .level = numbers(3),
+                        .parts = std::vector<int>(3, static_cast<int>(BodyPart::kTrunk)),
+                        .medians = config_.median_factors};
+  const BodyPartWeights weights = WeighBodyParts(skeleton_);
+  for (int joint = 0; joint < skeleton_.joints(); ++joint) {
+    int part = 0;
+    weights.col(joint).maxCoeff(&part);
+    powers.parts.insert(powers.parts.end(), 3, part);
+  }
+  return {skeleton_, config_, MotionPrior(ToEigen(covariance_), std::move(powers)),
           ToEigen(mixing_)};
 }
 

@@ -23,16 +23,18 @@ class ContinuousFlowImpl : public torch::nn::Module {
   ContinuousFlowImpl(const ContinuousFlowConfig& config, const Skeleton& skeleton);
 
   /// Shapes as FlowNetwork::Evaluate has them, time before features: z [batch, w, dimensions],
-  /// poses and mean [batch, tau + w, dimensions], frames [batch, tau + w, FrameFeatures()], whole
-  /// [batch, WholeFeatures()], t [batch] → F [batch, w, dimensions].
+  /// poses and mean [batch, tau + w, dimensions], joints [batch, tau + w, 3 joints], frames [batch,
+  /// tau + w, FrameFeatures()], whole [batch, WholeFeatures()], t [batch] → F [batch, w,
+  /// dimensions].
   torch::Tensor forward(const torch::Tensor& z, const torch::Tensor& poses,
-                        const torch::Tensor& mean, const torch::Tensor& frames,
-                        const torch::Tensor& whole, const torch::Tensor& t);
+                        const torch::Tensor& joints, const torch::Tensor& mean,
+                        const torch::Tensor& frames, const torch::Tensor& whole,
+                        const torch::Tensor& t);
 
   /// `covariance` as MotionPrior has it; `mixing` as FlowModelParts; `spread` [dimensions]: of
   /// displacements over a window.
-  void SetPrior(const Eigen::MatrixXd& covariance, double liveliness, const Eigen::MatrixXd& mixing,
-                const Eigen::VectorXd& spread);
+  void SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
+                const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread);
   /// What sampling needs besides the network.
   FlowModelParts Parts() const;
 
@@ -42,7 +44,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
  private:
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
-  torch::Tensor covariance_, liveliness_, mixing_, spread_;
+  torch::Tensor covariance_, powers_, mixing_, spread_;
   torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
       condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;

@@ -6,6 +6,7 @@
 
 #include "model/core/random.h"
 #include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
 
 namespace choreo {
@@ -22,6 +23,16 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
     z.col(i) = Eigen::Map<const Eigen::VectorXf>(normal.data(), z.rows()).cast<double>();
   }
   return model.mixing.triangularView<Eigen::Lower>() * z;
+}
+
+// Joint positions of each pose, by column.
+void PlaceJoints(const Skeleton& skeleton, std::span<const Pose> poses,
+                 Eigen::Ref<Eigen::MatrixXf> joints) {
+  JointPlacement placement;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    ForwardKinematics(skeleton, poses[i], placement);
+    joints.col(static_cast<int>(i)) = placement.positions.reshaped().cast<float>();
+  }
 }
 
 }  // namespace
@@ -51,13 +62,17 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
   Eigen::MatrixXf mean(start.rows(), tau + frames), poses;
   mean << window.history().cast<float>(), window.mean().cast<float>();
   poses = mean;
+  Eigen::MatrixXf joints(3 * model.skeleton.joints(), tau + frames);
+  PlaceJoints(model.skeleton, request.history, joints.leftCols(tau));
   // F where the flow stands at `angle`: z = size (cos noise + sin motion), size = 1 / (cos + sin).
   const auto evaluate = [&](const Eigen::MatrixXd& w, double angle) {
     const double size = 1 / (std::cos(angle) + std::sin(angle));
     const Eigen::MatrixXd z = size * w;
-    poses.rightCols(frames) = (window.mean() + window.Colour(z)).cast<float>();
+    const Eigen::MatrixXd x = window.Colour(z);
+    poses.rightCols(frames) = (window.mean() + x).cast<float>();
+    PlaceJoints(model.skeleton, window.Decode(x), joints.rightCols(frames));
     return Eigen::MatrixXd(network
-                               .Evaluate(z.cast<float>(), poses, mean, features,
+                               .Evaluate(z.cast<float>(), poses, joints, mean, features,
                                          static_cast<float>(size * std::sin(angle)))
                                .cast<double>());
   };

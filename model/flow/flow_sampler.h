@@ -15,10 +15,11 @@ class FlowNetwork {
   virtual ~FlowNetwork() = default;
   /// F of one window at time `t` in [0, 1], [dimensions, w]. `z` [dimensions, w]: where the flow
   /// is, white; `poses` [dimensions, tau + w]: the same as displacements from the last history
-  /// pose, behind the history's; `mean`: the prior's mean in the same shape.
+  /// pose, behind the history's; `joints` [3 joints, tau + w]: where that puts the body, metres in
+  /// the canonical frame; `mean`: the prior's mean in the shape of `poses`.
   virtual Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
-                                   const Eigen::MatrixXf& mean, const WindowFeatures& features,
-                                   float t) const = 0;
+                                   const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
+                                   const WindowFeatures& features, float t) const = 0;
 };
 
 /// Everything that a window is sampled with besides the request.

@@ -16,6 +16,19 @@ constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
 
 }  // namespace
 
+std::array<std::optional<double>, kBodyParts> LevelsOf(
+    const WindowRequest& request, const std::array<double, kBodyParts>& medians) {
+  std::array<std::optional<double>, kBodyParts> levels;
+  for (size_t part = 0; part < levels.size() && request.energy.cols() > 0; ++part) {
+    if (!request.asked[part]) continue;
+    double sum = 0;
+    for (const double factor : request.energy.row(static_cast<Eigen::Index>(part)))
+      sum += EnergyLevel(factor, medians[part]);
+    levels[part] = sum / static_cast<double>(request.energy.cols());
+  }
+  return levels;
+}
+
 FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   const Pose& last = request.history.back();
   const int joints = static_cast<int>(last.rotations.cols());
@@ -75,7 +88,7 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
         (bridge.past * velocity.row(d).transpose() + bridge.key * displacement_[d]).transpose();
   }
   surprise_ = squares / known;
-  scale_ = prior.Scale(surprise_);
+  scales_ = prior.Scales(surprise_, LevelsOf(request, prior.powers().medians));
   base_.resize(static_cast<size_t>(request.frames), last);
   for (int i = 0; i < request.frames; ++i) {
     Pose& pose = base_[static_cast<size_t>(i)];
@@ -121,11 +134,11 @@ Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
   for (int d = 0; d < z.rows(); ++d) {
     x.row(d) = (At(d).spread.triangularView<Eigen::Lower>() * z.row(d).transpose()).transpose();
   }
-  return scale_ * x;
+  return scales_.asDiagonal() * x;
 }
 
 Eigen::VectorXd FlowWindow::Whiten(int dimension, const Eigen::VectorXd& x) const {
-  return At(dimension).spread.triangularView<Eigen::Lower>().solve(x) / scale_;
+  return At(dimension).spread.triangularView<Eigen::Lower>().solve(x) / scales_[dimension];
 }
 
 }  // namespace choreo

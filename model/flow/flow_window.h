@@ -35,6 +35,10 @@ struct WindowRequest {
   int style = -1;                                                       ///< index of a style, or -1
 };
 
+/// Mean EnergyLevel of each body part that is asked for.
+std::array<std::optional<double>, kBodyParts> LevelsOf(
+    const WindowRequest& request, const std::array<double, kBodyParts>& medians);
+
 /// A window in the coordinates of the flow: residuals x [dimensions, w] from the motion prior's
 /// mean, which the prior's spread makes white, z. Dimensions: root position (metres), then a
 /// rotation vector a joint, local to the mean's rotation (radians). A key that counts is the mean's
@@ -56,8 +60,9 @@ class FlowWindow {
 
   /// How much what is known of the window moves, of what the prior expects: mean square.
   double surprise() const { return surprise_; }
-  /// MotionPrior::Scale of that: white coordinates are in its units.
-  double scale() const { return scale_; }
+  /// MotionPrior::Scales of that and of the energy asked for, [dimensions]: white coordinates are
+  /// in their units.
+  const Eigen::VectorXd& scales() const { return scales_; }
 
   /// Poses of that many frames → x; none where a joint strays from the mean farther than the
   /// coordinates reach, or ends a turn away from the key.
@@ -77,7 +82,8 @@ class FlowWindow {
   std::vector<bool> keyed_;
   Eigen::MatrixXd mean_, history_;
   Eigen::VectorXd displacement_;
-  double surprise_ = 1, scale_ = 1;
+  double surprise_ = 1;
+  Eigen::VectorXd scales_;
   std::vector<Pose> base_;  // the mean, as poses
 };
 

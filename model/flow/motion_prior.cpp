@@ -15,8 +15,9 @@ namespace {
 // what keeps covariances invertible.
 constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
 constexpr double kStillness = 2e-4;  // a frame; slower dimensions don't move
-constexpr double kLeastScale = 0.5;
-constexpr size_t kKept = 96;  // bridges; one of 96 frames takes 5 MB
+constexpr double kLeastScale = 0.5, kLeastAsked = 0.25;
+constexpr double kLeastEnergy = 1e-3;  // metres a frame
+constexpr size_t kKept = 96;           // bridges; one of 96 frames takes 5 MB
 
 }  // namespace
 
@@ -28,9 +29,9 @@ struct MotionPrior::Cache {
   std::list<Key> order;  // oldest first
 };
 
-MotionPrior::MotionPrior(Eigen::MatrixXd covariance, double liveliness)
+MotionPrior::MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers)
     : covariance_(std::move(covariance)),
-      liveliness_(liveliness),
+      powers_(std::move(powers)),
       cache_(std::make_shared<Cache>()) {
   if (covariance_.cols() < 1 || !covariance_.allFinite() || covariance_.col(0).minCoeff() <= 0) {
     throw InvalidArgument("velocity_covariance", "is no covariance of a process in time");
@@ -43,12 +44,30 @@ MotionPrior::MotionPrior(Eigen::MatrixXd covariance, double liveliness)
   }
 }
 
+double EnergyLevel(double factor, double median) {
+  return std::log((factor + kLeastEnergy) / (median + kLeastEnergy));
+}
+
 bool MotionPrior::Moves(int dimension) const {
   return covariance_(dimension, 0) > kStillness * kStillness;
 }
 
-double MotionPrior::Scale(double surprise) const {
-  return std::clamp(std::pow(surprise, 0.5 * liveliness_), kLeastScale, 1 / kLeastScale);
+Eigen::VectorXd MotionPrior::Scales(
+    double surprise, const std::array<std::optional<double>, kBodyParts>& levels) const {
+  const VariancePowers& by = powers_;
+  const double log_surprise = std::log(surprise);
+  const auto scale = [](double log_variance, double least) {
+    return std::clamp(std::exp(0.5 * log_variance), least, 1 / least);
+  };
+  Eigen::VectorXd scales =
+      Eigen::VectorXd::Constant(dimensions(), scale(by.surprise * log_surprise, kLeastScale));
+  for (size_t d = 0; d < by.parts.size(); ++d) {
+    if (by.parts[d] < 0) continue;
+    if (const auto& level = levels[static_cast<size_t>(by.parts[d])])
+      scales[static_cast<Eigen::Index>(d)] =
+          scale(by.offset + by.known_surprise * log_surprise + by.level * *level, kLeastAsked);
+  }
+  return scales;
 }
 
 MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) const {

@@ -1,14 +1,33 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <list>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "model/motion/velocity_factors.h"
+
 namespace choreo {
+
+/// How far dancers stray from the prior's mean, by what is known of them: powers that training
+/// measured of the variance.
+struct VariancePowers {
+  double surprise = 0;  ///< of how much history and key move, of what the covariance expects
+  /// Of a body part whose energy is known: times e to `offset`, the surprise to a power, and e to
+  /// `level` times its EnergyLevel.
+  double offset = 0, known_surprise = 0, level = 0;
+  std::vector<int> parts = {};  ///< by dimension: the body part that it belongs to, or -1
+  std::array<double, kBodyParts> medians = {};  ///< of their velocity factors, metres a frame
+};
+
+/// How much livelier a body part is than its median: the logarithm of its velocity factor's share,
+/// flat below a millimetre a frame.
+double EnergyLevel(double factor, double median);
 
 /// How poses move when nothing but their past and a key is known: the velocity of every degree of
 /// freedom is a stationary Gaussian process. Its mean through history and key is the line that the
@@ -36,15 +55,17 @@ class MotionPrior {
   };
 
   /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later.
-  /// `liveliness`: see Scale. Throws Error(kInvalidArgument) where it is no covariance.
-  explicit MotionPrior(Eigen::MatrixXd covariance, double liveliness = 0);
+  /// Throws Error(kInvalidArgument) where it is no covariance.
+  explicit MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers = {});
 
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
-  /// Who is known to be lively goes on so: the factor of all spreads where what is known of a
-  /// window has `surprise` times the squares that the covariance expects (1 on average). A power of
-  /// that, which training measured.
-  double Scale(double surprise) const;
+  const VariancePowers& powers() const { return powers_; }
+  /// Who is known to be lively goes on so: by dimension, the factor of all spreads. What is known
+  /// of the window has `surprise` times the squares that the covariance expects (1 on average);
+  /// `levels`: EnergyLevel of each body part whose energy is known.
+  Eigen::VectorXd Scales(double surprise,
+                         const std::array<std::optional<double>, kBodyParts>& levels) const;
   /// Standard deviation of a velocity, [dimensions].
   Eigen::VectorXd VelocitySpread() const { return covariance_.col(0).cwiseSqrt(); }
 
@@ -59,7 +80,7 @@ class MotionPrior {
   Bridge Make(int dimension, int frames, int to_key) const;
 
   Eigen::MatrixXd covariance_;
-  double liveliness_;
+  VariancePowers powers_;
   // By dimension, [lags]: sums of the covariance over lags from 1 on.
   std::vector<Eigen::VectorXd> sums_;
   struct Cache;

@@ -10,11 +10,10 @@
 namespace choreo {
 namespace {
 
-constexpr int kTimeWidth = 16;         // of each embedded number of frames
-constexpr double kSlowBeat = 27;       // frames: slower beats are halved, as dancers do
-constexpr double kUsualBeat = 15;      // frames
-constexpr double kLeastEnergy = 1e-3;  // metres a frame, below which logarithms are flat
-constexpr double kPathScale = 0.3;     // metres
+constexpr int kTimeWidth = 16;      // of each embedded number of frames
+constexpr double kSlowBeat = 27;    // frames: slower beats are halved, as dancers do
+constexpr double kUsualBeat = 15;   // frames
+constexpr double kPathScale = 0.3;  // metres
 constexpr int kBeatFeatures = 6, kPathFeatures = 5, kEnergyFeatures = 2 * kBodyParts;
 
 // Places in a frame's features.
@@ -81,8 +80,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
     for (int part = 0; part < kBodyParts && request.energy.cols() > 0; ++part) {
       if (!request.asked[static_cast<size_t>(part)]) continue;
       const double median = config.median_factors[static_cast<size_t>(part)];
-      at[kEnergy + part] = static_cast<float>(
-          std::log((request.energy(part, i) + kLeastEnergy) / (median + kLeastEnergy)));
+      at[kEnergy + part] = static_cast<float>(EnergyLevel(request.energy(part, i), median));
       at[kEnergy + kBodyParts + part] = 1;
     }
   }

@@ -72,6 +72,17 @@ Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d&
   return NearestBranch(ExpFromQuaternion(QuaternionFromExp(a) * QuaternionFromExp(delta)), a);
 }
 
+Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w) {
+  const double angle = w.norm(), square = angle * angle;
+  const Eigen::Matrix3d k = CrossMatrix(w);
+  // Series below the angle where the closed forms cancel.
+  const bool small = angle < 1e-2;
+  const double first = small ? 0.5 - square / 24 : (1 - std::cos(angle)) / square;
+  const double second =
+      small ? 1.0 / 6 - square / 120 : (angle - std::sin(angle)) / (square * angle);
+  return Eigen::Matrix3d::Identity() - first * k + second * k * k;
+}
+
 Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r) {
   Eigen::Matrix<double, 6, 1> d;
   d << r.col(0), r.col(1);

@@ -28,6 +28,9 @@ Eigen::Vector3d Slerp(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double
 /// log(exp(a)^T exp(b)): the rotation that leads from a to b, in a's local frame; angle in [0, pi].
 Eigen::Vector3d RotationDifference(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
+/// How exp(w) turns with w, seen from the turned body: exp(w + d) = exp(w) exp(J d) for small d.
+Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
+
 /// log(exp(a) exp(delta)), on the branch nearest to a.
 Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d& delta);
 

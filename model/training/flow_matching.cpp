@@ -16,7 +16,10 @@ namespace {
 constexpr double kAtNoise = 0.2;     // share of samples at t = 0, half of them without noise
 constexpr double kNear = 0.01;       // share of the variance below which distances count as squares
 constexpr double kShrinkage = 0.15;  // of correlations over dimensions towards none
-constexpr const char *kWhite = "white_mse", *kWhere = "where_distance";
+constexpr size_t kLeastWindows = 16;  // that tell how energy counts
+constexpr double kFootprint = 0.01;   // metres that feet are wrong by, below which it hardly counts
+constexpr double kStep = 0.2;         // metres that count as much as all white coordinates
+constexpr const char *kWhite = "white_mse", *kWhere = "where_distance", *kFeet = "feet_distance";
 
 Tensor Stack(const std::vector<MotionPrior::Bridge>& bridges) {
   std::vector<Tensor> spreads;
@@ -27,6 +30,19 @@ Tensor Stack(const std::vector<MotionPrior::Bridge>& bridges) {
             .clone());
   }
   return torch::stack(spreads);
+}
+
+// [joints, joints]: 1 where the column's joint carries the row's, or is it.
+Tensor Carriers(const Skeleton& skeleton) {
+  const int joints = skeleton.joints();
+  const Tensor carriers = torch::zeros({joints, joints});
+  for (int j = 0; j < joints; ++j) {
+    for (int above = j;; above = skeleton.parents[static_cast<size_t>(above)]) {
+      carriers[j][above] = 1;
+      if (above == 0) break;
+    }
+  }
+  return carriers;
 }
 
 // Square metres that the joints move on average when the joint turns by a radian about any axis.
@@ -54,14 +70,22 @@ Tensor Colour(const Tensor& spreads, const Tensor& z) {
 }  // namespace
 
 FlowMatching::FlowMatching(const ContinuousFlow& model)
-    : parts_(model->Parts()), reach_(ReachOf(parts_.skeleton)) {
+    : parts_(model->Parts()),
+      kinematics_(parts_.skeleton),
+      carriers_(Carriers(parts_.skeleton)),
+      reach_(ReachOf(parts_.skeleton)) {
+  const std::vector<int>& parents = parts_.skeleton.parents;
+  parents_ = torch::tensor(std::vector<int64_t>(parents.begin(), parents.end()), torch::kLong)
+                 .clamp_min(0);
+  const auto& feet = parts_.skeleton.feet;
+  feet_ = torch::tensor(std::vector<int64_t>(feet.begin(), feet.end()), torch::kLong);
   const Eigen::MatrixXf mixing = parts_.mixing.cast<float>();  // column-major: transposed below
   mixing_ =
       torch::from_blob(const_cast<float*>(mixing.data()), {mixing.cols(), mixing.rows()}).clone();
 }
 
 const std::vector<std::string>& FlowMatching::TermNames() {
-  static const std::vector<std::string> names = {kWhite, kWhere};
+  static const std::vector<std::string> names = {kWhite, kWhere, kFeet};
   return names;
 }
 
@@ -90,24 +114,107 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor a = t.square() + (1 - t).square();
   const Tensor z = (1 - t) * noise + t * batch.z;
   const Tensor wanted = ((1 - t) * batch.z - t * noise) / a.sqrt();
+  const Tensor scales = batch.scales.unsqueeze(1);
+  const Tensor x = scales * colour(z);
   const Tensor poses =
-      torch::cat({batch.mean.narrow(1, 0, tau),
-                  batch.mean.narrow(1, tau, window) + batch.scale.view({-1, 1, 1}) * colour(z)},
-                 1);
+      torch::cat({batch.mean.narrow(1, 0, tau), batch.mean.narrow(1, tau, window) + x}, 1);
+  const Tensor joints = torch::cat({batch.history_joints, Place(batch, x)}, 1);
   const Tensor miss =
-      model->forward(z, poses, batch.mean, batch.features, batch.whole, t.flatten()) - wanted;
+      model->forward(z, poses, joints, batch.mean, batch.features, batch.whole, t.flatten()) -
+      wanted;
   // Of a window's displacements, by dimension: how far real ones are spread.
   const Tensor variance =
       torch::where(batch.keyed > 0, spreads.to_key.square().sum(torch::IntArrayRef{1, 2}),
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
   // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
   // say.
-  const Tensor where =
-      ((colour(miss).square() * reach_).sum(torch::IntArrayRef{1, 2}) / (variance * reach_).sum(1) +
-       kNear)
+  const Tensor moved = Move(batch, scales * colour(miss));
+  const auto joint_count = static_cast<double>(moved.size(2));
+  const Tensor where = (moved.square().sum(torch::IntArrayRef{1, 2, 3}) /
+                            (joint_count * (variance * batch.scales.square() * reach_).sum(1)) +
+                        kNear)
+                           .sqrt();
+  const Tensor share = ((1 - t) / a.sqrt()).flatten();
+  const Tensor feet =
+      (share.view({-1, 1, 1}).square() * moved.index_select(2, feet_).square().sum(-1) +
+       kFootprint * kFootprint)
           .sqrt();
   return {{kWhite, 1.0, miss.square().mean()},
-          {kWhere, 1.0, (where * ((1 - t) / a.sqrt()).flatten()).mean()}};
+          {kWhere, 1.0, (where * share).mean()},
+          {kFeet, 1.0, feet.mean() / kStep}};
+}
+
+Tensor FlowMatching::Place(const WindowBatch& batch, const Tensor& x) const {
+  const torch::NoGradGuard no_grad;
+  const int64_t count = x.size(0), window = x.size(1), joints = batch.bones.size(2);
+  const Tensor root = batch.base_root + x.narrow(2, 0, 3);
+  const Tensor turns = ExpMapBatch(x.narrow(2, 3, 3 * joints).reshape({count, window, joints, 3}));
+  return kinematics_
+      .Positions(root.flatten(0, 1), torch::matmul(batch.base_turns, turns).flatten(0, 1))
+      .reshape({count, window, 3 * joints});
+}
+
+Tensor FlowMatching::Move(const WindowBatch& batch, const Tensor& dx) const {
+  const int64_t joints = batch.bones.size(2);
+  const Tensor turns =
+      torch::matmul(batch.axes,
+                    dx.narrow(2, 3, 3 * joints).reshape(batch.bones.sizes()).unsqueeze(-1))
+          .squeeze(-1);
+  const Tensor carried = torch::matmul(carriers_, turns).index_select(2, parents_);
+  return torch::matmul(carriers_, torch::cross(carried, batch.bones, -1)) +
+         dx.narrow(2, 0, 3).unsqueeze(2);
+}
+
+VariancePowers MeasureVariancePowers(const MotionPrior& prior,
+                                     const std::vector<WindowBatch>& batches) {
+  VariancePowers measured = prior.powers();
+  std::vector<Eigen::Vector2d> whole;  // logarithms of surprise and of the mean square
+  std::vector<Eigen::Vector4d> parts;  // 1, log surprise, level; log mean square
+  for (const WindowBatch& batch : batches) {
+    const Tensor squares = batch.z.square().mean(1).to(torch::kFloat64).contiguous();
+    for (size_t i = 0; i < batch.surprise.size(); ++i) {
+      const Eigen::Map<const Eigen::VectorXd> square(
+          squares.data_ptr<double>() + static_cast<ptrdiff_t>(i) * squares.size(1),
+          squares.size(1));
+      const double surprise = std::log(batch.surprise[i]);
+      whole.push_back({surprise, std::log(square.mean())});
+      const auto levels = LevelsOf(batch.requests[i], measured.medians);
+      for (int part = 0; part < kBodyParts; ++part) {
+        double sum = 0;
+        int moving = 0;
+        for (int d = 0; d < square.size(); ++d) {
+          if (measured.parts[static_cast<size_t>(d)] != part || !prior.Moves(d)) continue;
+          sum += square[d];
+          ++moving;
+        }
+        if (const auto& level = levels[static_cast<size_t>(part)]; level && moving > 0)
+          parts.push_back({1, surprise, *level, std::log(sum / moving)});
+      }
+    }
+  }
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& one : whole) mean += one / static_cast<double>(whole.size());
+  double both = 0, square = 0;
+  for (const auto& one : whole) {
+    both += (one[0] - mean[0]) * (one[1] - mean[1]);
+    square += (one[0] - mean[0]) * (one[0] - mean[0]);
+  }
+  measured.surprise = both / square;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const auto& one : parts) {
+    normal += one.head<3>() * one.head<3>().transpose();
+    right += one[3] * one.head<3>();
+  }
+  if (parts.size() < kLeastWindows) return measured;
+  const Eigen::Vector3d powers = normal.ldlt().solve(right);
+  measured.known_surprise = powers[1];
+  measured.level = powers[2];
+  // So that squares, not their logarithms, are 1 on average.
+  double ratio = 0;
+  for (const auto& one : parts) ratio += std::exp(one[3] - powers[1] * one[1] - powers[2] * one[2]);
+  measured.offset = std::log(ratio / static_cast<double>(parts.size()));
+  return measured;
 }
 
 WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
@@ -115,7 +222,6 @@ WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(dimensions, dimensions);
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(dimensions);
   double poses = 0;
-  std::vector<Tensor> known, open;  // logarithms of squares, of each window
   for (const WindowBatch& batch : batches) {
     const Tensor z = batch.z.flatten(0, 1).to(torch::kFloat64);
     const Tensor product = torch::matmul(z.t(), z).contiguous();
@@ -125,16 +231,12 @@ WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
         batch.mean.square().sum(torch::IntArrayRef{0, 1}).to(torch::kFloat64).contiguous();
     squares += Eigen::Map<const Eigen::VectorXd>(square.data_ptr<double>(), dimensions);
     poses += static_cast<double>(batch.mean.size(0) * batch.mean.size(1));
-    known.push_back(batch.surprise.log());
-    open.push_back(batch.z.square().mean(torch::IntArrayRef{1, 2}).log());
   }
   const Eigen::VectorXd scale = products.diagonal().cwiseMax(1e-9).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd correlation = scale.asDiagonal() * products * scale.asDiagonal();
   correlation *= 1 - kShrinkage;
   correlation.diagonal().setOnes();
-  const Tensor x = torch::cat(known) - torch::cat(known).mean(), y = torch::cat(open);
-  return {((x * (y - y.mean())).sum() / x.square().sum()).item<double>(),
-          Eigen::MatrixXd(correlation.llt().matrixL()),
+  return {Eigen::MatrixXd(correlation.llt().matrixL()),
           (squares / poses).cwiseSqrt().cwiseMax(1e-3)};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/flow/continuous_flow.h"
+#include "model/flow/torch_kinematics.h"
 #include "model/training/losses.h"
 #include "model/training/window_clips.h"
 
@@ -23,9 +24,9 @@ class FlowMatching {
 
   const FlowModelParts& parts() const { return parts_; }
 
-  /// Mean squared error of F in white coordinates, which teaches how dancers move; and, a window at
-  /// a time, the length of the displacements that it is wrong by, each weighed by how far it moves
-  /// the body's joints: where they are. Times and noise from torch's generator.
+  /// Mean squared error of F in white coordinates, which teaches how dancers move; a window at a
+  /// time, how far the joints of the motion that F ends in are from where they should be; and how
+  /// far its feet are, frame by frame. Times and noise from torch's generator.
   LossTerms Losses(ContinuousFlow& model, const WindowBatch& batch);
 
  private:
@@ -33,18 +34,28 @@ class FlowMatching {
     torch::Tensor to_key, free;  // [dimensions, w, w] Cholesky factors
   };
   const Spreads& Of(int frames, int to_key);
+  /// Joint positions [batch, w, 3 joints] of coordinates x. No gradient.
+  torch::Tensor Place(const WindowBatch& batch, const torch::Tensor& x) const;
+  /// How real motion's joints move with small changes of its coordinates,
+  /// [batch, w, dimensions] → [batch, w, joints, 3] metres.
+  torch::Tensor Move(const WindowBatch& batch, const torch::Tensor& dx) const;
 
   FlowModelParts parts_;
-  torch::Tensor mixing_;  // transposed
-  torch::Tensor reach_;   // [dimensions] square metres that a square unit moves joints, on average
+  TorchKinematics kinematics_;
+  torch::Tensor mixing_;    // transposed
+  torch::Tensor carriers_;  // [joints, joints]: the column's joint carries the row's, or is it
+  torch::Tensor parents_, feet_;
+  torch::Tensor reach_;  // [dimensions] square metres that a square unit moves joints, on average
   std::map<std::pair<int, int>, Spreads> spreads_;
 };
 
-/// Of real windows: how the variance of the white coordinates goes with surprise() (an exponent:
-/// MotionPrior::Scale); their correlation over dimensions, its Cholesky factor; and the spread of
-/// displacements [dimensions].
+/// How far real windows stray from the mean of `prior`, whose powers are all zero.
+VariancePowers MeasureVariancePowers(const MotionPrior& prior,
+                                     const std::vector<WindowBatch>& batches);
+
+/// Of real windows: the correlation of white coordinates over dimensions, its Cholesky factor; and
+/// the spread of displacements [dimensions].
 struct WindowStatistics {
-  double liveliness;
   Eigen::MatrixXd mixing;
   Eigen::VectorXd spread;
 };

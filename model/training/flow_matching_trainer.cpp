@@ -25,8 +25,9 @@ constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48;
 constexpr int kValidationWindows = 24;
 // Samples lean and reach farther than bodies do; nearer to the mean they stand, and still live.
 constexpr double kServedTemperature = 0.85;
-constexpr double kAverage = 0.999;                                 // of the weights, a step
-constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.4;  // shares of steps
+constexpr double kAverage = 0.999;                                  // of the weights, a step
+constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
+constexpr double kEnergy = 0.6;  // share of windows whose energy is told
 // Frames of training windows: few, so that what belongs to a length is made once.
 constexpr int kLengths[] = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
 
@@ -75,9 +76,7 @@ class FlowMatchingRun : public TrainingRun {
     config.styles = train_.styles();
     config.median_factors = train_.MedianFactors();
     model_ = ContinuousFlow(config, train_.skeleton());
-    if (options.planner.empty()) {
-      Measure();
-    } else {
+    if (!options.planner.empty()) {
       const auto base =
           ParseContinuousFlow(ReadSafetensors(options.planner), options.planner.string());
       config.styles = base.model->config().styles;
@@ -88,6 +87,7 @@ class FlowMatchingRun : public TrainingRun {
       ImportTensors(weights, "", model_.get());
       base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
     }
+    Measure();
     matching_ = std::make_unique<FlowMatching>(model_);
     average_ = ContinuousFlow(config, train_.skeleton());
     Copy(1);
@@ -109,10 +109,11 @@ class FlowMatchingRun : public TrainingRun {
                                      .tempo = options_.tempo,
                                      .partial_key = 0.12,
                                      .beats = 0.8,
-                                     .energy = 0.4,
+                                     .energy = kEnergy,
                                      .path = 0.2,
                                      .style = 0.6,
-                                     .hold_history = 0.05};
+                                     .hold_history = 0.05,
+                                     .astray = 0.2};
     if (random.Uniform() < kNoLabels)
       variation.beats = variation.energy = variation.path = variation.style = 0;
     int window = frames, to_key = frames;
@@ -230,25 +231,31 @@ class FlowMatchingRun : public TrainingRun {
     return SaveContinuousFlow(options_.run / "checkpoint.safetensors", average_, weights, card);
   }
 
-  // The prior first; white coordinates are of a model that has it.
+  // The prior first; white coordinates are of a model that has it, their mixing of one whose
+  // powers have scaled them.
   void Measure() {
     const int dimensions = 3 + 3 * train_.skeleton().joints();
     const Eigen::MatrixXd covariance = train_.VelocityCovariance(MotionPrior::kLags);
-    model_->SetPrior(covariance, 0, Eigen::MatrixXd::Identity(dimensions, dimensions),
+    model_->SetPrior(covariance, {}, Eigen::MatrixXd::Identity(dimensions, dimensions),
                      Eigen::VectorXd::Ones(dimensions));
+    const VariancePowers powers =
+        MeasureVariancePowers(model_->Parts().prior, StatisticsBatches(1));
+    model_->SetPrior(covariance, powers, Eigen::MatrixXd::Identity(dimensions, dimensions),
+                     Eigen::VectorXd::Ones(dimensions));
+    const WindowStatistics measured = MeasureWindows(StatisticsBatches(kEnergy));
+    model_->SetPrior(covariance, powers, measured.mixing, measured.spread);
+  }
+
+  std::vector<WindowBatch> StatisticsBatches(double energy) const {
     const int frames = std::min(60, train_.Longest(model_->config().history_frames));
-    // The mixing is of coordinates that liveliness has scaled already.
-    for (int round = 0; round < 2; ++round) {
-      std::vector<WindowBatch> batches;
-      for (int i = 0; i < kStatisticsBatches; ++i) {
-        Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
-        batches.push_back(train_.Draw(model_->Parts(), kStatisticsWindows, frames, frames,
-                                      {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0}, &random));
-      }
-      const WindowStatistics measured = MeasureWindows(batches);
-      if (round == 0) liveliness_ = measured.liveliness;
-      model_->SetPrior(covariance, liveliness_, measured.mixing, measured.spread);
+    std::vector<WindowBatch> batches;
+    for (int i = 0; i < kStatisticsBatches; ++i) {
+      Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
+      batches.push_back(train_.Draw(
+          model_->Parts(), kStatisticsWindows, frames, frames,
+          {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0, .energy = energy}, &random));
     }
+    return batches;
   }
 
   TrainOptions options_;
@@ -256,7 +263,6 @@ class FlowMatchingRun : public TrainingRun {
   nlohmann::json base_;
   std::vector<PreparedClip> prepared_;
   WindowClips train_, validation_;
-  double liveliness_ = 0;
   NamedFigures last_figures_;
   ContinuousFlow model_{nullptr}, average_{nullptr};
   std::unique_ptr<FlowMatching> matching_;

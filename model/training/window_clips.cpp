@@ -25,6 +25,7 @@ constexpr double kCovarianceSigma = 30;  // frames, of the taper that keeps cova
 constexpr double kFastBeat = 11, kSlowBeat = 24;  // frames, of beats that are read into a dance
 constexpr double kUneven = 0.3;                   // that such beats may be apart from even ones
 constexpr int kBeatTries = 12;
+constexpr double kFarAstray = 3;      // times a velocity's spread
 constexpr double kLeastSpeed = 1e-4;  // radians a frame
 
 const std::map<std::string, std::string>& StyleOfWord() {
@@ -92,6 +93,79 @@ torch::Tensor Columns(const Matrix& matrix) {  // [rows, columns] → [columns, 
   return torch::from_blob(const_cast<float*>(floats.data()), {floats.cols(), floats.rows()})
       .clone();
 }
+
+// Moves the first `tau` poses to where no dancer stands, all alike, and leads the others back to
+// where they are, within a second or so and before the last. `spread`: of velocities.
+void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vector<Pose>* poses) {
+  const int64_t most = static_cast<int64_t>(poses->size()) - tau;
+  const auto back = static_cast<double>(std::min(most, random->Integer(12, 40)));
+  const double far = random->Uniform(0, kFarAstray);
+  Eigen::VectorXd offset(spread.size());
+  for (Eigen::Index d = 0; d < offset.size(); ++d) offset[d] = far * spread[d] * random->Normal();
+  offset[0] = offset[2] = 0;  // any place on the floor is as good
+  for (size_t i = 0; i < poses->size(); ++i) {
+    const double way = std::clamp((static_cast<double>(i) - tau + 1) / back, 0.0, 1.0);
+    const double left = 1 - way * way * (3 - 2 * way);
+    Pose& pose = (*poses)[i];
+    pose.root_position += left * offset.head<3>();
+    for (Eigen::Index j = 0; j < pose.rotations.cols(); ++j)
+      pose.rotations.col(j) =
+          RotationCompose(pose.rotations.col(j), left * offset.segment<3>(3 + 3 * j));
+  }
+}
+
+Eigen::MatrixXd PlacesOf(const Skeleton& skeleton, std::span<const Pose> poses) {
+  Eigen::MatrixXd places(3 * skeleton.joints(), static_cast<int>(poses.size()));
+  for (size_t i = 0; i < poses.size(); ++i)
+    places.col(static_cast<int>(i)) = JointPositions(skeleton, poses[i]).reshaped();
+  return places;
+}
+
+Eigen::MatrixXd RootsOf(std::span<const Pose> poses) {
+  Eigen::MatrixXd roots(3, static_cast<int>(poses.size()));
+  for (size_t i = 0; i < poses.size(); ++i) roots.col(static_cast<int>(i)) = poses[i].root_position;
+  return roots;
+}
+
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  // as torch has matrices
+
+// Local rotations, [9 joints, frames].
+Eigen::MatrixXd TurnsOf(std::span<const Pose> poses) {
+  const Eigen::Index joints = poses.front().rotations.cols();
+  Eigen::MatrixXd turns(9 * joints, static_cast<int>(poses.size()));
+  for (size_t i = 0; i < poses.size(); ++i) {
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      const RowMajor3d turn = ExpMap(poses[i].rotations.col(j));
+      turns.col(static_cast<int>(i)).segment<9>(9 * j) = turn.reshaped<Eigen::RowMajor>();
+    }
+  }
+  return turns;
+}
+
+// How the joints of real motion move with the flow's coordinates, which are rotation vectors `x`
+// behind those of the mean: as WindowBatch has axes and bones.
+struct Lever {
+  Eigen::MatrixXd axes, bones;
+
+  Lever(const Skeleton& skeleton, std::span<const Pose> truth, const Eigen::MatrixXd& x) {
+    const int joints = skeleton.joints(), frames = static_cast<int>(truth.size());
+    axes.resize(9 * joints, frames);
+    bones = Eigen::MatrixXd::Zero(3 * joints, frames);
+    JointPlacement placement;
+    for (int i = 0; i < frames; ++i) {
+      ForwardKinematics(skeleton, truth[static_cast<size_t>(i)], placement);
+      for (int j = 0; j < joints; ++j) {
+        const RowMajor3d axis = placement.rotations[static_cast<size_t>(j)] *
+                                RightJacobian(x.col(i).segment<3>(3 + 3 * j));
+        axes.col(i).segment<9>(9 * j) = axis.reshaped<Eigen::RowMajor>();
+        const int parent = skeleton.parents[static_cast<size_t>(j)];
+        if (j > 0)
+          bones.col(i).segment<3>(3 * j) =
+              placement.positions.col(j) - placement.positions.col(parent);
+      }
+    }
+  }
+};
 
 }  // namespace
 
@@ -199,8 +273,8 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
         "frames", "no clip has the " + std::to_string(needed) + " frames that a window needs");
   }
   WindowBatch result{.frames = frames, .to_key = to_key};
-  std::vector<double> surprise, scale;
-  std::vector<torch::Tensor> z, keyed, mean, features, whole;
+  std::vector<torch::Tensor> z, scales, keyed, mean, features, whole, history_joints, base_root,
+      base_turns, axes, bones;
   while (static_cast<int>(z.size()) < batch) {
     const int64_t pick = random->Integer(0, windows);
     const size_t clip =
@@ -218,6 +292,8 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     if (mirrored) {
       for (Pose& pose : poses) pose = Mirror(pairs, pose);
     }
+    if (random->Uniform() < variation.astray)
+      LeadAstray(model.prior.VelocitySpread(), tau, random, &poses);
     Eigen::Vector3d turning = Eigen::Vector3d::Zero();
     for (size_t i = static_cast<size_t>(tau); i < poses.size(); ++i)
       turning += RotationDifference(poses[i - 1].rotations.col(0), poses[i].rotations.col(0));
@@ -280,21 +356,32 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
       fixed[d] = window.keyed()[static_cast<size_t>(d)] ? 1 : 0;
     z.push_back(Columns(white));
     mean.push_back(Columns(lines));
-    surprise.push_back(window.surprise());
-    scale.push_back(window.scale());
+    result.surprise.push_back(window.surprise());
+    scales.push_back(Columns(window.scales()).squeeze(0));
     keyed.push_back(Columns(fixed).squeeze(0));
     features.push_back(Columns(described.frames));
     whole.push_back(Columns(described.whole).squeeze(0));
+    history_joints.push_back(Columns(PlacesOf(skeleton_, request.history)));
+    const std::vector<Pose> base = window.Decode(Eigen::MatrixXd::Zero(x->rows(), frames));
+    base_root.push_back(Columns(RootsOf(base)));
+    base_turns.push_back(Columns(TurnsOf(base)).view({frames, joints, 3, 3}));
+    const Lever lever(skeleton_, truth, *x);
+    axes.push_back(Columns(lever.axes).view({frames, joints, 3, 3}));
+    bones.push_back(Columns(lever.bones).view({frames, joints, 3}));
     result.truth.emplace_back(truth.begin(), truth.end());
     result.requests.push_back(std::move(request));
   }
   result.z = torch::stack(z);
   result.mean = torch::stack(mean);
-  result.surprise = torch::tensor(surprise, torch::kFloat32);
-  result.scale = torch::tensor(scale, torch::kFloat32);
+  result.scales = torch::stack(scales);
   result.keyed = torch::stack(keyed);
   result.features = torch::stack(features);
   result.whole = torch::stack(whole);
+  result.history_joints = torch::stack(history_joints);
+  result.base_root = torch::stack(base_root);
+  result.base_turns = torch::stack(base_turns);
+  result.axes = torch::stack(axes);
+  result.bones = torch::stack(bones);
   return result;
 }
 

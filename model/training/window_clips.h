@@ -16,11 +16,18 @@ namespace choreo {
 /// the tensors are. Time stands before features, float32.
 struct WindowBatch {
   int frames = 0, to_key = 0;
-  torch::Tensor z = {};                       ///< [batch, w, dimensions] real motion, white
-  torch::Tensor surprise = {}, scale = {};    ///< [batch] as FlowWindow has them
-  torch::Tensor keyed = {};                   ///< [batch, dimensions] in {0, 1}
-  torch::Tensor mean = {};                    ///< [batch, tau + w, dimensions], history in front
-  torch::Tensor features = {}, whole = {};    ///< of WindowFeatures
+  torch::Tensor z = {};                     ///< [batch, w, dimensions] real motion, white
+  torch::Tensor scales = {};                ///< [batch, dimensions] as FlowWindow has them
+  std::vector<double> surprise = {};        ///< [batch], the same
+  torch::Tensor keyed = {};                 ///< [batch, dimensions] in {0, 1}
+  torch::Tensor mean = {};                  ///< [batch, tau + w, dimensions], history in front
+  torch::Tensor features = {}, whole = {};  ///< of WindowFeatures
+  torch::Tensor history_joints = {};        ///< [batch, tau, 3 joints] metres
+  /// The mean as poses: root positions [batch, w, 3] and local rotations [batch, w, joints, 3, 3].
+  torch::Tensor base_root = {}, base_turns = {};
+  /// Of the real motion: the turn in the world that a unit of each of a joint's coordinates makes
+  /// [batch, w, joints, 3, 3], and the way from its parent to it [batch, w, joints, 3] in metres.
+  torch::Tensor axes = {}, bones = {};
   std::vector<WindowRequest> requests = {};   ///< what each was asked for
   std::vector<std::vector<Pose>> truth = {};  ///< [batch][w] canonical frame
 };
@@ -39,6 +46,7 @@ class WindowClips {
     double partial_key = 0;                             ///< joints or the root's position are open
     double beats = 0, energy = 0, path = 0, style = 0;  ///< that the label is told
     double hold_history = 0;  ///< only the last few poses are known, the earliest being held
+    double astray = 0;        ///< starts out of balance, as dances of a model do, and comes back
   };
   /// Windows of `frames` frames whose key stands `to_key` frames behind the history.
   WindowBatch Draw(const FlowModelParts& model, int batch, int frames, int to_key,

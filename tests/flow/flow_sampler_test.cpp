@@ -30,8 +30,11 @@ FlowModelParts Parts() {
 class Silent : public FlowNetwork {
  public:
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
-                           const Eigen::MatrixXf& mean, const WindowFeatures& features,
-                           float t) const override {
+                           const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
+                           const WindowFeatures& features, float t) const override {
+    EXPECT_EQ(joints.cols(), z.cols() + kTau);
+    EXPECT_EQ(joints.rows(), z.rows() - 3);
+    EXPECT_TRUE(joints.row(1).minCoeff() > 0.3);  // the pelvis stands above the floor
     EXPECT_EQ(poses.cols(), z.cols() + kTau);
     EXPECT_EQ(mean.cols(), z.cols() + kTau);
     EXPECT_EQ(features.frames.rows(), FrameFeatures());
