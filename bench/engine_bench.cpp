@@ -21,9 +21,9 @@
 /// memory. All on one thread, in CPU time of that thread, so that a machine that does something
 /// else besides disturbs less; quote ratios of one run.
 ///
-/// `default` is the model that ships; `paper` has paper F's size and random weights; `controllers`,
-/// which ships too, follows a root path and has but the one engine. Where a GPU answers, `paper` on
-/// it, too.
+/// `default` is the model that ships, a continuous flow that samples a transition when it is
+/// admitted; `paper` has paper F's size and random weights. Where a GPU answers, `paper` on it,
+/// too.
 namespace choreo {
 namespace {
 
@@ -35,10 +35,8 @@ class Models {
  public:
   Models() {
     std::filesystem::create_directories(folder_);
-    for (const std::string shipped : {"default", "free", "controllers"}) {
-      paths_[shipped] = std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints" /
-                        (shipped + ".safetensors");
-    }
+    paths_["default"] =
+        std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints/default.safetensors";
     paths_["paper"] = folder_ / "paper.safetensors";
     WriteRandomCheckpoint(paths_["paper"], FlowConfig::Preset("paper"), Skeleton::Smpl24(), 1);
   }
@@ -122,10 +120,6 @@ void Admissions(benchmark::State& state, StepEngine& engine) {
   state.SetItemsProcessed(state.iterations());
 }
 
-FlowConfig ConfigOf(const std::string& model) {
-  return FlowConfig::Preset(model == "free" ? "planned" : model);
-}
-
 /// The packed engine's products of one frame.
 std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   const int tau = config.history_frames, hidden = config.hidden, low = width / 2;
@@ -144,29 +138,6 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
     shapes.push_back({hidden, 2 * (width - low)});
     shapes.push_back({width, width});
   }
-  return shapes;
-}
-
-/// The packed planner's products for a transition of kFrames and its mirror image, and those of its
-/// attention.
-std::vector<BareProducts::Shape> PlanShapes(const FlowConfig& config, int joints) {
-  const int time = config.history_frames + kFrames, rows = 2 * time, pose = 3 + 6 * joints;
-  const int width = config.planner.width, heads = config.planner.heads;
-  std::vector<BareProducts::Shape> shapes = {{2 * pose, width, rows}};
-  for (int layer = 0; layer < config.planner.layers; ++layer) {
-    // Behind the last layer's keys and values, the history's rows are of no use.
-    const int used = layer + 1 < config.planner.layers ? time : kFrames;
-    shapes.push_back({width, 3 * width, rows});
-    for (int i = 0; i < 2 * heads; ++i) {
-      shapes.push_back({width / heads, time, used});
-      shapes.push_back({time, width / heads, used});
-    }
-    shapes.push_back({width, width, 2 * used});
-    shapes.push_back({width, 2 * width, 2 * used});
-    shapes.push_back({2 * width, width, 2 * used});
-  }
-  shapes.push_back({width, pose, 2 * kFrames});
-  shapes.push_back({width, config.condition_width, kFrames});
   return shapes;
 }
 
@@ -215,58 +186,41 @@ void Register(Models* models) {
   const bool bf16 = Bf16KernelsHere() != nullptr;
   std::vector<std::string> kinds = {"packed", "torch"};
   if (bf16) kinds.push_back("packed-bf16");
-  for (const std::string model : {"free", "paper"}) {
-    const auto add = [&](const std::string& name, auto run) {
-      benchmark::RegisterBenchmark((model + "/" + name).c_str(), run)
-          ->Unit(benchmark::kMillisecond);
-    };
-    for (const std::string& kind : kinds) {
-      for (const int streams : {1, 8, 32, 64}) {
-        add(kind + "/" + std::to_string(streams),
-            [=](benchmark::State& state) { Frames(state, models->Engine(model, kind), streams); });
-      }
+  const auto add = [&](const std::string& name, auto run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
+  };
+  const std::string model = "paper";
+  for (const std::string& kind : kinds) {
+    for (const int streams : {1, 8, 32, 64}) {
+      add("paper/" + kind + "/" + std::to_string(streams),
+          [=](benchmark::State& state) { Frames(state, models->Engine(model, kind), streams); });
     }
-    const int joints = Skeleton::Smpl24().joints();
-    for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
-      const std::string bare = half ? "bare-bf16" : "bare", kind = half ? "packed-bf16" : "packed";
-      for (const int rows : {1, 8, 32, 64}) {
-        add(bare + "/" + std::to_string(rows), [=](benchmark::State& state) {
-          Bare(state, Shapes(ConfigOf(model), 3 + 3 * joints + 3 + 4), rows, rows, half);
-        });
-      }
-      add("admission/" + kind,
-          [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind)); });
-      if (model != "free") continue;
-      add("admission/" + bare, [=](benchmark::State& state) {
-        Bare(state, PlanShapes(ConfigOf(model), joints), 1, 1, half);
-      });
+    add("paper/admission/" + kind,
+        [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind)); });
+  }
+  const int width = 3 + 3 * Skeleton::Smpl24().joints() + 3 + 4;
+  for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
+    for (const int rows : {1, 8, 32, 64}) {
+      add(std::string("paper/") + (half ? "bare-bf16" : "bare") + "/" + std::to_string(rows),
+          [=](benchmark::State& state) {
+            Bare(state, Shapes(FlowConfig::Preset(model), width), rows, rows, half);
+          });
     }
-    add("admission/torch",
-        [=](benchmark::State& state) { Admissions(state, models->Engine(model, "torch")); });
   }
   // By the clock: the thread waits for the GPU.
   if (TorchDevices().cuda_devices > 0) {
-    for (const std::string kind : {"torch", "torch-bf16"}) {
-      for (const int streams : {1, 32, kMostStreamsOfGpu}) {
-        benchmark::RegisterBenchmark(
-            ("paper/cuda/" + kind + "/" + std::to_string(streams)).c_str(),
-            [=](benchmark::State& state) {
-              Frames(state, models->Engine("paper", kind, {Device::Kind::kCuda}), streams);
-            })
-            ->Unit(benchmark::kMillisecond)
-            ->UseRealTime();
-      }
+    for (const int streams : {1, 32, kMostStreamsOfGpu}) {
+      benchmark::RegisterBenchmark(
+          ("paper/cuda/torch/" + std::to_string(streams)).c_str(),
+          [=](benchmark::State& state) {
+            Frames(state, models->Engine(model, "torch", {Device::Kind::kCuda}), streams);
+          })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
     }
   }
-  const auto add = [&](const char* name, auto run) {
-    benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond);
-  };
   add("default/admission/torch",
       [=](benchmark::State& state) { Admissions(state, models->Engine("default", "torch")); });
-  add("controllers/torch/1",
-      [=](benchmark::State& state) { Frames(state, models->Engine("controllers", "torch"), 1); });
-  add("controllers/admission/torch",
-      [=](benchmark::State& state) { Admissions(state, models->Engine("controllers", "torch")); });
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }
 
@@ -274,12 +228,10 @@ int Measure(Models* models, int argc, char** argv) {
   if (argc == 3 && std::string(argv[1]) == "--probes") {
     const std::filesystem::path folder = argv[2];
     std::filesystem::create_directories(folder);
-    for (const std::string model : {"free", "paper"}) {
-      const std::filesystem::path checkpoint = folder / (model + ".safetensors");
-      std::filesystem::copy_file(models->Path(model), checkpoint,
-                                 std::filesystem::copy_options::overwrite_existing);
-      WriteFlowProbe(checkpoint, folder / (model + ".probe.safetensors"));
-    }
+    const std::filesystem::path checkpoint = folder / "paper.safetensors";
+    std::filesystem::copy_file(models->Path("paper"), checkpoint,
+                               std::filesystem::copy_options::overwrite_existing);
+    WriteFlowProbe(checkpoint, folder / "paper.probe.safetensors");
   } else if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 2;
   }

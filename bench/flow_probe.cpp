@@ -45,10 +45,10 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
   Random random(11);
   Safetensors probe;
   NamedTensor& condition = probe.tensors["static_condition"] =
-      Normal(&random, {kRows, kFrames, flow->static_width}, 0.5F);
+      Normal(&random, {kRows, kFrames, flow->key_width}, 0.5F);
   for (int row = 0; row < kRows; ++row) {
-    const std::span<float> of_row = Row(condition, row);
-    tile.Begin(row, {of_row.begin(), of_row.end()});
+    tile.Begin(row, Eigen::Map<const Eigen::MatrixXf>(Row(condition, row).data(), flow->key_width,
+                                                      kFrames));
   }
   for (int frame = 0; frame < kFrames; ++frame) {
     const std::string number = "." + std::to_string(frame);

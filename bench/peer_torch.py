@@ -18,7 +18,6 @@ import numpy
 import torch
 
 TOLERANCE = 1e-4
-STRAYED = 1.5  # standard deviations: model/flow/flow_config.h
 BATCHES = (1, 8, 32, 64)
 REPETITIONS = 5
 LEAST_SECONDS = 0.4  # of a repetition
@@ -108,9 +107,6 @@ class Flow:
     def step(self, past, audio, has_audio, static, noise, states):
         t = self.tensors
         past = ((past - t["feature_mean"]) / t["feature_std"]).clamp(-6, 6)
-        if self.config["planner"]["width"] > 0:  # frames that strayed from their plan are dropped
-            most = STRAYED * (1 + noise.square().mean(1).sqrt()).view(-1, 1, 1)
-            past = past * (past[:, :, :self.width - 7].abs().amax(2, keepdim=True) < most)
         past = past.flatten(1)
         audio = ((audio - t["audio_mean"]) / t["audio_std"]).clamp(-6, 6) * has_audio.view(-1, 1, 1)
         condition = self.condition(past, torch.cat([audio.flatten(1), has_audio.view(-1, 1)], 1), static)
@@ -155,7 +151,7 @@ def main(folder):
     torch.set_flush_denormal(True)
     report = {"torch": torch.__version__}
     with torch.inference_mode():
-        for model in ("free", "paper"):
+        for model in ("paper",):
             flow = Flow(Path(folder) / f"{model}.safetensors")
             probe, _ = read_safetensors(Path(folder) / f"{model}.probe.safetensors")
             difference = largest_difference(flow, probe)

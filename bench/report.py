@@ -64,14 +64,14 @@ def load_figures(text, paper):
 
 def kinds_of(figures):
     kinds = [("float32", "packed", "bare", "peer")]
-    if "free/packed-bf16/1" in figures:
+    if "paper/packed-bf16/1" in figures:
         kinds.append(("bfloat16", "packed-bf16", "bare-bf16", "peer-bf16"))
     return kinds
 
 
 def network_tables(figures):
     lines = []
-    for model, of in (("free", "which ships, too"), ("paper", "paper F's size, random weights")):
+    for model, of in (("paper", "paper F's size, random weights"),):
         lines += [f"`{model}` ({of}), frames a second:", "",
                   "| products | streams | packed engine | bare products | packed ÷ bare | eager PyTorch | packed ÷ eager | torch engine |",
                   "|---|---|---|---|---|---|---|---|"]
@@ -83,18 +83,6 @@ def network_tables(figures):
                              f"{rate / eager:.1f}x | {torch} |")
         lines.append("")
     return lines
-
-
-def plan_table(figures):
-    lines = [f"The plan of {FRAMES_OF_PLAN} frames at admission and all that is computed ahead, ms; its limit are the products of the transformer alone, "
-             "on a transition and its mirror image:", "",
-             "| products | `free` | bare products | at, GFLOP/s | bare ÷ ours | `paper` |", "|---|---|---|---|---|---|"]
-    for precision, packed, bare, _ in kinds_of(figures):
-        ours, limit = figures[f"free/admission/{packed}"], figures[f"free/admission/{bare}"]
-        lines.append(f"| {precision} | {1e3 / ours:.2f} | {1e3 / limit:.2f} | {figures[f'free/admission/{bare}/flops'] / 1e9:.0f} | "
-                     f"{ours / limit:.2f} | {1e3 / figures[f'paper/admission/{packed}']:.2f} |")
-    lines.append(f"| torch engine | {1e3 / figures['free/admission/torch']:.2f} | | | | {1e3 / figures['paper/admission/torch']:.2f} |")
-    return lines + [""]
 
 
 def memory_lines(figures, report):
@@ -126,10 +114,6 @@ def bars(figures, gpu):
     ]
     if served[3] != "peer":
         rows.insert(1, ("`paper`, 1 stream ÷ eager PyTorch in the same bfloat16", figures[f"paper/{packed}/1"] / figures[f"paper/{served[3]}/1"], 8, 15, "x"))
-    if "controllers/torch/1" in figures:
-        # From network to rotations, with its share of the plan; the bar is paper C's own figure, on a GPU.
-        frame = 1e3 / figures["controllers/torch/1"] + 1e3 / figures["controllers/admission/torch"] / FRAMES_OF_PLAN
-        rows.append(("`controllers`: one frame, fit and its share of the plan included, 1 stream, ms", frame, 8.5, 1, "ms"))
     rows.append((f"`default`: {FRAMES_OF_PLAN} frames sampled, ms", 1e3 / figures["default/admission/torch"], 8, 3, "ms"))
     if "load/paper/closed/32" in figures:
         rows.append(("`paper` through gRPC ÷ engine alone, 32 streams, by CPU time",
@@ -176,7 +160,7 @@ def main(folder, root):
     peer = json.loads((folder / "peer.json").read_text())
     load, paper = ((folder / name).read_text() if (folder / name).exists() else "" for name in ("load.md", "paper.md"))
     figures = engine_figures(engine) | load_figures(load, paper)
-    for model in ("free", "paper"):
+    for model in ("paper",):
         for name in ("peer", "peer-bf16"):
             for n, rate in peer[model]["frames_a_second" + ("_bf16" if "bf16" in name else "")].items():
                 figures[f"{model}/{name}/{n}"] = rate
@@ -187,11 +171,11 @@ def main(folder, root):
              "bare products (oneDNN, on weights that it packed) have the network alone. Compare figures of one run only: a busy neighbour shares "
              "caches and memory.", "",
              f"Kernels {context['kernels']}; BLAS {context['blas']}; PyTorch {peer['torch']}; largest difference between the packed engine in float32 and eager "
-             f"PyTorch {max(peer[m]['largest_difference'] for m in ('free', 'paper')):.1g}. Load of the machine when it began: "
+             f"PyTorch {peer['paper']['largest_difference']:.1g}. Load of the machine when it began: "
              f"{context['load_avg'][0]:.1f} on {context['num_cpus']} cores.", "",
              "## What is to be reached", ""]
     lines += bars(figures, context.get("gpu", ""))
-    lines += ["## The engine beside its limits", ""] + network_tables(figures) + memory_lines(figures, engine) + plan_table(figures)
+    lines += ["## The engine beside its limits", ""] + network_tables(figures) + memory_lines(figures, engine)
     if load:
         lines += ["## Through gRPC", "", "`load`: the clients, up to hundreds of threads, are on the same cores as the server. A frame is late by what it comes after the music that "
                   "it waits for by its model's latency (`latency_frames`, whole frames): below 0 where small chunks allow it sooner. `default`:", "", load.strip(), ""]

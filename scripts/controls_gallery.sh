@@ -21,7 +21,7 @@ way() {  # way NAME X Z [Y]: terms of u, which runs from 0 to 1 in 8 seconds
 dance() {  # dance NAME WAY OPTIONS...; key poses of the library, one each two seconds
   local name=$1 path=$2
   shift 2
-  "$choreo" dance --model controllers --seconds 8.04 --seed 6 --path "$scratch/$path.json" "$@" --out "$scratch/$name.npz" \
+  "$choreo" dance --seconds 8.04 --seed 6 --path "$scratch/$path.json" "$@" --out "$scratch/$name.npz" \
     --report "$scratch/$name.report" >/dev/null
 }
 row() {  # row NAME TITLE
@@ -109,7 +109,7 @@ sheet controls_interpolation
 long() {  # long NAME FROM TO TITLE OPTIONS...
   local name=$1 from=$2 to=$3 title=$4
   shift 4
-  "$choreo" transition --model controllers --from "$from" --to "$to" -n 250 "$@" --out "$scratch/$name.npz" \
+  "$choreo" transition --from "$from" --to "$to" -n 250 "$@" --out "$scratch/$name.npz" \
     --report "$scratch/$name.report" >/dev/null
   frames=18 row "$name" "$title"
 }

@@ -16,7 +16,7 @@ mkdir -p "$out"
 "$choreo" render "$out/dance.npz" --report "$out/report.json" --video "$out/dance.mp4" --song "$song" --size 960x540
 
 # The same song, led along a path, the left arm livelier than the rest.
-"$choreo" dance "$song" --model controllers --seconds 10 --path "$(dirname "$0")/../examples/path.json" --velocity left_arm=1.5 \
+"$choreo" dance "$song" --seconds 10 --path "$(dirname "$0")/../examples/path.json" --velocity left_arm=1.5 \
   --out "$out/controlled.npz" --report "$out/controlled.json"
 "$choreo" render "$out/controlled.npz" --report "$out/controlled.json" --out "$out/controlled.png" \
   --title "10 s along a path, the left arm 1.5 times as lively"

@@ -253,7 +253,7 @@ std::vector<std::filesystem::path> ShippedCheckpoints() {
   for (const auto& folder : {program / "../share/choreo/checkpoints",
                              std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints"}) {
     std::vector<std::filesystem::path> found;
-    for (const char* name : {"default.safetensors", "controllers.safetensors"}) {
+    for (const char* name : {"default.safetensors", "free.safetensors"}) {
       const std::filesystem::path path = (folder / name).lexically_normal();
       if (std::filesystem::is_regular_file(path)) found.push_back(path);
     }

@@ -24,7 +24,8 @@ struct Serving {
         decoding(io_threads),
         tasks(io_threads) {}
 
-  /// The first model for an empty name. Throws Error(kNotFound) that lists the models.
+  /// The first model for an empty name, and for "controllers" where none is called so. Throws
+  /// Error(kNotFound) that lists the models.
   Scheduler& FindModel(const std::string& name, const std::string& field) const;
 
   /// Throws Error(kResourceExhausted) where the model's engines have no time left for one more: it

@@ -2,18 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/core/error.h"
-
 namespace choreo {
 
 // One list serves both directions, so that a field can't be written and not read.
-#define CHOREO_CONTROLLERS_FIELDS(apply)                                                           \
-  apply(name) apply(history_frames) apply(max_transition_frames) apply(plan_width)                 \
-      apply(plan_layers) apply(plan_heads) apply(plan_dropout) apply(plan_blur) apply(window)      \
-          apply(heads) apply(width) apply(layers) apply(feed_forward) apply(controller)            \
-              apply(encoder_hidden) apply(encoding) apply(lstm) apply(decoder_hidden)              \
-                  apply(two_lstms) apply(transformers) apply(root_decoder) apply(velocity_factors) \
-                      apply(key_loss)
+#define CHOREO_CONTROLLERS_FIELDS(apply)                                                         \
+  apply(name) apply(history_frames) apply(max_transition_frames) apply(window) apply(heads)      \
+      apply(width) apply(layers) apply(feed_forward) apply(controller) apply(encoder_hidden)     \
+          apply(encoding) apply(lstm) apply(decoder_hidden) apply(two_lstms) apply(transformers) \
+              apply(root_decoder) apply(velocity_factors) apply(key_loss)
 
 void to_json(nlohmann::json& json, const ControllersConfig& config) {
   json = nlohmann::json::object();
@@ -26,26 +22,6 @@ void from_json(const nlohmann::json& json, ControllersConfig& config) {
 #define CHOREO_READ(field) json.at(#field).get_to(config.field);
   CHOREO_CONTROLLERS_FIELDS(CHOREO_READ)
 #undef CHOREO_READ
-}
-
-bool ControllersConfig::IsPreset(const std::string& name) {
-  return name == "controllers" || name == "controllers-paper";
-}
-
-ControllersConfig ControllersConfig::Preset(const std::string& name) {
-  if (!IsPreset(name)) {
-    throw InvalidArgument("preset", "'" + name + "' is neither controllers nor controllers-paper");
-  }
-  ControllersConfig config;
-  config.name = name;
-  if (name == "controllers") return config;
-  config.plan_width = 0;
-  config.feed_forward = 256;
-  config.controller = 256;
-  config.encoder_hidden = 512;
-  config.encoding = 256;
-  config.decoder_hidden = 512;
-  return config;
 }
 
 }  // namespace choreo

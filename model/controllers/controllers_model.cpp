@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/flow/planner.h"
+#include "model/flow/transition_tensors.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {
@@ -13,9 +13,10 @@ using torch::Tensor;
 
 namespace {
 
-constexpr int64_t kEmbedding = ControlledScale::kEmbedding;
-constexpr double kRampFrames = 6;  // over which the residual grows from a fixed end
-constexpr double kStep = ControlledScale::kStep, kHeight = ControlledScale::kHeight;
+constexpr int64_t kEmbedding = 32;  // numbers of a count of frames
+constexpr double kRampFrames = 6;   // over which the residual grows from a fixed end
+constexpr double kStep = 0.02;      // metres a frame that count as one
+constexpr double kHeight = 0.2;     // metres of height that count as one
 constexpr double kPlace = 0.1;      // metres beside the path that count as one
 constexpr double kTurnStep = 0.05;  // radians a frame that count as one
 constexpr int64_t kContacts = 4;
@@ -53,6 +54,10 @@ Tensor Windows(const Tensor& before, const Tensor& given, int64_t size) {
 
 }  // namespace
 
+Tensor ControlledScale::Unit(const Tensor& joints) const {
+  return ((joints - joint_mean) / joint_std).flatten(-2);
+}
+
 ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
   ControlledGiven part = *this;
   for (Tensor* tensor : {&part.path, &part.ahead, &part.ramp, &part.joints, &part.turn, &part.root,
@@ -72,8 +77,6 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
   scale_.shares = SharesOf(skeleton);
 
   const int64_t pose = 3 * others_;
-  if (config.plan_width > 0) plan_.emplace(config, skeleton, scale_, this);
-
   path_controller_ = register_module("path_controller", MakeWindowController(3, config));
   int64_t live = 2 * config.encoding + config.controller;
   if (config.velocity_factors) {
@@ -98,8 +101,6 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
   // AP and RP: the frame's place on the path and how far the transition is.
   position_code_ =
       register_module("position_code", torch::nn::Linear(3 + 1 + 1 + kEmbedding, into));
-  if (config.plan_width > 0)
-    plan_code_ = register_module("plan_code", torch::nn::Linear(config.plan_width, into));
   const int64_t wide = config.decoder_hidden, state = 2 * pose + kContacts, root = 3 + 2 + 3;
   state_decoder_ = register_module(
       "state_decoder", Connected(config.lstm, {wide, wide / 2},
@@ -127,7 +128,7 @@ std::pair<Tensor, Tensor> ControllersModelImpl::Reference(const ControlledTransi
           HeadingOf(u * transition.target_turn.unsqueeze(1))};
 }
 
-ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transition, bool whole) {
+ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transition) {
   const FrameTensors& history = transition.history;
   const int64_t batch = transition.path.size(0), frames = transition.frames;
   const auto options = transition.path.options();
@@ -148,28 +149,14 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
   given.ramp = from_start * (1 - has + has * to_target);
 
   const Tensor left = TimeEmbedding((frames - 1 - count).squeeze(-1), kEmbedding);
-  if (whole) {
-    const Tensor place =
-        torch::cat({TurnBack(given.path - given.end, given.ahead) * has,
-                    (given.path.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
-                    u.expand({batch, frames, 1}), left * has},
-                   -1);
-    given.code = position_code_(place);
-  }
-  if (plan_) {
-    const auto [residual, hidden] = plan_->Make(transition, reference, given.ahead);
-    const int64_t pose = 3 * others_;
-    given.joints = reference + given.ramp.unsqueeze(-1) * scale_.joint_std *
-                                   residual.narrow(2, 0, pose).unflatten(2, {others_, 3});
-    given.turn = residual.narrow(2, pose, 2);
-    given.root = kPlace * residual.narrow(2, pose + 2, 3);
-    if (whole) given.code = given.code + plan_code_(hidden);
-  } else {
-    given.joints = reference;
-    given.turn = torch::zeros({batch, frames, 2}, options);
-    given.root = torch::zeros({batch, frames, 3}, options);
-  }
-  if (!whole) return given;
+  const Tensor place = torch::cat({TurnBack(given.path - given.end, given.ahead) * has,
+                                   (given.path.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
+                                   u.expand({batch, frames, 1}), left * has},
+                                  -1);
+  given.code = position_code_(place);
+  given.joints = reference;
+  given.turn = torch::zeros({batch, frames, 2}, options);
+  given.root = torch::zeros({batch, frames, 3}, options);
 
   const auto encode = [&](const WindowController& controller, const Tensor& windows) {
     return controller->Encode(windows.flatten(0, 1)).unflatten(0, {batch, frames});

@@ -8,13 +8,11 @@
 #include <torch/nn/pimpl.h>
 #include <torch/types.h>
 
-#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "model/controllers/controlled_frames.h"
-#include "model/controllers/controlled_plan.h"
 #include "model/controllers/controllers_config.h"
 #include "model/controllers/window_controller.h"
 #include "model/motion/skeleton.h"
@@ -27,7 +25,7 @@ struct ControlledGiven {
   torch::Tensor path;           ///< [batch, N, 3]
   torch::Tensor ahead;          ///< [batch, N, 2] heading of the straight way to the target
   torch::Tensor ramp;           ///< [batch, N, 1] how free a frame is of history and target, [0, 1]
-  torch::Tensor joints;         ///< [batch, N, joints - 1, 3] planned
+  torch::Tensor joints;         ///< [batch, N, joints - 1, 3] interpolated
   torch::Tensor turn;           ///< [batch, N, 2] planned, from `ahead`; not of unit length
   torch::Tensor root;           ///< [batch, N, 3] planned, from the path, in the frame of `ahead`
   torch::Tensor path_window;    ///< [batch, N, window, 3]
@@ -55,7 +53,16 @@ struct ControllersState {
   std::tuple<torch::Tensor, torch::Tensor> first, second;
 };
 
-/// The network of paper C (Section 3.2, Figure 2) around a plan of ours: see docs/decisions.md.
+/// In what units the network sees frames.
+struct ControlledScale {
+  torch::Tensor joint_mean, joint_std;  ///< [joints - 1, 3]
+  torch::Tensor factor_std;             ///< [5]
+  torch::Tensor shares;                 ///< [5, joints], as FactorsOf takes them
+
+  torch::Tensor Unit(const torch::Tensor& joints) const;  ///< [..., joints - 1, 3], flattened
+};
+
+/// The network of paper C (Section 3.2, Figure 2). It walks around interpolation.
 class ControllersModelImpl : public torch::nn::Module {
  public:
   ControllersModelImpl(const ControllersConfig& config, const Skeleton& skeleton);
@@ -72,9 +79,8 @@ class ControllersModelImpl : public torch::nn::Module {
   void SetNormalisation(const torch::Tensor& joint_mean, const torch::Tensor& joint_std,
                         const torch::Tensor& factor_std);
 
-  /// `whole` off leaves out what only Walk needs.
-  ControlledGiven Prepare(const ControlledTransition& transition, bool whole = true);
-  /// The plan alone as a motion; contacts are zeros.
+  ControlledGiven Prepare(const ControlledTransition& transition);
+  /// What it walks around as a motion; contacts are zeros.
   FrameTensors Planned(const ControlledGiven& given) const;
   /// n frames. `walked`: the lead() frames before the first of them, then all but the last one of
   /// them, as they were taken to be (real ones, emitted ones).
@@ -94,8 +100,6 @@ class ControllersModelImpl : public torch::nn::Module {
   int64_t others_;  // joints but the root
   ControlledScale scale_;
 
-  std::optional<ControlledPlan> plan_;
-  torch::nn::Linear plan_code_{nullptr};
   WindowController path_controller_, factor_controller_;
   torch::nn::Sequential state_encoder_{nullptr}, velocity_encoder_{nullptr},
       target_controller_{nullptr}, state_decoder_{nullptr}, root_decoder_{nullptr};

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/flow/planner.h"
+#include "model/flow/transition_tensors.h"
 
 namespace choreo {
 namespace {

@@ -1,14 +1,24 @@
 #include "model/engine/continuous_flow_engine.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "model/core/error.h"
 #include "model/engine/plan_timing.h"
-#include "model/engine/temperature.h"
 #include "model/motion/body_limits.h"
+#include "model/motion/kinematics.h"
 
 namespace choreo {
+
+namespace {
+
+constexpr int kRounds = 3;
+constexpr double kNearEnough = 0.05;  // logarithm of a factor
+constexpr double kAnswer = 0.6;       // of what is missing comes of as much more
+constexpr double kFarthest = 1;       // logarithm of what is asked for over what is wanted
 
 WindowRequest ToWindowRequest(const TransitionSpec& spec) {
   WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
@@ -28,6 +38,55 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec) {
   return request;
 }
 
+using Factors = std::array<double, kBodyParts>;
+
+// Mean velocity factors of the poses behind `last`.
+Factors MeanFactors(const Skeleton& skeleton, const BodyPartWeights& weights, const Pose& last,
+                    std::span<const Pose> poses) {
+  Factors mean = {};
+  Eigen::Matrix3Xd before = JointPositions(skeleton, last);
+  for (const Pose& pose : poses) {
+    const Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+    const Factors factors = VelocityFactors(weights, before, now);
+    for (size_t part = 0; part < mean.size(); ++part)
+      mean[part] += factors[part] / static_cast<double>(poses.size());
+    before = now;
+  }
+  return mean;
+}
+
+// The network answers energy that is asked for, but by less. So what came of it is measured and, as
+// far as it missed, asked for again; the nearest is danced.
+std::vector<Pose> SampleAsLively(const FlowModelParts& model, const FlowNetwork& network,
+                                 const BodyPartWeights& weights, WindowRequest request,
+                                 const FlowNoise& noise) {
+  std::vector<Pose> nearest;
+  const Eigen::MatrixXd wanted = request.energy;
+  const Eigen::VectorXd asked = wanted.rowwise().mean();
+  Factors more = {};  // logarithms
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRounds && least > kNearEnough; ++round) {
+    std::vector<Pose> poses = SampleTransition(model, network, request, noise);
+    const Factors danced = MeanFactors(model.skeleton, weights, request.history.back(), poses);
+    double most = 0;
+    for (int part = 0; part < asked.size(); ++part) {
+      const auto at = static_cast<size_t>(part);
+      if (!request.asked[at]) continue;
+      const double missing = EnergyLevel(asked[part], danced[at]);
+      most = std::max(most, std::abs(missing));
+      more[at] = std::clamp(more[at] + missing / kAnswer, -kFarthest, kFarthest);
+      request.energy.row(part) = std::exp(more[at]) * wanted.row(part);
+    }
+    if (most < least) {
+      least = most;
+      nearest = std::move(poses);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
 ContinuousFlowEngine::ContinuousFlowEngine(ModelInfo info, std::string device, int slots,
                                            std::shared_ptr<const FlowModelParts> parts,
                                            std::shared_ptr<const FlowNetwork> network)
@@ -35,6 +94,7 @@ ContinuousFlowEngine::ContinuousFlowEngine(ModelInfo info, std::string device, i
       device_(std::move(device)),
       parts_(std::move(parts)),
       network_(std::move(network)),
+      weights_(WeighBodyParts(info_.skeleton)),
       slots_(static_cast<size_t>(slots)) {}
 
 int ContinuousFlowEngine::free_slots() const {
@@ -51,11 +111,14 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
                 "all " + std::to_string(slots_.size()) + " slots are taken");
   }
   Slot slot;
-  slot.poses = SampleTransition(*parts_, *network_, ToWindowRequest(spec),
-                                {.seed = spec.seed,
-                                 .candidate = spec.candidate,
-                                 .first_frame = spec.first_frame,
-                                 .temperature = spec.temperature});
+  const WindowRequest request = ToWindowRequest(spec);
+  const FlowNoise noise{.seed = spec.seed,
+                        .candidate = spec.candidate,
+                        .first_frame = spec.first_frame,
+                        .temperature = spec.temperature};
+  slot.poses = request.energy.cols() > 0
+                   ? SampleAsLively(*parts_, *network_, weights_, request, noise)
+                   : SampleTransition(*parts_, *network_, request, noise);
   LimitHinges(info_.skeleton, slot.poses);
   if (!spec.target && !(spec.controls.root_path.cols() > 0 && spec.controls.path_heights))
     ReturnToFloor(info_.skeleton, slot.poses);

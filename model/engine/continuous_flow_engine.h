@@ -39,10 +39,8 @@ class ContinuousFlowEngine : public StepEngine {
   std::string device_;
   std::shared_ptr<const FlowModelParts> parts_;
   std::shared_ptr<const FlowNetwork> network_;
+  BodyPartWeights weights_;
   std::vector<std::optional<Slot>> slots_;
 };
-
-/// What a transition asks of the flow.
-WindowRequest ToWindowRequest(const TransitionSpec& spec);
 
 }  // namespace choreo

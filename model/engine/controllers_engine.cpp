@@ -8,7 +8,6 @@
 
 #include "model/core/error.h"
 #include "model/engine/dense_controls.h"
-#include "model/engine/part_pace.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
@@ -22,10 +21,6 @@ constexpr int kTurnFrames = 30;  // a second
 // How much of its last turn a joint is expected to go on with. Expected to rest, it lags behind
 // what the network draws; to go on with most of it, elbows swing too far.
 constexpr double kCarry = 0.3;
-// Times the first reference: parts that are asked for more on average are asked for this at most,
-// or feet would leave the floor and the root its path.
-constexpr float kLiveliest = 4;
-
 Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
   const Eigen::Matrix3Xf values = points.cast<float>();
   return torch::from_blob(const_cast<float*>(values.data()), {1, 1, values.cols(), 3}).clone();
@@ -46,35 +41,6 @@ Eigen::Matrix3Xd ToPoints(const Tensor& points) {  // [1, 1, columns, 3]
   const Tensor dense = points.contiguous();
   return Eigen::Map<const Eigen::Matrix3Xf>(dense.data_ptr<float>(), 3, dense.size(2))
       .cast<double>();
-}
-
-// All that is known of the transition, and a plan as fast as its factors ask (docs/decisions.md,
-// 59). A network without a plan, or that takes no factors, is left as it is.
-ControlledGiven PrepareInPace(ControllersModel& model, ControlledTransition transition,
-                              const VelocityFactorTrack& factors, bool held) {
-  if (model->config().plan_width == 0 || !model->config().velocity_factors)
-    return model->Prepare(transition);
-  const BodyPartWeights weights = WeighBodyParts(model->skeleton());
-  const FrameTensors last = transition.history.Narrow(transition.history.size() - 1, 1);
-  const auto planned = [&](const ControlledGiven& given) {  // as a column a frame
-    const Tensor positions = RelativePositions(Join(last, model->Planned(given))).contiguous();
-    return Eigen::MatrixXd(Eigen::Map<const Eigen::MatrixXf>(positions.data_ptr<float>(),
-                                                             3 * positions.size(2),
-                                                             positions.size(1))
-                               .cast<double>());
-  };
-  ControlledGiven given = model->Prepare(transition);
-  const VelocityFactorTrack asked = AskAgain(weights, factors, planned(given));
-  if (asked != factors) {
-    transition.factors = RowsOf(asked.cast<float>());
-    given = model->Prepare(transition);
-  }
-  const Eigen::MatrixXd paced = PaceParts(weights, factors, planned(given), held);
-  const Tensor others =
-      RowsOf(paced.bottomRightCorner(paced.rows() - 3, paced.cols() - 1).cast<float>())
-          .unflatten(2, {-1, 3});
-  given.joints = TurnBack(others, model->Planned(given).facing.unsqueeze(2));
-  return given;
 }
 
 // Hands hardly move on the wrists of those who are recorded, and what a network draws of so short a
@@ -147,18 +113,11 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   transition.target_joints = PointsOf(facing.joints).select(1, 0);
   transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
   transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
-  Controls dense = DenseControls(spec, info_);
-  const auto& usual = info_.velocity_references.front().factors;
-  for (int part = 0; part < kBodyParts; ++part) {
-    auto factors = dense.velocity_factors.row(part);
-    const float most = kLiveliest * usual[static_cast<size_t>(part)];
-    if (factors.mean() > most) factors = factors.cwiseMin(most).eval();
-  }
+  const Controls dense = DenseControls(spec, info_);
   transition.path = RowsOf(dense.root_path);
   transition.factors = RowsOf(dense.velocity_factors);
 
-  slot->given = PrepareInPace(model_, transition, dense.velocity_factors.cast<double>(),
-                              spec.target.has_value());
+  slot->given = model_->Prepare(transition);
   slot->walked =
       transition.history.Narrow(transition.history.size() - model_->lead(), model_->lead());
   slot->before = spec.history.size() > 1 ? spec.history[spec.history.size() - 2] : last;

@@ -6,19 +6,17 @@
 
 namespace choreo {
 
-/// What plans transitions and steps the flow. A model without a flow (preset recurrent,
-/// controllers) has nothing to pack: LibTorch steps it, whatever is asked.
+/// What steps paper F's flow. Other models LibTorch runs, whatever is asked.
 enum class EngineKind {
   kAuto,        ///< the faster one: packed on the CPU, else torch
   kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to
-  kTorchBf16,   ///< the same with coupling networks of bfloat16: half the weights to read
   kPacked,      ///< own kernels on packed weights, on the CPU alone, float32
   kPackedBf16,  ///< the same with products of bfloat16, where the CPU has instructions for them
 };
 
 /// What they are called, in that order.
-inline constexpr std::array<std::string_view, 5> kEngineKindNames = {"auto", "torch", "torch-bf16",
-                                                                     "packed", "packed-bf16"};
+inline constexpr std::array<std::string_view, 4> kEngineKindNames = {"auto", "torch", "packed",
+                                                                     "packed-bf16"};
 
 /// "auto, torch, ...", for messages.
 std::string EngineKindNames();

@@ -2,9 +2,11 @@
 
 #include <ATen/Parallel.h>
 #include <ATen/Version.h>
+#include <ATen/detail/CUDAHooksInterface.h>
 #include <torch/cuda.h>
 #include <torch/torch.h>
 
+#include <functional>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,13 +18,10 @@
 #include "model/engine/build_identity.h"
 #include "model/engine/continuous_flow_engine.h"
 #include "model/engine/controllers_engine.h"
-#include "model/engine/device_graph.h"
 #include "model/engine/flow_engine.h"
 #include "model/engine/packed_flow.h"
 #include "model/engine/packed_kernels.h"
-#include "model/engine/packed_planner.h"
 #include "model/engine/packed_tile.h"
-#include "model/engine/torch_planner.h"
 #include "model/engine/torch_tile.h"
 #include "model/flow/checkpoint.h"
 #include "model/flow/continuous_flow.h"
@@ -49,7 +48,8 @@ std::string CpuCapability() {
 // Everything that can change a bit of what LibTorch computes, but for the weights.
 std::string TorchKernels(const torch::Device& device) {
   const std::string torch = "torch " TORCH_VERSION ", ";
-  if (device.is_cuda()) return torch + DescribeCuda(device);
+  if (device.is_cuda())
+    return torch + device.str() + ", " + at::detail::getCUDAHooks().showConfig();
   return torch + DetectBlas().name + ", " + CpuCapability() + ", " +
          std::to_string(at::get_num_threads()) + " threads";
 }
@@ -101,159 +101,123 @@ std::string Fingerprint(const std::string& preset, const std::string& hash,
   return preset + "/" + hash + "/choreo " CHOREO_VERSION + ", " + BuildIdentity() + "/" + kernels;
 }
 
-// What the engines of one device share.
-struct Loaded {
-  ModelInfo info;
-  ControllersModel controllers{nullptr};        // this alone, or
-  std::shared_ptr<const FlowModelParts> parts;  // these two, or a flow:
-  std::shared_ptr<const FlowNetwork> network;
-  std::shared_ptr<const TransitionPlanner> planner;
-  std::shared_ptr<TorchWeights> torch;  // either this
-  int torch_rows = 0;
-  std::shared_ptr<const PackedFlow> packed;  // or this
+// What is the same of every checkpoint.
+template <typename Checkpoint, typename Config>
+ModelInfo InfoOf(const Checkpoint& checkpoint, const Config& config, const Skeleton& skeleton,
+                 const std::string& kernels) {
+  return {.name = config.name,
+          .fingerprint = Fingerprint(config.name, checkpoint.hash, kernels),
+          .licence = LicenceOf(checkpoint.card),
+          .card = checkpoint.card,
+          .skeleton = skeleton,
+          .fps = 30,
+          .history_frames = config.history_frames,
+          .max_transition_frames = config.max_transition_frames,
+          .velocity_references = {}};
+}
 
-  std::unique_ptr<StepEngine> Engine(const Device& device, int slots) const {
-    if (!controllers.is_empty())
-      return std::make_unique<ControllersEngine>(info, slots, controllers);
-    if (network)
-      return std::make_unique<ContinuousFlowEngine>(info, device.name(), slots, parts, network);
-    return std::make_unique<FlowEngine>(info, device.name(), slots, planner, Tile(slots));
-  }
+VelocityReference Median(const auto& factors) {
+  VelocityReference median{.name = "median"};
+  std::ranges::copy(factors, median.factors.begin());
+  return median;
+}
 
- private:
-  std::unique_ptr<FlowTile> Tile(int slots) const {
-    if (packed) return std::make_unique<PackedTile>(packed, slots);
-    return std::make_unique<TorchTile>(torch, torch_rows, slots);
-  }
-};
+// Makes engines that share one device's weights.
+using Factory = std::function<std::unique_ptr<StepEngine>(int slots)>;
 
 // It has one engine, which is small: whatever steps the flow elsewhere, this runs on the CPU.
-Loaded LoadControllers(const Safetensors& content, const std::filesystem::path& path) {
+Factory LoadControllers(const Safetensors& content, const std::filesystem::path& path) {
   const ControllersCheckpoint checkpoint = ParseControllers(content, path.string());
   const ControllersConfig& config = checkpoint.model->config();
-  VelocityReference median{.name = "median"};
-  std::ranges::copy(checkpoint.median_factors, median.factors.begin());
-  Loaded loaded;
-  loaded.controllers = checkpoint.model;
-  loaded.info = {.name = config.name,
-                 .fingerprint = Fingerprint(config.name, checkpoint.hash,
-                                            TorchKernels(torch::Device(torch::kCPU))),
-                 .licence = LicenceOf(checkpoint.card),
-                 .card = checkpoint.card,
-                 .skeleton = checkpoint.model->skeleton(),
-                 .fps = 30,
-                 .history_frames = config.history_frames,
-                 .audio_features = 0,  // it hears no music
-                 .max_transition_frames = config.max_transition_frames,
-                 .default_temperature = 0,
-                 .hears_music = false,
-                 .deterministic = true,
-                 .root_path = true,
-                 .velocity_factors = config.velocity_factors,
-                 .velocity_references = {median}};
-  return loaded;
+  ModelInfo info = InfoOf(checkpoint, config, checkpoint.model->skeleton(),
+                          TorchKernels(torch::Device(torch::kCPU)));
+  info.audio_features = 0;  // it hears no music
+  info.hears_music = false;
+  info.default_temperature = 0;
+  info.deterministic = true;
+  info.root_path = true;
+  info.velocity_factors = config.velocity_factors;
+  info.velocity_references = {Median(checkpoint.median_factors)};
+  return [info, model = checkpoint.model](int slots) {
+    return std::make_unique<ControllersEngine>(info, slots, model);
+  };
 }
 
-Loaded LoadContinuousFlow(const Safetensors& content, const std::filesystem::path& path) {
+Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::path& path,
+                           const Device& device) {
   const ContinuousFlowCheckpoint checkpoint = ParseContinuousFlow(content, path.string());
   const ContinuousFlowConfig& config = checkpoint.model->config();
-  VelocityReference median{.name = "median"};
-  std::ranges::copy(config.median_factors, median.factors.begin());
-  Loaded loaded;
-  loaded.parts = std::make_shared<FlowModelParts>(checkpoint.model->Parts());
-  loaded.network = MakeTorchFlowNetwork(checkpoint.model);
-  loaded.info = {.name = config.name,
-                 .fingerprint = Fingerprint(config.name, checkpoint.hash,
-                                            TorchKernels(torch::Device(torch::kCPU))),
-                 .licence = LicenceOf(checkpoint.card),
-                 .card = checkpoint.card,
-                 .skeleton = checkpoint.model->skeleton(),
-                 .fps = 30,
-                 .history_frames = config.history_frames,
-                 .audio_features = 40,
-                 .max_transition_frames = config.max_transition_frames,
-                 .default_temperature = config.temperature,
-                 .hears_music = false,  // but its beats
-                 .root_path = true,
-                 .velocity_factors = true,
-                 .velocity_references = {median}};
-  return loaded;
+  const auto parts = std::make_shared<const FlowModelParts>(checkpoint.model->Parts());
+  const torch::Device there = ToTorch(device);
+  const std::shared_ptr<const FlowNetwork> network = MakeTorchFlowNetwork(checkpoint.model, there);
+  ModelInfo info = InfoOf(checkpoint, config, checkpoint.model->skeleton(), TorchKernels(there));
+  info.audio_features = 40;
+  info.hears_music = false;  // but its beats
+  info.default_temperature = config.temperature;
+  info.root_path = info.velocity_factors = true;
+  info.velocity_references = {Median(config.median_factors)};
+  return [info, device, parts, network](int slots) {
+    return std::make_unique<ContinuousFlowEngine>(info, device.name(), slots, parts, network);
+  };
 }
 
-Loaded Load(const std::filesystem::path& path, const Device& device, EngineKind kind,
-            const std::string& kernel_name) {
+std::shared_ptr<TorchWeights> ToTorchWeights(FlowModel model, const Device& device) {
+  auto weights = std::make_shared<TorchWeights>();
+  weights->device = ToTorch(device);
+  model->to(weights->device);
+  weights->inverse_weights = model->InverseWeights();
+  weights->model = std::move(model);
+  return weights;
+}
+
+Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
+                 const Device& device, EngineKind kind, const std::string& kernel_name) {
+  const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
+  FlowModel model = checkpoint.model;
+  const FlowConfig& config = model->config();
+  const bool on_cpu = device.kind == Device::Kind::kCpu;
+  const bool packs = kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16 ||
+                     (kind == EngineKind::kAuto && on_cpu);
+  if (packs && !on_cpu)
+    throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
+  std::function<std::unique_ptr<FlowTile>(int slots)> tile;
+  std::string kernels;
+  if (packs) {
+    const KernelSet set = ChooseKernels(kind, kernel_name);
+    kernels = std::string("packed ") + set.products->name;
+    const auto packed = std::make_shared<const PackedFlow>(content, config, model->feature_width(),
+                                                           *set.exact, *set.products);
+    tile = [packed](int slots) { return std::make_unique<PackedTile>(packed, slots); };
+  } else {
+    const auto weights = ToTorchWeights(model, device);
+    const int rows = TorchTile::VerifiedRows(weights);
+    if (rows == 1) {
+      std::clog << "choreo: on " << device.name()
+                << " a row's bits depend on its batch, so rows are stepped one by one (slower)\n";
+    }
+    kernels = TorchKernels(weights->device) + ", tile " + std::to_string(rows);
+    tile = [weights, rows](int slots) { return std::make_unique<TorchTile>(weights, rows, slots); };
+  }
+  ModelInfo info = InfoOf(checkpoint, config, model->skeleton(), kernels);
+  info.audio_features = config.audio_features;
+  info.hears_music = config.hears_music;
+  info.default_temperature = config.temperature;
+  return [info, config, device, tile](int slots) {
+    return std::make_unique<FlowEngine>(info, config, device.name(), slots, tile(slots));
+  };
+}
+
+Factory Load(const std::filesystem::path& path, const Device& device, EngineKind kind,
+             const std::string& kernel_name) {
   const c10::InferenceMode inference;
   // Exact float32 everywhere: bits before speed.
   at::globalContext().setAllowTF32CuBLAS(false);
   at::globalContext().setAllowTF32CuDNN(false);
   at::globalContext().setDeterministicCuDNN(true);
-
   const Safetensors content = ReadSafetensors(path);
   if (HoldsControllers(content)) return LoadControllers(content, path);
-  if (HoldsContinuousFlow(content)) return LoadContinuousFlow(content, path);
-  const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
-  FlowModel model = checkpoint.model;
-  const FlowConfig& config = model->config();
-  const torch::Device there = ToTorch(device);
-  Loaded loaded;
-  std::string kernels = TorchKernels(there);
-  // A baseline without a flow has nothing to pack.
-  const bool packs = kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16 ||
-                     (kind == EngineKind::kAuto && there.is_cpu());
-  if (packs && config.flow_steps > 0) {
-    if (!there.is_cpu()) {
-      throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
-    }
-    const KernelSet set = ChooseKernels(kind, kernel_name);
-    const PackedKernels& exact = *set.exact;
-    const PackedKernels& products = *set.products;
-    const std::string name = std::string("packed ") + products.name;
-    loaded.packed =
-        std::make_shared<PackedFlow>(content, config, model->feature_width(), exact, products);
-    if (PackedPlanner::Serves(config)) {
-      kernels = name;
-      loaded.planner =
-          std::make_shared<PackedPlanner>(content, config, model->skeleton(), exact, products);
-    } else {
-      model->ForgetFlow();
-      kernels = name + ", plans by " + kernels;
-    }
-  } else {
-    if (kind == EngineKind::kTorchBf16) {
-      model->RoundNetworks();
-      kernels += ", bf16";
-    }
-    model->to(there);
-    loaded.torch = std::make_shared<TorchWeights>();
-    loaded.torch->device = there;
-    loaded.torch->inverse_weights = model->InverseWeights();
-    loaded.torch->model = model;
-    loaded.torch_rows = TorchTile::VerifiedRows(loaded.torch);
-    if (loaded.torch_rows == 1) {
-      std::clog << "choreo: on " << device.name()
-                << " a row's bits depend on its batch, so rows are stepped one by one (slower)\n";
-    }
-    kernels += ", tile " + std::to_string(loaded.torch_rows);
-  }
-  if (!loaded.planner) loaded.planner = std::make_shared<TorchPlanner>(model, there);
-  // Without a flow the plan is what is danced: frames have no noise of their own.
-  const bool flow = config.flow_steps > 0;
-  loaded.info = {.name = config.name,
-                 .fingerprint = Fingerprint(config.name, checkpoint.hash, kernels),
-                 .licence = LicenceOf(checkpoint.card),
-                 .card = checkpoint.card,
-                 .skeleton = model->skeleton(),
-                 .fps = 30,
-                 .history_frames = config.history_frames,
-                 .audio_features = config.audio_features,
-                 .max_transition_frames = config.max_transition_frames,
-                 .default_temperature = config.temperature,
-                 .hears_music = config.hears_music,
-                 .fine_temperature = flow ? config.fine_temperature : 0,
-                 .follow = config.follow,
-                 .deterministic = !flow && config.planner.variety == 0,
-                 .velocity_references = {}};
-  return loaded;
+  if (HoldsContinuousFlow(content)) return LoadContinuousFlow(content, path, device);
+  return LoadFlow(content, path, device, kind, kernel_name);
 }
 
 }  // namespace
@@ -274,12 +238,12 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
   if (slots < 1 || slots > 4096) {
     throw InvalidArgument("slots", std::to_string(slots) + " is not in [1, 4096]");
   }
-  std::map<Device, Loaded> loaded;
+  std::map<Device, Factory> loaded;
   std::vector<std::unique_ptr<StepEngine>> engines;
   for (const Device& device : devices) {
     const auto [here, is_new] = loaded.try_emplace(device);
     if (is_new) here->second = Load(path, device, kind, kernels);
-    engines.push_back(here->second.Engine(device, slots));
+    engines.push_back(here->second(slots));
   }
   return engines;
 }
@@ -287,11 +251,6 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
 std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
                                        const Device& device, int slots, EngineKind kind) {
   return std::move(MakeEngines(checkpoint, {&device, 1}, slots, kind).front());
-}
-
-std::shared_ptr<const TransitionPlanner> MakeTransitionPlanner(
-    const std::filesystem::path& checkpoint, const Device& device, EngineKind kind) {
-  return Load(checkpoint, device, kind, "").planner;
 }
 
 }  // namespace choreo

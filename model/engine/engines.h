@@ -9,9 +9,8 @@
 #include "model/engine/devices.h"
 #include "model/engine/engine_kind.h"
 #include "model/engine/step_engine.h"
-#include "model/engine/transition_planner.h"
 
-/// Makes the engines that run the flow model (model/flow) and the controllers network
+/// Makes the engines that run the continuous flow and paper F's (model/flow), and paper C's network
 /// (model/controllers); the checkpoint says which. This header is free of torch.
 ///
 /// A row's bits depend neither on its slot nor on who steps with it. That is verified when engines
@@ -41,10 +40,5 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
 std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
                                        const Device& device, int slots,
                                        EngineKind kind = EngineKind::kAuto);
-
-/// What such an engine plans with, by itself. The same errors.
-std::shared_ptr<const TransitionPlanner> MakeTransitionPlanner(
-    const std::filesystem::path& checkpoint, const Device& device,
-    EngineKind kind = EngineKind::kAuto);
 
 }  // namespace choreo

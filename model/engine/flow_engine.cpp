@@ -4,20 +4,17 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/engine/plan_pace.h"
-#include "model/engine/plan_timing.h"
-#include "model/engine/temperature.h"
+#include "model/flow/key_condition.h"
 #include "model/motion/pose_codec.h"
 
 namespace choreo {
 
-FlowEngine::FlowEngine(ModelInfo info, std::string device, int slots,
-                       std::shared_ptr<const TransitionPlanner> planner,
+FlowEngine::FlowEngine(ModelInfo info, FlowConfig config, std::string device, int slots,
                        std::unique_ptr<FlowTile> tile)
     : info_(std::move(info)),
+      config_(std::move(config)),
       device_(std::move(device)),
       slots_(static_cast<size_t>(slots), Slot(info_)),
-      planner_(std::move(planner)),
       tile_(std::move(tile)),
       rows_(static_cast<size_t>(tile_->rows())) {
   const auto width = static_cast<size_t>(PoseCodec(info_.skeleton).width());
@@ -39,14 +36,11 @@ int FlowEngine::Admit(const TransitionSpec& spec) {
                 "all " + std::to_string(slots_.size()) + " slots are taken");
   }
   const int slot = static_cast<int>(free - slots_.begin());
-  TransitionPlan plan = planner_->Plan(spec);
-  tile_->Begin(slot, std::move(plan.static_condition));
-  if (!plan.poses.empty()) {
-    if (!spec.beats.empty())
-      plan.poses = TimeToBeats(spec.history, plan.poses, spec.beats, Keyed(spec));
-    plan.poses = EvenPace(info_.skeleton, spec.history, std::move(plan.poses), info_.fps);
-  }
-  free->window.Begin(spec, plan.poses);
+  const PoseCodec codec(info_.skeleton);
+  tile_->Begin(slot, KeyConditions(config_, codec.joints(), codec.width(), spec.frames,
+                                   spec.target ? &spec.target->pose : nullptr,
+                                   spec.target ? spec.target->mask : PoseMask{}));
+  free->window.Begin(spec);
   free->taken = true;
   return slot;
 }

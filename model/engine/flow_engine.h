@@ -6,17 +6,16 @@
 
 #include "model/engine/flow_tile.h"
 #include "model/engine/step_engine.h"
-#include "model/engine/transition_planner.h"
 #include "model/engine/transition_window.h"
+#include "model/flow/flow_config.h"
 
 namespace choreo {
 
-/// The flow model in slots, whatever computes its parts: a planner at admission, a tile for every
-/// step. Made by engines.h.
+/// Paper F's flow in slots, whatever computes its tile. Made by engines.h.
 class FlowEngine : public StepEngine {
  public:
-  FlowEngine(ModelInfo info, std::string device, int slots,
-             std::shared_ptr<const TransitionPlanner> planner, std::unique_ptr<FlowTile> tile);
+  FlowEngine(ModelInfo info, FlowConfig config, std::string device, int slots,
+             std::unique_ptr<FlowTile> tile);
 
   const ModelInfo& model() const override { return info_; }
   std::string device() const override { return device_; }
@@ -37,9 +36,9 @@ class FlowEngine : public StepEngine {
   void StepTile(std::span<const StepInput> in, std::span<StepOutput> out);
 
   ModelInfo info_;
+  FlowConfig config_;
   std::string device_;
   std::vector<Slot> slots_;
-  std::shared_ptr<const TransitionPlanner> planner_;
   std::unique_ptr<FlowTile> tile_;
   std::vector<FlowRow> rows_;    // of one tile
   std::vector<float> features_;  // [rows of a tile, width]

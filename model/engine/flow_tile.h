@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,9 +38,9 @@ class FlowTile {
   virtual ~FlowTile() = default;
   /// Rows that one Run takes at most.
   virtual int rows() const = 0;
-  /// A transition starts in `slot`, with state zero. `static_condition`: [frames, width] as
-  /// TransitionPlan has it.
-  virtual void Begin(int slot, std::vector<float> static_condition) = 0;
+  /// A transition starts in `slot`, with state zero. `conditions`: [width, frames] as KeyConditions
+  /// has them.
+  virtual void Begin(int slot, Eigen::MatrixXf conditions) = 0;
   /// Steps these rows together. What comes out for a row depends neither on its place nor on the
   /// other rows.
   virtual void Run(std::span<FlowRow> rows) = 0;

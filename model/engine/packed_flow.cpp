@@ -65,7 +65,6 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
       flow_steps(config.flow_steps),
       hidden(config.hidden),
       recurrent(config.recurrent),
-      planned(config.planner.width > 0),
       encoded(config.condition_width > 0),
       live(tau * width + (tau + 1) * audio_features + 1),
       condition(encoded ? config.condition_width : live) {
@@ -78,7 +77,9 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
 
   const std::string first_weight = recurrent ? "network.lstm.weight_ih_l0" : "network.first.weight";
   if (encoded) {
-    static_width = condition;  // encode_static is the planner's part
+    static_width = condition;
+    key_width = static_cast<int>(tensors.Columns("encode_static.weight"));
+    encode_static = tensors.Linear(kernels, "encode_static", key_width, condition);
     const long past = tau * width, audio = live - past;
     Matrix weight(live, condition);
     weight << tensors.Get("encode_past.weight", condition, past).transpose(),
@@ -92,7 +93,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
     if (columns < low() + live) {
       throw InvalidArgument("flow.steps.0." + first_weight, "is missing, or has too few columns");
     }
-    static_width = static_cast<int>(columns) - low() - live;
+    key_width = static_width = static_cast<int>(columns) - low() - live;
   }
 
   double log_det_sum = 0;

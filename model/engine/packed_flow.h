@@ -39,8 +39,6 @@ struct PackedFlow {
   int first_width() const { return recurrent ? 4 * hidden : hidden; }
   /// Width of Hoist's rows: every coupling's first layer.
   long hoisted_width() const { return flow_steps * couplings.front().first.padded(); }
-  /// Root position and rotations; velocities and contacts stand behind them.
-  int pose_width() const { return width - 3 - 4; }
   int input_width() const { return condition + low() + (recurrent ? hidden : 0); }
 
   /// static_condition [rows, static_width] -> hoisted [rows, hoisted_width()]: what every frame's
@@ -51,15 +49,15 @@ struct PackedFlow {
   const PackedKernels& kernels;
   int width, tau, audio_features, flow_steps, hidden;
   bool recurrent;
-  bool planned;      ///< features are relative to a plan
   bool encoded;      ///< one shared condition encoding, else the raw condition
   int live;          ///< floats of past and music that a frame's condition is made of
   int condition;     ///< columns of the condition that couplings see: the encoding's, or `live`
-  int static_width;  ///< of TransitionPlan::static_condition
+  int key_width;     ///< of a frame's key condition
+  int static_width;  ///< of it behind encode_static; the same where nothing is encoded
   Eigen::VectorXf feature_mean, feature_std, feature_scale;  ///< scale = 1 / std
   Eigen::VectorXf audio_mean, audio_scale;
   float log_det = 0;  ///< the part that is the same in every frame
-  PackedLinear encode_live, encode;
+  PackedLinear encode_static, encode_live, encode;
   std::vector<Coupling> couplings;
 
  private:

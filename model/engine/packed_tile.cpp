@@ -14,16 +14,6 @@ constexpr float kDeltaFloor = 0.05F;
 constexpr float kFeatureClamp = 6.0F;
 constexpr float kSampleBound = 3.0F;
 
-// `past` [tau, width], standardised: see kStrayed.
-void DropStrayed(const PackedFlow& flow, std::span<const float> noise, float* past) {
-  const Eigen::Map<const Eigen::ArrayXf> drawn(noise.data(), flow.width);
-  const float most = kStrayed * (1 + std::sqrt(drawn.square().mean()));
-  for (int frame = 0; frame < flow.tau; ++frame, past += flow.width) {
-    Eigen::Map<Eigen::ArrayXf> features(past, flow.width);
-    if (features.head(flow.pose_width()).abs().maxCoeff() >= most) features.setZero();
-  }
-}
-
 }  // namespace
 
 PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
@@ -39,9 +29,16 @@ PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
   mixed_ = Buffer(coupling.unmix.padded());
 }
 
-void PackedTile::Begin(int slot_index, std::vector<float> static_condition) {
+void PackedTile::Begin(int slot_index, Eigen::MatrixXf conditions) {
   Slot& slot = slots_[static_cast<size_t>(slot_index)];
-  slot.static_condition = std::move(static_condition);
+  const PackedFlow& flow = *flow_;
+  if (flow.encoded) {
+    Eigen::MatrixXf encoded(flow.encode_static.padded(), conditions.cols());
+    flow.encode_static.Run(conditions.data(), conditions.rows(), encoded.data(), encoded.rows(),
+                           conditions.cols());
+    conditions = encoded.topRows(flow.static_width);
+  }
+  slot.static_condition.assign(conditions.data(), conditions.data() + conditions.size());
   slot.state.assign(static_cast<size_t>(flow_->state_width()), 0.0F);
   if (flow_->encoded) return;
   const long frames = static_cast<long>(slot.static_condition.size()) / flow_->static_width;
@@ -68,7 +65,6 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
     float* live = flow.encoded ? live_.Row(i) : input_.Row(i);
     flow.kernels.standardise(row.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
                              flow.width, flow.tau, kFeatureClamp, live);
-    if (flow.planned) DropStrayed(flow, {z_.Row(i), static_cast<size_t>(flow.width)}, live);
     if (row.has_audio) {
       flow.kernels.standardise(row.audio.data(), flow.audio_mean.data(), flow.audio_scale.data(),
                                flow.audio_features, flow.tau + 1, kFeatureClamp, live + past);

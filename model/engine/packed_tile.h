@@ -19,7 +19,7 @@ class PackedTile : public FlowTile {
   PackedTile(std::shared_ptr<const PackedFlow> flow, int slots);
 
   int rows() const override { return kRows; }
-  void Begin(int slot, std::vector<float> static_condition) override;
+  void Begin(int slot, Eigen::MatrixXf conditions) override;
   void Run(std::span<FlowRow> rows) override;
 
  private:

@@ -1,5 +1,7 @@
 #include "model/engine/step_engine.h"
 
+#include <algorithm>
+
 #include "model/core/error.h"
 
 namespace choreo {
@@ -25,6 +27,13 @@ void CheckControl(const Matrix& values, bool taken, int frames, const ModelInfo&
 }
 
 }  // namespace
+
+bool Keyed(const TransitionSpec& spec) {
+  if (!spec.target) return false;
+  const PoseMask& mask = spec.target->mask;
+  return mask.root_position || mask.joints.empty() ||
+         std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
+}
 
 void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
   if (spec.frames < 1 || spec.frames > model.max_transition_frames) {

@@ -35,9 +35,7 @@ struct ModelInfo {
   int audio_features = 40;  ///< MFCC rows' width
   int max_transition_frames = 1800;
   double default_temperature = 0.3;
-  bool hears_music = true;      ///< false: learnt without; music changes when it dances, not what
-  double fine_temperature = 1;  ///< share of a frame's own noise; times NoiseShare (temperature.h)
-  double follow = 1;  ///< share of the way that what leaves the plan goes to the flow's proposal
+  bool hears_music = true;        ///< false: learnt without; music changes when it dances, not what
   bool deterministic = false;     ///< seed, candidate and temperature change nothing
   bool root_path = false;         ///< takes Controls::root_path
   bool velocity_factors = false;  ///< takes Controls::velocity_factors
@@ -76,8 +74,8 @@ struct TransitionSpec {
   bool has_audio = false;        ///< false: audio rows are ignored, the model dances without music
   Eigen::MatrixXf
       audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first
-  /// Where the music beats, in frames from frame 0, ascending; the plan is timed to it
-  /// (plan_timing.h). Empty: unknown.
+  /// Where the music beats, in frames from frame 0, ascending; a dance without a path is timed to
+  /// it (plan_timing.h). Empty: unknown.
   std::vector<double> beats;
   Controls controls;
   uint64_t seed = 0;
@@ -86,6 +84,9 @@ struct TransitionSpec {
                             ///< absolute frame, dimension)
   float temperature = 0.3F;
 };
+
+/// Whether its target asks for the root's position or a joint.
+bool Keyed(const TransitionSpec& spec);
 
 /// Throws Error(kInvalidArgument) naming the field unless the spec has the model's shape: frames,
 /// history, joints, mask, music rows and controls; a control that the model does not take is

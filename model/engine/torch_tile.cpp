@@ -17,13 +17,12 @@ TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
       padded_(rows + 1),
       spare_(slots),
       static_conditions_(static_cast<size_t>(slots)),
-      states_(torch::zeros({slots + 1, weights_->model->StateWidth()}, weights_->device)),
-      noise_(weights_->device, padded_, weights_->model->feature_width()) {
+      states_(torch::zeros({slots + 1, weights_->model->StateWidth()}, weights_->device)) {
   const FlowModel& model = weights_->model;
   const FlowConfig& config = model->config();
   const int64_t tau = config.history_frames, width = model->feature_width();
-  const int64_t widths[kParts] = {tau * width, (tau + 1) * config.audio_features, 1,
-                                  model->static_width(), 1};
+  const int64_t widths[kParts] = {
+      tau * width, (tau + 1) * config.audio_features, 1, model->static_width(), width, 1};
   begin_[0] = 0;
   for (int part = 0; part < kParts; ++part) begin_[part + 1] = begin_[part] + widths[part];
   const auto here = torch::TensorOptions().pinned_memory(weights_->device.is_cuda());
@@ -32,7 +31,6 @@ TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
   host_output_ = torch::zeros({padded_, width + 1}, here);
   input_ = host_input_.to(weights_->device);
   slots_ = host_slots_.to(weights_->device);
-  step_ = std::make_unique<DeviceGraph>(weights_->device, [this] { Compute(); });
 }
 
 std::span<float> TorchTile::Row(Part part, size_t row) {
@@ -48,8 +46,13 @@ std::span<int64_t> TorchTile::SlotOfRows() {
   return {host_slots_.data_ptr<int64_t>(), static_cast<size_t>(padded_)};
 }
 
-void TorchTile::Begin(int slot, std::vector<float> static_condition) {
-  static_conditions_[static_cast<size_t>(slot)] = std::move(static_condition);
+void TorchTile::Begin(int slot, Eigen::MatrixXf conditions) {
+  const c10::InferenceMode inference;
+  const Tensor raw = torch::from_blob(conditions.data(), {conditions.cols(), conditions.rows()});
+  FlowModel model = weights_->model;
+  const Tensor encoded = model->Encode(raw.to(weights_->device)).cpu().contiguous();
+  static_conditions_[static_cast<size_t>(slot)].assign(encoded.data_ptr<float>(),
+                                                       encoded.data_ptr<float>() + encoded.numel());
 }
 
 void TorchTile::Run(std::span<FlowRow> rows) {
@@ -63,13 +66,12 @@ void TorchTile::Run(std::span<FlowRow> rows) {
                     static_cast<size_t>(row.frame) * condition.size(),
                 condition.size(), condition.begin());
     Row(kUnderWay, i)[0] = row.frame > 0 ? 1.0F : 0.0F;
-    noise_.rows()[i] = row.noise;
+    row.noise.Fill(Row(kNoise, i));
     SlotOfRows()[i] = row.slot;
   }
   // Rows beyond these are padding: they hold what was there, and are dropped.
   std::ranges::fill(SlotOfRows().subspan(rows.size()), spare_);
-  std::ranges::fill(noise_.rows().subspan(rows.size()), FrameNoise{});
-  step_->Run();
+  Compute();
   const int64_t width = host_output_.size(1) - 1;
   for (size_t i = 0; i < rows.size(); ++i) {
     const float* row = host_output_.data_ptr<float>() + static_cast<int64_t>(i) * (width + 1);
@@ -84,7 +86,6 @@ void TorchTile::Compute() {
     input_.copy_(host_input_, /*non_blocking=*/true);
     slots_.copy_(host_slots_, /*non_blocking=*/true);
   }
-  noise_.Draw();
   FlowModel model = weights_->model;
   const int64_t tau = model->config().history_frames;
   // A transition starts from a state of zero.
@@ -92,7 +93,7 @@ void TorchTile::Compute() {
   FlowState state = torch::where(Input(kUnderWay) > 0, before, torch::zeros_like(before));
   const FlowModelImpl::StepResult result = model->Step(
       Input(kPast).reshape({padded_, tau, -1}), Input(kAudio).reshape({padded_, tau + 1, -1}),
-      Input(kHasAudio), Input(kCondition), noise_.values(), weights_->inverse_weights, &state);
+      Input(kHasAudio), Input(kCondition), Input(kNoise), weights_->inverse_weights, &state);
   if (state.size(1) > 0) states_.index_copy_(0, slots_, state);
   host_output_.copy_(torch::cat({result.features, result.log_likelihood.unsqueeze(1)}, 1),
                      /*non_blocking=*/true);
@@ -108,7 +109,7 @@ bool TorchTile::RowsAreIndependent() {
     return tensor;
   };
   for (int row = 0; row < rows_; ++row) SlotOfRows()[static_cast<size_t>(row)] = row;
-  for (uint64_t probe = 0; probe < 2; ++probe) {
+  for (int probe = 0; probe < 2; ++probe) {
     const Tensor crowd = normal(padded_, begin_[kParts]), input = normal(1, begin_[kParts]);
     const Tensor states = normal(rows_, states_.size(1)), state = normal(1, states_.size(1));
     Tensor expected;
@@ -119,9 +120,7 @@ bool TorchTile::RowsAreIndependent() {
       Tensor here = states.roll(place + place / 2, 0);
       here[place].copy_(state[0]);
       states_.narrow(0, 0, rows_).copy_(here);
-      for (FrameNoise& noise : noise_.rows()) noise = {.seed = random.Next(), .spread = 1};
-      noise_.rows()[static_cast<size_t>(place)] = {.seed = probe, .spread = 1};
-      step_->Run();
+      Compute();
       const Tensor result = torch::cat({host_output_[place], states_[place].cpu()});
       if (!expected.defined()) expected = result.clone();
       if (!torch::equal(result, expected)) return false;

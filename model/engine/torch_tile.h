@@ -5,8 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "model/engine/device_graph.h"
-#include "model/engine/device_noise.h"
 #include "model/engine/flow_tile.h"
 #include "model/flow/flow_model.h"
 
@@ -20,8 +18,7 @@ struct TorchWeights {
 };
 
 /// The flow, stepped by LibTorch: a fixed number of rows together, padded, with inputs and outputs
-/// in host memory. The reference that faster tiles are held to, and the one that runs on CUDA:
-/// there a step is one graph, of one size, since another batch would give other bits.
+/// in host memory. The reference that faster tiles are held to, and the one that runs on CUDA.
 class TorchTile : public FlowTile {
  public:
   TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots);
@@ -31,12 +28,12 @@ class TorchTile : public FlowTile {
   static int VerifiedRows(const std::shared_ptr<TorchWeights>& weights);
 
   int rows() const override { return rows_; }
-  void Begin(int slot, std::vector<float> static_condition) override;
+  void Begin(int slot, Eigen::MatrixXf conditions) override;
   void Run(std::span<FlowRow> rows) override;
 
  private:
   /// Columns of the input.
-  enum Part { kPast, kAudio, kHasAudio, kCondition, kUnderWay, kParts };
+  enum Part { kPast, kAudio, kHasAudio, kCondition, kNoise, kUnderWay, kParts };
   std::span<float> Row(Part part, size_t row);
   torch::Tensor Input(Part part) const;
   std::span<int64_t> SlotOfRows();
@@ -58,8 +55,6 @@ class TorchTile : public FlowTile {
   torch::Tensor host_slots_, slots_;  ///< [padded], of int64
   torch::Tensor host_output_;         ///< [padded, width + 1]: features, log-likelihood
   torch::Tensor states_;              ///< [slots + 1, StateWidth()], on the device
-  DeviceNoise noise_;
-  std::unique_ptr<DeviceGraph> step_;
 };
 
 }  // namespace choreo

@@ -12,8 +12,8 @@
 
 namespace choreo {
 
-/// What an engine keeps of one transition in progress, whatever computes its network: the plan, the
-/// features of the last tau emitted frames, the last tau + 1 music rows, and where it stands.
+/// What an engine keeps of one transition in progress, whatever computes its network: the features
+/// of the last tau emitted frames, the last tau + 1 music rows, and where it stands.
 ///
 /// What a frame's history holds is what was emitted: its features are encoded anew from the poses
 /// that StepInput::previous hands back (velocities between them, contacts as motion/contacts.h
@@ -24,9 +24,8 @@ class TransitionWindow {
  public:
   explicit TransitionWindow(const ModelInfo& model);
 
-  /// Starts a transition. `plan`: [frames] reference poses, or empty where features are absolute.
-  /// The spec is valid (ValidateSpec).
-  void Begin(const TransitionSpec& spec, std::span<const Pose> plan);
+  /// Starts a transition. The spec is valid (ValidateSpec).
+  void Begin(const TransitionSpec& spec);
 
   SlotProgress progress() const { return {frame_, frames_, has_audio_}; }
   /// Moves the windows on by what was emitted and what is heard; `input` is what the next frame
@@ -38,7 +37,7 @@ class TransitionWindow {
   bool has_audio() const { return has_audio_; }
   std::span<const float> past() const { return past_; }    ///< [tau, width], oldest first
   std::span<const float> audio() const { return audio_; }  ///< [tau + 1, audio_features]
-  /// Its noise, with the frame's share of the temperature.
+  /// Its noise, temperature applied.
   FrameNoise noise() const {
     return {
         .seed = seed_, .frame = first_frame_ + frame_, .candidate = candidate_, .spread = noise_};
@@ -48,8 +47,6 @@ class TransitionWindow {
   void Finish(std::span<const float> features, StepOutput* output);
 
  private:
-  /// Valid until the next call; null where features are absolute.
-  const Pose* Reference(int frame);
   Eigen::Map<Eigen::VectorXf> PastRow(int row) {
     return {past_.data() + static_cast<std::ptrdiff_t>(row) * codec_.width(), codec_.width()};
   }
@@ -58,7 +55,6 @@ class TransitionWindow {
   double fps_;
   int tau_, audio_features_;
   bool hears_music_;
-  float fine_temperature_, follow_;
   PoseCodec codec_;
   std::vector<float> past_, audio_;
 
@@ -69,15 +65,12 @@ class TransitionWindow {
   int64_t first_frame_ = 0;
   float noise_ = 0;  // standard deviation
   bool has_audio_ = false;
-  std::vector<float> plan_;  // [frames, 3 + 3 joints], or empty: a third of the poses' own memory
-  Pose reference_;           // of the plan
-  Pose last_;                // emitted before `frame_`
+  Pose last_;  // emitted before `frame_`
   JointPlacement last_placement_;
   ContactDetector contacts_;
 
   // Kept for their memory.
   JointPlacement placement_;
-  std::vector<float> proposed_;
   PoseCodec::Decoded decoded_;
 };
 

@@ -80,10 +80,6 @@ void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& 
     const bool zero = !item.value().any().item<bool>();
     if (zero) item.value().copy_(0.05 * torch::randn_like(item.value()));
   }
-  if (model->variety()) {
-    for (auto& item : model->variety()->named_buffers())
-      item.value().copy_(0.02 * torch::randn_like(item.value()));
-  }
   model->SetFeatureNormalisation(0.05 * torch::randn({model->feature_width()}),
                                  0.02 + 0.1 * torch::rand({model->feature_width()}));
   model->SetAudioNormalisation(torch::randn({config.audio_features}),

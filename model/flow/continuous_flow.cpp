@@ -8,7 +8,7 @@
 #include "model/flow/checkpoint.h"
 #include "model/flow/checkpoint_file.h"
 #include "model/flow/random_checkpoint.h"
-#include "model/flow/time_block.h"
+#include "model/flow/time_attention.h"
 
 namespace choreo {
 
@@ -109,24 +109,28 @@ Tensor TimeFirst(const Matrix& matrix) {
 
 class TorchFlowNetwork : public FlowNetwork {
  public:
-  explicit TorchFlowNetwork(ContinuousFlow model) : model_(std::move(model)) {}
+  TorchFlowNetwork(ContinuousFlow model, torch::Device device)
+      : model_(std::move(model)), device_(device) {
+    model_->to(device_);
+  }
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                            const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
                            const WindowFeatures& features, float t) const override {
     const c10::InferenceMode inference;
     auto& model = const_cast<ContinuousFlow&>(model_);
-    const Tensor whole =
-        torch::from_blob(const_cast<float*>(features.whole.data()), {1, features.whole.size()});
+    const auto there = [this](const auto& matrix) { return TimeFirst(matrix).to(device_); };
     const Tensor f =
         model
-            ->forward(TimeFirst(z), TimeFirst(poses), TimeFirst(joints), TimeFirst(mean),
-                      TimeFirst(features.frames), whole, torch::full({1}, t))
+            ->forward(there(z), there(poses), there(joints), there(mean), there(features.frames),
+                      there(features.whole).squeeze(1), torch::full({1}, t, device_))
+            .cpu()
             .contiguous();
     return Eigen::Map<const Eigen::MatrixXf>(f.data_ptr<float>(), z.rows(), z.cols());
   }
 
  private:
   ContinuousFlow model_;
+  torch::Device device_;
 };
 
 constexpr const char* kFormat = "choreo-continuous-flow-2";
@@ -139,7 +143,8 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   const Tensor walk = torch::zeros({dimensions, MotionPrior::kLags});
   walk.select(1, 0).fill_(1e-4);
   covariance_ = register_buffer("velocity_covariance", walk);
-  powers_ = register_buffer("variance_powers", torch::zeros({4}));
+  powers_ = register_buffer("variance_powers", torch::zeros({6}));
+  SetPowers({});
   mixing_ = register_buffer("mixing", torch::eye(dimensions));
   spread_ = register_buffer("spread", torch::ones({dimensions}));
   const int64_t features = kFramesAToken * (6 * dimensions - 3 + FrameFeatures());
@@ -200,18 +205,25 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Varia
     to.copy_(torch::from_blob(const_cast<double*>(rows.data()), to.sizes(), torch::kFloat64));
   };
   set(covariance_, covariance);
-  set(powers_,
-      Eigen::Vector4d(powers.surprise, powers.offset, powers.known_surprise, powers.level));
+  SetPowers(powers);
   set(mixing_, mixing);
   set(spread_, spread);
+}
+
+void ContinuousFlowImpl::SetPowers(const VariancePowers& powers) {
+  torch::NoGradGuard no_grad;
+  powers_.copy_(torch::tensor({powers.surprise, powers.least, powers.most, powers.offset,
+                               powers.known_surprise, powers.level}));
 }
 
 FlowModelParts ContinuousFlowImpl::Parts() const {
   const Eigen::MatrixXd numbers = ToEigen(powers_);
   VariancePowers powers{.surprise = numbers(0),
-                        .offset = numbers(1),
-                        .known_surprise = numbers(2),
-                        .level = numbers(3),
+                        .least = numbers(1),
+                        .most = numbers(2),
+                        .offset = numbers(3),
+                        .known_surprise = numbers(4),
+                        .level = numbers(5),
                         .parts = std::vector<int>(3, static_cast<int>(BodyPart::kTrunk)),
                         .medians = config_.median_factors};
   const BodyPartWeights weights = WeighBodyParts(skeleton_);
@@ -224,8 +236,8 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
           ToEigen(mixing_)};
 }
 
-std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model) {
-  return std::make_unique<TorchFlowNetwork>(std::move(model));
+std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model, torch::Device device) {
+  return std::make_unique<TorchFlowNetwork>(std::move(model), device);
 }
 
 bool HoldsContinuousFlow(const Safetensors& content) {

@@ -42,6 +42,8 @@ class ContinuousFlowImpl : public torch::nn::Module {
   const Skeleton& skeleton() const { return skeleton_; }
 
  private:
+  void SetPowers(const VariancePowers& powers);
+
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
   torch::Tensor covariance_, powers_, mixing_, spread_;
@@ -51,9 +53,10 @@ class ContinuousFlowImpl : public torch::nn::Module {
 };
 TORCH_MODULE(ContinuousFlow);
 
-/// Runs the network one window at a time on the CPU, so that a window's bits depend on nothing
-/// else. Keeps the model.
-std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model);
+/// Runs the network one window at a time, so that a window's bits depend on nothing else. Keeps the
+/// model, on that device.
+std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model,
+                                                  torch::Device device = torch::kCPU);
 
 /// Checkpoints of it, as those of the other networks (model/flow/checkpoint.h).
 struct ContinuousFlowCheckpoint {

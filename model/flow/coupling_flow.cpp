@@ -176,10 +176,6 @@ std::vector<Tensor> CouplingFlowImpl::InverseWeights() const {
   return weights;
 }
 
-void CouplingFlowImpl::RoundNetworks() {
-  for (const auto& step : *steps_) step->as<FlowStep>()->network()->to(torch::kBFloat16);
-}
-
 void CouplingFlowImpl::InitialiseActNorm(const Tensor& x, const Tensor& condition) {
   torch::NoGradGuard no_grad;
   Tensor h = x;

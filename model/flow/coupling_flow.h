@@ -23,8 +23,7 @@ using FlowState = torch::Tensor;
 class CouplingNetworkImpl : public torch::nn::Module {
  public:
   CouplingNetworkImpl(int input, int hidden, int output, bool recurrent);
-  /// `state` [batch, StateWidth()] is read and replaced. Weights may be of bfloat16: then so is all
-  /// between input and output.
+  /// `state` [batch, StateWidth()] is read and replaced.
   torch::Tensor forward(const torch::Tensor& input, torch::Tensor* state);
   int StateWidth() const { return recurrent_ ? 2 * kLayers * hidden_ : 0; }
 
@@ -82,8 +81,6 @@ class CouplingFlowImpl : public torch::nn::Module {
                         const std::vector<torch::Tensor>& inverse_weights, FlowState* state,
                         torch::Tensor* log_det);
   std::vector<torch::Tensor> InverseWeights() const;
-  /// Rounds the coupling networks to bfloat16; what is around them stays float32.
-  void RoundNetworks();
   void InitialiseActNorm(const torch::Tensor& x, const torch::Tensor& condition);
   /// Zeros, [batch, StateWidth()].
   FlowState InitialState(int64_t batch) const;

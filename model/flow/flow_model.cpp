@@ -4,8 +4,9 @@
 
 #include <cmath>
 
+#include "model/flow/key_condition.h"
 #include "model/flow/torch_kinematics.h"
-#include "model/motion/mirror.h"
+#include "model/motion/pose_codec.h"
 
 namespace choreo {
 
@@ -25,30 +26,17 @@ Tensor BoundSample(const Tensor& x) {
   return inside + (x - inside).tanh();
 }
 
-// paper F 3.2.1: root 3, rotations, velocities 3, contacts 4.
-int FeatureWidth(const Skeleton& skeleton) { return 3 + 3 * skeleton.joints() + 3 + 4; }
-
 }  // namespace
 
 FlowModelImpl::FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton)
-    : config_(config), skeleton_(skeleton), width_(FeatureWidth(skeleton)) {
+    : config_(config), skeleton_(skeleton), width_(PoseCodec(skeleton).width()) {
   feature_mean_ = register_buffer("feature_mean", torch::zeros({width_}));
   feature_std_ = register_buffer("feature_std", torch::ones({width_}));
   audio_mean_ = register_buffer("audio_mean", torch::zeros({config.audio_features}));
   audio_std_ = register_buffer("audio_std", torch::ones({config.audio_features}));
-  if (config.planner.width > 0) {
-    planner_ = register_module("planner", MakePlanner(skeleton.joints(), config.planner));
-    if (config.planner.variety > 0)
-      variety_ = register_module("variety", Variety(skeleton.joints(), config.planner.variety));
-  }
-  const std::vector<int> pairs = MirrorPairs(skeleton);
-  pairs_ = torch::tensor(std::vector<int64_t>(pairs.begin(), pairs.end()));
-  const int joints = skeleton.joints();
   const int past = config.history_frames * width_;
   const int audio = (config.history_frames + 1) * config.audio_features + 1;
-  // Key: position, 6D rotations, mask. Then Eq. 9's embedding at the width of the motion, and the
-  // planner's hidden state.
-  const int fixed = 3 + 6 * joints + joints + 1 + width_ + config.planner.width;
+  const int fixed = key_width();
   int condition = past + audio + fixed;
   if (config.condition_width > 0) {
     condition = config.condition_width;
@@ -60,37 +48,11 @@ FlowModelImpl::FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton)
   flow_ = register_module("flow", CouplingFlow(width_, condition, config));
 }
 
-int FlowModelImpl::static_width() const {
-  const int joints = skeleton_.joints();
-  return config_.condition_width > 0 ? config_.condition_width
-                                     : 3 + 6 * joints + joints + 1 + width_ + config_.planner.width;
-}
+int FlowModelImpl::key_width() const { return KeyConditionWidth(skeleton_.joints(), width_); }
 
-TransitionContext FlowModelImpl::Begin(const TransitionTensors& transition, const Tensor& variety) {
-  PlannerImpl::Plan plan;
-  if (has_planner()) plan = PlanOf(transition);
-  if (variety.defined()) plan.trajectory = variety_->Vary(transition, plan.trajectory, variety);
-  return Hoist(transition, plan);
-}
-
-TransitionContext FlowModelImpl::BeginNear(const TransitionTensors& transition,
-                                           const TrajectoryTensors& truth) {
-  PlannerImpl::Plan plan;
-  if (has_planner()) plan = PlanOf(transition);
-  if (variety_) plan.trajectory = variety_->Approach(transition, plan.trajectory, truth);
-  return Hoist(transition, plan);
-}
-
-PlannerImpl::Plan FlowModelImpl::PlanOf(const TransitionTensors& transition) {
-  return planner_->Balanced(transition, pairs_.to(transition.target_position.device()));
-}
-
-TransitionContext FlowModelImpl::Hoist(const TransitionTensors& transition,
-                                       const PlannerImpl::Plan& plan) {
+Tensor FlowModelImpl::Begin(const TransitionTensors& transition) {
   const int64_t batch = transition.target_position.size(0), frames = transition.frames;
   const int64_t joints = skeleton_.joints();
-  TransitionContext context;
-  context.reference = plan.trajectory;
   const Tensor mask =
       config_.keys ? transition.target_mask : torch::zeros_like(transition.target_mask);
   const Tensor present = mask.amax(1, true);  // [batch, 1]
@@ -103,26 +65,14 @@ TransitionContext FlowModelImpl::Hoist(const TransitionTensors& transition,
   const Tensor count = config_.forward_embedding ? since : (frames - 1) - since;
   const Tensor embedding =
       TimeEmbedding(count, width_).unsqueeze(0).expand({batch, frames, width_});
-  std::vector<Tensor> parts = {
-      key.unsqueeze(1).expand({batch, frames, key.size(1)}),
-      config_.time_embedding ? embedding * present.unsqueeze(1) : torch::zeros_like(embedding)};
-  if (has_planner()) parts.push_back(plan.hidden);
-  context.static_condition = torch::cat(parts, -1);
-  if (config_.condition_width > 0) {
-    context.static_condition = encode_static_(context.static_condition);
-  }
-  return context;
+  return Encode(torch::cat(
+      {key.unsqueeze(1).expand({batch, frames, key.size(1)}),
+       config_.time_embedding ? embedding * present.unsqueeze(1) : torch::zeros_like(embedding)},
+      -1));
 }
 
-void FlowModelImpl::RoundNetworks() {
-  flow_->RoundNetworks();
-  if (config_.condition_width == 0) return;
-  for (torch::nn::Linear layer : {encode_past_, encode_audio_, encode_})
-    layer->to(torch::kBFloat16);
-}
-
-void FlowModelImpl::ForgetFlow() {
-  for (Tensor& parameter : flow_->parameters()) parameter.set_data(torch::empty({0}));
+Tensor FlowModelImpl::Encode(const Tensor& conditions) {
+  return config_.condition_width > 0 ? encode_static_(conditions) : conditions;
 }
 
 Tensor FlowModelImpl::Standardise(const Tensor& features) const {
@@ -137,10 +87,8 @@ Tensor FlowModelImpl::StandardiseAudio(const Tensor& audio, const Tensor& has_au
 Tensor FlowModelImpl::Condition(const Tensor& past, const Tensor& audio,
                                 const Tensor& static_condition) {
   if (config_.condition_width == 0) return torch::cat({past, audio, static_condition}, -1);
-  const auto inside = encode_->weight.scalar_type(), outside = static_condition.scalar_type();
-  const Tensor sum = encode_past_(past.to(inside)).to(outside) +
-                     encode_audio_(audio.to(inside)).to(outside) + static_condition;
-  return torch::silu(encode_(torch::silu(sum).to(inside)).to(outside));
+  return torch::silu(
+      encode_(torch::silu(encode_past_(past) + encode_audio_(audio) + static_condition)));
 }
 
 FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& audio,
@@ -148,13 +96,7 @@ FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& 
                                               const Tensor& static_condition, const Tensor& noise,
                                               const std::vector<Tensor>& inverse_weights,
                                               FlowState* state) {
-  Tensor clamped = Standardise(past).clamp(-kFeatureClamp, kFeatureClamp);
-  if (has_planner()) {
-    const Tensor far = clamped.narrow(2, 0, 3 + 3 * skeleton_.joints()).abs().amax(2, true);
-    const Tensor most = kStrayed * (1 + noise.square().mean(1).sqrt().view({-1, 1, 1}));
-    clamped = clamped * (far < most).to(clamped.dtype());
-  }
-  clamped = clamped.flatten(1);
+  const Tensor clamped = Standardise(past).clamp(-kFeatureClamp, kFeatureClamp).flatten(1);
   const Tensor rows = torch::cat({StandardiseAudio(audio, has_audio).flatten(1), has_audio}, 1);
   const Tensor condition = Condition(clamped, rows, static_condition).unsqueeze(1);
   Tensor log_det = torch::zeros({noise.size(0), 1}, noise.options());
@@ -167,7 +109,7 @@ FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& 
 
 std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const Tensor& audio,
                                                  const Tensor& has_audio,
-                                                 const TransitionContext& context) {
+                                                 const Tensor& static_condition) {
   const int64_t tau = config_.history_frames, batch = features.size(0);
   const int64_t frames = features.size(1) - tau;
   const Tensor standard = Standardise(features);
@@ -188,12 +130,12 @@ std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const T
   const Tensor flag = has_audio.unsqueeze(1).expand({batch, frames, 1});
   return {standard.narrow(1, tau, frames),
           Condition(past.reshape({batch, frames, tau * width_}), torch::cat({rows, flag}, -1),
-                    context.static_condition)};
+                    static_condition)};
 }
 
 Tensor FlowModelImpl::LogLikelihood(const Tensor& features, const Tensor& audio,
-                                    const Tensor& has_audio, const TransitionContext& context) {
-  const auto [x, condition] = Windows(features, audio, has_audio, context);
+                                    const Tensor& has_audio, const Tensor& static_condition) {
+  const auto [x, condition] = Windows(features, audio, has_audio, static_condition);
   FlowState state = flow_->InitialState(x.size(0));
   Tensor log_det = torch::zeros({x.size(0), x.size(1)}, x.options());
   const Tensor z = flow_->Forward(x, condition, &state, &log_det);
@@ -201,53 +143,30 @@ Tensor FlowModelImpl::LogLikelihood(const Tensor& features, const Tensor& audio,
 }
 
 void FlowModelImpl::InitialiseActNorm(const Tensor& features, const Tensor& audio,
-                                      const Tensor& has_audio, const TransitionContext& context) {
+                                      const Tensor& has_audio, const Tensor& static_condition) {
   torch::NoGradGuard no_grad;
-  const auto [x, condition] = Windows(features, audio, has_audio, context);
+  const auto [x, condition] = Windows(features, audio, has_audio, static_condition);
   flow_->InitialiseActNorm(x, condition);
 }
 
-Tensor FlowModelImpl::RelativeFeatures(const Tensor& absolute, const TrajectoryTensors& truth,
-                                       const TransitionContext& context) const {
-  if (!context.reference.position.defined()) return absolute;
-  const int64_t tau = config_.history_frames, pose_width = 3 + 3 * skeleton_.joints();
-  const Tensor move = truth.position - context.reference.position;
-  const Tensor turn =
-      LogMapBatch(torch::matmul(context.reference.rotation.transpose(-1, -2), truth.rotation));
-  const Tensor relative = torch::cat({move, turn.flatten(2)}, -1);
-  const Tensor history = torch::zeros({absolute.size(0), tau, pose_width}, absolute.options());
-  return torch::cat(
-      {torch::cat({history, relative}, 1), absolute.narrow(2, pose_width, width_ - pose_width)},
-      -1);
-}
-
-TrajectoryTensors FlowModelImpl::Decode(const Tensor& features,
-                                        const TransitionContext& context) const {
+TrajectoryTensors FlowModelImpl::Decode(const Tensor& features) const {
   const int64_t joints = skeleton_.joints();
-  const Tensor position = features.narrow(-1, 0, 3);
-  const Tensor rotation = ExpMapBatch(
-      features.narrow(-1, 3, 3 * joints).reshape({features.size(0), features.size(1), joints, 3}));
-  if (!context.reference.position.defined()) return {position, rotation};
-  return {context.reference.position + position,
-          torch::matmul(context.reference.rotation, rotation)};
+  return {features.narrow(-1, 0, 3),
+          ExpMapBatch(features.narrow(-1, 3, 3 * joints)
+                          .reshape({features.size(0), features.size(1), joints, 3}))};
 }
 
 Tensor FlowModelImpl::Rollout(const Tensor& history, const Tensor& audio, const Tensor& has_audio,
-                              const TransitionContext& context, const Tensor& noise) {
+                              const Tensor& static_condition, const Tensor& noise) {
   const int64_t tau = config_.history_frames, frames = noise.size(1);
   const std::vector<Tensor> inverse_weights = InverseWeights();
   FlowState state = flow_->InitialState(noise.size(0));
   std::vector<Tensor> past = history.unbind(1);
-  Tensor follow = torch::ones({width_}, noise.options());
-  follow.narrow(0, 0, 3 + 3 * skeleton_.joints()).fill_(config_.follow);
   for (int64_t t = 0; t < frames; ++t) {
     const std::vector<Tensor> window(past.end() - tau, past.end());
-    const Tensor proposed =
-        Step(torch::stack(window, 1), audio.narrow(1, t, tau + 1), has_audio,
-             context.static_condition.select(1, t), config_.fine_temperature * noise.select(1, t),
-             inverse_weights, &state)
-            .features;
-    past.push_back(has_planner() ? past.back() + follow * (proposed - past.back()) : proposed);
+    past.push_back(Step(torch::stack(window, 1), audio.narrow(1, t, tau + 1), has_audio,
+                        static_condition.select(1, t), noise.select(1, t), inverse_weights, &state)
+                       .features);
   }
   return torch::stack(std::vector<Tensor>(past.begin() + tau, past.end()), 1);
 }

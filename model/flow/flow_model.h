@@ -5,24 +5,12 @@
 
 #include "model/flow/coupling_flow.h"
 #include "model/flow/flow_config.h"
-#include "model/flow/planner.h"
-#include "model/flow/variety.h"
+#include "model/flow/transition_tensors.h"
 #include "model/motion/skeleton.h"
 
 /// Paper F's model: p(x_t | past tau frames, music, key pose, frames left), an autoregressive
-/// normalizing flow. With a planner (preset `default`) the features x are relative to the plan;
-/// without one (`paper`) they are absolute in the canonical frame.
+/// normalizing flow. Features x are absolute in the canonical frame.
 namespace choreo {
-
-/// What is known of a transition before its first frame.
-struct TransitionContext {
-  /// Reference poses of motion/pose_codec.h: the plan, or undefined tensors where features are
-  /// absolute.
-  TrajectoryTensors reference;
-  /// [batch, N, static_width()]: key pose, frames left and the planner's hidden state, as far as
-  /// they can be computed ahead.
-  torch::Tensor static_condition;
-};
 
 class FlowModelImpl : public torch::nn::Module {
  public:
@@ -31,15 +19,19 @@ class FlowModelImpl : public torch::nn::Module {
   const FlowConfig& config() const { return config_; }
   const Skeleton& skeleton() const { return skeleton_; }
   int feature_width() const { return width_; }
-  int static_width() const;
+  /// Width of a frame's key condition (key_condition.h), and behind its first layer.
+  int key_width() const;
+  int static_width() const {
+    return config_.condition_width > 0 ? config_.condition_width : key_width();
+  }
   int StateWidth() const { return flow_->StateWidth(); }
 
-  /// Plans a batch of transitions and hoists their static condition. `variety` [batch,
-  /// Variety::Waves(N), components] of unit spread, times each wave's temperature, varies the plan;
-  /// undefined: its mean.
-  TransitionContext Begin(const TransitionTensors& transition, const torch::Tensor& variety = {});
-  /// The same around the plan that comes nearest to `truth`, as training has it.
-  TransitionContext BeginNear(const TransitionTensors& transition, const TrajectoryTensors& truth);
+  /// What is known of each frame before the first, [batch, N, static_width()]: Encode of the key
+  /// conditions.
+  torch::Tensor Begin(const TransitionTensors& transition);
+  /// Key conditions [..., key_width()] behind the shared encoding's first layer, where there is
+  /// one; else as they are.
+  torch::Tensor Encode(const torch::Tensor& conditions);
 
   /// One frame for a batch of slots, which may belong to different transitions. Features in
   /// physical units.
@@ -55,46 +47,32 @@ class FlowModelImpl : public torch::nn::Module {
                   const torch::Tensor& noise, const std::vector<torch::Tensor>& inverse_weights,
                   FlowState* state);
   std::vector<torch::Tensor> InverseWeights() const { return flow_->InverseWeights(); }
-  /// Rounds what Step multiplies by most, the coupling networks and the encoder, to bfloat16.
-  void RoundNetworks();
-  /// Frees the flow's weights, which are most of the memory: afterwards there is only Begin.
-  void ForgetFlow();
-
   /// Exact log-likelihood of frames, [batch, N] nats in standardised space. `features` [batch, tau
   /// + N, width] physical, history first; `audio` [batch, tau + N, audio_features]; `has_audio`
   /// [batch, 1]. In training mode past frames are dropped and noised.
   torch::Tensor LogLikelihood(const torch::Tensor& features, const torch::Tensor& audio,
-                              const torch::Tensor& has_audio, const TransitionContext& context);
+                              const torch::Tensor& has_audio,
+                              const torch::Tensor& static_condition);
   /// ActNorm's data-dependent start, on one batch given as to LogLikelihood.
   void InitialiseActNorm(const torch::Tensor& features, const torch::Tensor& audio,
-                         const torch::Tensor& has_audio, const TransitionContext& context);
+                         const torch::Tensor& has_audio, const torch::Tensor& static_condition);
 
-  /// Features of frames against a context's reference, [batch, tau + N, width]: `absolute` holds
-  /// them in the canonical frame (as PoseCodec has them), `truth` the N frames' poses. History
-  /// stands on its own reference: zero position and rotation.
-  torch::Tensor RelativeFeatures(const torch::Tensor& absolute, const TrajectoryTensors& truth,
-                                 const TransitionContext& context) const;
   /// Poses of the N frames from their features, [batch, N, width] → canonical trajectory.
   /// Differentiable.
-  TrajectoryTensors Decode(const torch::Tensor& features, const TransitionContext& context) const;
+  TrajectoryTensors Decode(const torch::Tensor& features) const;
   /// Samples N frames on the model's own history, without arrival: [batch, N, width]. `history`
-  /// [batch, tau, width] as RelativeFeatures has it, `audio` [batch, tau + N, audio_features],
+  /// [batch, tau, width], `audio` [batch, tau + N, audio_features],
   /// `noise` [batch, N, width]. Differentiable.
   torch::Tensor Rollout(const torch::Tensor& history, const torch::Tensor& audio,
-                        const torch::Tensor& has_audio, const TransitionContext& context,
+                        const torch::Tensor& has_audio, const torch::Tensor& static_condition,
                         const torch::Tensor& noise);
 
   /// Statistics by which the network's inputs are standardised: [width], [audio_features].
   void SetFeatureNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
   void SetAudioNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
-  bool has_planner() const { return planner_ != nullptr; }
-  Planner planner() const { return planner_; }
-  Variety variety() const { return variety_; }  ///< null: plans do not vary
   CouplingFlow flow() const { return flow_; }
 
  private:
-  PlannerImpl::Plan PlanOf(const TransitionTensors& transition);
-  TransitionContext Hoist(const TransitionTensors& transition, const PlannerImpl::Plan& plan);
   torch::Tensor Standardise(const torch::Tensor& features) const;
   torch::Tensor StandardiseAudio(const torch::Tensor& audio, const torch::Tensor& has_audio) const;
   /// Condition of every frame from standardised, flattened parts.
@@ -104,15 +82,12 @@ class FlowModelImpl : public torch::nn::Module {
   std::pair<torch::Tensor, torch::Tensor> Windows(const torch::Tensor& features,
                                                   const torch::Tensor& audio,
                                                   const torch::Tensor& has_audio,
-                                                  const TransitionContext& context);
+                                                  const torch::Tensor& static_condition);
 
   FlowConfig config_;
   Skeleton skeleton_;
   int width_;
   torch::Tensor feature_mean_, feature_std_, audio_mean_, audio_std_;
-  Planner planner_;
-  Variety variety_{nullptr};
-  torch::Tensor pairs_;  // [joints] of MirrorPairs
   CouplingFlow flow_{nullptr};
   /// Shared encoding (condition_width > 0): one linear map a part, summed, then a second layer.
   torch::nn::Linear encode_past_{nullptr}, encode_static_{nullptr}, encode_audio_{nullptr},

@@ -77,17 +77,19 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   double squares = 0, known = 0;
   for (int d = 0; d < dimensions; ++d) {
     const MotionPrior::Bridge& bridge = At(d);
-    if (prior.Moves(d)) {
-      Eigen::VectorXd seen(bridge.precision.rows());
-      seen.head<MotionPrior::kPast>() = velocity.row(d).transpose();
-      if (seen.size() > MotionPrior::kPast) seen[MotionPrior::kPast] = displacement_[d];
-      squares += seen.dot(bridge.precision * seen);
-      known += static_cast<double>(seen.size());
+    // What a dance made of its own history says little of how lively its keys are.
+    const bool keyed = keyed_[static_cast<size_t>(d)];
+    if (prior.Moves(d) && keyed) {
+      squares += displacement_[d] * displacement_[d] / bridge.expected[MotionPrior::kPast];
+      ++known;
+    } else if (prior.Moves(d) && !request.key) {
+      squares += velocity.row(d).transpose().cwiseAbs2().cwiseQuotient(bridge.expected).sum();
+      known += MotionPrior::kPast;
     }
     mean_.row(d) =
         (bridge.past * velocity.row(d).transpose() + bridge.key * displacement_[d]).transpose();
   }
-  surprise_ = squares / known;
+  if (known > 0) surprise_ = squares / known;
   scales_ = prior.Scales(surprise_, LevelsOf(request, prior.powers().medians));
   base_.resize(static_cast<size_t>(request.frames), last);
   for (int i = 0; i < request.frames; ++i) {

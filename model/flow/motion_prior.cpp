@@ -1,7 +1,6 @@
 #include "model/flow/motion_prior.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -55,7 +54,7 @@ bool MotionPrior::Moves(int dimension) const {
 Eigen::VectorXd MotionPrior::Scales(
     double surprise, const std::array<std::optional<double>, kBodyParts>& levels) const {
   const VariancePowers& by = powers_;
-  const double log_surprise = std::log(surprise);
+  const double log_surprise = std::log(std::clamp(surprise, by.least, by.most));
   const auto scale = [](double log_variance, double least) {
     return std::clamp(std::exp(0.5 * log_variance), least, 1 / least);
   };
@@ -111,7 +110,7 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) con
       .past = weights.leftCols(kPast),
       .key = to_key > 0 ? Eigen::VectorXd(weights.col(kPast)) : Eigen::VectorXd::Zero(frames),
       .spread = {},
-      .precision = observed.inverse()};
+      .expected = observed.diagonal()};
   for (double jitter = kJitter;; jitter *= 10) {
     own.diagonal().array() += jitter * velocity(0);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(own);

@@ -18,6 +18,8 @@ namespace choreo {
 /// measured of the variance.
 struct VariancePowers {
   double surprise = 0;  ///< of how much history and key move, of what the covariance expects
+  /// What of that training saw: who moves less or more counts as so much.
+  double least = 1e-3, most = 1e3;
   /// Of a body part whose energy is known: times e to `offset`, the surprise to a power, and e to
   /// `level` times its EnergyLevel.
   double offset = 0, known_surprise = 0, level = 0;
@@ -50,8 +52,8 @@ class MotionPrior {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
     Eigen::MatrixXd spread;
-    /// Inverse covariance of what is known: the last velocities, then the key's displacement.
-    Eigen::MatrixXd precision;
+    /// Variance of what is known: the last velocities, then the key's displacement.
+    Eigen::VectorXd expected;
   };
 
   /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later.

@@ -25,24 +25,15 @@ void PoseCodec::CheckJoints(const Pose& pose, const char* field) const {
   }
 }
 
-void PoseCodec::Encode(const Pose& pose, const Pose& previous, const Pose* reference,
-                       const Contacts& contacts, double fps,
+void PoseCodec::Encode(const Pose& pose, const Pose& previous, const Contacts& contacts, double fps,
                        Eigen::Ref<Eigen::VectorXf> out) const {
   CheckWidth(out.size(), width());
   CheckJoints(pose, "pose.rotations");
   CheckJoints(previous, "previous.rotations");
-  Eigen::Vector3d position = pose.root_position;
-  if (reference != nullptr) {
-    CheckJoints(*reference, "reference.rotations");
-    position -= reference->root_position;
-  }
-  out.segment<3>(position_at()) = position.cast<float>();
+  out.segment<3>(position_at()) = pose.root_position.cast<float>();
   for (int joint = 0; joint < joints_; ++joint) {
-    const Eigen::Vector3d rotation =
-        reference != nullptr
-            ? RotationDifference(reference->rotations.col(joint), pose.rotations.col(joint))
-            : NearestBranch(pose.rotations.col(joint), previous.rotations.col(joint));
-    out.segment<3>(rotations_at() + 3 * joint) = rotation.cast<float>();
+    out.segment<3>(rotations_at() + 3 * joint) =
+        NearestBranch(pose.rotations.col(joint), previous.rotations.col(joint)).cast<float>();
   }
   const RootVelocity velocity = RootVelocityBetween(previous, pose, fps);
   out.segment<3>(velocity_at()) =
@@ -50,33 +41,23 @@ void PoseCodec::Encode(const Pose& pose, const Pose& previous, const Pose* refer
   out.segment<4>(contacts_at()) = Eigen::Map<const Eigen::Vector4f>(contacts.data());
 }
 
-Eigen::VectorXf PoseCodec::Encode(const Pose& pose, const Pose& previous, const Pose* reference,
-                                  const Contacts& contacts, double fps) const {
+Eigen::VectorXf PoseCodec::Encode(const Pose& pose, const Pose& previous, const Contacts& contacts,
+                                  double fps) const {
   Eigen::VectorXf x(width());
-  Encode(pose, previous, reference, contacts, fps, x);
+  Encode(pose, previous, contacts, fps, x);
   return x;
 }
 
-void PoseCodec::Decode(Eigen::Ref<const Eigen::VectorXf> x, const Pose* reference,
-                       Decoded& out) const {
+void PoseCodec::Decode(Eigen::Ref<const Eigen::VectorXf> x, Decoded& out) const {
   CheckWidth(x.size(), width());
-  if (reference != nullptr) CheckJoints(*reference, "reference.rotations");
   out.pose.root_position = x.segment<3>(position_at()).cast<double>();
-  if (reference != nullptr) out.pose.root_position += reference->root_position;
-  out.pose.rotations.resize(3, joints_);
-  for (int joint = 0; joint < joints_; ++joint) {
-    const Eigen::Vector3d rotation = x.segment<3>(rotations_at() + 3 * joint).cast<double>();
-    out.pose.rotations.col(joint) = reference != nullptr
-                                        ? RotationCompose(reference->rotations.col(joint), rotation)
-                                        : rotation;
-  }
+  out.pose.rotations = x.segment(rotations_at(), 3 * joints_).cast<double>().reshaped(3, joints_);
   Eigen::Map<Eigen::Vector4f>(out.contacts.data()) = x.segment<4>(contacts_at());
 }
 
-PoseCodec::Decoded PoseCodec::Decode(Eigen::Ref<const Eigen::VectorXf> x,
-                                     const Pose* reference) const {
+PoseCodec::Decoded PoseCodec::Decode(Eigen::Ref<const Eigen::VectorXf> x) const {
   Decoded decoded;
-  Decode(x, reference, decoded);
+  Decode(x, decoded);
   return decoded;
 }
 

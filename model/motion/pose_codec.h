@@ -12,10 +12,8 @@ namespace choreo {
 /// forward, sideways, yaw velocity 3 | contacts 4 (82 for SMPL's 24 joints). Metres, radians, m/s,
 /// rad/s; not standardised.
 ///
-/// Position and rotations are relative to a reference pose, such as an interpolation: position
-/// minus the reference's, rotations log(R_ref^T R) with an angle in [0, pi]. Without a reference
-/// they are the pose's own, rotations on the branch nearest to the previous pose's. Immutable,
-/// hence safe to share between threads; nothing below allocates when its output has the right size.
+/// Rotations stand on the branch nearest to the previous pose's. Immutable, hence safe to share
+/// between threads; nothing below allocates when its output has the right size.
 class PoseCodec {
  public:
   explicit PoseCodec(const Skeleton& skeleton) : joints_(skeleton.joints()) {}
@@ -30,19 +28,18 @@ class PoseCodec {
   /// `previous` is the frame before, 1 / fps earlier (for the first frame of all, the frame
   /// itself). Throws Error(kInvalidArgument) for a joint count other than the skeleton's, or `out`
   /// of another size than width().
-  void Encode(const Pose& pose, const Pose& previous, const Pose* reference,
-              const Contacts& contacts, double fps, Eigen::Ref<Eigen::VectorXf> out) const;
-  Eigen::VectorXf Encode(const Pose& pose, const Pose& previous, const Pose* reference,
-                         const Contacts& contacts, double fps) const;
+  void Encode(const Pose& pose, const Pose& previous, const Contacts& contacts, double fps,
+              Eigen::Ref<Eigen::VectorXf> out) const;
+  Eigen::VectorXf Encode(const Pose& pose, const Pose& previous, const Contacts& contacts,
+                         double fps) const;
 
   struct Decoded {
     Pose pose;
     Contacts contacts = {};  ///< as they stand in the vector: a model's may leave [0, 1]
   };
-  /// The inverse, with the same reference. The velocity is not used: it follows from the poses.
-  /// Rotations come on the branch nearest to the reference's, or as they stand in the vector.
-  void Decode(Eigen::Ref<const Eigen::VectorXf> x, const Pose* reference, Decoded& out) const;
-  Decoded Decode(Eigen::Ref<const Eigen::VectorXf> x, const Pose* reference) const;
+  /// The inverse. The velocity is not used: it follows from the poses.
+  void Decode(Eigen::Ref<const Eigen::VectorXf> x, Decoded& out) const;
+  Decoded Decode(Eigen::Ref<const Eigen::VectorXf> x) const;
 
  private:
   void CheckJoints(const Pose& pose, const char* field) const;

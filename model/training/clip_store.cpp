@@ -3,53 +3,14 @@
 #include <torch/torch.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/core/error.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
-#include "model/motion/resample.h"
 #include "model/training/clip_hash.h"
 
 namespace choreo {
-namespace {
-
-constexpr double kMostTempo = 1.33;
-constexpr double kAstray = 1.9;  // radians between a dancer's root and interpolation's
-
-// A window of a clip: frame i of it stands at clip frame first + i * tempo.
-struct Place {
-  int64_t first;
-  double tempo;
-  int64_t Frame(int i) const { return first + std::lround(i * tempo); }
-};
-
-// 1, or with the given probability a tempo at which the window's frames still lie in the clip.
-double Tempo(const PreparedClip& clip, int64_t first, int window, double probability,
-             Random* random) {
-  if (!(random->Uniform() < probability)) return 1;
-  const double tempo = std::pow(kMostTempo, random->Uniform(-1, 1));
-  const auto last = static_cast<double>(clip.motion.frames.size()) - 1;
-  return static_cast<double>(first) + window * tempo <= last ? tempo : 1;
-}
-
-std::vector<Pose> PosesAt(const PreparedClip& clip, const Place& place, int count) {
-  const auto& frames = clip.motion.frames;
-  const auto first = frames.begin() + place.first;
-  if (place.tempo == 1) return {first, first + count};
-  std::vector<Pose> poses;
-  for (int i = 0; i < count; ++i) {
-    const double at = i * place.tempo;
-    const auto before = static_cast<std::ptrdiff_t>(at);
-    const double part = at - static_cast<double>(before);
-    poses.push_back(part > 0 ? InterpolatePoses(first[before], first[before + 1], part)
-                             : first[before]);
-  }
-  return poses;
-}
-
-}  // namespace
 
 ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
                      const std::filesystem::path& splits_file, Split split)
@@ -94,8 +55,8 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
     const PreparedClip& clip = clips_[index];
     const int64_t start = pick - (index > 0 ? ends[index - 1] : 0) + 1;
     const bool mirrored = variation.mirror && random->Uniform() < 0.5;
-    const Place place{start - 1, Tempo(clip, start - 1, window, variation.tempo, random)};
-    std::vector<Pose> poses = PosesAt(clip, place, window + 1);
+    const auto first = clip.motion.frames.begin() + (start - 1);
+    std::vector<Pose> poses(first, first + window + 1);
     if (mirrored) {
       for (Pose& pose : poses) pose = Mirror(skeleton_, pose);
     }
@@ -112,9 +73,9 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
       for (int foot = 0; foot < 4; ++foot) {
         // Contacts stand left then right; a mirrored dancer swaps them.
         contacts[static_cast<size_t>(foot)] =
-            clip.contacts(mirrored ? (foot + 2) % 4 : foot, place.Frame(t + 1));
+            clip.contacts(mirrored ? (foot + 2) % 4 : foot, start + t);
       }
-      const Eigen::VectorXf x = codec.Encode(pose, previous, nullptr, contacts, clip.motion.fps);
+      const Eigen::VectorXf x = codec.Encode(pose, previous, contacts, clip.motion.fps);
       std::copy(x.data(), x.data() + width, features[b][t].data_ptr<float>());
       for (int axis = 0; axis < 3; ++axis)
         position[b][t].data_ptr<float>()[axis] = static_cast<float>(pose.root_position[axis]);
@@ -123,7 +84,7 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
         out[i] = static_cast<float>(pose.rotations.data()[i]);
       previous = pose;
     }
-    if (clip.audio.size() > 0 && place.tempo == 1 && random->Uniform() >= variation.drop_audio) {
+    if (clip.audio.size() > 0 && random->Uniform() >= variation.drop_audio) {
       has_audio[b][0] = 1;
       std::copy(clip.audio.col(start).data(),
                 clip.audio.col(start).data() + int64_t{window} * audio_width,
@@ -161,8 +122,8 @@ MotionBatch Changed(MotionBatch batch, const Change& change) {
   for (torch::Tensor* tensor :
        {&batch.transition.history_position, &batch.transition.history_rotation,
         &batch.transition.target_position, &batch.transition.target_rotation,
-        &batch.transition.target_mask, &batch.transition.turning, &batch.truth.position,
-        &batch.truth.rotation, &batch.features, &batch.audio, &batch.has_audio}) {
+        &batch.transition.target_mask, &batch.truth.position, &batch.truth.rotation,
+        &batch.features, &batch.audio, &batch.has_audio}) {
     if (tensor->defined()) *tensor = change(*tensor);
   }
   return batch;
@@ -172,26 +133,6 @@ MotionBatch Changed(MotionBatch batch, const Change& change) {
 
 MotionBatch MotionBatch::To(torch::Device device) const {
   return Changed(*this, [&](const torch::Tensor& tensor) { return tensor.to(device); });
-}
-
-MotionBatch MotionBatch::WithItsTurning() const {
-  MotionBatch told = *this;
-  const torch::Tensor last = transition.history_rotation.select(1, -1).select(1, 0).unsqueeze(1);
-  const torch::Tensor root = torch::cat({last, truth.rotation.select(2, 0)}, 1);
-  told.transition.turning =
-      LogMapBatch(torch::matmul(root.narrow(1, 0, transition.frames).transpose(-1, -2),
-                                root.narrow(1, 1, transition.frames)))
-          .sum(1);
-  const TrajectoryTensors line = Interpolate(told.transition, /*as_turning=*/true);
-  const torch::Tensor apart =
-      torch::matmul(line.rotation.select(2, 0).transpose(-1, -2), truth.rotation.select(2, 0));
-  // The trace of a rotation by more than kAstray is less than that.
-  const torch::Tensor trace = apart.diagonal(0, -2, -1).sum(-1).amin(1);
-  const torch::Tensor has_root = transition.target_mask.select(1, 0) > 0;
-  const torch::Tensor rows =
-      (~(has_root & (trace < 1 + 2 * std::cos(kAstray)))).nonzero().squeeze(1);
-  if (rows.size(0) == 0) return told;
-  return Changed(told, [&](const torch::Tensor& tensor) { return tensor.index_select(0, rows); });
 }
 
 }  // namespace choreo

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/core/random.h"
-#include "model/flow/planner.h"
+#include "model/flow/transition_tensors.h"
 #include "model/motion/pose_codec.h"
 #include "model/training/clip_split.h"
 
@@ -22,12 +22,6 @@ struct MotionBatch {
   torch::Tensor has_audio;  ///< [batch, 1]
 
   MotionBatch To(torch::Device device) const;
-
-  /// Tells interpolation and plans the way round that the dancer turns to the key, and leaves out
-  /// the windows in which she strays farther from it than a plan may (all are kept if all do). Half
-  /// a turn can be made both ways: a planner that had to guess would learn the mean of both, whose
-  /// trunk twists until it snaps round. When it dances, one of them is chosen for it.
-  MotionBatch WithItsTurning() const;
 };
 
 /// Prepared clips of one split in memory; immutable after construction.
@@ -43,8 +37,6 @@ class ClipStore {
     double drop_key = 0;     ///< probability that a window has no key
     double drop_audio = 0;   ///< probability that its music is masked
     double partial_key = 0;  ///< probability that joints or the root's position are not in the key
-    double tempo = 0;  ///< probability that a window is danced faster or slower, by at most a third
-                       ///< and without its music, which would no longer fit
     double hold_history =
         0;  ///< probability that only the last few poses are known, the earliest being held
   };

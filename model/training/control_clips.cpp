@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/flow/time_block.h"
 #include "model/motion/facing_pose.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
@@ -23,6 +22,14 @@ constexpr double kTempi[] = {1.0, 0.75, 1.33};
 constexpr double kHandSmoothness = 9;  // frames: what a drawn path leaves out
 constexpr double kLeastScale = 0.5, kMostScale = 1.5;
 constexpr float kScaledWeight = 0.15F;  // of real motion where the factors are not its own
+
+// Low-pass of x [..., time, features] over time: a Gaussian of `sigma` frames, its weights' sum one
+// near both ends too.
+Tensor SmoothInTime(const Tensor& x, double sigma) {
+  const Tensor at = torch::arange(x.size(-2), x.options());
+  const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / sigma;
+  return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
+}
 
 // The path [N, 3] blurred, its ends where they were; it starts from `before` [3].
 Tensor DrawnPath(const Tensor& path, const Tensor& before) {

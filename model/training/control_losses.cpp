@@ -37,24 +37,23 @@ Tensor KeyframeLoss(const Tensor& positions, const Tensor& first, const Tensor& 
 }
 
 LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
-                      const FrameTensors& frames, const ControlledOutput* stated, double joints) {
+                      const ControlledOutput& output) {
+  const FrameTensors& frames = output.frames;
   const ControlledTransition& transition = batch.transition;
   const FrameTensors& truth = batch.truth;
   const FrameTensors last = transition.history.Narrow(transition.history.size() - 1, 1);
   const Tensor steps = Steps(Join(last, frames)), real = Steps(Join(last, truth));
   const auto weighted = [&](const Tensor& of_window) { return (batch.weight * of_window).mean(); };
 
-  Tensor rec = joints * OfWindow(Norm((frames.joints - truth.joints).flatten(2))) +
-               kHeading * OfWindow(Norm(frames.facing - truth.facing)) +
-               kPlace * OfWindow(Norm(frames.root - truth.root));
-  Tensor con = kSpeed * OfWindow(Norm(steps - real));
-  if (stated != nullptr) {
-    rec = rec + kSpeed * OfWindow(Norm(stated->velocities - real)) +
-          kContact * OfWindow(torch::binary_cross_entropy_with_logits(
-                         stated->contact_logits, truth.contacts, {}, {}, at::Reduction::None));
-    con = con + kSpeed * OfWindow(Norm(stated->velocities - steps));
-  }
-  Tensor consistency = weighted(con);
+  const Tensor rec =
+      OfWindow(Norm((frames.joints - truth.joints).flatten(2))) +
+      kHeading * OfWindow(Norm(frames.facing - truth.facing)) +
+      kPlace * OfWindow(Norm(frames.root - truth.root)) +
+      kSpeed * OfWindow(Norm(output.velocities - real)) +
+      kContact * OfWindow(torch::binary_cross_entropy_with_logits(
+                     output.contact_logits, truth.contacts, {}, {}, at::Reduction::None));
+  Tensor consistency = weighted(kSpeed * OfWindow(Norm(steps - real)) +
+                                kSpeed * OfWindow(Norm(output.velocities - steps)));
 
   std::vector<int64_t> parents, feet;
   Tensor lengths = torch::empty({model.skeleton().joints() - 1});
@@ -70,10 +69,8 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
       torch::cat({torch::zeros_like(frames.joints.narrow(2, 0, 1)), frames.joints}, 2);
   const Tensor bones = Norm(frames.joints - with_root.index_select(2, index(parents)));
   consistency = consistency + kBone * (bones - lengths.to(bones.device())).abs().mean();
-  if (stated != nullptr) {
-    const Tensor slide = Norm(steps.index_select(2, index(feet)) + steps.narrow(2, 0, 1));
-    consistency = consistency + kSpeed * (frames.contacts * slide).mean();
-  }
+  const Tensor slide = Norm(steps.index_select(2, index(feet)) + steps.narrow(2, 0, 1));
+  consistency = consistency + kSpeed * (frames.contacts * slide).mean();
 
   const Tensor root = kSpeed * (OfWindow(Norm((steps - real).select(2, 0))) +
                                 OfWindow(Norm(frames.facing.diff(1, 1) - truth.facing.diff(1, 1))));

@@ -22,13 +22,12 @@ namespace {
 
 constexpr int kNormalisationWindows = 512;
 constexpr int kValidationWindows = 48;
-constexpr double kLateJoints = 3;
 constexpr double kTruthDecay = 0.998;  // of scheduled sampling's probability, a step
 constexpr double kCurriculum = 0.3;    // share of a stage after which all lengths are drawn
 constexpr double kLongest = 0.25;      // share of draws among all lengths alike
 
 ControllersConfig ConfigOf(const TrainOptions& options) {
-  ControllersConfig config = ControllersConfig::Preset(options.preset);
+  ControllersConfig config;
   if (!options.name.empty()) config.name = options.name;
   config.two_lstms = !options.one_lstm;
   config.transformers = !options.condition_fc;
@@ -48,8 +47,7 @@ class ControlRun : public TrainingRun {
         validation_(validation.clips()) {
     torch::manual_seed(options.seed);
     model_ = ControllersModel(ConfigOf(options), train.skeleton());
-    plan_steps_ = model_->config().plan_width > 0 ? options.planner_steps : 0;
-    if (options.planner.empty()) {
+    if (options.from.empty()) {
       Normalise();
     } else {
       TakeModel();
@@ -59,30 +57,18 @@ class ControlRun : public TrainingRun {
   }
 
  protected:
-  int64_t total_steps() const override { return plan_steps_ + options().flow_steps; }
+  int64_t total_steps() const override { return options().steps; }
 
   void TrainStep() override {
     Random random(options().seed, static_cast<uint32_t>(step() + 1));
     torch::manual_seed(options().seed + static_cast<uint64_t>(step()) * 1000003);
     model_->train();
-    const bool whole = step() >= plan_steps_;
-    const int64_t stage_step = whole ? step() - plan_steps_ : step();
-    const int64_t stage_steps = whole ? options().flow_steps : plan_steps_;
-    const ControlBatch batch = Draw(&random, static_cast<double>(stage_step) / stage_steps,
-                                    whole ? options().batch / 2 : options().batch);
+    const ControlBatch batch =
+        Draw(&random, static_cast<double>(step()) / static_cast<double>(options().steps));
     adam_->ZeroGrad();
-    const ControlledGiven given = model_->Prepare(batch.transition, whole);
-    const LossTerms plan =
-        ControlLoss(*model_, batch, model_->Planned(given), nullptr, JointWeight());
-    if (!whole) {
-      Descend(plan, model_->parameters());
-    } else {
-      Descend(Both(plan, Walk(batch, given, std::pow(kTruthDecay, stage_step))),
-              model_->parameters());
-    }
-    adam_->Step(
-        StageRate(whole ? options().flow_rate : options().planner_rate, stage_step, stage_steps),
-        kMaxGradientNorm);
+    Descend(Walk(batch, model_->Prepare(batch.transition), std::pow(kTruthDecay, step())),
+            model_->parameters());
+    adam_->Step(StageRate(options().rate, step(), options().steps), kMaxGradientNorm);
   }
 
   NamedFigures Validate() override {
@@ -103,10 +89,7 @@ class ControlRun : public TrainingRun {
       const double straight =
           distance(last.joints + u * (batch.transition.target_joints.unsqueeze(1) - last.joints));
       const std::string n = std::to_string(frames);
-      const ControlledGiven given = model_->Prepare(batch.transition);
-      figures.emplace_back("plan_ratio_" + n, distance(given.joints) / straight);
-      const FrameTensors out =
-          step() >= plan_steps_ ? model_->RollOut(batch.transition) : model_->Planned(given);
+      const FrameTensors out = model_->RollOut(batch.transition);
       figures.emplace_back("lrp_ratio_" + n, distance(out.joints) / straight);
       const torch::Tensor factors = FactorsOf(Steps(Join(last, out)), model_->shares());
       const torch::Tensor miss = (factors - batch.transition.factors).abs().mean({1, 2});
@@ -147,29 +130,23 @@ class ControlRun : public TrainingRun {
   }
 
  private:
-  // All of another run's checkpoint: what it had learnt of walking is learnt anew in a shorter
-  // while than its plan.
   void TakeModel() {
-    const Safetensors content = ReadSafetensors(options().planner);
+    const Safetensors content = ReadSafetensors(options().from);
     if (!HoldsControllers(content)) {
-      throw InvalidArgument("--planner", options().planner.string() + " is no controllers network");
+      throw InvalidArgument("--from", options().from.string() + " is no controllers network");
     }
-    const ControllersCheckpoint base = ParseControllers(content, options().planner.string());
+    const ControllersCheckpoint base = ParseControllers(content, options().from.string());
     if (!(base.model->skeleton() == model_->skeleton())) {
-      throw InvalidArgument("--planner",
-                            options().planner.string() + " has another skeleton than these clips");
+      throw InvalidArgument("--from",
+                            options().from.string() + " has another skeleton than these clips");
     }
     ImportTensors(content, "", model_.get());
     base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
   }
 
-  // Speeds are learnt long before postures are, so these count more in the last
-  // part of the first stage and in the second.
-  double JointWeight() const { return step() < plan_steps_ * 5 / 8 ? 1 : kLateJoints; }
-
   // Short windows first; the longest length rises until all are drawn. Later one draw in four is of
   // any length, the others rather short, which is cheap and common.
-  ControlBatch Draw(Random* random, double progress, int batch) const {
+  ControlBatch Draw(Random* random, double progress) const {
     const double open = std::min(1.0, progress / kCurriculum);
     const int longest =
         options().shortest + static_cast<int>(open * (options().longest - options().shortest));
@@ -177,7 +154,8 @@ class ControlRun : public TrainingRun {
     const double place = random->Uniform() < kLongest ? u : u * std::sqrt(u);
     const int frames = std::min(
         longest, options().shortest + static_cast<int>(place * (longest - options().shortest + 1)));
-    return train_.Draw(WindowsOf(batch, frames), model_->config().history_frames, frames,
+    return train_.Draw(WindowsOf(options().batch / 2, frames), model_->config().history_frames,
+                       frames,
                        {.mirror = 0.5,
                         .tempo = 0.3,
                         .no_target = 0.05,
@@ -188,7 +166,7 @@ class ControlRun : public TrainingRun {
   }
 
   // Scheduled sampling without a loop over time: what the network would have walked is found by
-  // letting it walk behind its own plan, all frames at once; of that and the real frames, each is
+  // letting it walk behind interpolation, all frames at once; of that and the real frames, each is
   // drawn with the probability that the paper has.
   LossTerms Walk(const ControlBatch& batch, const ControlledGiven& given, double truth_share) {
     const int64_t frames = batch.transition.frames;
@@ -214,13 +192,7 @@ class ControlRun : public TrainingRun {
         mix(batch.truth.joints, walked.joints), mix(batch.truth.contacts, walked.contacts)};
     ControllersState state;
     const ControlledOutput output = model_->Walk(given, behind(mixed), &state);
-    return ControlLoss(*model_, batch, output.frames, &output, JointWeight());
-  }
-
-  // The walk's losses and, at half their weight, the plan's.
-  static LossTerms Both(const LossTerms& plan, LossTerms walk) {
-    for (size_t i = 0; i < walk.size(); ++i) walk[i].value = walk[i].value + 0.5 * plan[i].value;
-    return walk;
+    return ControlLoss(*model_, batch, output);
   }
 
   void Normalise() {
@@ -233,17 +205,14 @@ class ControlRun : public TrainingRun {
   }
 
   std::string Write() {
-    nlohmann::json figures = nlohmann::json::object();
-    for (const auto& [name, value] : last_figures_) figures[name] = value;
     nlohmann::json card = ModelCard(
-        options(), plan_steps_, step() - plan_steps_, clips_, hash_, {},
+        options(), clips_, hash_, last_figures_,
         "Trained on transitions of " + std::to_string(options().shortest) + " to " +
             std::to_string(options().longest) +
             " frames at 30 fps. It hears no music and is deterministic. Away from the "
             "keys it knows how fast limbs should be better than where: postures are those "
             "of a mean dancer. Feet slide without the foot lock.");
-    card["validation"] = figures;
-    if (!base_.is_null()) card["planner_from"] = base_;
+    if (!base_.is_null()) card["from"] = base_;
     return SaveControllers(options().run / "checkpoint.safetensors", model_, train_.MedianFactors(),
                            card);
   }
@@ -254,7 +223,6 @@ class ControlRun : public TrainingRun {
   ControllersModel model_{nullptr};
   nlohmann::json base_;  // what it went on from: its hash and card
   std::unique_ptr<Adam> adam_;
-  int64_t plan_steps_ = 0;
   NamedFigures last_figures_;
 };
 

@@ -3,6 +3,7 @@
 #include <torch/torch.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "model/motion/kinematics.h"
@@ -16,6 +17,7 @@ namespace {
 constexpr double kAtNoise = 0.2;     // share of samples at t = 0, half of them without noise
 constexpr double kNear = 0.01;       // share of the variance below which distances count as squares
 constexpr double kShrinkage = 0.15;  // of correlations over dimensions towards none
+constexpr double kRare = 0.025;      // share of windows at either end that count as those before
 constexpr size_t kLeastWindows = 16;  // that tell how energy counts
 constexpr double kFootprint = 0.01;   // metres that feet are wrong by, below which it hardly counts
 constexpr double kStep = 0.2;         // metres that count as much as all white coordinates
@@ -30,19 +32,6 @@ Tensor Stack(const std::vector<MotionPrior::Bridge>& bridges) {
             .clone());
   }
   return torch::stack(spreads);
-}
-
-// [joints, joints]: 1 where the column's joint carries the row's, or is it.
-Tensor Carriers(const Skeleton& skeleton) {
-  const int joints = skeleton.joints();
-  const Tensor carriers = torch::zeros({joints, joints});
-  for (int j = 0; j < joints; ++j) {
-    for (int above = j;; above = skeleton.parents[static_cast<size_t>(above)]) {
-      carriers[j][above] = 1;
-      if (above == 0) break;
-    }
-  }
-  return carriers;
 }
 
 // Square metres that the joints move on average when the joint turns by a radian about any axis.
@@ -70,15 +59,7 @@ Tensor Colour(const Tensor& spreads, const Tensor& z) {
 }  // namespace
 
 FlowMatching::FlowMatching(const ContinuousFlow& model)
-    : parts_(model->Parts()),
-      kinematics_(parts_.skeleton),
-      carriers_(Carriers(parts_.skeleton)),
-      reach_(ReachOf(parts_.skeleton)) {
-  const std::vector<int>& parents = parts_.skeleton.parents;
-  parents_ = torch::tensor(std::vector<int64_t>(parents.begin(), parents.end()), torch::kLong)
-                 .clamp_min(0);
-  const auto& feet = parts_.skeleton.feet;
-  feet_ = torch::tensor(std::vector<int64_t>(feet.begin(), feet.end()), torch::kLong);
+    : parts_(model->Parts()), body_(parts_.skeleton), reach_(ReachOf(parts_.skeleton)) {
   const Eigen::MatrixXf mixing = parts_.mixing.cast<float>();  // column-major: transposed below
   mixing_ =
       torch::from_blob(const_cast<float*>(mixing.data()), {mixing.cols(), mixing.rows()}).clone();
@@ -118,7 +99,7 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor x = scales * colour(z);
   const Tensor poses =
       torch::cat({batch.mean.narrow(1, 0, tau), batch.mean.narrow(1, tau, window) + x}, 1);
-  const Tensor joints = torch::cat({batch.history_joints, Place(batch, x)}, 1);
+  const Tensor joints = torch::cat({batch.history_joints, body_.Place(batch, x)}, 1);
   const Tensor miss =
       model->forward(z, poses, joints, batch.mean, batch.features, batch.whole, t.flatten()) -
       wanted;
@@ -128,7 +109,7 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
   // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
   // say.
-  const Tensor moved = Move(batch, scales * colour(miss));
+  const Tensor moved = body_.Move(batch, scales * colour(miss));
   const auto joint_count = static_cast<double>(moved.size(2));
   const Tensor where = (moved.square().sum(torch::IntArrayRef{1, 2, 3}) /
                             (joint_count * (variance * batch.scales.square() * reach_).sum(1)) +
@@ -136,33 +117,12 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
                            .sqrt();
   const Tensor share = ((1 - t) / a.sqrt()).flatten();
   const Tensor feet =
-      (share.view({-1, 1, 1}).square() * moved.index_select(2, feet_).square().sum(-1) +
+      (share.view({-1, 1, 1}).square() * moved.index_select(2, body_.feet()).square().sum(-1) +
        kFootprint * kFootprint)
           .sqrt();
   return {{kWhite, 1.0, miss.square().mean()},
           {kWhere, 1.0, (where * share).mean()},
           {kFeet, 1.0, feet.mean() / kStep}};
-}
-
-Tensor FlowMatching::Place(const WindowBatch& batch, const Tensor& x) const {
-  const torch::NoGradGuard no_grad;
-  const int64_t count = x.size(0), window = x.size(1), joints = batch.bones.size(2);
-  const Tensor root = batch.base_root + x.narrow(2, 0, 3);
-  const Tensor turns = ExpMapBatch(x.narrow(2, 3, 3 * joints).reshape({count, window, joints, 3}));
-  return kinematics_
-      .Positions(root.flatten(0, 1), torch::matmul(batch.base_turns, turns).flatten(0, 1))
-      .reshape({count, window, 3 * joints});
-}
-
-Tensor FlowMatching::Move(const WindowBatch& batch, const Tensor& dx) const {
-  const int64_t joints = batch.bones.size(2);
-  const Tensor turns =
-      torch::matmul(batch.axes,
-                    dx.narrow(2, 3, 3 * joints).reshape(batch.bones.sizes()).unsqueeze(-1))
-          .squeeze(-1);
-  const Tensor carried = torch::matmul(carriers_, turns).index_select(2, parents_);
-  return torch::matmul(carriers_, torch::cross(carried, batch.bones, -1)) +
-         dx.narrow(2, 0, 3).unsqueeze(2);
 }
 
 VariancePowers MeasureVariancePowers(const MotionPrior& prior,
@@ -200,6 +160,10 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
     square += (one[0] - mean[0]) * (one[0] - mean[0]);
   }
   measured.surprise = both / square;
+  std::ranges::sort(whole, {}, [](const auto& one) { return one[0]; });
+  const auto rank = static_cast<size_t>(kRare * static_cast<double>(whole.size()));
+  measured.least = std::exp(whole[rank][0]);
+  measured.most = std::exp(whole[whole.size() - 1 - rank][0]);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const auto& one : parts) {

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "model/flow/continuous_flow.h"
-#include "model/flow/torch_kinematics.h"
 #include "model/training/losses.h"
-#include "model/training/window_clips.h"
+#include "model/training/window_body.h"
 
 namespace choreo {
 
@@ -34,18 +33,10 @@ class FlowMatching {
     torch::Tensor to_key, free;  // [dimensions, w, w] Cholesky factors
   };
   const Spreads& Of(int frames, int to_key);
-  /// Joint positions [batch, w, 3 joints] of coordinates x. No gradient.
-  torch::Tensor Place(const WindowBatch& batch, const torch::Tensor& x) const;
-  /// How real motion's joints move with small changes of its coordinates,
-  /// [batch, w, dimensions] → [batch, w, joints, 3] metres.
-  torch::Tensor Move(const WindowBatch& batch, const torch::Tensor& dx) const;
-
   FlowModelParts parts_;
-  TorchKinematics kinematics_;
-  torch::Tensor mixing_;    // transposed
-  torch::Tensor carriers_;  // [joints, joints]: the column's joint carries the row's, or is it
-  torch::Tensor parents_, feet_;
-  torch::Tensor reach_;  // [dimensions] square metres that a square unit moves joints, on average
+  WindowBody body_;
+  torch::Tensor mixing_;  // transposed
+  torch::Tensor reach_;   // [dimensions] square metres that a square unit moves joints, on average
   std::map<std::pair<int, int>, Spreads> spreads_;
 };
 

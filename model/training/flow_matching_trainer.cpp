@@ -76,9 +76,8 @@ class FlowMatchingRun : public TrainingRun {
     config.styles = train_.styles();
     config.median_factors = train_.MedianFactors();
     model_ = ContinuousFlow(config, train_.skeleton());
-    if (!options.planner.empty()) {
-      const auto base =
-          ParseContinuousFlow(ReadSafetensors(options.planner), options.planner.string());
+    if (!options.from.empty()) {
+      const auto base = ParseContinuousFlow(ReadSafetensors(options.from), options.from.string());
       config.styles = base.model->config().styles;
       config.median_factors = base.model->config().median_factors;
       model_ = ContinuousFlow(config, train_.skeleton());
@@ -98,7 +97,7 @@ class FlowMatchingRun : public TrainingRun {
   }
 
  protected:
-  int64_t total_steps() const override { return options_.flow_steps; }
+  int64_t total_steps() const override { return options_.steps; }
 
   void TrainStep() override {
     Random random(options_.seed, static_cast<uint32_t>(step() + 1));
@@ -129,7 +128,7 @@ class FlowMatchingRun : public TrainingRun {
                                           window, to_key, variation, &random);
     adam_->ZeroGrad();
     Descend(matching_->Losses(model_, batch), model_->parameters());
-    adam_->Step(StageRate(options_.flow_rate, step(), options_.flow_steps), kMaxGradientNorm);
+    adam_->Step(StageRate(options_.rate, step(), options_.steps), kMaxGradientNorm);
     Copy(1 - std::min(kAverage,
                       (1.0 + static_cast<double>(step())) / (10.0 + static_cast<double>(step()))));
   }
@@ -211,16 +210,12 @@ class FlowMatchingRun : public TrainingRun {
 
   std::string Write() {
     nlohmann::json card =
-        ModelCard(options_, 0, options_.flow_steps, prepared_, hash_, /*rows=*/{},
+        ModelCard(options_, prepared_, hash_, last_figures_,
                   "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
                       " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. "
                       "Feet slide without the foot lock. What the data lacks (lying, acrobatics, "
                       "props, partners) it can't do.");
-    card.erase("training_clips");
-    card["validation"] = nlohmann::json::object();
-    for (const auto& [name, value] : last_figures_) card["validation"][name] = value;
-
-    if (!base_.is_null()) card["planner_from"] = base_;
+    if (!base_.is_null()) card["from"] = base_;
     Safetensors weights;
     ExportTensors(*average_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {

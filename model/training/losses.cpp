@@ -8,9 +8,8 @@ using torch::Tensor;
 
 namespace {
 
-constexpr const char *kPlannerPosition = "planner_position_m", *kPlannerSixD = "planner_six_d",
-                     *kPlannerStep = "planner_step_m", *kLikelihood = "nll_nats_per_dim",
-                     *kKeyPose = "key_pose_dm", *kWay = "rollout_dm", *kContacts = "contact_l1";
+constexpr const char *kLikelihood = "nll_nats_per_dim", *kKeyPose = "key_pose_dm",
+                     *kWay = "rollout_dm", *kContacts = "contact_l1";
 
 // Standard deviation of the dequantisation noise, in units of each feature's own spread.
 constexpr double kDequantisation = 0.05;
@@ -35,30 +34,28 @@ Tensor Dequantise(FlowModel& model, const Tensor& features) {
 }
 
 const std::vector<std::string>& LossTermNames() {
-  static const std::vector<std::string> names = {
-      kPlannerPosition, kPlannerSixD, kPlannerStep, kLikelihood, kKeyPose, kWay, kContacts};
+  static const std::vector<std::string> names = {kLikelihood, kKeyPose, kWay, kContacts};
   return names;
 }
 
 LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
-                         const TransitionContext& context) {
-  Tensor features = model->RelativeFeatures(batch.features, batch.truth, context);
-  if (model->is_training()) features = Dequantise(model, features);
+                         const Tensor& static_condition) {
+  const Tensor features = model->is_training() ? Dequantise(model, batch.features) : batch.features;
   return {{kLikelihood, 1.0,
-           -model->LogLikelihood(features, batch.audio, batch.has_audio, context).mean() /
+           -model->LogLikelihood(features, batch.audio, batch.has_audio, static_condition).mean() /
                model->feature_width()}};
 }
 
 LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
-                      const TransitionContext& context, double temperature) {
+                      const Tensor& static_condition, double temperature) {
   const int64_t history = batch.transition.history_position.size(1);
   const int64_t frames = batch.transition.frames;
-  const Tensor truth = model->RelativeFeatures(batch.features, batch.truth, context);
+  const Tensor& truth = batch.features;
   const Tensor noise =
       temperature * torch::randn({truth.size(0), frames, truth.size(2)}, truth.options());
-  const Tensor sampled =
-      model->Rollout(truth.narrow(1, 0, history), batch.audio, batch.has_audio, context, noise);
-  const TrajectoryTensors poses = model->Decode(sampled, context);
+  const Tensor sampled = model->Rollout(truth.narrow(1, 0, history), batch.audio, batch.has_audio,
+                                        static_condition, noise);
+  const TrajectoryTensors poses = model->Decode(sampled);
   const auto last = [&](const TrajectoryTensors& all) {
     return TrajectoryTensors{all.position.narrow(1, frames - 1, 1),
                              all.rotation.narrow(1, frames - 1, 1)};
@@ -74,19 +71,6 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
           .mean();
   const Tensor way = kDecimetresPerMetre * JointDistance(kinematics, poses, batch.truth).mean();
   return {{kKeyPose, 0.5, key}, {kWay, 0.5, way}, {kContacts, 0.1, feet}};
-}
-
-LossTerms PlannerLoss(const TorchKinematics& kinematics, const MotionBatch& batch,
-                      const TrajectoryTensors& plan) {
-  const Tensor planned = GlobalPositions(kinematics, plan);
-  const Tensor truth = GlobalPositions(kinematics, batch.truth);
-  const Tensor six_d = (SixDBatch(plan.rotation) - SixDBatch(batch.truth.rotation)).abs().mean();
-  const auto steps = [](const Tensor& x) {
-    return x.narrow(1, 1, x.size(1) - 1) - x.narrow(1, 0, x.size(1) - 1);
-  };
-  return {{kPlannerPosition, 1.0, Length(planned - truth).mean()},
-          {kPlannerSixD, 0.1, six_d},
-          {kPlannerStep, 1.0, Length(steps(planned) - steps(truth)).mean()}};
 }
 
 Tensor JointDistance(const TorchKinematics& kinematics, const TrajectoryTensors& a,

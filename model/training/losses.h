@@ -31,19 +31,14 @@ torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features);
 /// L_flows of one batch (Eq. 6), nats a dimension, mean over frames; of dequantised features while
 /// training.
 LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
-                         const TransitionContext& context);
+                         const torch::Tensor& static_condition);
 
 /// L_key pose and L_feet of one sampled roll-out (Section 3.2.3) at `temperature`:
 /// |FK(x'_N) - FK(key)|, mean over joints, decimetres; the same of all frames against the real ones
 /// (ours: without it roll-outs wander off between history and key); |c' - c|, mean over feet and
 /// frames.
 LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
-                      const TransitionContext& context, double temperature);
-
-/// The planner's: mean joint distance (m), mean |6D difference|, mean joint distance of the
-/// frame-to-frame steps (m).
-LossTerms PlannerLoss(const TorchKinematics& kinematics, const MotionBatch& batch,
-                      const TrajectoryTensors& plan);
+                      const torch::Tensor& static_condition, double temperature);
 
 /// L2P of paper F's Table 2: distance of global joint positions, mean over joints and frames,
 /// metres. [batch]

@@ -4,19 +4,11 @@
 
 namespace choreo {
 
-nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int64_t flow_steps,
-                         const std::vector<PreparedClip>& clips, const std::string& hash,
-                         const std::vector<ValidationRow>& rows, const std::string& limits) {
-  nlohmann::json figures = nlohmann::json::array();
-  for (const ValidationRow& row : rows) {
-    figures.push_back({{"frames", row.frames},
-                       {"interpolation_m", row.interpolation_m},
-                       {"planner_m", row.planner_m},
-                       {"flow_m", row.flow_m},
-                       {"ratio_to_interpolation", row.flow_m / row.interpolation_m},
-                       {"nll_nats_per_dimension", row.likelihood},
-                       {"mean_joint_key_error_m", row.key_error_m}});
-  }
+nlohmann::json ModelCard(const TrainOptions& options, const std::vector<PreparedClip>& clips,
+                         const std::string& hash, const NamedFigures& figures,
+                         const std::string& limits) {
+  nlohmann::json validation = nlohmann::json::object();
+  for (const auto& [name, value] : figures) validation[name] = value;
   nlohmann::json sources = nlohmann::json::object(), terms = nlohmann::json::object();
   int64_t frames = 0;
   for (const auto& clip : clips) {
@@ -42,8 +34,7 @@ nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int
             {"hash", hash}}},
           {"licence", licence},
           {"command", options.Command()},
-          {"steps", {{"planner", planner_steps}, {"flow", flow_steps}}},
-          {options.with_validation ? "training_clips" : "validation", figures},
+          {options.with_validation ? "training_clips" : "validation", validation},
           {"limits", limits}};
 }
 

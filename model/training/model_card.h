@@ -10,10 +10,10 @@
 
 namespace choreo {
 
-/// What a checkpoint says of itself: data and their terms, the command, steps, figures on
-/// validation clips, `limits`. `hash` is that of the training clips.
-nlohmann::json ModelCard(const TrainOptions& options, int64_t planner_steps, int64_t flow_steps,
-                         const std::vector<PreparedClip>& clips, const std::string& hash,
-                         const std::vector<ValidationRow>& rows, const std::string& limits);
+/// What a checkpoint says of itself: data and their terms, the command, figures on validation
+/// clips, `limits`. `hash` is that of the training clips.
+nlohmann::json ModelCard(const TrainOptions& options, const std::vector<PreparedClip>& clips,
+                         const std::string& hash, const NamedFigures& figures,
+                         const std::string& limits);
 
 }  // namespace choreo

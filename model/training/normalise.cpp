@@ -16,7 +16,6 @@ namespace {
 // Standardised features keep at least these spreads: metres, radians, m/s and rad/s, contacts.
 constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
                  kContactFloor = 0.1;
-constexpr double kPoseFloor = 0.03;  // metres, and numbers of a rotation matrix
 constexpr double kAudioVarianceFloor = 1e-4;
 
 }  // namespace
@@ -40,26 +39,13 @@ void NormaliseAudio(const ClipStore& clips, FlowModel* model) {
   (*model)->SetAudioNormalisation(mean, std);
 }
 
-void NormalisePoses(const std::vector<MotionBatch>& batches, FlowModel* model) {
-  std::vector<Tensor> seen;
-  for (const MotionBatch& batch : batches) {
-    seen.push_back(
-        torch::cat({batch.truth.position, SixDBatch(batch.truth.rotation).flatten(2)}, -1)
-            .flatten(0, 1));
-  }
-  const Tensor all = torch::cat(seen);
-  (*model)->planner()->SetPoseNormalisation(all.mean(0), all.std(0).clamp_min(kPoseFloor));
-}
-
 void NormaliseFeatures(const std::vector<MotionBatch>& batches, FlowModel* model) {
   torch::NoGradGuard no_grad;
   FlowModel& flow = *model;
   std::vector<Tensor> seen;
   for (const MotionBatch& batch : batches) {
-    const Tensor features = flow->RelativeFeatures(batch.features, batch.truth,
-                                                   flow->BeginNear(batch.transition, batch.truth));
-    seen.push_back(
-        features.narrow(1, flow->config().history_frames, batch.transition.frames).flatten(0, 1));
+    seen.push_back(batch.features.narrow(1, flow->config().history_frames, batch.transition.frames)
+                       .flatten(0, 1));
   }
   const Tensor all = torch::cat(seen).to(torch::kCPU);
   const int64_t joints = flow->skeleton().joints(), width = flow->feature_width();
@@ -67,10 +53,7 @@ void NormaliseFeatures(const std::vector<MotionBatch>& batches, FlowModel* model
   floor.narrow(0, 0, 3).fill_(kPositionFloor);
   floor.narrow(0, 3 + 3 * joints, 3).fill_(kVelocityFloor);
   floor.narrow(0, width - 4, 4).fill_(kContactFloor);
-  Tensor mean = all.mean(0);
-  // A plan is unbiased, and history features are exactly zero: keep zero where it is.
-  if (flow->has_planner()) mean.narrow(0, 0, 3 + 3 * joints).zero_();
-  flow->SetFeatureNormalisation(mean, torch::maximum(all.std(0), floor));
+  flow->SetFeatureNormalisation(all.mean(0), torch::maximum(all.std(0), floor));
 }
 
 }  // namespace choreo

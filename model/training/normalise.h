@@ -12,11 +12,8 @@ namespace choreo {
 /// Music rows of all clips.
 void NormaliseAudio(const ClipStore& clips, FlowModel* model);
 
-/// Root position (m) and 6D rotations of real poses: the planner's tokens and residuals.
-void NormalisePoses(const std::vector<MotionBatch>& batches, FlowModel* model);
-
-/// The flow's features, which with a planner are what it leaves over. Spreads have floors, so that
-/// constant joints can't make the density unbounded.
+/// The flow's features. Spreads have floors, so that constant joints can't make the density
+/// unbounded.
 void NormaliseFeatures(const std::vector<MotionBatch>& batches, FlowModel* model);
 
 }  // namespace choreo

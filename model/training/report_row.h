@@ -28,8 +28,7 @@ using NamedFigures = std::vector<std::pair<std::string, double>>;
 struct ValidationRow {
   int frames = 0;              ///< N
   double interpolation_m = 0;  ///< L2P of interpolation
-  double planner_m = 0;        ///< L2P of the plan (0 without a planner)
-  double flow_m = 0;           ///< L2P of a sampled roll-out (0 before the flow's stage)
+  double flow_m = 0;           ///< L2P of a sampled roll-out
   double likelihood = 0;       ///< -log p, nats a dimension
   double key_error_m = 0;      ///< mean joint distance at the key frame of the roll-out
 };

@@ -28,14 +28,12 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
   command
-      ->add_option(
-          "--preset", options->preset,
-          "default | paper | planned | ablation | recurrent (the baseline of Harvey et al.) | "
-          "controllers | controllers-paper")
+      ->add_option("--preset", options->preset,
+                   "default | paper | ablation (the same, smaller) | controllers-paper")
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& name) {
-            if (ControllersConfig::IsPreset(name) || name == kContinuous) return std::string();
+            if (name == ControllersConfig::kPreset || name == kContinuous) return std::string();
             try {
               FlowConfig::Preset(name);
             } catch (const Error& error) {
@@ -52,29 +50,17 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       ->required();
   command->add_flag("--with-validation", options->with_validation,
                     "Train on the validation clips too, once everything is chosen");
-  command->add_option(
-      "--planner", options->planner,
-      "Checkpoint whose planner the first stage goes on from (same preset); of controllers, "
-      "the whole network");
+  command->add_option("--from", options->from,
+                      "Checkpoint whose network the run starts from (same preset)");
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
       ->required();
   command
       ->add_option("--device", options->device, "auto | cpu | cuda:N; controllers train on the CPU")
       ->capture_default_str();
   command->add_flag("--resume", options->resume, "Go on from the run's saved state");
-  command
-      ->add_option("--planner-steps", options->planner_steps,
-                   "Steps of the first stage, the planner; 0 where the preset has none")
-      ->capture_default_str();
-  command
-      ->add_option("--flow-steps", options->flow_steps,
-                   "Steps of the second stage, the flow around the frozen planner")
-      ->capture_default_str();
+  command->add_option("--steps", options->steps, "Steps of the run")->capture_default_str();
   command->add_option("--batch", options->batch, "Windows a step")->capture_default_str();
-  command->add_option("--planner-rate", options->planner_rate, "Peak learning rate")
-      ->capture_default_str();
-  command->add_option("--flow-rate", options->flow_rate, "Peak learning rate")
-      ->capture_default_str();
+  command->add_option("--rate", options->rate, "Peak learning rate")->capture_default_str();
   command->add_option("--shortest", options->shortest, "Shortest training transition, frames")
       ->capture_default_str();
   command->add_option("--longest", options->longest, "Longest training transition, frames")
@@ -85,7 +71,7 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       ->capture_default_str();
   command
       ->add_option("--tempo", options->tempo,
-                   "Share of the planner's windows that are danced faster or slower")
+                   "Share of the windows that are danced faster or slower (preset default)")
       ->capture_default_str();
   command->add_option("--report-every", options->report_every, "Steps between reports")
       ->capture_default_str();
@@ -109,7 +95,7 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   command->add_flag("--no-velocity-factors", options->no_velocity_factors,
                     "Ablation of controllers");
   command->callback([options, read_device, command] {
-    const bool controllers = ControllersConfig::IsPreset(options->preset);
+    const bool controllers = options->preset == ControllersConfig::kPreset;
     for (const auto& [option, of_controllers] : kAblations) {
       if (of_controllers != controllers && command->count(option) > 0)
         throw InvalidArgument(option, "is no ablation of the preset " + options->preset);

@@ -17,11 +17,10 @@ std::string TrainOptions::Command() const {
 
 std::string TrainOptions::Fixed() const {
   std::ostringstream text;
-  text << "--preset " << preset << " --planner-steps " << planner_steps << " --flow-steps "
-       << flow_steps << " --batch " << batch << " --planner-rate " << planner_rate
-       << " --flow-rate " << flow_rate << " --shortest " << shortest << " --longest " << longest
-       << " --rollout-frames " << rollout_frames << " --tempo " << tempo << " --seed " << seed
-       << (planner.empty() ? "" : " --planner " + planner.filename().string())
+  text << "--preset " << preset << " --steps " << steps << " --batch " << batch << " --rate "
+       << rate << " --shortest " << shortest << " --longest " << longest << " --rollout-frames "
+       << rollout_frames << " --tempo " << tempo << " --seed " << seed
+       << (from.empty() ? "" : " --from " + from.filename().string())
        << (with_validation ? " --with-validation" : "") << (no_keys ? " --no-keys" : "")
        << (no_key_loss ? " --no-key-loss" : "") << (no_time_embedding ? " --no-time-embedding" : "")
        << (forward_embedding ? " --forward-embedding" : "") << (one_lstm ? " --one-lstm" : "")
@@ -37,9 +36,7 @@ void TrainOptions::Validate() const {
   };
   require(name.size() <= 64, "--name", name, "at most 64 bytes");
   require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
-  require(planner_steps >= (planner.empty() ? 1 : 0), "--planner-steps",
-          std::to_string(planner_steps), "at least 1 (0 with --planner)");
-  require(flow_steps >= 1, "--flow-steps", std::to_string(flow_steps), "at least 1");
+  require(steps >= 1, "--steps", std::to_string(steps), "at least 1");
   require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");
   require(shortest >= 2 && shortest <= longest && longest <= 600, "--longest",
           std::to_string(longest), "from --shortest (at least 2) to 600");

@@ -14,22 +14,19 @@ struct TrainOptions {
   std::string name;                         ///< as servers list the model; empty: the preset's
   std::vector<std::filesystem::path> data;  ///< folders of prepared clips
   std::filesystem::path splits;             ///< JSON, see ClipStore
-  std::filesystem::path planner;  ///< checkpoint whose planner (of controllers: all of whose
-                                  ///< network) the first stage starts from; empty: from scratch
-  std::filesystem::path run;      ///< folder for state, curves and the finished checkpoint
-  std::string device = "cpu";     ///< "cpu" or "cuda:N"
-  bool with_validation = false;   ///< train on validation clips too: a last run, once all is chosen
-  bool resume = false;            ///< go on from the run's state if there is one
-  int64_t planner_steps = 6000;   ///< first stage (presets with a planner)
-  int64_t flow_steps = 4000;      ///< second stage: the flow, the planner frozen
-  int batch = 64;                 ///< windows a step; longer windows get fewer, at equal frames
-  double planner_rate = 1e-3;     ///< peak learning rates; warm-up, then cosine to a twentieth
-  double flow_rate = 5e-4;
+  std::filesystem::path from;    ///< checkpoint whose network it starts from; empty: from scratch
+  std::filesystem::path run;     ///< folder for state, curves and the finished checkpoint
+  std::string device = "cpu";    ///< "cpu" or "cuda:N"
+  bool with_validation = false;  ///< train on validation clips too: a last run, once all is chosen
+  bool resume = false;           ///< go on from the run's state if there is one
+  int64_t steps = 14000;
+  int batch = 64;                   ///< windows a step; longer windows get fewer, at equal frames
+  double rate = 1e-3;               ///< peak learning rate; warm-up, then cosine to a twentieth
   int shortest = 5, longest = 100;  ///< N of the training windows, frames
   int rollout_frames = 30;          ///< gamma of paper F
-  double tempo = 0.5;               ///< share of the planner's windows danced faster or slower
-  int64_t report_every = 250;       ///< steps between validation, curves and saved state
-  int64_t stop_after = 0;  ///< leave after this many steps of the run, resumable; 0: to the end
+  double tempo = 0.5;          ///< share of the windows danced faster or slower (preset default)
+  int64_t report_every = 250;  ///< steps between validation, curves and saved state
+  int64_t stop_after = 0;      ///< leave after this many steps of the run, resumable; 0: to the end
   uint64_t seed = 1;
   /// Ablations (paper F, Table 1).
   bool no_keys = false, no_key_loss = false, no_time_embedding = false, forward_embedding = false;

@@ -7,8 +7,8 @@
 
 namespace choreo {
 
-/// Deterministic: the same windows and noise at every call. `with_flow` also samples.
+/// Deterministic: the same windows and noise at every call.
 std::vector<ValidationRow> Validate(FlowModel& model, const ClipStore& clips,
-                                    const std::vector<int>& lengths, int windows, bool with_flow);
+                                    const std::vector<int>& lengths, int windows);
 
 }  // namespace choreo

@@ -2,6 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
 
 #include "tests/architecture/includes.h"
 
@@ -110,6 +115,26 @@ TEST(Architecture, TorchStaysInItsRooms) {
     }
   }
   EXPECT_EQ(found, rooms) << "a room on the list needs no torch, or the includes were not read";
+}
+
+// What stands between the network and arrival is few rules: a figure that falls short is learnt,
+// and not mended with a constant.
+TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
+  int constants = 0;
+  const std::regex name(R"(\bk[A-Z]\w* = )");
+  for (const char* file : {"model/flow/flow_sampler.cpp", "model/engine/continuous_flow_engine.cpp",
+                           "model/engine/plan_timing.cpp", "model/engine/retime.cpp",
+                           "model/motion/body_limits.cpp"}) {
+    std::ifstream in(std::filesystem::path(CHOREO_SOURCE_DIR) / file);
+    ASSERT_TRUE(in) << file;
+    for (std::string line; std::getline(in, line);) {
+      if (!line.starts_with("constexpr ")) continue;
+      constants +=
+          static_cast<int>(std::distance(std::sregex_iterator(line.begin(), line.end(), name), {}));
+    }
+  }
+  EXPECT_GT(constants, 5) << "none were found";
+  EXPECT_LE(constants, 15);
 }
 
 }  // namespace

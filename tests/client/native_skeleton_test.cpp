@@ -62,8 +62,7 @@ class NativeSkeletonTest : public testing::Test {
     train.data = {data};
     train.splits = data / "splits.json";
     train.run = folder_ / "run";
-    train.planner_steps = 2;
-    train.flow_steps = 2;
+    train.steps = 2;
     train.batch = 4;
     train.longest = 10;
     train.rollout_frames = 3;
@@ -155,11 +154,6 @@ TEST_F(NativeSkeletonTest, FromRecordingsToADanceOn23Joints) {
   ExpectOtherJointCountsRefusedNamingBoth();
   ExpectToDanceThroughTheKeyPosesThatShip();
   ExpectDancesToGoThroughFiles();
-}
-
-TEST_F(NativeSkeletonTest, ThePresetWithAPlannerToo) {
-  Serve("planned");
-  ExpectToDanceThroughAKey();
 }
 
 TEST(PoseLibrary, AsksForKeyframesWhereItCannotBeRetargeted) {

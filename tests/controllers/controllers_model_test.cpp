@@ -20,10 +20,7 @@ namespace {
 using torch::Tensor;
 
 ControllersConfig Small() {
-  ControllersConfig config = ControllersConfig::Preset("controllers");
-  config.plan_width = 12;
-  config.plan_layers = 1;
-  config.plan_heads = 2;
+  ControllersConfig config;
   config.feed_forward = 16;
   config.controller = 8;
   config.encoder_hidden = 16;
@@ -170,13 +167,18 @@ TEST_F(ControllersModelTest, TheKeyframeLossDrawsEachEndToItsOwnPose) {
 TEST_F(ControllersModelTest, LossesVanishWhereTheMotionIsTheRealOne) {
   ControllersModel model(Small(), Skeleton::Smpl24());
   const ControlBatch batch = Draw(20);
-  for (const LossTerm& term : ControlLoss(*model, batch, batch.truth, nullptr)) {
+  const FrameTensors& history = batch.transition.history;
+  const Tensor steps = Steps(Join(history.Narrow(history.size() - 1, 1), batch.truth));
+  const auto stated = [&](const FrameTensors& frames) {
+    return ControlledOutput{frames, 40 * batch.truth.contacts - 20, steps};  // of logits: sure
+  };
+  for (const LossTerm& term : ControlLoss(*model, batch, stated(batch.truth))) {
     if (std::string(term.name) == "keyframe") continue;  // the way is not the pose at its end
     EXPECT_LT(term.value.item<double>(), 3e-3) << term.name;
   }
   FrameTensors moved = batch.truth;
   moved.root = moved.root + torch::tensor({0.0F, 0.0F, 0.1F});
-  const LossTerms terms = ControlLoss(*model, batch, moved, nullptr);
+  const LossTerms terms = ControlLoss(*model, batch, stated(moved));
   EXPECT_NEAR(terms[0].value.item<double>(), 2 * 0.1,
               2e-3);  // reconstruction: place beside the path
 }

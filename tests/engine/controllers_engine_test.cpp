@@ -18,10 +18,7 @@ class ControllersEngineTest : public testing::Test {
  protected:
   ControllersEngineTest() {
     SetTorchThreads(1);
-    ControllersConfig config = ControllersConfig::Preset("controllers");
-    config.plan_width = 12;
-    config.plan_layers = 1;
-    config.plan_heads = 2;
+    ControllersConfig config;
     config.controller = 8;
     config.encoder_hidden = 16;
     config.encoding = 8;
@@ -54,13 +51,13 @@ class ControllersEngineTest : public testing::Test {
 
 TEST_F(ControllersEngineTest, TellsWhatItTakes) {
   const ModelInfo& model = engine_->model();
-  EXPECT_EQ(model.name, "controllers");
+  EXPECT_EQ(model.name, "controllers-paper");
   EXPECT_TRUE(model.root_path);
   EXPECT_TRUE(model.velocity_factors);
   ASSERT_EQ(model.velocity_references.size(), 1U);
   EXPECT_EQ(model.velocity_references[0].name, "median");
   EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
-  EXPECT_NE(model.fingerprint.find("controllers/"), std::string::npos);
+  EXPECT_NE(model.fingerprint.find("controllers-paper/"), std::string::npos);
   EXPECT_EQ(model.default_temperature, 0);
   EXPECT_EQ(engine_->device(), "cpu");
 }

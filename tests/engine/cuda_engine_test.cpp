@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
-#include <torch/torch.h>
 
 #include <algorithm>
-#include <tuple>
 #include <vector>
 
-#include "model/engine/device_noise.h"
 #include "model/engine/engines.h"
 #include "tests/engine/engine_dances.h"
 
@@ -15,34 +12,28 @@ namespace {
 
 constexpr Device kGpu{Device::Kind::kCuda, 0};
 
-class CudaEngineTest : public testing::TestWithParam<std::tuple<Shape, EngineKind>> {
+class CudaEngineTest : public testing::TestWithParam<Shape> {
  protected:
-  CudaEngineTest() : checkpoint_(std::get<0>(GetParam())) { SetTorchThreads(1); }
+  CudaEngineTest() : checkpoint_(GetParam()) { SetTorchThreads(1); }
   void SetUp() override {
     if (TorchDevices().cuda_devices == 0) GTEST_SKIP() << "no CUDA device answers";
   }
   std::unique_ptr<StepEngine> Engine(int slots, const Device& device = kGpu) {
-    return MakeEngine(checkpoint_.path(), device, slots, std::get<1>(GetParam()));
+    return MakeEngine(checkpoint_.path(), device, slots, EngineKind::kTorch);
   }
   SmallCheckpoint checkpoint_;
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, CudaEngineTest,
-    testing::Combine(testing::Values(Shape::kPlannerAndPerceptron, Shape::kRecurrent),
-                     testing::Values(EngineKind::kTorch, EngineKind::kTorchBf16)),
-    [](const auto& instance) {
-      return ShapeName(std::get<0>(instance.param)) +
-             (std::get<1>(instance.param) == EngineKind::kTorchBf16 ? "Bf16" : "");
-    });
+INSTANTIATE_TEST_SUITE_P(Shapes, CudaEngineTest,
+                         testing::Values(Shape::kEncodedPerceptron, Shape::kRecurrent),
+                         [](const auto& instance) { return ShapeName(instance.param); });
 
 TEST_P(CudaEngineTest, StepsAsTheCpuDoes) {
-  const double most = std::get<1>(GetParam()) == EngineKind::kTorchBf16 ? 0.05 : 1e-4;
   for (const uint64_t seed : {7, 8, 9, 10}) {
     const auto cpu = MakeEngine(checkpoint_.path(), {}, 1, EngineKind::kTorch);
     const auto gpu = Engine(1);
     EXPECT_EQ(gpu->device(), "cuda:0");
-    EXPECT_LT(LargestStepDifference(cpu.get(), gpu.get(), seed, 30), most) << "seed " << seed;
+    EXPECT_LT(LargestStepDifference(cpu.get(), gpu.get(), seed, 30), 1e-4) << "seed " << seed;
   }
 }
 
@@ -65,32 +56,6 @@ TEST_P(CudaEngineTest, EveryDeviceGivesTheSameBits) {
   for (int i = 0; i < TorchDevices().cuda_devices; ++i) {
     const auto engine = Engine(3, {Device::Kind::kCuda, i});
     ExpectSameBits(DanceAlone(engine.get(), RandomSpec(engine->model(), 7)), expected);
-  }
-}
-
-// On the CPU, which draws it otherwise, and on a GPU.
-TEST(DeviceNoiseTest, IsFillNormalsTimesItsSpread) {
-  std::vector<torch::Device> devices = {torch::kCPU};
-  if (TorchDevices().cuda_devices > 0) devices.emplace_back(torch::kCUDA, 0);
-  for (const torch::Device& device : devices) {
-    constexpr int kRows = 5, kWidth = 79;
-    DeviceNoise noise(device, kRows, kWidth);
-    for (int row = 0; row < kRows; ++row) {
-      noise.rows()[static_cast<size_t>(row)] = {.seed = uint64_t{1} << (12 * row),
-                                                .frame = 1000 * row - 1,
-                                                .candidate = static_cast<uint32_t>(row % 2),
-                                                .spread = 0.5F * static_cast<float>(row)};
-    }
-    noise.Draw();
-    const torch::Tensor drawn = noise.values().cpu();
-    for (int row = 0; row < kRows; ++row) {
-      std::vector<float> expected(kWidth);
-      noise.rows()[static_cast<size_t>(row)].Fill(expected);
-      EXPECT_EQ(std::ranges::count(expected, 0.0F), row == 0 ? kWidth : 0);
-      const float* actual = drawn[row].data_ptr<float>();
-      for (int i = 0; i < kWidth; ++i)
-        EXPECT_NEAR(actual[i], expected[static_cast<size_t>(i)], device.is_cuda() ? 1e-6 : 0);
-    }
   }
 }
 

@@ -22,12 +22,10 @@ Pose RandomPose(Random* random, const Pose& base, double size) {
 
 std::string ShapeName(Shape shape) {
   switch (shape) {
-    case Shape::kPlannerAndPerceptron:
-      return "Planner";
-    case Shape::kPlannerOnCondition:
-      return "PlannerOnCondition";
-    case Shape::kPerceptronOnCondition:
+    case Shape::kPerceptron:
       return "Perceptron";
+    case Shape::kEncodedPerceptron:
+      return "EncodedPerceptron";
     case Shape::kRecurrent:
       return "Recurrent";
     case Shape::kEncodedRecurrent:
@@ -44,14 +42,8 @@ FlowConfig SmallConfig(Shape shape) {
   config.max_transition_frames = 200;
   config.temperature = 0.4;
   config.recurrent = shape == Shape::kRecurrent || shape == Shape::kEncodedRecurrent;
-  if (shape == Shape::kPlannerAndPerceptron || shape == Shape::kEncodedRecurrent) {
+  if (shape == Shape::kEncodedPerceptron || shape == Shape::kEncodedRecurrent)
     config.condition_width = 20;
-  }
-  if (shape == Shape::kPlannerAndPerceptron || shape == Shape::kPlannerOnCondition) {
-    config.planner = {.width = 16, .layers = 1, .heads = 2, .variety = 3};
-    config.fine_temperature = 0.3;
-    config.follow = 0.6;
-  }
   return config;
 }
 

@@ -16,9 +16,8 @@ namespace choreo {
 
 /// Every combination of parts that the flow has.
 enum class Shape {
-  kPlannerAndPerceptron,  ///< as preset `planned`
-  kPlannerOnCondition,
-  kPerceptronOnCondition,
+  kPerceptron,
+  kEncodedPerceptron,
   kRecurrent,         ///< as preset `paper`
   kEncodedRecurrent,  ///< as preset `ablation`
 };

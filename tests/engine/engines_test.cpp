@@ -11,7 +11,6 @@
 #include "model/core/safetensors.h"
 #include "model/core/threads.h"
 #include "model/engine/build_identity.h"
-#include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
 
@@ -33,15 +32,11 @@ class EnginesTest : public testing::TestWithParam<std::tuple<EngineKind, Shape>>
 
 INSTANTIATE_TEST_SUITE_P(
     Engines, EnginesTest,
-    testing::Combine(testing::Values(EngineKind::kTorch, EngineKind::kTorchBf16,
-                                     EngineKind::kPacked),
-                     testing::Values(Shape::kPlannerAndPerceptron, Shape::kPerceptronOnCondition,
+    testing::Combine(testing::Values(EngineKind::kTorch, EngineKind::kPacked),
+                     testing::Values(Shape::kPerceptron, Shape::kEncodedPerceptron,
                                      Shape::kRecurrent, Shape::kEncodedRecurrent)),
     [](const auto& instance) {
-      const EngineKind kind = std::get<0>(instance.param);
-      return std::string(kind == EngineKind::kTorch       ? "Torch"
-                         : kind == EngineKind::kTorchBf16 ? "TorchBf16"
-                                                          : "Packed") +
+      return std::string(std::get<0>(instance.param) == EngineKind::kTorch ? "Torch" : "Packed") +
              ShapeName(std::get<1>(instance.param));
     });
 
@@ -62,23 +57,6 @@ TEST_P(EnginesTest, TellsWhatItIs) {
   EXPECT_EQ(engine->device(), "cpu");
   EXPECT_EQ(engine->slots(), 3);
   EXPECT_EQ(engine->free_slots(), 3);
-}
-
-// The baseline of Harvey et al. has neither flow nor variety: it would but shake.
-TEST(Engines, AModelWithoutAFlowIsDeterministic) {
-  SetTorchThreads(1);
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / "without_a_flow.safetensors";
-  WriteRandomCheckpoint(path, FlowConfig::Preset("recurrent"), Skeleton::Smpl24(), 3);
-  const auto engine = MakeEngine(path, {}, 1, EngineKind::kTorch);
-  std::filesystem::remove(path);
-  EXPECT_TRUE(engine->model().deterministic);
-  TransitionSpec spec = RandomSpec(engine->model(), 7);
-  spec.temperature = 0;
-  const auto calm = DanceAlone(engine.get(), spec);
-  spec.temperature = 1;
-  ++spec.seed;
-  ExpectSameBits(DanceAlone(engine.get(), spec), calm);
 }
 
 TEST_P(EnginesTest, GivesTheSameBitsAloneAndAmongFifteenOthers) {
@@ -219,22 +197,6 @@ TEST_P(EnginesTest, ThisBuildHasItsDevices) {
   EXPECT_THROW(MakeEngine(checkpoint_.path(), beyond, 1, kind), std::exception);
 }
 
-// Rounded networks are near the exact ones, and are not them.
-TEST(Engines, RoundedNetworksStepNearly) {
-  SetTorchThreads(1);
-  for (const Shape shape : {Shape::kPlannerAndPerceptron, Shape::kPerceptronOnCondition,
-                            Shape::kRecurrent, Shape::kEncodedRecurrent}) {
-    const SmallCheckpoint checkpoint(shape);
-    for (const uint64_t seed : {7, 8, 9, 10}) {
-      const auto exact = MakeEngine(checkpoint.path(), {}, 1, EngineKind::kTorch);
-      const auto rounded = MakeEngine(checkpoint.path(), {}, 1, EngineKind::kTorchBf16);
-      const double difference = LargestStepDifference(exact.get(), rounded.get(), seed, 30);
-      EXPECT_LT(difference, 0.05) << ShapeName(shape) << ", seed " << seed;
-      EXPECT_GT(difference, 0) << ShapeName(shape) << ", seed " << seed;
-    }
-  }
-}
-
 TEST(EngineSetUpTest, TheBuildIsNamed) {
   EXPECT_THAT(BuildIdentity(), ContainsRegex("^[A-Za-z]+ [0-9.]+ [A-Za-z]* [0-9a-f]{16}$"));
 }
@@ -249,15 +211,13 @@ TEST(EngineSetUpTest, AFastBlasStandsBehindTorch) {
 TEST(EngineSetUpTest, KindsHaveNames) {
   EXPECT_EQ(ParseEngineKind("auto"), EngineKind::kAuto);
   EXPECT_EQ(ParseEngineKind("torch"), EngineKind::kTorch);
-  EXPECT_EQ(ParseEngineKind("torch-bf16"), EngineKind::kTorchBf16);
   EXPECT_EQ(ParseEngineKind("packed"), EngineKind::kPacked);
   EXPECT_EQ(ParseEngineKind("packed-bf16"), EngineKind::kPackedBf16);
   try {
     ParseEngineKind("fast", "--engine");
     FAIL() << "no such engine";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "--engine: \"fast\" is none of auto, torch, torch-bf16, packed, packed-bf16");
+    EXPECT_STREQ(error.what(), "--engine: \"fast\" is none of auto, torch, packed, packed-bf16");
   }
 }
 

@@ -45,10 +45,10 @@ TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {
   const auto engine = MakeEngine(Shipped().at("free"), {}, 1);
   const auto card = nlohmann::json::parse(engine->model().card);
   const auto& terms = card.at("data").at("clips_by_terms");
-  ASSERT_EQ(terms.size(), 1U);
-  EXPECT_THAT(terms.begin().key(), testing::HasSubstr("free for research and commercial use"));
-  EXPECT_EQ(card.at("planner_from").at("card").at("data"), card.at("data"));
-  EXPECT_FALSE(engine->model().hears_music);
+  EXPECT_FALSE(terms.empty());
+  for (const auto& [of, clips] : terms.items())
+    EXPECT_THAT(of, testing::HasSubstr("free for research and commercial use"));
+  EXPECT_FALSE(card.contains("from"));
 }
 
 }  // namespace

@@ -6,9 +6,6 @@
 
 #include "model/core/random.h"
 #include "model/engine/engines.h"
-#include "model/engine/plan_pace.h"
-#include "model/engine/temperature.h"
-#include "model/engine/torch_planner.h"
 #include "model/engine/torch_tile.h"
 #include "model/flow/checkpoint.h"
 #include "model/motion/contacts.h"
@@ -31,7 +28,7 @@ class TorchEngineTest : public testing::TestWithParam<Shape> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Shapes, TorchEngineTest,
-                         testing::Values(Shape::kPlannerAndPerceptron, Shape::kRecurrent),
+                         testing::Values(Shape::kEncodedPerceptron, Shape::kRecurrent),
                          [](const auto& instance) { return ShapeName(instance.param); });
 
 TEST_P(TorchEngineTest, RowsOfATileAreIndependentHere) {
@@ -95,50 +92,14 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
       }
       transition.target_mask[0][joints] = mask.root_position ? 1 : 0;
     }
-    const TransitionContext context = model_->Begin(transition);
-
-    // Reference poses of the N frames, as the module planned them; what varies them is the plan's.
-    std::vector<Pose> plan;
-    if (model_->has_planner()) {
-      const TorchPlanner planner(model_, torch::kCPU);
-      TransitionSpec calm = spec;
-      calm.temperature = 0;
-      const std::vector<Pose> mean = planner.Plan(calm).poses;
-      plan = planner.Plan(spec).poses;
-      double variety = 0;
-      Pose before = spec.history.back();
-      for (int t = 0; t < spec.frames; ++t) {
-        Pose pose = before;
-        for (int i = 0; i < 3; ++i) {
-          pose.root_position[i] = context.reference.position[0][t][i].item<float>();
-        }
-        for (int j = 0; j < joints; ++j) {
-          Eigen::Matrix3d matrix;
-          for (int r = 0; r < 3; ++r) {
-            for (int c = 0; c < 3; ++c) {
-              matrix(r, c) = context.reference.rotation[0][t][j][r][c].item<float>();
-            }
-          }
-          pose.rotations.col(j) = NearestBranch(LogMap(matrix), before.rotations.col(j));
-        }
-        const auto at = static_cast<size_t>(t);
-        ASSERT_LT((mean[at].root_position - pose.root_position).norm(), 1e-5) << t;
-        ASSERT_LT((mean[at].rotations - pose.rotations).norm(), 1e-5) << t;
-        variety += (plan[at].rotations - pose.rotations).norm();
-        before = pose;
-      }
-      EXPECT_GT(variety, 0.01);
-      plan = EvenPace(skeleton, spec.history, std::move(plan), 30);  // as whoever admits it does
-    }
+    const torch::Tensor condition = model_->Begin(transition);
     const int width = codec.width();
     torch::Tensor features = torch::empty({tau + spec.frames, width});
     for (int i = 0; i < tau + spec.frames; ++i) {
       const auto at = static_cast<size_t>(i);
       const Pose& pose = motion.frames[at];
-      const Pose* reference = nullptr;
-      if (!plan.empty()) reference = i < tau ? &pose : &plan[at - static_cast<size_t>(tau)];
       const Pose& previous = motion.frames[i == 0 ? 0 : at - 1];
-      Eigen::VectorXf x = codec.Encode(pose, previous, reference, contacts[at], 30);
+      Eigen::VectorXf x = codec.Encode(pose, previous, contacts[at], 30);
       if (i == 0) {  // the first frame moves as the second
         const RootVelocity velocity = RootVelocityBetween(motion.frames[0], motion.frames[1], 30);
         x[codec.velocity_at()] = static_cast<float>(velocity.forward);
@@ -161,8 +122,6 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
     }
     const torch::Tensor has_audio = torch::full({1, 1}, spec.has_audio ? 1.0F : 0.0F);
     const auto inverse_weights = model_->InverseWeights();
-    double noise_share = model_->config().fine_temperature * spec.temperature;
-    if (!plan.empty()) noise_share *= NoiseShare(spec, Roughness(skeleton, spec.history));
     FlowState state = torch::zeros({1, model_->StateWidth()});
     double largest_effect_of_state = 0;
     for (int t = 0; t < spec.frames; ++t) {
@@ -170,22 +129,15 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
       FillNormal(spec.seed, spec.candidate, spec.first_frame + t, noise);
       const auto result = model_->Step(
           features.narrow(0, t, tau).unsqueeze(0), audio.narrow(0, t, tau + 1).unsqueeze(0),
-          has_audio, context.static_condition.select(1, t),
-          noise_share * torch::tensor(noise).unsqueeze(0), inverse_weights, &state);
+          has_audio, condition.select(1, t), spec.temperature * torch::tensor(noise).unsqueeze(0),
+          inverse_weights, &state);
       if (state.numel() > 0) {
         largest_effect_of_state =
             std::max<double>(largest_effect_of_state, state.abs().max().item<float>());
       }
-      Eigen::VectorXf x =
+      const Eigen::VectorXf x =
           Eigen::Map<Eigen::VectorXf>(result.features.contiguous().data_ptr<float>(), width);
-      if (!plan.empty()) {
-        const Eigen::Map<const Eigen::VectorXf> last(features[t + tau - 1].data_ptr<float>(),
-                                                     width);
-        const auto follow = static_cast<float>(model_->config().follow);
-        const Eigen::Index pose = codec.velocity_at();
-        x.head(pose) = last.head(pose) + follow * (x - last).head(pose);
-      }
-      const auto expected = codec.Decode(x, plan.empty() ? nullptr : &plan[static_cast<size_t>(t)]);
+      const auto expected = codec.Decode(x);
       const StepOutput& output = one[0].outputs[static_cast<size_t>(t)];
       ASSERT_LT((output.pose.root_position - expected.pose.root_position).norm(), 1e-5) << t;
       ASSERT_LT((output.pose.rotations - expected.pose.rotations).norm(), 1e-5) << t;

@@ -24,7 +24,6 @@ class CheckpointTest : public testing::Test {
     config.flow_steps = 1;
     config.hidden = 8;
     config.condition_width = 8;
-    config.planner = {.width = 8, .layers = 1, .heads = 2};
     model_ = FlowModel(config, Skeleton::Smpl24());
     hash_ = SaveCheckpoint(path_, model_, {{"data", "none: random weights of a test"}});
   }
@@ -75,6 +74,16 @@ TEST_F(CheckpointTest, AnotherFormatIsRefused) {
   content.metadata["format"] = "choreo-flow-0";
   WriteSafetensors(path_, content);
   EXPECT_THAT(FailureOfLoading(), HasSubstr("choreo-flow-0"));
+}
+
+TEST_F(CheckpointTest, AFlowAroundAPlannerIsRefusedByName) {
+  Safetensors content = ReadSafetensors(path_);
+  nlohmann::json config = nlohmann::json::parse(content.metadata["config"]);
+  config["planner"] = {{"width", 160}};
+  content.metadata["config"] = config.dump();
+  content.metadata["hash"] = ContentHash(content, "hash");
+  WriteSafetensors(path_, content);
+  EXPECT_THAT(FailureOfLoading(), HasSubstr("planner: networks around a planner"));
 }
 
 TEST_F(CheckpointTest, AForeignFileIsRefused) {

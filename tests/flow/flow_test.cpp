@@ -3,21 +3,21 @@
 
 #include "model/core/error.h"
 #include "model/flow/flow_model.h"
+#include "model/flow/key_condition.h"
 #include "model/flow/torch_kinematics.h"
-#include "model/motion/mirror.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
 
 using torch::Tensor;
 
-FlowConfig Small(bool recurrent, bool encoded, bool planned) {
+FlowConfig Small(bool recurrent, bool encoded) {
   FlowConfig config;
   config.flow_steps = 3;
   config.hidden = 16;
   config.recurrent = recurrent;
   config.condition_width = encoded ? 24 : 0;
-  if (planned) config.planner = {.width = 24, .layers = 1, .heads = 2};
   return config;
 }
 
@@ -39,7 +39,7 @@ TransitionTensors RandomTransition(int64_t batch, int64_t frames) {
 
 struct Case {
   const char* name;
-  bool recurrent, encoded, planned;
+  bool recurrent, encoded;
 };
 
 class FlowTest : public testing::TestWithParam<Case> {
@@ -47,7 +47,7 @@ class FlowTest : public testing::TestWithParam<Case> {
   void SetUp() override {
     torch::manual_seed(11);
     const Case& c = GetParam();
-    model_ = FlowModel(Small(c.recurrent, c.encoded, c.planned), Skeleton::Smpl24());
+    model_ = FlowModel(Small(c.recurrent, c.encoded), Skeleton::Smpl24());
     Shake(*model_);
     model_->eval();
   }
@@ -108,19 +108,18 @@ TEST_P(FlowTest, ARolloutsOwnLikelihoodIsThatOfItsNoise) {
   torch::NoGradGuard no_grad;
   const int64_t frames = 5, width = model_->feature_width();
   const TransitionTensors transition = RandomTransition(3, frames);
-  const TransitionContext context = model_->Begin(transition);
+  const Tensor condition = model_->Begin(transition);
   const Tensor history = 0.2 * torch::randn({3, 10, width});
   const Tensor audio = torch::randn({3, 10 + frames, 40});
   const Tensor has_audio = torch::ones({3, 1});
   const Tensor noise = 0.5 * torch::randn({3, frames, width});
-  const Tensor sampled = model_->Rollout(history, audio, has_audio, context, noise);
+  const Tensor sampled = model_->Rollout(history, audio, has_audio, condition, noise);
   const Tensor likelihood =
-      model_->LogLikelihood(torch::cat({history, sampled}, 1), audio, has_audio, context);
+      model_->LogLikelihood(torch::cat({history, sampled}, 1), audio, has_audio, condition);
 
   FlowState state = model_->flow()->InitialState(3);
-  const auto step = model_->Step(history, audio.narrow(1, 0, 11), has_audio,
-                                 context.static_condition.select(1, 0), noise.select(1, 0),
-                                 model_->InverseWeights(), &state);
+  const auto step = model_->Step(history, audio.narrow(1, 0, 11), has_audio, condition.select(1, 0),
+                                 noise.select(1, 0), model_->InverseWeights(), &state);
   EXPECT_TRUE(torch::allclose(step.log_likelihood, likelihood.select(1, 0), 1e-3, 1e-2));
   EXPECT_TRUE(torch::allclose(step.features, sampled.select(1, 0), 1e-5, 1e-5));
 }
@@ -133,8 +132,8 @@ TEST_P(FlowTest, MusicKeyAndTimeLeftChangeTheDance) {
   const Tensor audio = torch::randn({1, 10 + frames, 40});
   const Tensor noise = torch::zeros({1, frames, width});
   const auto dance = [&](const TransitionTensors& of, const Tensor& music, double has_audio) {
-    const TransitionContext context = model_->Begin(of);
-    return model_->Rollout(history, music, torch::full({1, 1}, has_audio), context, noise);
+    const Tensor condition = model_->Begin(of);
+    return model_->Rollout(history, music, torch::full({1, 1}, has_audio), condition, noise);
   };
   const Tensor base = dance(transition, audio, 1);
   const auto differs = [&](const Tensor& other) {
@@ -148,102 +147,60 @@ TEST_P(FlowTest, MusicKeyAndTimeLeftChangeTheDance) {
   EXPECT_EQ(differs(dance(transition, audio, 1)), 0);
 }
 
-TEST_P(FlowTest, AMirroredTransitionHasTheMirroredPlan) {
-  if (!GetParam().planned) return;  // no plan
-  torch::NoGradGuard no_grad;
-  const TransitionTensors transition = RandomTransition(2, 12);
-  const std::vector<int> of = MirrorPairs(Skeleton::Smpl24());
-  const Tensor pairs = torch::tensor(std::vector<int64_t>(of.begin(), of.end()));
-  const TrajectoryTensors plan = model_->Begin(transition).reference;
-  const TrajectoryTensors other = model_->Begin(MirrorTransition(transition, pairs)).reference;
-  const Tensor flip = torch::tensor({-1.0F, 1.0F, 1.0F});
-  EXPECT_TRUE(torch::allclose(plan.position * flip, other.position, 1e-4, 1e-5));
-  EXPECT_TRUE(torch::allclose(plan.rotation.index_select(2, pairs) * torch::outer(flip, flip),
-                              other.rotation, 1e-4, 1e-4));
-}
-
 INSTANTIATE_TEST_SUITE_P(Shapes, FlowTest,
-                         testing::Values(Case{"Paper", true, false, false},
-                                         Case{"Encoded", true, true, false},
-                                         Case{"Planned", false, true, true}),
+                         testing::Values(Case{"Paper", true, false}, Case{"Encoded", true, true},
+                                         Case{"Perceptron", false, true}),
                          [](const auto& shape) { return std::string(shape.param.name); });
 
-TEST(Planner, StartsAsInterpolationAndEndsOnTheKey) {
+TEST(InterpolationTest, EndsOnTheKey) {
   torch::NoGradGuard no_grad;
   torch::manual_seed(5);
-  const Planner planner = MakePlanner(24, {.width = 24, .layers = 1, .heads = 2});
   const TransitionTensors transition = RandomTransition(2, 20);
   const TrajectoryTensors line = Interpolate(transition);
-  EXPECT_TRUE(
-      torch::allclose(planner->forward(transition).trajectory.position, line.position, 1e-5, 1e-6));
   EXPECT_TRUE(torch::allclose(line.position.select(1, 19), transition.target_position, 1e-5, 1e-5));
   EXPECT_TRUE(torch::allclose(line.rotation.select(1, 19), transition.target_rotation, 1e-4, 1e-4));
-  Shake(*planner);
-  const auto shaken = planner->forward(transition).trajectory;
-  EXPECT_GT((shaken.position - line.position).abs().max().item<double>(), 1e-3);
-  EXPECT_TRUE(
-      torch::allclose(shaken.position.select(1, 19), transition.target_position, 1e-5, 1e-5));
-  EXPECT_TRUE(
-      torch::allclose(shaken.rotation.select(1, 19), transition.target_rotation, 1e-4, 1e-4));
 }
 
-// A dancer who spins to her left by `rate` radians a frame, and a key that is `turn` radians ahead.
-TransitionTensors Spin(double rate, double turn, int64_t frames) {
-  TransitionTensors spin = RandomTransition(1, frames);
-  const auto heading = [](double angle) {
-    return ExpMapBatch(torch::tensor({0.0F, static_cast<float>(angle), 0.0F}));
-  };
-  const int64_t history = spin.history_position.size(1);
-  for (int64_t s = 0; s < history; ++s) {
-    spin.history_rotation[0][s][0] = heading(rate * static_cast<double>(s - history + 1));
-  }
-  spin.target_rotation[0][0] = heading(turn);
-  return spin;
-}
-
-TEST(Interpolation, GoesTheWayRoundThatTheDancerIsTurning) {
-  const auto first_turn = [](const TransitionTensors& spin, bool as_turning) {
-    const auto line = Interpolate(spin, as_turning);
-    const Tensor before = spin.history_rotation[0][-1][0], after = line.rotation[0][0][0];
-    return LogMapBatch(torch::matmul(before.t(), after))[1].item<double>();
-  };
-  // 190 degrees to the left are 170 to the right.
-  const double left = 190 * M_PI / 180, right = left - 2 * M_PI;
-  EXPECT_NEAR(first_turn(Spin(0.1, left, 30), false), right / 30, 1e-4);
-  EXPECT_NEAR(first_turn(Spin(0.1, left, 30), true), left / 30, 1e-4);
-  EXPECT_NEAR(first_turn(Spin(-0.1, left, 30), true), right / 30, 1e-4);
-  EXPECT_NEAR(first_turn(Spin(0, left, 30), true), right / 30, 1e-4);
-  // A quarter turn against the spin stays one.
-  EXPECT_NEAR(first_turn(Spin(0.1, -M_PI / 2, 30), true), -M_PI / 60, 1e-4);
-}
-
-TEST(Planner, TheRecurrentOneStandsStillUntilTrainedThenHeedsKeyAndTime) {
+// Engines write down what is known of a frame without LibTorch.
+TEST(KeyConditionTest, IsWhatTheModuleBeginsWith) {
   torch::NoGradGuard no_grad;
-  torch::manual_seed(5);
-  const Planner planner = MakePlanner(24, {.width = 24, .recurrent = true});
-  TransitionTensors transition = RandomTransition(2, 20);
-  planner->eval();
-  const auto still = planner->forward(transition).trajectory;
-  EXPECT_TRUE(torch::allclose(still.position.select(1, 19),
-                              transition.history_position.select(1, -1), 1e-5, 1e-6));
-  Shake(*planner);
-  const auto plan = planner->forward(transition);
-  EXPECT_EQ(plan.hidden.sizes(), (std::vector<int64_t>{2, 20, 24}));
-  EXPECT_TRUE(
-      torch::equal(plan.trajectory.position, planner->forward(transition).trajectory.position));
-  // Its first frame knows of the key and of the frames that are left.
-  const auto first = [&] { return planner->forward(transition).trajectory.position.select(1, 0); };
-  const Tensor before = first();
-  transition.frames = 40;
-  EXPECT_FALSE(torch::equal(first(), before));
-  transition.frames = 20;
-  transition.target_position = transition.target_position + 1;
-  EXPECT_FALSE(torch::equal(first(), before));
-  // A key that is masked is not there.
-  transition.target_mask.zero_();
-  const Tensor free = first();
-  transition.target_position = transition.target_position + 1;
-  EXPECT_TRUE(torch::equal(first(), free));
+  torch::manual_seed(6);
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  const int joints = skeleton.joints(), frames = 7;
+  for (const bool partial : {false, true}) {
+    for (const bool forward : {false, true}) {
+      FlowConfig config = Small(false, false);
+      config.forward_embedding = forward;
+      FlowModel model(config, skeleton);
+      Pose key{{0.1, 0.9, 0.4}, 0.4 * Eigen::Matrix3Xd::Random(3, joints)};
+      PoseMask mask;
+      TransitionTensors transition = RandomTransition(1, frames);
+      for (int j = 0; j < joints; ++j) {
+        const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> matrix =
+            ExpMap(key.rotations.col(j)).cast<float>();
+        transition.target_rotation[0][j] =
+            torch::from_blob(const_cast<float*>(matrix.data()), {3, 3}).clone();
+      }
+      transition.target_position = torch::tensor({{0.1F, 0.9F, 0.4F}});
+      if (partial) {
+        mask.root_position = false;
+        mask.joints.assign(static_cast<size_t>(joints), true);
+        mask.joints[5] = false;
+        transition.target_mask[0][5] = transition.target_mask[0][joints] = 0;
+      }
+      const Eigen::MatrixXf written =
+          KeyConditions(config, joints, model->feature_width(), frames, &key, mask);
+      ASSERT_EQ(written.rows(), model->key_width());
+      const Tensor expected = model->Begin(transition)[0].contiguous();
+      const Eigen::Map<const Eigen::MatrixXf> theirs(expected.data_ptr<float>(), written.rows(),
+                                                     frames);
+      EXPECT_LT((written - theirs).cwiseAbs().maxCoeff(), 1e-5);
+      transition.target_mask.zero_();
+      EXPECT_EQ(model->Begin(transition).abs().max().item<float>(), 0);
+      EXPECT_TRUE(
+          KeyConditions(config, joints, model->feature_width(), frames, nullptr, {}).isZero());
+    }
+  }
 }
 
 TEST(TimeEmbeddingTest, IsEquationNine) {
@@ -262,7 +219,6 @@ TEST(FlowPresets, HaveTheSizesThatTheyPromise) {
     for (const auto& parameter : model->parameters()) count += parameter.numel();
     return count;
   };
-  EXPECT_LE(parameters("planned"), 4'000'000);
   EXPECT_LE(parameters("ablation"), 500'000);
   EXPECT_NEAR(static_cast<double>(parameters("paper")), 99e6, 4e6);
   EXPECT_THROW(FlowConfig::Preset("large"), Error);

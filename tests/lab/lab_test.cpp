@@ -101,7 +101,7 @@ class LabEval : public testing::Test {
 
   void TrainOneStep(const std::string& preset) {
     const Outcome outcome = Lab("train --preset " + preset + kData + " --run " + preset +
-                                    " --planner-steps 1 --flow-steps 1 --batch 4 --shortest 5 "
+                                    " --steps 1 --batch 4 --shortest 5 "
                                     "--longest 20 --rollout-frames 4",
                                 folder_.path());
     ASSERT_EQ(outcome.code, 0) << outcome.said;
@@ -179,7 +179,7 @@ TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
 TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
   for (const auto& [options, why] : std::vector<std::pair<std::string, std::string>>{
            {"ablation --one-lstm", "--one-lstm: is no ablation of the preset ablation"},
-           {"controllers --no-keys", "--no-keys: is no ablation of the preset controllers"}}) {
+           {"controllers-paper --no-keys", "--no-keys: is no ablation of the preset controllers-paper"}}) {
     const Outcome outcome = Lab("train --run refused --preset " + options + kData, folder_.path());
     EXPECT_EQ(outcome.code, 1) << options;
     EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: " + why)) << options;

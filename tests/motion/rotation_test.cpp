@@ -191,5 +191,17 @@ TEST(Rotation, WrapAngleStaysInItsRange) {
   EXPECT_NEAR(WrapAngle(-0.25 - 4 * kPi), -0.25, 1e-12);
 }
 
+TEST(Rotation, RightJacobianIsHowTheExponentialMapTurns) {
+  for (const double angle : {0.0, 1e-4, 0.009, 0.011, 0.7, 2.9, 5.0}) {
+    const Eigen::Vector3d w = angle * Eigen::Vector3d(0.6, -0.48, 0.64);
+    const Eigen::Matrix3d jacobian = RightJacobian(w);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d step = 1e-5 * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector3d seen = LogMap(ExpMap(w - step).transpose() * ExpMap(w + step)) / 2e-5;
+      EXPECT_LT((jacobian.col(axis) - seen).norm(), 1e-7) << angle;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace choreo

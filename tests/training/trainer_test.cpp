@@ -23,13 +23,13 @@ class TrainerTest : public testing::Test {
   void SetUp() override { WriteSyntheticData(folder_.path()); }
 
   // A run of a few steps on the synthetic clips.
-  TrainOptions Options(const std::string& name, int64_t flow_steps) const {
+  TrainOptions Options(const std::string& name, int64_t steps) const {
     TrainOptions options;
     options.preset = "ablation";
     options.data = {folder_.path()};
     options.splits = folder_.path() / "splits.json";
     options.run = folder_.path() / name;
-    options.flow_steps = flow_steps;
+    options.steps = steps;
     options.batch = 8;
     options.longest = 12;
     options.rollout_frames = 4;
@@ -100,42 +100,24 @@ TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
   }
 }
 
-TEST_F(TrainerTest, AResumeBetweenTheStagesAndAnothersPlannerToo) {
-  TrainOptions options = Options("whole", 2);
-  options.preset = "planned";
-  options.planner_steps = 2;
-  Train(options);
-  const Checkpoint whole = LoadCheckpoint(options.run / "checkpoint.safetensors");
-  options.run = folder_.path() / "halves";
-  options.stop_after = 2;
-  Train(options);
-  options.stop_after = 0;
-  options.resume = true;
-  Train(options);
-  const Checkpoint halves = LoadCheckpoint(options.run / "checkpoint.safetensors");
-  EXPECT_EQ(halves.hash, whole.hash);
-
-  TrainOptions further = Options("further", 2);
-  further.preset = "planned";
-  further.planner_steps = 0;
-  further.planner = options.run / "checkpoint.safetensors";
+TEST_F(TrainerTest, AFlowGoesOnFromAnother) {
+  const TrainOptions first = Options("first", 2);
+  Train(first);
+  TrainOptions further = Options("further", 1);
+  further.from = first.run / "checkpoint.safetensors";
+  further.rate = 0;  // what it took up stays as it was
   Train(further);
-  const Checkpoint same = LoadCheckpoint(further.run / "checkpoint.safetensors");
-  const auto expected = whole.model->planner()->named_parameters();
-  for (const auto& item : same.model->planner()->named_parameters())
+  const Checkpoint theirs = LoadCheckpoint(further.from);
+  const Checkpoint ours = LoadCheckpoint(further.run / "checkpoint.safetensors");
+  const auto expected = theirs.model->named_parameters();
+  for (const auto& item : ours.model->named_parameters())
     EXPECT_TRUE(torch::equal(item.value(), expected[item.key()])) << item.key();
-  EXPECT_THAT(same.card, testing::HasSubstr(whole.hash));
-
-  further.run = folder_.path() / "other shape";
-  further.preset = "recurrent";
-  EXPECT_THAT([&] { Train(further); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr("--planner")));
+  EXPECT_THAT(ours.card, testing::HasSubstr(theirs.hash));
 }
 
-TEST_F(TrainerTest, ControllersResumeInEitherStageAsIfUndisturbed) {
+TEST_F(TrainerTest, ControllersResumeAsIfUndisturbed) {
   TrainOptions options = Options("controllers", 3);
-  options.preset = "controllers";
-  options.planner_steps = 2;
+  options.preset = "controllers-paper";
   options.batch = 4;
   TrainControllers(options);
   const auto hash = [](const TrainOptions& run) {
@@ -156,18 +138,16 @@ TEST_F(TrainerTest, ControllersResumeInEitherStageAsIfUndisturbed) {
 
 TEST_F(TrainerTest, ControllersGoOnFromAnotherNetwork) {
   TrainOptions first = Options("first", 1);
-  first.preset = "controllers";
-  first.planner_steps = 1;
+  first.preset = "controllers-paper";
   first.batch = 4;
   TrainControllers(first);
   TrainOptions further = first;
   further.run = folder_.path() / "further";
-  further.planner = first.run / "checkpoint.safetensors";
-  further.planner_steps = 0;
-  further.flow_rate = 0;  // what it took up stays as it was
+  further.from = first.run / "checkpoint.safetensors";
+  further.rate = 0;  // what it took up stays as it was
   further.name = "further";
   TrainControllers(further);
-  const Safetensors theirs = ReadSafetensors(further.planner);
+  const Safetensors theirs = ReadSafetensors(further.from);
   const Safetensors ours = ReadSafetensors(further.run / "checkpoint.safetensors");
   ASSERT_EQ(ours.tensors.size(), theirs.tensors.size());
   for (const auto& [name, tensor] : theirs.tensors)
@@ -203,30 +183,10 @@ TEST_F(TrainerTest, TheContinuousFlowResumesAsIfUndisturbedAndGoesOnFromAnother)
   TrainOptions further = Options("further", 1);
   further.preset = "default";
   further.batch = 4;
-  further.planner = options.run / "checkpoint.safetensors";
-  further.flow_rate = 0;  // what it took up stays as it was
+  further.from = options.run / "checkpoint.safetensors";
+  further.rate = 0;  // what it took up stays as it was
   TrainContinuousFlow(further);
   EXPECT_EQ(weights(further).tensors.at("head.weight").data, whole.tensors.at("head.weight").data);
-}
-
-TEST_F(TrainerTest, ABaselineWithoutAFlowIsItsPlan) {
-  TrainOptions options = Options("recurrent", 4);
-  options.preset = "recurrent";
-  options.planner_steps = 4;
-  Train(options);
-  torch::NoGradGuard no_grad;
-  Checkpoint made = LoadCheckpoint(options.run / "checkpoint.safetensors");
-  const ClipStore clips(options.data, options.splits, Split::kTrain);
-  Random random(1);
-  const MotionBatch batch = clips.Draw(3, 10, 8, {}, &random);
-  const TransitionContext context = made.model->Begin(batch.transition);
-  const torch::Tensor features = made.model->RelativeFeatures(batch.features, batch.truth, context);
-  const TrajectoryTensors danced = made.model->Decode(
-      made.model->Rollout(features.narrow(1, 0, 10), batch.audio, batch.has_audio, context,
-                          torch::zeros({3, 8, features.size(2)})),
-      context);
-  EXPECT_TRUE(torch::allclose(danced.position, context.reference.position, 1e-5, 1e-5));
-  EXPECT_TRUE(torch::allclose(danced.rotation, context.reference.rotation, 1e-4, 1e-4));
 }
 
 TEST_F(TrainerTest, UnusableOptionsAreNamed) {
@@ -243,7 +203,7 @@ TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   options.batch = 1;
   EXPECT_EQ(failure(options), "--batch");
   options = Options("x", 0);
-  EXPECT_EQ(failure(options), "--flow-steps");
+  EXPECT_EQ(failure(options), "--steps");
   options = Options("x", 4);
   options.longest = 3;
   EXPECT_EQ(failure(options), "--longest");
@@ -272,44 +232,6 @@ TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
   EXPECT_GT(
       JointDistance(kinematics, Interpolate(batch.transition), batch.truth).min().item<double>(),
       1e-3);
-}
-
-TEST_F(TrainerTest, APlanIsToldTheWayRoundAndWhoStraysFarIsLeftOut) {
-  const ClipStore store({folder_.path()}, folder_.path() / "splits.json", Split::kTrain);
-  Random random(5);
-  MotionBatch batch = store.Draw(6, 10, 20, {}, &random);
-  EXPECT_EQ(batch.WithItsTurning().features.size(0), 6);
-  // For one frame the first dancer has her back where interpolation has her face.
-  const torch::Tensor back =
-      torch::diag(torch::tensor({-1.0F, 1.0F, -1.0F}, batch.truth.rotation.options()));
-  MotionBatch stray = batch;
-  stray.truth.rotation = batch.truth.rotation.clone();
-  stray.truth.rotation[0][10][0] = torch::matmul(back, stray.truth.rotation[0][10][0]);
-  const MotionBatch rest = stray.WithItsTurning();
-  EXPECT_TRUE(torch::equal(rest.features, batch.features.narrow(0, 1, 5)));
-  EXPECT_TRUE(torch::equal(rest.truth.rotation, batch.truth.rotation.narrow(0, 1, 5)));
-  // The second turns 4.5 radians to her left, which is shorter to the right: her line goes with
-  // her.
-  const torch::Tensor angle = 4.5 * torch::arange(1, 21) / 20;
-  const torch::Tensor turns = ExpMapBatch(angle.unsqueeze(1) * torch::tensor({0.0F, 1.0F, 0.0F}));
-  MotionBatch round = batch;
-  round.transition.history_rotation = batch.transition.history_rotation.clone();
-  round.transition.target_rotation = batch.transition.target_rotation.clone();
-  round.truth.rotation = batch.truth.rotation.clone();
-  round.transition.history_rotation[1].select(1, 0).copy_(torch::eye(3).expand({10, 3, 3}));
-  round.truth.rotation[1].select(1, 0).copy_(turns);
-  round.transition.target_rotation[1][0].copy_(turns[19]);
-  const MotionBatch told = round.WithItsTurning();
-  EXPECT_NEAR(told.transition.turning[1][1].item<double>(), 4.5, 1e-3);
-  const auto miss = [&](const TransitionTensors& transition) {
-    const TrajectoryTensors line = Interpolate(transition, /*as_turning=*/true);
-    return (line.rotation[1].select(1, 0) - turns).abs().max().item<double>();
-  };
-  EXPECT_LT(miss(told.transition), 1e-3);
-  EXPECT_GT(miss(round.transition), 0.5);
-  // Who has no key turns as she likes.
-  stray.transition.target_mask.zero_();
-  EXPECT_EQ(stray.WithItsTurning().features.size(0), 6);
 }
 
 TEST(AdamTest, TakesTheStepsOfTheReference) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <torch/types.h>
+
+namespace choreo {
+
+/// Attention over time with a learnt bias for each distance. qkv [batch, time, 3 width]: queries,
+/// keys, values; `bias` [distances, heads]; `distance` as TimeDistances has it → [batch, time,
+/// width].
+torch::Tensor AttendInTime(const torch::Tensor& qkv, const torch::Tensor& bias,
+                           const torch::Tensor& distance);
+
+/// [time, time] indices into bias tables of 2 `most` + 1 distances; places farther apart count as
+/// so far.
+torch::Tensor TimeDistances(int64_t time, torch::Device device, int64_t most);
+
+}  // namespace choreo

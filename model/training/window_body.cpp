@@ -1,0 +1,55 @@
+#include "model/training/window_body.h"
+
+#include <torch/torch.h>
+
+namespace choreo {
+
+using torch::Tensor;
+
+namespace {
+
+Tensor Carriers(const Skeleton& skeleton) {
+  const int joints = skeleton.joints();
+  const Tensor carriers = torch::zeros({joints, joints});
+  for (int j = 0; j < joints; ++j) {
+    for (int above = j;; above = skeleton.parents[static_cast<size_t>(above)]) {
+      carriers[j][above] = 1;
+      if (above == 0) break;
+    }
+  }
+  return carriers;
+}
+
+}  // namespace
+
+WindowBody::WindowBody(const Skeleton& skeleton)
+    : kinematics_(skeleton), carriers_(Carriers(skeleton)) {
+  const std::vector<int>& parents = skeleton.parents;
+  parents_ = torch::tensor(std::vector<int64_t>(parents.begin(), parents.end()), torch::kLong)
+                 .clamp_min(0);
+  const auto& feet = skeleton.feet;
+  feet_ = torch::tensor(std::vector<int64_t>(feet.begin(), feet.end()), torch::kLong);
+}
+
+Tensor WindowBody::Place(const WindowBatch& batch, const Tensor& x) const {
+  const torch::NoGradGuard no_grad;
+  const int64_t count = x.size(0), window = x.size(1), joints = batch.bones.size(2);
+  const Tensor root = batch.base_root + x.narrow(2, 0, 3);
+  const Tensor turns = ExpMapBatch(x.narrow(2, 3, 3 * joints).reshape({count, window, joints, 3}));
+  return kinematics_
+      .Positions(root.flatten(0, 1), torch::matmul(batch.base_turns, turns).flatten(0, 1))
+      .reshape({count, window, 3 * joints});
+}
+
+Tensor WindowBody::Move(const WindowBatch& batch, const Tensor& dx) const {
+  const int64_t joints = batch.bones.size(2);
+  const Tensor turns =
+      torch::matmul(batch.axes,
+                    dx.narrow(2, 3, 3 * joints).reshape(batch.bones.sizes()).unsqueeze(-1))
+          .squeeze(-1);
+  const Tensor carried = torch::matmul(carriers_, turns).index_select(2, parents_);
+  return torch::matmul(carriers_, torch::cross(carried, batch.bones, -1)) +
+         dx.narrow(2, 0, 3).unsqueeze(2);
+}
+
+}  // namespace choreo

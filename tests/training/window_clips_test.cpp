@@ -1,0 +1,109 @@
+#include "model/training/window_clips.h"
+
+#include <gtest/gtest.h>
+#include <torch/torch.h>
+
+#include <cmath>
+
+#include "model/training/flow_matching.h"
+#include "model/training/window_body.h"
+#include "tests/support/synthetic_clips.h"
+
+namespace choreo {
+namespace {
+
+using testing_support::SyntheticClip;
+using torch::Tensor;
+
+constexpr int kFrames = 20;
+
+class WindowClipsTest : public testing::Test {
+ protected:
+  WindowClipsTest()
+      : clips_({SyntheticClip("a", 200, 0, false), SyntheticClip("b", 200, 1, false)}) {}
+
+  FlowModelParts Parts() const {
+    ContinuousFlowConfig config;
+    config.median_factors = clips_.MedianFactors();
+    VariancePowers powers{.medians = config.median_factors};
+    powers.parts.assign(static_cast<size_t>(3 + 3 * clips_.skeleton().joints()), 0);
+    return {clips_.skeleton(), config, MotionPrior(clips_.VelocityCovariance(60), powers), {}};
+  }
+  WindowBatch Draw(const WindowClips::Variation& variation) const {
+    Random random(4);
+    return clips_.Draw(Parts(), 3, kFrames, kFrames, variation, &random);
+  }
+  // Coordinates [batch, w, dimensions] of the real motion.
+  Tensor Coordinates(const WindowBatch& batch) const {
+    const FlowModelParts parts = Parts();
+    std::vector<Tensor> x;
+    for (size_t i = 0; i < batch.truth.size(); ++i) {
+      const Eigen::MatrixXf own =
+          FlowWindow(parts.prior, batch.requests[i]).Encode(batch.truth[i])->cast<float>();
+      x.push_back(
+          torch::from_blob(const_cast<float*>(own.data()), {own.cols(), own.rows()}).clone());
+    }
+    return torch::stack(x);
+  }
+
+  WindowClips clips_;
+};
+
+TEST_F(WindowClipsTest, ABodyStandsWhereForwardKinematicsHasIt) {
+  const WindowBatch batch = Draw({});
+  const WindowBody body(clips_.skeleton());
+  const Tensor places = body.Place(batch, Coordinates(batch));
+  for (size_t i = 0; i < batch.truth.size(); ++i) {
+    for (int t = 0; t < kFrames; ++t) {
+      const Eigen::Matrix3Xd expected =
+          JointPositions(clips_.skeleton(), batch.truth[i][static_cast<size_t>(t)]);
+      const Tensor row = places[static_cast<int64_t>(i)][t].contiguous();
+      const Eigen::Map<const Eigen::Matrix3Xf> own(row.data_ptr<float>(), 3, expected.cols());
+      EXPECT_LT((own.cast<double>() - expected).cwiseAbs().maxCoeff(), 1e-5);
+    }
+  }
+}
+
+TEST_F(WindowClipsTest, ABodyMovesAsItsCoordinatesDo) {
+  const WindowBatch batch = Draw({.no_key = 1});  // far from the mean
+  const WindowBody body(clips_.skeleton());
+  const Tensor x = Coordinates(batch);
+  EXPECT_GT(x.abs().max().item<double>(), 0.1);
+  torch::manual_seed(3);
+  const Tensor dx = 1e-3 * torch::randn(x.sizes());
+  const Tensor moved = body.Move(batch, dx).flatten(2);
+  const Tensor seen = 0.5 * (body.Place(batch, x + dx) - body.Place(batch, x - dx));
+  EXPECT_GT(moved.abs().max().item<double>(), 1e-3);
+  EXPECT_LT((moved - seen).abs().max().item<double>(), 2e-5);
+}
+
+TEST_F(WindowClipsTest, WhoIsLedAstrayComesBack) {
+  const WindowBatch real = Draw({}), astray = Draw({.astray = 1});
+  const auto apart = [](const Pose& a, const Pose& b) { return (a.rotations - b.rotations).norm(); };
+  // The first window is the same; she ends where she does.
+  EXPECT_LT(apart(real.truth[0].back(), astray.truth[0].back()), 1e-9);
+  EXPECT_LT(apart(*real.requests[0].key, *astray.requests[0].key), 1e-9);
+  const double before = apart(real.requests[0].history.back(), astray.requests[0].history.back());
+  EXPECT_GT(before, 1e-3);
+  EXPECT_LT(apart(real.truth[0][12], astray.truth[0][12]), before);
+}
+
+TEST_F(WindowClipsTest, EnergyTellsHowFarDancersStray) {
+  std::vector<WindowBatch> batches;
+  for (uint32_t i = 0; i < 8; ++i) {
+    Random random(4, i);
+    batches.push_back(
+        clips_.Draw(Parts(), 8, kFrames, kFrames, {.tempo = 0.8, .energy = 1}, &random));
+  }
+  const VariancePowers measured = MeasureVariancePowers(Parts().prior, batches);
+  EXPECT_GT(measured.level, 0);
+  FlowModelParts parts = Parts();
+  const MotionPrior prior(parts.prior.covariance(), measured);
+  const Eigen::VectorXd calm = prior.Scales(1, {-1.0}), lively = prior.Scales(1, {1.0}),
+                        unknown = prior.Scales(1, {});
+  EXPECT_LT(calm[3], lively[3]);
+  EXPECT_EQ(unknown, Eigen::VectorXd::Ones(unknown.size()));
+}
+
+}  // namespace
+}  // namespace choreo
