@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,12 +56,12 @@ struct Live {
 Live Hear(const std::vector<float>& mono) {
   AudioFeed feed(kModelSampleRate, 1, 0);
   feed.Push(mono, 0, [] {});
-  MusicBeats music(30, {}, /*hear=*/true);
+  MusicBeats music(30, {}, std::nullopt, &feed);
   Live live;
   int transitions = 0, with = 0;
   const auto begin = std::chrono::steady_clock::now();
   for (int64_t from = 0; from < feed.ready(); from += kTransition, ++transitions)
-    with += !music.Around(from, from + kTransition, &feed).empty();
+    with += !music.Around(from, from + kTransition).empty();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   for (const MusicBeat& beat : music.known()) live.beats.push_back(beat.seconds);
   live.certain = static_cast<double>(with) / transitions;

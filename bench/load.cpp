@@ -255,8 +255,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(program, argc, argv);
   // Room for all, unless the environment says otherwise; it also chooses checkpoint and workers.
-  for (const char* limit : {"CHOREO_MAX_STREAMS", "CHOREO_SLOTS", "CHOREO_MAX_WAITING"})
-    setenv(limit, "1024", /*overwrite=*/0);
+  // Slots follow.
+  setenv("CHOREO_MAX_STREAMS", "1024", /*overwrite=*/0);
   try {
     Load load(options);
     for (const auto& [name, measure] : tables)

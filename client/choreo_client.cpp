@@ -179,6 +179,12 @@ void RemoteDance::GenerateUntil(int64_t frame) {
   impl_->Send(std::move(request));
 }
 
+void RemoteDance::SendBeats(std::span<const double> seconds) {
+  v1::StreamDanceRequest request;
+  request.mutable_music_beats()->mutable_times()->Add(seconds.begin(), seconds.end());
+  impl_->Send(std::move(request));
+}
+
 void RemoteDance::CompleteKeys() {
   v1::StreamDanceRequest request;
   request.mutable_keyframes_complete();

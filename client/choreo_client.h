@@ -170,9 +170,11 @@ struct DanceConfig {
   std::optional<int64_t> frames =
       {};  ///< the dance ends before this frame; otherwise with the music or the last key
   /// Times of the music's beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them,
-  /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and knows
-  /// none in a kPcmFloat, which is then danced otherwise.
+  /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and in a
+  /// kPcmFloat predicts each transition's from the 12 s before it.
   std::vector<double> music_beats = {};
+  /// For who edits keys: as RemoteDance::GenerateUntil before all else; keys then grant nothing.
+  std::optional<int64_t> generate_until = {};
   Controls controls = {};  ///< from the first frame on
 };
 
@@ -217,8 +219,18 @@ struct KeyRejected {
 };
 
 struct Beat {
+  /// How it is known.
+  enum class Source {
+    kUnknown,    ///< an old server does not say
+    kGiven,      ///< the client told
+    kFound,      ///< in the whole of a kFile
+    kPredicted,  ///< from the music before, and no onset was there
+    kHeard,      ///< predicted, and an onset was there
+  };
   int64_t frame = 0;
   double time_s = 0;  ///< exact
+  Source source = Source::kUnknown;
+  double confidence = 0;  ///< 0 to 1, of the pulse that predicted it; 1 where none did
 };
 
 struct Warning {
@@ -285,8 +297,12 @@ class RemoteDance {
   /// first frame that is not frozen: that of the last GenerateUntil or, without, the one behind the
   /// last key. Not after CompleteKeys.
   void SendControls(const Controls& controls);
-  /// Frames before `frame` are final; later keys may still change.
+  /// Frames before `frame` are final and come; later keys may still change. Who edits keys sets
+  /// DanceConfig::generate_until, too: until this is said each key grants the frames up to itself.
   void GenerateUntil(int64_t frame);
+  /// Beats ahead, seconds, strictly ascending, at least one: they replace those known from the
+  /// first of them on, for transitions that begin behind the frozen frames. Not after CompleteKeys.
+  void SendBeats(std::span<const double> seconds);
   /// No further keys: the rest may be made.
   void CompleteKeys();
 

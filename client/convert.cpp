@@ -22,6 +22,21 @@ KeyReached ToKeyReached(const std::string& id, int64_t frame, const v1::Keyframe
           errors.correction_m()};
 }
 
+Beat::Source ToSource(v1::BeatSource source) {
+  switch (source) {
+    case v1::BEAT_SOURCE_GIVEN:
+      return Beat::Source::kGiven;
+    case v1::BEAT_SOURCE_FOUND:
+      return Beat::Source::kFound;
+    case v1::BEAT_SOURCE_PREDICTED:
+      return Beat::Source::kPredicted;
+    case v1::BEAT_SOURCE_HEARD:
+      return Beat::Source::kHeard;
+    default:
+      return Beat::Source::kUnknown;
+  }
+}
+
 }  // namespace
 
 v1::Pose ToProto(const Pose& pose) {
@@ -133,6 +148,7 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   }
   if (config.frames) out.set_frames(*config.frames);
   out.mutable_music_beats()->Add(config.music_beats.begin(), config.music_beats.end());
+  if (config.generate_until) out.set_generate_until(*config.generate_until);
   return out;
 }
 
@@ -285,7 +301,8 @@ std::optional<Message> FromProto(const v1::Event& event) {
                          event.keyframe_rejected().earliest_frame(),
                          event.keyframe_rejected().reason()};
     case v1::Event::kBeat:
-      return Beat{event.frame(), event.time()};
+      return Beat{event.frame(), event.time(), ToSource(event.beat().source()),
+                  event.beat().confidence()};
     case v1::Event::kWarning:
       return Warning{event.frame(), event.warning().message()};
     case v1::Event::EVENT_NOT_SET:

@@ -7,6 +7,7 @@
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
+#include "model/dance/music_beats.h"
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
 #include "server/read_controls.h"
@@ -17,12 +18,15 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
 
-constexpr int kMostBeats = 20 * kMaxAudioSeconds;  // 20 a second of the longest music
-
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
   if (value >= least && value <= most) return value;
   throw InvalidArgument(field, std::to_string(value) + " is not in [" + std::to_string(least) +
                                    ", " + std::to_string(most) + "]");
+}
+
+void CheckBeat(double beat, const std::string& field) {
+  if (beat >= 0 && beat <= kMaxAudioSeconds) return;
+  throw InvalidArgument(field, Show(beat) + " s is not in [0, " + Show(kMaxAudioSeconds) + "]");
 }
 
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
@@ -62,6 +66,11 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
   Continuation continuation;
   continuation.frame = message.frame();
   continuation.fingerprint = message.fingerprint();
+  continuation.audio_from_sample = message.audio_from_sample();
+  if (message.has_last_beat()) {
+    continuation.last_beat = message.last_beat();
+    CheckBeat(message.last_beat(), field + ".last_beat");
+  }
   for (int i = 0; i < history; ++i) {
     Pose pose;
     for (int axis = 0; axis < 3; ++axis) {
@@ -94,23 +103,7 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
   out->allow_inexact_resume = config.allow_inexact_resume();
   if (config.has_continuation())
     out->continuation = ToContinuation(config.continuation(), model, config.allow_inexact_resume());
-  if (config.music_beats_size() > kMostBeats) {
-    throw InvalidArgument("config.music_beats", std::to_string(config.music_beats_size()) +
-                                                    " beats, the limit is " +
-                                                    std::to_string(kMostBeats));
-  }
-  out->music_beats.assign(config.music_beats().begin(), config.music_beats().end());
-  for (size_t i = 0; i < out->music_beats.size(); ++i) {
-    const double beat = out->music_beats[i];
-    const std::string field = At("config.music_beats", static_cast<int64_t>(i));
-    if (!(beat >= 0 && beat <= kMaxAudioSeconds)) {
-      throw InvalidArgument(field, Show(beat) + " s is not in [0, " + Show(kMaxAudioSeconds) + "]");
-    }
-    if (i > 0 && beat <= out->music_beats[i - 1]) {
-      throw InvalidArgument(field, Show(beat) + " s is not after the beat before it, " +
-                                       Show(out->music_beats[i - 1]) + " s");
-    }
-  }
+  out->music_beats = ToBeats(config.music_beats(), "config.music_beats");
 }
 
 void CheckMusic(const v1::AudioFormat& format) {
@@ -177,6 +170,7 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
     config.end_frame = CheckedIn(message.frames(), std::max<int64_t>(config.FirstFrame(), 1),
                                  kMaxDanceFrames, "config.frames");
   }
+  if (message.has_generate_until()) config.generate_until = message.generate_until();
   if (message.has_audio_format()) {
     const v1::AudioFormat& format = message.audio_format();
     CheckMusic(format);
@@ -206,6 +200,8 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   if (message.config().has_frames()) {
     throw InvalidArgument("config.frames", "is for StreamDance; GenerateTransition has its own");
   }
+  if (message.config().has_generate_until())
+    throw InvalidArgument("config.generate_until", "is for StreamDance");
   request.frames = message.frames();
   request.candidates = std::max(
       1, static_cast<int>(CheckedIn(message.candidates(), 0, kMaxCandidates, "candidates")));
@@ -253,6 +249,22 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
     throw InvalidArgument("audio", "there is no config.audio_format");
   }
   return request;
+}
+
+std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
+                            const std::string& field) {
+  if (static_cast<size_t>(times.size()) > kMostBeats) {
+    throw InvalidArgument(
+        field, std::to_string(times.size()) + " beats, the limit is " + std::to_string(kMostBeats));
+  }
+  for (int i = 0; i < times.size(); ++i) {
+    CheckBeat(times[i], At(field, i));
+    if (i > 0 && times[i] <= times[i - 1]) {
+      throw InvalidArgument(At(field, i), Show(times[i]) + " s is not after the beat before it, " +
+                                              Show(times[i - 1]) + " s");
+    }
+  }
+  return {times.begin(), times.end()};
 }
 
 std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,

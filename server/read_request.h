@@ -28,6 +28,10 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
 GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
                             uint64_t fresh_seed);
 
+/// Times of beats, within the longest music and strictly ascending.
+std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
+                            const std::string& field);
+
 /// PCM bytes -> samples, interleaved, full scale [-1, 1].
 std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,
                              const std::string& field);

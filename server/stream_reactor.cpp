@@ -3,7 +3,6 @@
 #include <grpcpp/server_context.h>
 
 #include <atomic>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -75,8 +74,6 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     Response response;
     FromFrames(first_frame, poses, contacts, encoding_, response.mutable_frames());
     outbox().Send(std::move(response));
-    SendBeats(static_cast<double>(first_frame) / output_fps_,
-              static_cast<double>(first_frame + static_cast<int64_t>(poses.size())) / output_fps_);
   }
 
   void OnEvent(const DanceEvent& event) override {
@@ -122,6 +119,8 @@ class DanceSession final : public CallSession<Response, DanceStream>,
         return stream->RemoveKey(request.remove_keyframe().id());
       case Request::kControls:
         return TakeControls(*stream, request.controls());
+      case Request::kMusicBeats:
+        return TakeBeats(*stream, request.music_beats());
       case Request::kGenerateUntil:
         return stream->GenerateUntil(request.generate_until().frame());
       case Request::kKeyframesComplete:
@@ -143,9 +142,8 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
     scheduler_ = &scheduler;
     encoding_ = message.encoding();
-    output_fps_ = config.output_fps;
     seed_ = config.seed;
-    beats_ = config.music_beats;
+    finds_beats_ = config.music_beats.empty();
     if (message.has_audio_format()) audio_ = message.audio_format();
     const bool exact =
         !config.continuation || config.continuation->fingerprint == model.fingerprint;
@@ -177,10 +175,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     const std::vector<float> mono =
         DecodeMono(AudioReader::OpenMemory(file_.bytes(), "audio"), [this] { RequireOpen(); });
     file_.Clear();
-    if (beats_.empty()) {
-      beats_ = FindBeats(mono).Seconds();
-      stream.SetMusicBeats(beats_);
-    }
+    if (finds_beats_) stream.SetMusicBeats(FindBeats(mono).Seconds());
     stream.PushAudio(mono, 0);
   }
 
@@ -200,36 +195,26 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     ++controls_;
   }
 
-  // Those in [from, to) seconds: just danced.
-  void SendBeats(double from, double to) {
-    for (; next_beat_ < beats_.size() && beats_[next_beat_] < to; ++next_beat_) {
-      const double beat = beats_[next_beat_];
-      if (beat < from) continue;
-      Response response;
-      v1::Event* event = response.mutable_event();
-      event->set_frame(std::llround(beat * scheduler_->model().fps));
-      event->set_time(beat);
-      event->mutable_beat();
-      outbox().Send(std::move(response));
-    }
+  void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {
+    const std::string field = "music_beats[" + std::to_string(beats_) + "].times";
+    if (message.times().empty()) throw InvalidArgument(field, "empty");
+    stream.GiveBeats(ToBeats(message.times(), field));
+    ++beats_;
   }
 
   // Of the configuration; written before the stream is there.
   Scheduler* scheduler_ = nullptr;
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
-  double output_fps_ = 0;
   uint64_t seed_ = 0;
   std::optional<v1::AudioFormat> audio_;
+  bool finds_beats_ = false;  // of a music file
 
   // Of the messages.
   int keyframes_ = 0;
   int controls_ = 0;
+  int beats_ = 0;
   MusicFile file_;
   bool file_decoded_ = false;
-
-  // Written before the stream has music, read by its sink afterwards.
-  std::vector<double> beats_;
-  size_t next_beat_ = 0;
 };
 
 class StreamReactor final

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "model/audio/format.h"
 #include "model/dance/transition.h"
@@ -33,12 +34,28 @@ v1::WarningCode ToCode(DanceWarning::Kind kind) {
       return v1::WARNING_CODE_KEY_OFF_HEIGHT;
     case DanceWarning::Kind::kPathAway:
       return v1::WARNING_CODE_PATH_AWAY;
+    case DanceWarning::Kind::kBeatsTooLate:
+      return v1::WARNING_CODE_BEATS_TOO_LATE;
     case DanceWarning::Kind::kVelocityNotMet:
       return v1::WARNING_CODE_VELOCITY_NOT_MET;
     case DanceWarning::Kind::kControlsTooLate:
       return v1::WARNING_CODE_CONTROLS_TOO_LATE;
   }
   return v1::WARNING_CODE_UNSPECIFIED;
+}
+
+v1::BeatSource ToSource(MusicBeat::Source source) {
+  switch (source) {
+    case MusicBeat::Source::kGiven:
+      return v1::BEAT_SOURCE_GIVEN;
+    case MusicBeat::Source::kFound:
+      return v1::BEAT_SOURCE_FOUND;
+    case MusicBeat::Source::kPredicted:
+      return v1::BEAT_SOURCE_PREDICTED;
+    case MusicBeat::Source::kHeard:
+      return v1::BEAT_SOURCE_HEARD;
+  }
+  return v1::BEAT_SOURCE_UNSPECIFIED;
 }
 
 }  // namespace
@@ -84,10 +101,8 @@ void FromFrames(int64_t first_frame, std::span<const Pose> poses,
 void FromContinuation(const Continuation& continuation, const ModelInfo& model, uint64_t seed,
                       const v1::AudioFormat* audio_format, v1::Continuation* out) {
   out->set_frame(continuation.frame);
-  if (audio_format != nullptr && audio_format->encoding() != v1::AUDIO_ENCODING_FILE) {
-    out->set_audio_from_sample(
-        LatestFirstSample(continuation.frame, audio_format->sample_rate(), model));
-  }
+  if (audio_format != nullptr && audio_format->encoding() != v1::AUDIO_ENCODING_FILE)
+    out->set_audio_from_sample(continuation.audio_from_sample.value_or(0));
   out->set_fingerprint(continuation.fingerprint);
   out->set_seed(seed);
   for (const Pose& pose : continuation.poses) {
@@ -99,6 +114,7 @@ void FromContinuation(const Continuation& continuation, const ModelInfo& model, 
     }
   }
   out->set_skeleton(model.skeleton.name);
+  if (continuation.last_beat) out->set_last_beat(*continuation.last_beat);
 }
 
 void FromReport(const QualityReport& report, v1::QualityReport* out) {
@@ -129,6 +145,13 @@ void FromReport(const QualityReport& report, v1::QualityReport* out) {
 }
 
 void FromEvent(const DanceEvent& event, double fps, v1::Event* out) {
+  if (const auto* beat = std::get_if<MusicBeat>(&event)) {
+    out->set_frame(std::llround(beat->seconds * fps));
+    out->set_time(beat->seconds);
+    out->mutable_beat()->set_source(ToSource(beat->source));
+    out->mutable_beat()->set_confidence(beat->confidence);
+    return;
+  }
   if (const auto* reached = std::get_if<KeyReached>(&event)) {
     out->set_frame(reached->frame);
     out->mutable_keyframe_reached()->set_id(reached->id);

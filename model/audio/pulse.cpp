@@ -142,20 +142,31 @@ class Listener {
 
   // The best of some tempi and all phases, or those near one.
   Choice Best(size_t from, size_t to, size_t phase, size_t phases) const {
-    Choice best;
+    // What a tempo reaches if all its parts agree. From the most promising one on, few others have
+    // to be looked at.
+    std::array<double, kTempi> most;
     for (size_t tempo = from; tempo < to; ++tempo) {
-      double most = 0;
+      double sum = 0;
       for (size_t part = 0; part < kParts.size(); ++part) {
         const size_t k = tempo + part * kOctave;
-        most += kParts[part] * std::sqrt(re_[k] * re_[k] + im_[k] * im_[k]);
+        sum += kParts[part] * std::sqrt(re_[k] * re_[k] + im_[k] * im_[k]);
       }
-      if (most * tables_.likely[tempo] <= best.strength) continue;
+      most[tempo] = sum * tables_.likely[tempo];
+    }
+    Choice best;
+    const auto look = [&](size_t tempo) {
       for (size_t i = 0; i < phases; ++i) {
         const size_t at = (phase + i) % kPhases;
         const double strength = Strength(tempo, at) * tables_.likely[tempo];
         if (strength > best.strength) best = {tempo, at, strength};
       }
-    }
+    };
+    const auto first = std::max_element(most.begin() + static_cast<std::ptrdiff_t>(from),
+                                        most.begin() + static_cast<std::ptrdiff_t>(to));
+    const auto promising = static_cast<size_t>(first - most.begin());
+    look(promising);
+    for (size_t tempo = from; tempo < to; ++tempo)
+      if (tempo != promising && most[tempo] > best.strength) look(tempo);
     return best;
   }
 

@@ -49,16 +49,18 @@ void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::s
   if (request.velocity_factors) velocities_.push_back({from, *request.velocity_factors});
 }
 
-const PathCurve* ControlTrack::CurveAt(int64_t frame) const {
-  const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [frame](const auto& path) {
-    return path.from <= frame && path.control.Covers(frame);
+// In a transition that begins at `first_frame`, or right before it.
+const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const {
+  const int64_t known = std::min(frame, first_frame);
+  const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [&](const auto& path) {
+    return path.from <= known && path.control.Covers(frame);
   });
   return said != paths_.rend() ? &said->control : nullptr;
 }
 
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>& key_on_it) const {
   Pose stance = RestPose(model_->skeleton);
-  const PathCurve* curve = CurveAt(first_frame);
+  const PathCurve* curve = CurveAt(first_frame, first_frame);
   // Before a key that she stands in, she does not move: feet that glide are never planted.
   const int64_t there = key_on_it ? first_frame : first_frame - 1;
   if (curve != nullptr) {
@@ -85,7 +87,7 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
   request.first_frame = first_frame;
   request.fps = model_->fps;
   for (int frame = 0; frame < frames; ++frame) {
-    request.curves.push_back(CurveAt(first_frame + frame));
+    request.curves.push_back(CurveAt(first_frame + frame, first_frame));
   }
   if (std::ranges::count(request.curves, nullptr) == frames) return;
   const Eigen::Vector3d start = history.back().root_position;
@@ -133,7 +135,7 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
 
 void ControlTrack::WarnOfDistance(const LeadRequest& request,
                                   std::vector<DanceWarning>* warnings) const {
-  const PathCurve* before = CurveAt(request.first_frame - 1);
+  const PathCurve* before = CurveAt(request.first_frame - 1, request.first_frame);
   for (size_t i = 0; i < request.curves.size(); before = request.curves[i++]) {
     const PathCurve* curve = request.curves[i];
     // Frames that no path speaks of lead to the next one.
@@ -146,8 +148,7 @@ void ControlTrack::WarnOfDistance(const LeadRequest& request,
 }
 
 void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionControls* out) const {
-  const int64_t end = first_frame + frames;
-  if (velocities_.empty() || velocities_.front().from >= end) return;
+  if (velocities_.empty() || velocities_.front().from > first_frame) return;
   auto& factors = out->controls.velocity_factors;
   factors.resize(kBodyParts, frames);
   VelocityRequest usual;
@@ -160,7 +161,7 @@ void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionCon
       const auto body_part = static_cast<BodyPart>(part);
       const auto said = std::find_if(
           velocities_.rbegin(), velocities_.rend(),
-          [&](const auto& one) { return one.from <= at && one.control.Names(body_part); });
+          [&](const auto& one) { return one.from <= first_frame && one.control.Names(body_part); });
       const VelocityRequest& asked = said == velocities_.rend() ? usual : said->control;
       asks = asks || said != velocities_.rend();
       factors(part, frame) = asked.At(at, body_part, *model_);

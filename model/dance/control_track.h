@@ -37,9 +37,9 @@ struct TransitionControls {
   std::vector<DanceWarning> warnings;
 };
 
-/// The controls of one dance. Of those that were set, each from its frame on, the last one counts:
-/// for a root path of those that speak of a frame, so that a path may come piece by piece, and one
-/// of which no frame is danced changes nothing; for velocity factors part by part. What a
+/// The controls of one dance. Of those that were set for transitions from a frame on, the last one
+/// counts: for a root path of those that speak of a frame, so that a path may come piece by piece,
+/// and one of which no frame is danced changes nothing; for velocity factors part by part. What a
 /// transition is asked is a function of what was set for its frames, its history and its key:
 /// nothing else is remembered, so a dance that is resumed and told the same again is asked the same
 /// again. Not thread-safe.
@@ -61,7 +61,8 @@ class ControlTrack {
   /// The model must outlive the track.
   explicit ControlTrack(const ModelInfo& model) : model_(&model) {}
 
-  /// The request is valid; `from` never shrinks from call to call. Throws Error(kInvalidArgument)
+  /// For transitions that begin at `from` or later. The request is valid; `from` never shrinks from
+  /// call to call. Throws Error(kInvalidArgument)
   /// beyond kMaxControls or kMaxControlValues.
   void Set(const ControlRequest& request, int64_t from, const std::string& field);
 
@@ -88,7 +89,7 @@ class ControlTrack {
     Control control;
   };
 
-  const PathCurve* CurveAt(int64_t frame) const;
+  const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;
   void WarnOfDistance(const LeadRequest& request, std::vector<DanceWarning>* warnings) const;
   void FillPath(int64_t first_frame, int frames, std::span<const Pose> history,
                 const std::optional<WorldTarget>& target, const std::string& key_id,

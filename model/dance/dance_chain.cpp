@@ -1,5 +1,7 @@
 #include "model/dance/dance_chain.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "model/core/error.h"
@@ -52,8 +54,7 @@ class DanceChain::Job : public StepJob {
       if (run_->done() <= danced_) return true;  // told before a restart
       danced_ = run_->done();
       chain_->Emit(segment_, *run_, frame, warnings_);
-      const std::optional<int64_t> end = chain_->timeline_.End();
-      more = danced_ < run_->frames() && !(end && chain_->next_frame_ >= *end);
+      more = !chain_->CurrentIsDanced();
     }
     chain_->mailbox_.Deliver();
     return more;
@@ -67,6 +68,8 @@ class DanceChain::Job : public StepJob {
         if (failure != nullptr && !retired_) {
           chain_->Fail(*failure);
         } else {
+          chain_->beats_.Cut(chain_->next_frame_);
+          chain_->timeline_.Finish();
           if (danced_ > 0) chain_->PostContinuation();
           chain_->Advance(/*inherits=*/true);
         }
@@ -84,7 +87,7 @@ class DanceChain::Job : public StepJob {
 
   bool Cancelled() const override { return retired_ || chain_->cancelled_; }
 
-  /// The dance turned out to end before this transition's next frame: it ends in good order.
+  /// The dance, or the transition, turned out to end before the next frame: it ends in good order.
   void Retire() { retired_ = true; }
 
  private:
@@ -92,7 +95,8 @@ class DanceChain::Job : public StepJob {
   bool HasInput() const {
     if (chain_->paused_) return false;
     const int64_t frame = segment_.from + run_->done();
-    return chain_->timeline_.Certain(frame) && (!chain_->audio_ || chain_->audio_->ready() > frame);
+    return frame < chain_->timeline_.Current()->stop && chain_->timeline_.Certain(frame) &&
+           (!chain_->audio_ || chain_->audio_->ready() > frame);
   }
 
   const std::shared_ptr<DanceChain> chain_;
@@ -113,19 +117,21 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
       config_(config),
       first_frame_(config.FirstFrame()),
       mailbox_(std::move(sink)),
+      audio_(config.audio
+                 ? std::optional<AudioFeed>(std::in_place, config.audio->sample_rate,
+                                            config.audio->channels, config.audio->first_sample)
+                 : std::optional<AudioFeed>()),
       start_time_(PlaybackClock()),
       timeline_({model_.fps, first_frame_, config.end_frame, config.audio.has_value(),
-                 model_.max_transition_frames}),
+                 config.generate_until, model_.max_transition_frames}),
       controls_(model_),
       next_frame_(first_frame_),
       meter_(model_.skeleton, model_.fps, first_frame_),
       output_(model_.fps, config.output_fps, first_frame_,
               config.continuation ? std::optional(RoundToFloat(config.continuation->poses.back()))
                                   : std::nullopt),
-      music_beats_(config.music_beats) {
-  if (config.audio) {
-    audio_.emplace(config.audio->sample_rate, config.audio->channels, config.audio->first_sample);
-  }
+      beats_(model_.fps, config.music_beats,
+             config.continuation ? config.continuation->last_beat : std::nullopt, audio()) {
   const std::vector<Pose>& given =
       config.continuation ? config.continuation->poses : config.history;
   if (given.empty()) return;
@@ -133,10 +139,9 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
 }
 
 void DanceChain::Begin() {
-  if (config_.continuation && config_.continuation->fingerprint != model_.fingerprint) {
+  if (config_.continuation && config_.continuation->fingerprint != model_.fingerprint)
     Post(InexactResume(*config_.continuation, model_));
-    mailbox_.Deliver();
-  }
+  Change([](Timeline&) {});  // the config may have granted frames
 }
 
 void DanceChain::Change(const std::function<void(Timeline&)>& change) {
@@ -144,7 +149,7 @@ void DanceChain::Change(const std::function<void(Timeline&)>& change) {
     std::lock_guard lock(mutex_);
     if (over_) return;
     change(timeline_);
-    RetireIfOver();
+    if (job_ != nullptr && CurrentIsDanced()) job_->Retire();
     Advance(/*inherits=*/false);
     WakeJob();
   }
@@ -153,12 +158,24 @@ void DanceChain::Change(const std::function<void(Timeline&)>& change) {
 
 void DanceChain::SetControls(const ControlRequest& request, const std::string& field) {
   Change([&](Timeline& timeline) {
-    const int64_t from = timeline.ControlFrom(field);
+    const int64_t from = timeline.Frontier(field);
     controls_.Set(request, from, field);
-    // What lies before the first frame was danced before a resume.
+    if (request.velocity_factors) timeline.Disturb();
     if (!request.root_path) return;
     const int64_t last = request.root_path->frames.back();
+    timeline.Disturb(request.root_path->frames.front(), last);
+    // What lies before the first frame was danced before a resume.
     if (last < from && last >= first_frame_) Post(ControlsTooLate(last, from));
+  });
+}
+
+void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::string& field) {
+  Change([&](Timeline& timeline) {
+    const int64_t from = timeline.Frontier(field);
+    const auto ahead = std::ranges::lower_bound(seconds, Seconds(from));
+    beats_.Give({ahead, seconds.end()}, from, field);
+    if (ahead == seconds.begin()) return;
+    Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), ahead - seconds.begin(), from));
   });
 }
 
@@ -167,9 +184,9 @@ bool DanceChain::over() const {
   return over_;
 }
 
-void DanceChain::SetMusicBeats(std::vector<double> seconds) {
+void DanceChain::SetMusicBeats(const std::vector<double>& seconds) {
   std::lock_guard lock(mutex_);
-  music_beats_ = std::move(seconds);
+  beats_.Find(seconds);
 }
 
 void DanceChain::SetPaused(bool paused) {
@@ -216,18 +233,18 @@ void DanceChain::WakeJob() {
   if (job_ != nullptr) scheduler_.Wake(job_);
 }
 
-void DanceChain::RetireIfOver() {
+bool DanceChain::CurrentIsDanced() {
+  // No step can be under way past either: NextInput lets only certain frames through.
   const std::optional<int64_t> end = timeline_.End();
-  // No step can be under way past the end: NextInput lets only certain frames through.
-  if (job_ != nullptr && end && next_frame_ >= *end) job_->Retire();
+  return next_frame_ >= timeline_.Current()->stop || (end && next_frame_ >= *end);
 }
 
-bool DanceChain::MayStart(bool inherits) const {
-  if (paused_ || !timeline_.Certain(segment_->from)) return false;
+bool DanceChain::MayStart(const Segment& segment, bool inherits) const {
+  if (paused_ || !timeline_.Certain(segment.from)) return false;
   // A slot that is held already is kept while the music catches up; a new one is asked for when the
   // first frame can be made. Rows before the first frame are there once that frame's predecessor
   // has been danced.
-  return !audio_ || audio_->ready() > (inherits ? segment_->from - 1 : segment_->from);
+  return !audio_ || audio_->ready() > (inherits ? segment.from - 1 : segment.from);
 }
 
 void DanceChain::Advance(bool inherits) {
@@ -235,44 +252,42 @@ void DanceChain::Advance(bool inherits) {
   if (cancelled_) return Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
   const std::optional<int64_t> end = timeline_.End();
   if (timeline_.complete() && end && next_frame_ >= *end) return Summarise();
-  if (!segment_) segment_ = timeline_.Next();
-  if (segment_ && MayStart(inherits)) Start();
+  const Segment* segment = timeline_.Current();
+  if (segment != nullptr && MayStart(*segment, inherits)) Start(*segment);
 }
 
-void DanceChain::Start() {
+void DanceChain::Start(const Segment& segment) {
   // Who waited for itself is due from now on: no right to be first grows out of waiting.
-  start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment_->from - first_frame_));
+  start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
   TransitionRequest request;
-  request.frames = static_cast<int>(segment_->to - segment_->from);
-  if (segment_->key) request.target = WorldTarget{segment_->key->pose, segment_->key->mask};
+  request.frames = static_cast<int>(segment.to - segment.from);
+  if (segment.key) request.target = WorldTarget{segment.key->pose, segment.key->mask};
   if (history_.empty()) {
     const Pose stance =
-        controls_.Stance(segment_->from, request.frames == 1 ? request.target : std::nullopt);
+        controls_.Stance(segment.from, request.frames == 1 ? request.target : std::nullopt);
     history_ = FillHistory(model_, {&stance, 1});
   }
   request.history = history_;
   request.seed = config_.seed;
   request.candidate = config_.candidate;
-  request.first_frame = segment_->from;
-  request.beats = BeatsAround(music_beats_, model_.fps, request.first_frame, request.frames);
+  request.first_frame = segment.from;
+  request.beats = beats_.Around(segment.from, segment.to);
   request.temperature =
       config_.temperature.value_or(static_cast<float>(model_.default_temperature));
   try {
     if (audio_) {
       request.has_audio = true;
-      request.audio_history = audio_->History(segment_->from, model_.history_frames);
+      request.audio_history = audio_->History(segment.from, model_.history_frames);
       // The next one may begin a frame later.
-      audio_->Forget(segment_->from - model_.history_frames);
+      audio_->Forget(segment.from - model_.history_frames);
     }
-    TransitionControls asked =
-        controls_.For(request.first_frame, request.frames, request.history, request.target,
-                      segment_->key ? segment_->key->id : "");
+    TransitionControls asked = controls_.For(request.first_frame, request.frames, request.history,
+                                             request.target, segment.key ? segment.key->id : "");
     request.controls = std::move(asked.controls);
     auto job =
-        std::make_shared<Job>(shared_from_this(), *segment_, request, std::move(asked.warnings));
+        std::make_shared<Job>(shared_from_this(), segment, request, std::move(asked.warnings));
     job_ = job.get();
     scheduler_.Submit(std::move(job));
-    segment_.reset();
   } catch (const Error& error) {
     job_ = nullptr;
     Fail(error);
@@ -292,7 +307,7 @@ void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const Da
                             segment.to - segment.from, *speed));
     }
   }
-  ++next_frame_;
+  const int64_t emitted = next_frame_++;
   MoveOn(frame.pose, &history_);
   meter_.Add(frame);
   OutputFrames frames = output_.Push(frame);
@@ -301,6 +316,7 @@ void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const Da
       sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
     });
   }
+  for (const MusicBeat& beat : beats_.Of(emitted)) Post(beat);
   if (run.arrival()) {
     meter_.AddKey(segment.key->id, *run.arrival());
     const int64_t key_frame = segment.to - 1;
@@ -315,6 +331,8 @@ void DanceChain::Post(const DanceEvent& event) {
 
 void DanceChain::PostContinuation() {
   Continuation continuation{next_frame_, history_, model_.fingerprint};
+  if (audio_) continuation.audio_from_sample = ResumeSample(config_, next_frame_, model_);
+  continuation.last_beat = beats_.Last(next_frame_);
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);
   });
@@ -324,7 +342,7 @@ void DanceChain::Summarise() {
   over_ = true;
   if (const auto warning = controls_.BehindEnd(next_frame_)) Post(*warning);
   std::vector<double> beats;
-  for (double seconds : music_beats_) beats.push_back(seconds * model_.fps);
+  for (const MusicBeat& beat : beats_.known()) beats.push_back(beat.seconds * model_.fps);
   const QualityReport report = meter_.Report(beats);
   if (const auto warning = controls_.SpeedsMissed(report)) Post(*warning);
   mailbox_.Post([report](DanceSink& sink) { sink.OnSummary(report); });

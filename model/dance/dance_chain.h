@@ -13,6 +13,7 @@
 #include "model/dance/dance_config.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/mailbox.h"
+#include "model/dance/music_beats.h"
 #include "model/dance/output_rate.h"
 #include "model/dance/quality_report.h"
 #include "model/dance/timeline.h"
@@ -40,6 +41,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   /// The request is valid.
   void SetControls(const ControlRequest& request, const std::string& field);
+  /// Ascending; at least one.
+  void GiveBeats(const std::vector<double>& seconds, const std::string& field);
 
   /// Tells the sink of an event; only inside a change.
   void Post(const DanceEvent& event);
@@ -50,7 +53,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Null for a dance without music. Only one thread at a time may push.
   AudioFeed* audio() { return audio_ ? &*audio_ : nullptr; }
 
-  void SetMusicBeats(std::vector<double> seconds);
+  /// Of the whole music, before its first sample.
+  void SetMusicBeats(const std::vector<double>& seconds);
   void SetPaused(bool paused);
   void Cancel() noexcept;
 
@@ -64,9 +68,9 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   // Those below are called with mutex_ held.
   void Advance(bool inherits);
-  void Start();
-  bool MayStart(bool inherits) const;
-  void RetireIfOver();
+  void Start(const Segment& segment);
+  bool MayStart(const Segment& segment, bool inherits) const;
+  bool CurrentIsDanced();
   void WakeJob();
   void PostContinuation();
   void Summarise();
@@ -89,13 +93,13 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   ControlTrack controls_;
   // The last tau poses; empty until the first transition of a dance that is given none.
   std::vector<Pose> history_;
-  int64_t next_frame_;              // to be emitted
-  std::optional<Segment> segment_;  // to be danced next, not yet submitted
-  Job* job_ = nullptr;              // submitted and not done; the scheduler keeps it alive
-  bool over_ = false;               // the last call to the sink is posted
+  int64_t next_frame_;  // to be emitted
+  Job* job_ = nullptr;  // of the timeline's current transition: submitted and not done; the
+                        // scheduler keeps it alive
+  bool over_ = false;   // the last call to the sink is posted
   QualityMeter meter_;
   OutputRate output_;
-  std::vector<double> music_beats_;  // seconds
+  MusicBeats beats_;
 };
 
 }  // namespace choreo

@@ -32,15 +32,36 @@ void DanceConfig::Validate(const ModelInfo& model) const {
                                                   std::to_string(std::max<int64_t>(first, 1)) +
                                                   ", " + std::to_string(kMaxDanceFrames) + "]");
   }
+  if (generate_until && (*generate_until < 0 || *generate_until > kMaxDanceFrames)) {
+    throw InvalidArgument("config.generate_until", std::to_string(*generate_until) +
+                                                       " is not in [0, " +
+                                                       std::to_string(kMaxDanceFrames) + "]");
+  }
   if (audio) {
     ValidateAudioStart(model, audio->sample_rate, audio->channels, audio->first_sample, first,
                        "config.audio");
+    if (continuation && continuation->audio_from_sample &&
+        audio->first_sample > *continuation->audio_from_sample) {
+      throw Error(ErrorCode::kOutOfRange, "config.audio.first_sample",
+                  std::to_string(audio->first_sample) + " is behind " +
+                      std::to_string(*continuation->audio_from_sample) +
+                      ", the first that the continuation needs");
+    }
   }
 }
 
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model) {
   return FeatureStream::FirstSampleFor(std::max<int64_t>(0, first_frame - model.history_frames),
                                        sample_rate);
+}
+
+int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const ModelInfo& model) {
+  const double rate = config.audio->sample_rate;
+  if (!config.music_beats.empty()) return LatestFirstSample(first_frame, rate, model);
+  constexpr int64_t kHeard = kPulseMemory + RowOnset::kOnsetMemory;
+  // A dance whose music began in the middle has no more of it.
+  return std::max(config.audio->first_sample,
+                  FeatureStream::FirstSampleFor(std::max<int64_t>(0, first_frame - kHeard), rate));
 }
 
 bool TakesMusic(const ModelInfo& model) {

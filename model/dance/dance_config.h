@@ -31,12 +31,15 @@ struct DanceConfig {
   struct Audio {
     double sample_rate = 0;  ///< 8000..192000
     int channels = 0;        ///< 1..8, interleaved
-    /// The first sample frame that will be pushed, absolute. 0 for a fresh dance; one that goes on
-    /// may start later, at most at LatestFirstSample.
+    /// The first sample frame that will be pushed, absolute. 0 for a fresh dance; one that begins
+    /// in the middle may start later, at most at LatestFirstSample, and hears nothing before it.
     int64_t first_sample = 0;
   };
-  std::optional<Audio> audio;       ///< none: the model dances without music
-  std::vector<double> music_beats;  ///< seconds, ascending: the dance is timed to them
+  std::optional<Audio> audio;  ///< none: the model dances without music
+  /// As DanceStream::GenerateUntil, before all messages: keys then grant nothing.
+  std::optional<int64_t> generate_until;
+  /// Seconds, ascending: the dance is timed to them. None: to what it hears of the music.
+  std::vector<double> music_beats;
 
   /// Where the dance starts: 0, or the continuation's frame.
   int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }
@@ -50,6 +53,11 @@ struct DanceConfig {
 /// Last sample frame at which the audio of a dance, or transition, that starts at `first_frame` may
 /// begin without changing a bit.
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model);
+
+/// Where the audio of a dance that goes on from `first_frame` has to begin for all to be as if it
+/// had not been interrupted: at LatestFirstSample, or, where the dance listens for beats, as far
+/// back as these are heard in.
+int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const ModelInfo& model);
 
 /// Whether the model takes music.
 bool TakesMusic(const ModelInfo& model);

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "model/core/error.h"
+#include "model/dance/music_beats.h"
 #include "model/dance/quality_report.h"
 #include "model/dance/timeline.h"
 #include "model/dance/transition.h"
@@ -22,7 +23,8 @@ struct KeyReached {
   ArrivalResult arrival;
 };
 
-using DanceEvent = std::variant<KeyReached, KeyRejection, DanceWarning>;
+/// A MusicBeat is told of with the frame that it is in.
+using DanceEvent = std::variant<KeyReached, KeyRejection, DanceWarning, MusicBeat>;
 
 /// Listens to a dance. Calls come one at a time, in order, from a worker thread or from the thread
 /// that sent a message, with no lock of the stream held: they may call the stream (SetPaused,

@@ -22,6 +22,7 @@ struct DanceStream::Impl {
   int keyframes = 0;
   int removals = 0;
   int controls = 0;
+  int beats = 0;
   bool complete = false;
 
   AudioFeed& Audio(const char* field) {
@@ -78,8 +79,8 @@ void DanceStream::EndOfAudio() {
   impl_->FinishAudio();
 }
 
-void DanceStream::SetMusicBeats(std::vector<double> seconds) {
-  impl_->chain->SetMusicBeats(std::move(seconds));
+void DanceStream::SetMusicBeats(const std::vector<double>& seconds) {
+  impl_->chain->SetMusicBeats(seconds);
 }
 
 void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
@@ -109,6 +110,12 @@ void DanceStream::SetControls(const ControlRequest& request) {
   request.Validate(*impl_->model, field);
   impl_->chain->SetControls(request, field);
   ++impl_->controls;
+}
+
+void DanceStream::GiveBeats(const std::vector<double>& seconds) {
+  std::lock_guard message(impl_->messages);
+  impl_->chain->GiveBeats(seconds, "music_beats[" + std::to_string(impl_->beats) + "].times");
+  ++impl_->beats;
 }
 
 void DanceStream::GenerateUntil(int64_t frame) {

@@ -15,16 +15,16 @@
 namespace choreo {
 
 /// A dance in progress: a chain of transitions folded over messages. What is danced is a function
-/// of the config and of the order of SetKey, RemoveKey, SetControls, GenerateUntil and KeysComplete
-/// among themselves (see Timeline), of the samples, and of where the music ends. It does not depend
-/// on the clock, on how samples are cut into messages, on how audio and key messages interleave, or
-/// on what else the scheduler does.
+/// of the config and of the order of SetKey, RemoveKey, SetControls, GiveBeats, GenerateUntil and
+/// KeysComplete among themselves (see Timeline), of the samples, and of where the music ends. It
+/// does not depend on the clock, on how samples are cut into messages, on how audio and key
+/// messages interleave, or on what else the scheduler does.
 ///
 /// Resuming: a new stream with the last continuation, the same config and the same messages again
 /// in the same order (but those that were rejected) goes on bit for bit as the first would have.
 /// Keys before the continuation's frame are answered by a rejection, controls hold from where they
-/// held; audio may start at LatestFirstSample. Frames between that
-/// continuation and the point where the first stream broke come again, equal.
+/// held; audio starts at ResumeSample. Frames between that continuation and the point where the
+/// first stream broke come again, equal.
 ///
 /// A message that throws leaves the stream as it was; its sender decides whether to end the stream
 /// by Cancel. After the last callback messages are ignored. Thread-safe; messages of one stream are
@@ -44,8 +44,9 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// In place of DanceConfig::music_beats, for who learns them later; before the first sample.
-  void SetMusicBeats(std::vector<double> seconds);
+  /// In place of DanceConfig::music_beats, for who finds them in the whole music before it pushes
+  /// the first sample; none, then nothing is listened for either.
+  void SetMusicBeats(const std::vector<double>& seconds);
 
   /// See Timeline. A key too late is answered by a KeyRejection event. Errors name "keyframes[i]",
   /// i counting the calls.
@@ -56,6 +57,11 @@ class DanceStream {
   /// GenerateUntil, or, in a stream without, the one behind the last key. Errors name
   /// "controls[i]", i counting the calls; none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
+  /// Beats ahead, seconds, ascending, at least one: they hold from the first of them on, in place
+  /// of what was given or heard, for transitions that begin behind the frozen frames. Those in
+  /// frozen frames are left out, and told of by a DanceWarning. Errors name "music_beats[i].times",
+  /// i counting the calls; none may come after KeysComplete.
+  void GiveBeats(const std::vector<double>& seconds);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
   void KeysComplete();

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "model/audio/pulse.h"
+#include "model/core/error.h"
 #include "model/dance/transition.h"
 
 namespace choreo {
@@ -24,37 +26,59 @@ bool HasOnset(const AudioFeed& audio, int64_t frame) {
 
 }  // namespace
 
-MusicBeats::MusicBeats(double fps, const std::vector<double>& given, bool hear)
-    : fps_(fps), hear_(hear && given.empty()) {
-  if (!given.empty()) Replace(given, MusicBeat::Source::kGiven);
+MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
+                       const AudioFeed* audio)
+    : fps_(fps), audio_(audio), hears_(audio != nullptr && given.empty()), count_(given.size()) {
+  if (hears_ && last) known_.push_back({*last, MusicBeat::Source::kPredicted});
+  Replace(given, MusicBeat::Source::kGiven);
 }
 
 void MusicBeats::Replace(const std::vector<double>& seconds, MusicBeat::Source source) {
+  if (seconds.empty()) return;
   std::erase_if(known_, [&](const MusicBeat& beat) { return beat.seconds >= seconds.front(); });
   for (const double second : seconds) known_.push_back({second, source});
-  hear_ = false;
 }
 
 void MusicBeats::Find(const std::vector<double>& seconds) {
+  hears_ = false;
   known_.clear();
-  if (!seconds.empty()) Replace(seconds, MusicBeat::Source::kFound);
+  Replace(seconds, MusicBeat::Source::kFound);
 }
 
-void MusicBeats::Give(std::vector<double> seconds, int64_t frozen) {
-  given_.push_back({frozen, std::move(seconds)});
+void MusicBeats::Give(std::vector<double> seconds, int64_t from, const std::string& field) {
+  if (seconds.empty()) return;
+  if (count_ + seconds.size() > kMostBeats) {
+    throw InvalidArgument(field, "bring the dance's beats to " +
+                                     std::to_string(count_ + seconds.size()) + ", the limit is " +
+                                     std::to_string(kMostBeats));
+  }
+  count_ += seconds.size();
+  given_.push_back({from, std::move(seconds)});
 }
 
-std::vector<double> MusicBeats::Around(int64_t from, int64_t to, const AudioFeed* audio) {
-  for (; !given_.empty() && given_.front().frozen < to; given_.pop_front())
+void MusicBeats::Cut(int64_t frame) {
+  const double end = static_cast<double>(frame) / fps_;
+  std::erase_if(known_, [end](const MusicBeat& beat) {
+    return beat.source == MusicBeat::Source::kPredicted && beat.seconds >= end;
+  });
+}
+
+bool MusicBeats::HearsFrom(int64_t frame) const {
+  // What is known ahead was given.
+  return hears_ && (known_.empty() || known_.back().seconds < static_cast<double>(frame) / fps_);
+}
+
+std::vector<double> MusicBeats::Around(int64_t from, int64_t to) {
+  for (; !given_.empty() && given_.front().from <= from; given_.pop_front())
     Replace(given_.front().seconds, MusicBeat::Source::kGiven);
-  if (hear_) return audio == nullptr ? std::vector<double>() : Predict(from, to, *audio);
+  if (HearsFrom(from)) return Predict(from, to);
   std::vector<double> seconds;
   for (const MusicBeat& beat : known_) seconds.push_back(beat.seconds);
   return BeatsAround(seconds, fps_, from, static_cast<int>(to - from));
 }
 
-std::vector<double> MusicBeats::Predict(int64_t from, int64_t to, const AudioFeed& audio) {
-  const Pulse pulse = HearPulse(audio.Onsets(from));
+std::vector<double> MusicBeats::Predict(int64_t from, int64_t to) {
+  const Pulse pulse = HearPulse(audio_->Onsets(from));
   if (!pulse.Certain()) return {};
   std::vector<double> beats;
   const auto frames = static_cast<double>(to - from);
@@ -72,16 +96,24 @@ std::vector<double> MusicBeats::Predict(int64_t from, int64_t to, const AudioFee
   }
 }
 
-std::vector<MusicBeat> MusicBeats::Between(double from, double to, const AudioFeed* audio) const {
-  const auto first = std::ranges::lower_bound(known_, from, {}, &MusicBeat::seconds);
-  const auto last = std::ranges::lower_bound(known_, to, {}, &MusicBeat::seconds);
-  std::vector<MusicBeat> beats(first, last);
+std::vector<MusicBeat> MusicBeats::Of(int64_t frame) const {
+  const auto from = [this](int64_t of) {
+    return std::ranges::lower_bound(known_, static_cast<double>(of) / fps_, {},
+                                    &MusicBeat::seconds);
+  };
+  std::vector<MusicBeat> beats(from(frame), from(frame + 1));
   for (MusicBeat& beat : beats) {
-    if (beat.source != MusicBeat::Source::kPredicted) continue;
-    const auto frame = static_cast<int64_t>(std::floor(beat.seconds * fps_));
-    if (HasOnset(*audio, frame)) beat.source = MusicBeat::Source::kHeard;
+    if (beat.source == MusicBeat::Source::kPredicted && HasOnset(*audio_, frame))
+      beat.source = MusicBeat::Source::kHeard;
   }
   return beats;
+}
+
+std::optional<double> MusicBeats::Last(int64_t frame) const {
+  const auto behind =
+      std::ranges::lower_bound(known_, static_cast<double>(frame) / fps_, {}, &MusicBeat::seconds);
+  if (!hears_ || behind == known_.begin()) return std::nullopt;
+  return std::prev(behind)->seconds;
 }
 
 }  // namespace choreo

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "model/core/error.h"
@@ -20,12 +19,18 @@ double FiniteSeconds(double seconds, const std::string& field) {
 
 }  // namespace
 
-Timeline::Timeline(Options options)
-    : options_(options), frontier_(options.first_frame), planned_to_(options.first_frame) {
+bool Key::operator==(const Key& other) const {
+  return id == other.id && frame == other.frame && pose.root_position == other.pose.root_position &&
+         pose.rotations == other.pose.rotations && mask.root_position == other.mask.root_position &&
+         mask.joints == other.mask.joints;
+}
+
+Timeline::Timeline(Options options) : options_(options), planned_to_(options.first_frame) {
   options_.max_transition_frames = std::min(options_.max_transition_frames, kMaxTransitionFrames);
   // Half the longest at most, so that what is left before a key after a cut is never shorter than
   // that.
   free_frames_ = std::clamp(options_.max_transition_frames / 2, 1, kFreeTransitionFrames);
+  if (options_.granted) GenerateUntil(*options_.granted);
 }
 
 int64_t Timeline::Resolve(const KeyMoment& when, const std::string& field) const {
@@ -72,7 +77,7 @@ const Key* Timeline::Neighbour(int64_t frame, const std::string& except_id) cons
 }
 
 int64_t Timeline::EarliestFrame() const {
-  int64_t frame = frontier_;
+  int64_t frame = std::max(frontier_, options_.first_frame);
   while (const Key* key = Neighbour(frame, "")) frame = key->frame + kMinKeyDistance;
   return frame;
 }
@@ -80,6 +85,11 @@ int64_t Timeline::EarliestFrame() const {
 KeyRejection Timeline::Reject(const std::string& id, int64_t frame, std::string reason) {
   if (!frame_of_.contains(id) && rejected_.size() < kMaxKeys) rejected_[id] = frame;
   return {id, frame, EarliestFrame(), std::move(reason)};
+}
+
+KeyRejection Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
+  return {id, frame, EarliestFrame(),
+          "the dance goes on from frame " + Frames(options_.first_frame)};
 }
 
 std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment& when,
@@ -123,8 +133,8 @@ std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment
   frame_of_[id] = frame;
   rejected_.erase(id);
   previous_frame_ = frame;
-  if (!explicit_grants_) frontier_ = std::max(frontier_, frame + 1);
-  Plan();
+  if (!explicit_grants_) Grant(frame + 1);
+  if (frame < options_.first_frame) return BeforeTheDance(id, frame);
   return std::nullopt;
 }
 
@@ -141,15 +151,20 @@ std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::s
   if (known->second < frontier_) {
     return Reject(id, known->second, "frames before " + Frames(frontier_) + " are frozen");
   }
-  keys_.erase(known->second);
+  const int64_t frame = known->second;
+  keys_.erase(frame);
   frame_of_.erase(known);
-  Plan();
+  if (frame < options_.first_frame) return BeforeTheDance(id, frame);
   return std::nullopt;
 }
 
-int64_t Timeline::ControlFrom(const std::string& field) const {
+int64_t Timeline::Frontier(const std::string& field) const {
   CheckOpen(field);
   return frontier_;
+}
+
+void Timeline::Disturb(int64_t first, int64_t last) {
+  disturbed_ |= first < planned_to_ && last >= frontier_;
 }
 
 void Timeline::GenerateUntil(int64_t frame) {
@@ -162,62 +177,67 @@ void Timeline::GenerateUntil(int64_t frame) {
   // All is granted then, and with music whose end is unknown there is no last transition to plan.
   if (complete_) return;
   explicit_grants_ = true;
-  frontier_ = std::max(frontier_, frame);
-  Plan();
+  Grant(frame);
 }
 
 void Timeline::Complete() {
   CheckOpen("keyframes_complete");
-  planned_at_complete_ = planned_to_;
   complete_ = true;
+  CutIfChanged();
 }
 
 void Timeline::SetAudioEnd(int64_t frame) { audio_end_ = frame; }
 
-Segment Timeline::Cut(int64_t to, const Key* key) {
-  Segment segment{planned_to_, to, std::nullopt};
-  if (key != nullptr) segment.key = *key;
-  planned_to_ = to;
-  return segment;
+Segment Timeline::From(int64_t frame) const {
+  const auto ahead = keys_.lower_bound(frame);
+  const bool is_near =
+      ahead != keys_.end() && ahead->first + 1 - frame <= options_.max_transition_frames;
+  const int64_t to = is_near ? ahead->first + 1 : frame + free_frames_;
+  return {frame, to, is_near ? std::optional(ahead->second) : std::nullopt, to};
 }
 
-std::optional<Segment> Timeline::PlanOne() {
-  const int64_t granted = complete_ ? std::numeric_limits<int64_t>::max() : frontier_;
-  const auto ahead = keys_.lower_bound(planned_to_);
-  if (ahead != keys_.end() && ahead->first + 1 - planned_to_ <= options_.max_transition_frames) {
-    const int64_t to = ahead->first + 1;
-    return to <= granted ? std::optional(Cut(to, &ahead->second)) : std::nullopt;
-  }
+// The last planned transition may reach over the frontier.
+void Timeline::CutIfChanged() {
+  const bool changed = std::exchange(disturbed_, false);
+  if (planned_.empty() || planned_.back().stop <= frontier_) return;
+  Segment& open = planned_.back();
+  if (!changed && open.key == From(open.from).key) return;
+  open.stop = planned_to_ = frontier_;
+}
+
+void Timeline::Grant(int64_t frame) {
+  if (frame <= frontier_) return;
+  CutIfChanged();
+  frontier_ = frame;
   const std::optional<int64_t> end = End();
-  if (end && planned_to_ >= *end) return std::nullopt;
-  const int64_t to = planned_to_ + free_frames_;
-  if (std::min(to, options_.end_frame.value_or(to)) > granted) return std::nullopt;
-  return Cut(to, nullptr);
-}
-
-void Timeline::Plan() {
-  while (auto segment = PlanOne()) planned_.push_back(std::move(*segment));
-}
-
-std::optional<Segment> Timeline::Next() {
-  if (!planned_.empty()) {
-    Segment segment = std::move(planned_.front());
-    planned_.pop_front();
-    return segment;
+  while (planned_to_ < frontier_ && !(end && planned_to_ >= *end)) {
+    planned_.push_back(From(planned_to_));
+    planned_to_ = planned_.back().to;
   }
-  // Nothing can change any more, so when to plan no longer matters.
-  return complete_ ? PlanOne() : std::nullopt;
 }
+
+const Segment* Timeline::Current() {
+  const std::optional<int64_t> end = End();
+  // When all is granted nothing can change any more, so when to plan no longer matters.
+  if (planned_.empty() && complete_ && !(end && planned_to_ >= *end)) {
+    planned_.push_back(From(planned_to_));
+    planned_to_ = planned_.back().to;
+  }
+  return planned_.empty() ? nullptr : &planned_.front();
+}
+
+void Timeline::Finish() { planned_.pop_front(); }
 
 std::optional<int64_t> Timeline::End() const {
   if (options_.end_frame) return options_.end_frame;
   if (!complete_ || (options_.has_music && !audio_end_)) return std::nullopt;
-  int64_t end = options_.has_music ? *audio_end_ : planned_at_complete_;
+  int64_t end = options_.has_music ? *audio_end_ : frontier_;
   if (!keys_.empty()) end = std::max(end, keys_.rbegin()->first + 1);
   return std::max(end, options_.first_frame);
 }
 
 bool Timeline::Certain(int64_t frame) const {
+  if (!complete_ && frame >= frontier_) return false;
   if (const std::optional<int64_t> end = End()) return frame < *end;
   if (!options_.has_music || !audio_end_ || frame < *audio_end_) return true;
   const auto key = keys_.lower_bound(frame);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,6 +42,7 @@ struct Key {
   int64_t frame = 0;
   Pose pose;
   PoseMask mask;
+  bool operator==(const Key& other) const;
 };
 
 /// A message about a key came too late: the frames that it would change are frozen. Nothing
@@ -52,26 +54,34 @@ struct KeyRejection {
   std::string reason;
 };
 
-/// One transition to dance: frames [from, to). With a key, its frame is to - 1.
+/// One transition to dance: frames [from, to). With a key, its frame is to - 1. Of these, the
+/// frames before `stop` are danced: `to`, or where a change cut it off.
 struct Segment {
   int64_t from = 0;
   int64_t to = 0;
   std::optional<Key> key;
+  int64_t stop = to;
 };
 
 /// The keys of one dance, the frozen frontier, and the plan that follows from them.
 ///
-/// What is planned depends on the order of the calls alone, never on when Next is called: each call
-/// plans, before it returns, every transition that may start by then. A transition may start when
-/// all of it is granted:
+/// What is planned depends on the order of the calls alone, never on when Current is called: each
+/// call plans, before it returns, every transition of which a frame is granted by then.
 /// - `GenerateUntil(f)` grants (and freezes) the frames before f. Keys before f are late.
-/// - As long as it has never been called, each accepted key grants up to and with itself, so such
-/// keys come in order of time.
-///   A client that wants to edit keys sends GenerateUntil(first frame) before its first key.
+/// - Where it has never been called, and Options has no grant, each accepted key grants up to and
+///   with itself, so such keys come in order of time.
 /// - `Complete()` grants everything.
 /// The next transition leads from where the last ended to the next key. Where no key stands ahead,
 /// or one further than the longest transition, a transition of kFreeTransitionFrames without target
 /// comes first.
+///
+/// Of a transition whose end is not granted yet what lies ahead may still change. A grant alone
+/// never plans anew: the transition goes on as long as it is the one that would be planned from its
+/// first frame now, and nobody said Disturb. Otherwise it stops at the frontier, where the next
+/// grant begins another.
+///
+/// A dance that goes on is told the same again and plans the same again, from its first frame on:
+/// keys before that stand where they stood, and are answered by a rejection.
 ///
 /// Not thread-safe.
 class Timeline {
@@ -82,6 +92,8 @@ class Timeline {
     /// The dance is frames [first_frame, end_frame); no key at or after it.
     std::optional<int64_t> end_frame = {};
     bool has_music = false;
+    /// As by GenerateUntil, before all messages; none: keys grant.
+    std::optional<int64_t> granted = {};
     int max_transition_frames = kMaxTransitionFrames;  ///< of the model
   };
   explicit Timeline(Options options);
@@ -98,9 +110,12 @@ class Timeline {
   /// Complete.
   std::optional<KeyRejection> Remove(const std::string& id, const std::string& field);
 
-  /// Where a control that is set now holds from: the frontier. Throws Error(kInvalidArgument) after
+  /// Where what is said now holds from: the frontier. Throws Error(kInvalidArgument) after
   /// Complete, when all is frozen.
-  int64_t ControlFrom(const std::string& field) const;
+  int64_t Frontier(const std::string& field) const;
+
+  /// Something else than keys changes for frames of [first, last].
+  void Disturb(int64_t first = 0, int64_t last = std::numeric_limits<int64_t>::max());
 
   /// Absolute, exclusive. Changes nothing after Complete. Throws Error(kInvalidArgument) if it
   /// shrinks or is out of range.
@@ -112,26 +127,26 @@ class Timeline {
   /// The music ends before `frame`.
   void SetAudioEnd(int64_t frame);
 
-  /// The next transition, once: nullopt while none may start. After Complete with music that has
-  /// not ended it never runs dry, so callers ask when they need one.
-  std::optional<Segment> Next();
+  /// The transition to be danced now; null while none may start. Its `stop` may change until it is
+  /// done. After Complete with music that has not ended it never runs dry.
+  const Segment* Current();
+  /// The current transition is danced up to its stop.
+  void Finish();
 
   /// Where the dance ends (exclusive), once known: given end_frame, there. Else after Complete (and
   /// with music after SetAudioEnd) at the end of the music or the last key, whichever is later;
-  /// without music at the last key, or where the plan stood by then if that is further.
+  /// without music at the last key, or where frames were granted to by then if that is further.
   std::optional<int64_t> End() const;
 
-  /// True if the dance has this planned frame for certain. False past the end of the music as long
-  /// as a key may still come or not: whether the dance goes on is then open.
+  /// True if this frame is granted and the dance has it for certain. Past the end of the music it
+  /// is open whether the dance goes on as long as a key may still come or not.
   bool Certain(int64_t frame) const;
 
   bool complete() const { return complete_; }
-  /// No key has come, not even late, and nothing is planned.
+  /// No key has come, not even late, and nothing is granted.
   bool Empty() const {
-    return keys_.empty() && rejected_.empty() && planned_to_ == options_.first_frame;
+    return keys_.empty() && rejected_.empty() && frontier_ <= options_.first_frame;
   }
-  /// Frames before it are frozen.
-  int64_t frontier() const { return frontier_; }
   /// First frame that a new key could have now.
   int64_t EarliestFrame() const;
 
@@ -140,9 +155,10 @@ class Timeline {
   void CheckOpen(const std::string& field) const;
   const Key* Neighbour(int64_t frame, const std::string& except_id) const;
   KeyRejection Reject(const std::string& id, int64_t frame, std::string reason);
-  void Plan();
-  std::optional<Segment> PlanOne();
-  Segment Cut(int64_t to, const Key* key);
+  KeyRejection BeforeTheDance(const std::string& id, int64_t frame) const;
+  void Grant(int64_t frame);
+  void CutIfChanged();
+  Segment From(int64_t frame) const;
 
   Options options_;
   int free_frames_;
@@ -151,13 +167,13 @@ class Timeline {
   std::unordered_map<std::string, int64_t> rejected_;  // ids that only ever came late, and where
   int64_t previous_frame_ = 0;  // of the last keyframe message, for AfterPrevious
   int64_t granted_ = 0;         // by GenerateUntil
-  int64_t frontier_;
+  int64_t frontier_ = 0;        // frames before it are frozen
   bool explicit_grants_ = false;
+  bool disturbed_ = false;  // the transition that reaches over the frontier
   bool complete_ = false;
   std::optional<int64_t> audio_end_;
   int64_t planned_to_;
-  int64_t planned_at_complete_ = 0;
-  std::deque<Segment> planned_;
+  std::deque<Segment> planned_;  // the first one is the current
 };
 
 }  // namespace choreo

@@ -79,6 +79,9 @@ struct Continuation {
   int64_t frame = 0;        ///< first frame that has not been danced; model rate, absolute
   std::vector<Pose> poses;  ///< tau poses before it, oldest first, world; every number is a float's
   std::string fingerprint;  ///< of the model and build that danced
+  /// First sample that who goes on from here has to hear; none: nobody says.
+  std::optional<int64_t> audio_from_sample = {};
+  std::optional<double> last_beat = {};  ///< MusicBeats::Last at this frame
 };
 
 /// Speeds that the way to a key asks for on average. Paper F, Section 5.2: too short an interval

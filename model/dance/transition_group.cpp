@@ -129,10 +129,7 @@ class TransitionGroup::Impl::Job : public StepJob {
         if (failure != nullptr) {
           group_->Fail(*failure);
         } else {
-          group_->Done(
-              {candidate_,
-               Quality(),
-               {group_->first_frame_ + run_->done(), history_, group_->model_.fingerprint}});
+          group_->Done({candidate_, Quality(), GoesOn()});
         }
       }
       group_->mailbox_.Deliver();
@@ -148,6 +145,14 @@ class TransitionGroup::Impl::Job : public StepJob {
   const TransitionRun& run() const { return *run_; }
 
  private:
+  Continuation GoesOn() const {
+    Continuation end{group_->first_frame_ + run_->done(), history_, group_->model_.fingerprint};
+    if (group_->request_.has_audio())
+      end.audio_from_sample =
+          LatestFirstSample(end.frame, group_->request_.sample_rate, group_->model_);
+    return end;
+  }
+
   QualityReport Quality() const {
     std::vector<double> beats;
     for (double seconds : group_->request_.music_beats) {

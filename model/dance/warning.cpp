@@ -44,6 +44,13 @@ DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest) {
               std::to_string(earliest) + " are frozen: nothing comes of it"};
 }
 
+DanceWarning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest) {
+  return {DanceWarning::Kind::kBeatsTooLate, frame,
+          std::to_string(count) + " beats from frame " + std::to_string(frame) +
+              " on came too late, frames before " + std::to_string(earliest) +
+              " are frozen: nothing comes of them"};
+}
+
 DanceWarning PathBehindEnd(int64_t first_frame, int64_t end) {
   return {DanceWarning::Kind::kPathBehindEnd, first_frame,
           "the root path begins at frame " + std::to_string(first_frame) +

@@ -18,6 +18,7 @@ struct DanceWarning {
     kPathBehindEnd,     ///< the dance is over before the root path's first frame, `frame`
     kKeyOffHeight,      ///< the pose of the key at `frame` stands at another height than the path's
     kPathAway,          ///< a root path takes over at `frame`, away from the dancer
+    kBeatsTooLate,      ///< beats came when their frames were frozen; `frame` is the first one's
     kVelocityNotMet,    ///< by the end of the dance, `frame`, parts were not as fast as asked
   };
   Kind kind = Kind::kIntervalTooShort;
@@ -35,6 +36,8 @@ DanceWarning PathTooFast(int64_t frame, double m_per_s);
 DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres);
 /// The path ends before frame `earliest`, the first that is not frozen.
 DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest);
+/// The first `count` of the beats that came lie before frame `earliest`, the first one at `frame`.
+DanceWarning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest);
 /// The path begins at or behind `end`, before which the dance ends.
 DanceWarning PathBehindEnd(int64_t first_frame, int64_t end);
 /// A key without a root position stands on the floor with its root at `standing`, and the path is

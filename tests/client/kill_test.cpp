@@ -149,6 +149,72 @@ INSTANTIATE_TEST_SUITE_P(AtRandom, KillTest,
                                          Killings{false, 3}),
                          [](const auto& suite) { return testing::PrintToString(suite.param); });
 
+/// Eight seconds of music, granted a third of a second ahead of what plays. Each pose comes three
+/// seconds before its time, and is another one a second before: then most of the way to it is still
+/// to be danced. `before_piece` is told of each tenth of a second.
+Danced DanceEdited(const Client& client, const std::function<void(int)>& before_piece) {
+  const Audio audio = ClicksAudio(8);
+  const auto dance =
+      client.StartDance({.seed = 9, .audio = audio.format, .frames = 240, .generate_until = 0});
+  Danced danced;
+  const auto take = [&](const Message& message) {
+    if (const auto* block = std::get_if<FrameBlock>(&message)) {
+      danced.motion.frames.insert(danced.motion.frames.end(), block->poses.begin(),
+                                  block->poses.end());
+    } else if (const auto* key = std::get_if<KeyReached>(&message)) {
+      danced.reached.push_back(key->id);
+    } else if (std::holds_alternative<Resumed>(message)) {
+      ++danced.resumes;
+    } else if (const auto* report = std::get_if<Report>(&message)) {
+      danced.report = *report;
+    }
+  };
+  const auto send = [&](int second, const char* pose) {
+    KeyPose key;
+    key.id = std::to_string(second);
+    key.frame = 30 * second;
+    key.pose = cli::FindLibraryPose(pose).pose;
+    dance->SendKey(key);
+  };
+  constexpr int64_t kPiece = 2205;
+  for (int piece = 0; piece < 80; ++piece) {
+    before_piece(piece);
+    if (piece % 20 == 0 && piece < 60) send(piece / 10 + 3, "kick");
+    if (piece % 20 == 0 && piece > 0) send(piece / 10 + 1, "arabesque");
+    dance->GenerateUntil(std::min(240, 3 * piece + 10));
+    dance->SendSamples(
+        std::span(audio.samples).subspan(static_cast<size_t>(piece * kPiece), kPiece));
+    // What can be danced comes before more is said.
+    while (static_cast<int64_t>(danced.motion.frames.size()) < 3 * piece - 3) {
+      const std::optional<Message> message = dance->Next();
+      if (!message) break;
+      take(*message);
+    }
+  }
+  dance->EndAudio();
+  dance->CompleteKeys();
+  while (const std::optional<Message> message = dance->Next()) take(*message);
+  return danced;
+}
+
+// On the way to a key that has just been changed, too.
+TEST(KillTest, EditsWithShortLookAheadSurvive) {
+  const std::filesystem::path program = FAKE_CHOREOD;
+  const LocalServer undisturbed(program);
+  const Danced wanted = DanceEdited(Client(Patient({&undisturbed})), [](int) {});
+  ASSERT_EQ(wanted.motion.frames.size(), 240U);
+  EXPECT_EQ(wanted.reached, (std::vector<std::string>{"3", "5", "7"}));
+  const LocalServer a(program);
+  const LocalServer b(program);
+  const LocalServer c(program);
+  const Danced danced = DanceEdited(Client(Patient({&a, &b, &c})), [&](int piece) {
+    if (piece == 23) Kill(a);
+    if (piece == 58) Kill(b);
+  });
+  ExpectSame(danced, wanted);
+  EXPECT_EQ(danced.resumes, 2);
+}
+
 // There is one address, and what is started there anew knows nothing of the dance.
 TEST(KillTest, AServerThatComesBackGoesOn) {
   const std::filesystem::path program = FAKE_CHOREOD;

@@ -56,12 +56,11 @@ TEST_F(ControlTrackTest, SaysNothingWhereNothingWasSaid) {
   EXPECT_EQ(For(100, 60).controls.velocity_factors.cols(), 0);
 }
 
-TEST_F(ControlTrackTest, LaterPathsTakeOverFromTheirFrameOn) {
+TEST_F(ControlTrackTest, LaterPathsTakeOverInTransitionsFromTheirFrameOn) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   track_.Set(Way({0, 300}, {1, 1}), 60, "controls");
-  const Eigen::Matrix3Xd path = For(0, 120).controls.root_path;
-  EXPECT_NEAR(path(0, 59), 0.59, 1e-9);
-  EXPECT_NEAR(path(0, 119), 1, 1e-9);
+  EXPECT_NEAR(For(0, 120).controls.root_path(0, 119), 1.19, 1e-9);
+  EXPECT_NEAR(For(60, 60).controls.root_path(0, 59), 1, 1e-9);
 }
 
 TEST_F(ControlTrackTest, APathMayComeInPieces) {
@@ -77,9 +76,7 @@ TEST_F(ControlTrackTest, WhatIsNeverDancedChangesNothing) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   track_.Set(Way({0, 50}, {9, 9}), 60, "controls");     // over before it counts
   track_.Set(Way({400, 500}, {9, 9}), 60, "controls");  // behind all that is danced
-  const Eigen::Matrix3Xd path = For(0, 200).controls.root_path;
-  EXPECT_NEAR(path(0, 40), 0.4, 1e-9);
-  EXPECT_NEAR(path(0, 199), 1.99, 1e-9);
+  EXPECT_NEAR(For(60, 140).controls.root_path(0, 139), 1.99, 1e-9);
 }
 
 TEST_F(ControlTrackTest, SaysHowFarThePathIsWhereItTakesOver) {
@@ -276,8 +273,8 @@ TEST_F(ControlTrackTest, MultipliesTheReferences) {
   calm.values = {3};
   calm.reference = "calm";
   track_.Set(Velocity(calm), 5, "controls");
-  EXPECT_FLOAT_EQ(For(0, 10).controls.velocity_factors(1, 4), 0.04F);
-  EXPECT_FLOAT_EQ(For(0, 10).controls.velocity_factors(1, 5), 0.006F);
+  EXPECT_FLOAT_EQ(For(4, 10).controls.velocity_factors(1, 9), 0.04F);
+  EXPECT_FLOAT_EQ(For(5, 10).controls.velocity_factors(1, 0), 0.006F);
 }
 
 TEST_F(ControlTrackTest, InterpolatesBetweenFramesAndReplacesPartByPart) {
@@ -296,8 +293,8 @@ TEST_F(ControlTrackTest, InterpolatesBetweenFramesAndReplacesPartByPart) {
   EXPECT_FLOAT_EQ(factors(0, 0), 0.1F);
   EXPECT_FLOAT_EQ(factors(0, 15), 0.2F);
   EXPECT_FLOAT_EQ(factors(0, 39), 0.3F);
-  EXPECT_FLOAT_EQ(factors(3, 14), 0.2F);
-  EXPECT_FLOAT_EQ(factors(3, 15), 0);
+  EXPECT_FLOAT_EQ(factors(3, 15), 0.2F);
+  EXPECT_FLOAT_EQ(For(15, 25).controls.velocity_factors(3, 0), 0);
 }
 
 TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {

@@ -60,6 +60,13 @@ inline Dance RandomDance(uint32_t seed, double music_seconds = 0) {
   return dance;
 }
 
+/// One whose beats nobody knows beforehand, to a beat every half second.
+inline Dance LiveDance(uint32_t seed, double music_seconds) {
+  Dance dance = RandomDance(seed, music_seconds);
+  dance.config.music_beats.clear();
+  return dance;
+}
+
 inline void SendKey(DanceStream& stream, const Key& key) {
   stream.SetKey(key.id, AtFrame{key.frame}, key.pose, key.mask);
 }

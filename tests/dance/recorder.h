@@ -23,6 +23,7 @@ struct Recording {
   std::vector<KeyReached> reached;
   std::vector<KeyRejection> rejected;
   std::vector<DanceWarning> warnings;
+  std::vector<MusicBeat> beats;
   std::vector<Continuation> continuations;
   std::optional<QualityReport> summary;
   std::optional<Error> error;
@@ -55,6 +56,7 @@ class Recorder : public DanceSink {
     if (const auto* key = std::get_if<KeyReached>(&event)) recording_.reached.push_back(*key);
     if (const auto* late = std::get_if<KeyRejection>(&event)) recording_.rejected.push_back(*late);
     if (const auto* warn = std::get_if<DanceWarning>(&event)) recording_.warnings.push_back(*warn);
+    if (const auto* beat = std::get_if<MusicBeat>(&event)) recording_.beats.push_back(*beat);
     changed_.notify_all();
   }
   void OnContinuation(const Continuation& continuation) override {

@@ -15,9 +15,8 @@ Recording Resume(Scheduler& scheduler, const Dance& dance, const Continuation& c
   config.continuation = continuation;
   int64_t from = 0;
   if (config.audio) {
-    from = std::min(
-        LatestFirstSample(continuation.frame, config.audio->sample_rate, scheduler.model()),
-        static_cast<int64_t>(dance.samples.size()) / config.audio->channels);
+    from = std::min(*continuation.audio_from_sample,
+                    static_cast<int64_t>(dance.samples.size()) / config.audio->channels);
     config.audio->first_sample = from;
   }
   auto sink = std::make_shared<Recorder>();
@@ -26,6 +25,17 @@ Recording Resume(Scheduler& scheduler, const Dance& dance, const Continuation& c
   if (config.audio) SendSong(stream, dance, from);
   stream.HalfClose();
   return sink->WaitForEnd();
+}
+
+void ExpectSameBeats(const Recording& whole, const Recording& rest, double from) {
+  std::vector<MusicBeat> wanted = whole.beats;
+  std::erase_if(wanted, [from](const MusicBeat& beat) { return beat.seconds < from; });
+  ASSERT_EQ(rest.beats.size(), wanted.size()) << "from " << from << " s";
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    EXPECT_EQ(rest.beats[i].seconds, wanted[i].seconds);
+    EXPECT_EQ(rest.beats[i].source, wanted[i].source);
+    EXPECT_EQ(rest.beats[i].confidence, wanted[i].confidence);
+  }
 }
 
 void ExpectResumesEverywhere(Scheduler& scheduler, const Dance& dance,
@@ -46,6 +56,7 @@ void ExpectResumesEverywhere(Scheduler& scheduler, const Dance& dance,
       continue;
     }
     EXPECT_TRUE(SameDance(whole, rest)) << "from frame " << continuation.frame;
+    ExpectSameBeats(whole, rest, static_cast<double>(continuation.frame) / 30);
     EXPECT_EQ(rest.summary->frames, whole.summary->frames - continuation.frame);
     EXPECT_EQ(rest.continuations.back().frame, whole.continuations.back().frame);
     EXPECT_TRUE(SameBits(rest.continuations.back().poses.front(),
@@ -75,6 +86,21 @@ TEST(Resume, GoesOnBitForBitWithMusicAlone) {
   std::mt19937 random(5);
   dance.config.history = MotionTo(RandomPose(random), 4, random);  // fewer than tau
   ExpectResumesEverywhere(*scheduler, dance, [](DanceStream&) {});
+}
+
+// Of the music only what beats are heard in is sent again.
+TEST(Resume, GoesOnBitForBitListeningForBeats) {
+  const auto scheduler = FakeScheduler();
+  for (const bool keyed : {false, true}) {
+    Dance dance = LiveDance(31, 23);
+    if (!keyed) dance.keys.clear();
+    const Recording whole = Perform(*scheduler, dance);
+    EXPECT_GT(whole.beats.size(), 20U);
+    EXPECT_GT(*whole.continuations.back().audio_from_sample, 22050);
+    ExpectResumesEverywhere(*scheduler, dance, [&dance](DanceStream& stream) {
+      for (const Key& key : dance.keys) SendKey(stream, key);
+    });
+  }
 }
 
 TEST(Resume, GoesOnBitForBitWithoutMusic) {
@@ -140,6 +166,7 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
   DanceConfig config = dance.config;
   config.continuation = whole.continuations.back();
   const int64_t latest = LatestFirstSample(config.continuation->frame, 22050, scheduler->model());
+  EXPECT_EQ(*config.continuation->audio_from_sample, latest);
   EXPECT_GT(latest, 0);
   config.audio->first_sample = latest;
   EXPECT_NO_THROW(config.Validate(scheduler->model()));
@@ -151,6 +178,10 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
     EXPECT_EQ(error.code(), ErrorCode::kOutOfRange);
     EXPECT_THAT(error.what(), ::testing::HasSubstr(std::to_string(latest)));
   }
+  // Who listens for beats needs more of it.
+  config.audio->first_sample = latest;
+  config.continuation->audio_from_sample = latest - 1;
+  EXPECT_THROW(config.Validate(scheduler->model()), Error);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
 
 #include "model/core/error.h"
@@ -28,12 +29,16 @@ std::ostream& operator<<(std::ostream& out, const Span& span) {
   return out << "[" << span.from << ", " << span.to << ") " << span.key;
 }
 
+// What is danced by now: transitions of which all is granted.
 std::vector<Span> Drain(Timeline& timeline, size_t limit = 1000) {
   std::vector<Span> spans;
   while (spans.size() < limit) {
-    const auto segment = timeline.Next();
-    if (!segment) break;
-    spans.push_back({segment->from, segment->to, segment->key ? segment->key->id : ""});
+    const Segment* segment = timeline.Current();
+    if (segment == nullptr) break;
+    const int64_t last = std::min(segment->stop, timeline.End().value_or(segment->stop)) - 1;
+    if (last >= segment->from && !timeline.Certain(last)) break;
+    spans.push_back({segment->from, segment->stop, segment->key ? segment->key->id : ""});
+    timeline.Finish();
   }
   return spans;
 }
@@ -157,7 +162,7 @@ TEST(Timeline, WithoutKeysTransitionsHaveAFixedLength) {
   Set(timeline, "a", AtFrame{150});
   EXPECT_EQ(Drain(timeline), std::vector<Span>());
   timeline.GenerateUntil(151);
-  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{120, 151, "a"}}));
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{120, 130, ""}, {130, 151, "a"}}));
   timeline.Complete();
   EXPECT_EQ(timeline.End(), std::nullopt);  // the music goes on
   EXPECT_EQ(Drain(timeline, 2), (std::vector<Span>{{151, 211, ""}, {211, 271, ""}}));
@@ -199,11 +204,68 @@ TEST(Timeline, PastTheMusicOnlyAFrozenKeyMakesFramesCertain) {
 }
 
 TEST(Timeline, IdsThatWereOnlyEverLateCanBeRemovedAndComeAgain) {
-  Timeline timeline({.first_frame = 60});
+  Timeline timeline({.granted = 60});
   ASSERT_TRUE(Set(timeline, "a", AtFrame{30}));
   ASSERT_TRUE(timeline.Remove("a", "remove"));
   EXPECT_EQ(Set(timeline, "a", AtFrame{90}), std::nullopt);
-  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{60, 91, "a"}}));
+  timeline.GenerateUntil(91);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 91, "a"}}));
+}
+
+// A dance that goes on is told all again, of keys that moved across its first frame, too.
+TEST(Timeline, KeysBeforeTheFirstFrameStandWhereTheyStood) {
+  Timeline timeline({.first_frame = 60, .granted = 0});
+  ASSERT_EQ(Set(timeline, "a", AtFrame{100}), std::nullopt);
+  const auto before = Set(timeline, "a", AtFrame{50});
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->earliest_frame, 60);
+  ASSERT_TRUE(Set(timeline, "b", AtFrame{40}));
+  EXPECT_EQ(Set(timeline, "b", AtFrame{80}), std::nullopt);
+  timeline.GenerateUntil(60);
+  EXPECT_TRUE(Set(timeline, "a", AtFrame{90})) << "it was danced";
+  timeline.Complete();
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{60, 81, "b"}}));
+}
+
+TEST(Timeline, AGrantAlonePlansNothingAnew) {
+  for (const int64_t stride : {1, 7, 200}) {
+    Timeline timeline({.has_music = true, .granted = 0});
+    Set(timeline, "a", AtFrame{99});
+    for (int64_t frame = stride; frame < 200; frame += stride) timeline.GenerateUntil(frame);
+    timeline.GenerateUntil(200);
+    EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 100, "a"}, {100, 160, ""}})) << stride;
+    EXPECT_TRUE(timeline.Certain(199));
+    EXPECT_FALSE(timeline.Certain(200));
+  }
+}
+
+TEST(Timeline, AChangeAheadStopsTheTransitionAtTheFrontier) {
+  Timeline timeline({.granted = 0});
+  Set(timeline, "a", AtFrame{99});
+  timeline.GenerateUntil(30);
+  Set(timeline, "a", AtFrame{79});   // moved
+  Set(timeline, "a", AtFrame{99});   // and back: nothing changed
+  Set(timeline, "b", AtFrame{150});  // behind it
+  timeline.GenerateUntil(40);
+  Set(timeline, "a", AtFrame{79});
+  Set(timeline, "c", AtFrame{60});
+  EXPECT_EQ(timeline.Current()->stop, 100) << "until more is granted, it may be moved back";
+  timeline.GenerateUntil(50);
+  EXPECT_EQ(timeline.Current()->stop, 40);
+  EXPECT_EQ(timeline.Current()->to, 100);
+  timeline.Remove("c", "remove");
+  timeline.GenerateUntil(80);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 40, "a"}, {40, 50, "c"}, {50, 80, "a"}}));
+}
+
+TEST(Timeline, WhatDisturbsATransitionStopsIt) {
+  Timeline timeline({.has_music = true, .granted = 30});
+  timeline.Disturb(60, 90);  // behind it
+  timeline.Disturb(0, 29);   // danced
+  timeline.GenerateUntil(35);
+  timeline.Disturb(59, 90);
+  timeline.GenerateUntil(40);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 35, ""}}));
 }
 
 // The plan must not depend on when Next is called.
@@ -212,6 +274,7 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
   for (int round = 0; round < 300; ++round) {
     const Timeline::Options options{.has_music = round % 2 == 0, .max_transition_frames = 150};
     Timeline eager(options), lazy(options);
+    std::vector<std::function<void(Timeline&)>> log;
     std::vector<Span> asked_often;
     int64_t granted = 0;
     for (int message = 0; message < 30; ++message) {
@@ -219,7 +282,7 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
       const int64_t frame = static_cast<int64_t>(random() % 900);
       const std::string id(1, static_cast<char>('a' + random() % 6));
       if (round % 3 == 0 && message == 0) granted = 1;
-      const auto send = [&](Timeline& timeline) {
+      const auto send = [=](Timeline& timeline) {
         try {
           if (message == 0 && round % 3 == 0) timeline.GenerateUntil(1);
           if (kind < 2) Set(timeline, id, AtFrame{frame});
@@ -228,6 +291,7 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
         } catch (const Error&) {
         }
       };
+      log.push_back(send);
       send(eager);
       send(lazy);
       if (kind == 3 && round % 3 == 0) granted += frame / 8;
@@ -247,6 +311,18 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
       EXPECT_GT(span.to, span.from);
       EXPECT_LE(span.to - span.from, 150);
       at = span.to;
+    }
+    // Who goes on from the end of any transition plans the rest of them.
+    for (size_t i = 1; i < asked_often.size(); ++i) {
+      Timeline::Options later = options;
+      later.first_frame = asked_often[i].from;
+      Timeline resumed(later);
+      for (const auto& send : log) send(resumed);
+      resumed.Complete();
+      resumed.SetAudioEnd(500);
+      EXPECT_EQ(Drain(resumed),
+                std::vector<Span>(asked_often.begin() + static_cast<int64_t>(i), asked_often.end()))
+          << "round " << round << ", from " << later.first_frame;
     }
   }
 }

@@ -67,6 +67,26 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalid,
                       "keyframes[1]",
                       {"keyframes_complete"}},
+        BadStreamCase{"NoBeats",
+                      [](const Key&) {
+                        v1::StreamDanceRequest beats;
+                        beats.mutable_music_beats();
+                        return Requests{ConfigRequest(), beats};
+                      },
+                      kInvalid,
+                      "music_beats[0].times",
+                      {"empty"}},
+        BadStreamCase{"BeatsBackwards",
+                      [](const Key&) {
+                        v1::StreamDanceRequest beats, back;
+                        beats.mutable_music_beats()->add_times(1);
+                        back.mutable_music_beats()->add_times(3);
+                        back.mutable_music_beats()->add_times(2.5);
+                        return Requests{ConfigRequest(), beats, back};
+                      },
+                      kInvalid,
+                      "music_beats[1].times[1]",
+                      {"2.5 s", "3 s"}},
         BadStreamCase{"GenerateUntilBackwards",
                       [](const Key&) {
                         v1::StreamDanceRequest until;
@@ -167,6 +187,11 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalid,
                       "config.audio_format.channels",
                       {"9", "8"}},
+        BadStreamCase{"GenerateUntil",
+                      WithConfig([](auto& c) { c.set_generate_until(-1); }),
+                      kInvalid,
+                      "config.generate_until",
+                      {"-1", "108000"}},
         BadStreamCase{"Beats",
                       WithConfig([](auto& c) {
                         c.add_music_beats(1);

@@ -284,6 +284,89 @@ TEST_F(StreamTest, FilesDanceAsTheirSamples) {
   EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20).Join());
 }
 
+// Music that nobody has heard yet is danced to on the beat, and the answer says how beats are
+// known.
+TEST_F(StreamTest, BeatsOfLiveMusicAreHeard) {
+  Start();
+  DanceClient client(stub());
+  client.Send(MusicConfig());
+  client.SendKeyframesComplete();
+  const std::string music = Music(14);
+  for (size_t at = 0; at < music.size(); at += 4410)
+    client.SendAudio(music.substr(at, 4410), static_cast<int64_t>(at / 2));
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  int beats = 0, heard = 0;
+  for (const v1::Event& event : answer.events) {
+    if (!event.has_beat()) continue;
+    ++beats;
+    heard += event.beat().source() == v1::BEAT_SOURCE_HEARD;
+    EXPECT_NEAR(event.time(), 0.5 * std::round(2 * event.time()), 0.07);
+    EXPECT_GT(event.beat().confidence(), 0);
+    EXPECT_TRUE(event.beat().source() == v1::BEAT_SOURCE_HEARD ||
+                event.beat().source() == v1::BEAT_SOURCE_PREDICTED);
+  }
+  EXPECT_GE(beats, 10);
+  EXPECT_GT(heard, beats / 2);
+  EXPECT_TRUE(answer.summary->report().has_beat_hit_rate());
+}
+
+TEST_F(StreamTest, BeatsMayComeAheadOfTheFrontier) {
+  Start();
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  config.set_frames(120);
+  config.set_generate_until(30);
+  client.Send(config);
+  ASSERT_TRUE(client.ReadFrames(30));
+  v1::StreamDanceRequest beats;
+  for (const double time : {0.5, 1.5, 2.0, 2.5}) beats.mutable_music_beats()->add_times(time);
+  client.Send(beats);
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  std::vector<double> times;
+  std::vector<v1::WarningCode> warnings;
+  for (const v1::Event& event : answer.events) {
+    if (event.has_beat()) times.push_back(event.time());
+    if (event.has_warning()) warnings.push_back(event.warning().code());
+  }
+  EXPECT_EQ(times, (std::vector<double>{2.0, 2.5})) << "the transition under way has none";
+  EXPECT_EQ(warnings, std::vector{v1::WARNING_CODE_BEATS_TOO_LATE});
+}
+
+// Frames leave up to generate_until, and the key behind it moves, in whatever order keys came.
+TEST_F(StreamTest, KeysMoveWhileTheWayThereIsDanced) {
+  Start();
+  const auto dance = [this](bool move) {
+    DanceClient client(stub());
+    v1::DanceConfig config = Config();
+    config.set_frames(150);
+    config.set_generate_until(0);
+    client.Send(config);
+    client.SendKeyframe(Key("b", 110));
+    client.SendKeyframe(Key("a", 60, -0.2, 0.9, 1.5F));
+    client.SendGenerateUntil(20);
+    EXPECT_TRUE(client.ReadFrames(20));
+    if (move) client.SendKeyframe(Key("a", 50, -0.2, 0.9, 1.5F));
+    for (int64_t frame = 21; frame <= 40; ++frame) client.SendGenerateUntil(frame);
+    EXPECT_TRUE(client.ReadFrames(40));
+    return client.Finish();
+  };
+  const Answer plain = dance(false), moved = dance(true);
+  ASSERT_TRUE(plain.status.ok()) << plain.status.error_message();
+  ASSERT_TRUE(moved.status.ok()) << moved.status.error_message();
+  EXPECT_EQ(ReachedKeys(moved), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(moved.summary->report().keyframes(0).frame(), 50);
+  EXPECT_LE(moved.summary->report().keyframes(0).errors().final_error_m(), 1e-3);
+  const Answer::Joined a = plain.Join(), b = moved.Join();
+  EXPECT_TRUE(std::equal(a.rotations.begin(), a.rotations.begin() + std::ptrdiff_t{20} * 72,
+                         b.rotations.begin()));
+  EXPECT_FALSE(a == b);
+  ASSERT_FALSE(moved.continuations.empty());
+  EXPECT_EQ(moved.continuations[0].frame(), 20) << "there the way to the former place ends";
+  EXPECT_EQ(plain.continuations[0].frame(), 61);
+}
+
 TEST_F(StreamTest, WithoutASeedOneIsDrawnAndReported) {
   Start();
   auto seed = [this] {

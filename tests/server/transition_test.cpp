@@ -147,6 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
                        "candidates", "32"},
         BadRequestCase{"UnknownModel", [](R& r) { r.mutable_config()->set_model("nope"); },
                        grpc::StatusCode::NOT_FOUND, "config.model", "\"fake\""},
+        BadRequestCase{"GenerateUntil", [](R& r) { r.mutable_config()->set_generate_until(5); },
+                       kInvalid, "config.generate_until", "StreamDance"},
         BadRequestCase{"EmptyHistory", [](R& r) { r.mutable_config()->mutable_history(); },
                        kInvalid, "config.history.poses", "at least 1"},
         BadRequestCase{
