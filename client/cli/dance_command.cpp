@@ -101,7 +101,7 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
   // Its dancers hardly dance where no key is ahead.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   DanceKeys keys;
-  keys.poses = ComposeKeys(request, PoseLibrary(model.skeleton));
+  keys.poses = ComposeKeys(request, PosesToDance(model.skeleton));
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
     // Where the dancer is then, the path says.
