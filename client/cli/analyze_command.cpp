@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -19,7 +20,27 @@ struct AnalyzeOptions {
   bool json = false;
   std::string features;
   std::optional<int64_t> suggest_keys;
+  double from_s = 0;
+  double until_s = std::numeric_limits<double>::infinity();
 };
+
+/// Suggestions among the beats from one second to another; they count the beats of the song.
+std::vector<SuggestedKey> Suggest(const Music& music, const AnalyzeOptions& options) {
+  const std::vector<double> beats = music.track.Seconds();
+  BeatTrack part{.tempo_bpm = music.track.tempo_bpm, .frames = {}};
+  size_t before = 0;
+  for (size_t i = 0; i < beats.size(); ++i) {
+    if (beats[i] < options.from_s) {
+      ++before;
+    } else if (beats[i] <= options.until_s) {
+      part.frames.push_back(music.track.frames[i]);
+    }
+  }
+  std::vector<SuggestedKey> keys =
+      SuggestKeys(part, music.onset_strength, *options.suggest_keys, "--suggest-keys");
+  for (SuggestedKey& key : keys) key.beat += before;
+  return keys;
+}
 
 void PrintJson(const Music& music, const std::optional<std::vector<SuggestedKey>>& keys) {
   nlohmann::ordered_json json;
@@ -56,9 +77,7 @@ void Run(const AnalyzeOptions& options) {
                                 std::vector<float>(rows.data(), rows.data() + rows.size())});
   }
   std::optional<std::vector<SuggestedKey>> keys;
-  if (options.suggest_keys) {
-    keys = SuggestKeys(music.track, music.onset_strength, *options.suggest_keys, "--suggest-keys");
-  }
+  if (options.suggest_keys) keys = Suggest(music, options);
   options.json ? PrintJson(music, keys) : PrintText(music, keys);
 }
 
@@ -77,11 +96,19 @@ void AddAnalyzeCommand(CLI::App& program) {
       "JSON.");
   command->add_option("--features", options->features,
                       "FILE.npy for the MFCC rows that the models hear: [rows, 40], 30 a second.");
-  command
-      ->add_option("--suggest-keys", options->suggest_keys,
-                   "Name so many beats on which key poses would sit well: strong ones, spread over "
-                   "the song.")
-      ->check(WholeNumberFrom(1, 1'000'000));
+  CLI::Option* suggest =
+      command
+          ->add_option(
+              "--suggest-keys", options->suggest_keys,
+              "Name so many beats on which key poses would sit well: strong ones, spread over "
+              "the song.")
+          ->check(WholeNumberFrom(1, 1'000'000));
+  command->add_option("--from", options->from_s, "Second from which on keys are suggested.")
+      ->check(TimeInSeconds())
+      ->needs(suggest);
+  command->add_option("--until", options->until_s, "Second up to which keys are suggested.")
+      ->check(TimeInSeconds())
+      ->needs(suggest);
   command->callback([options] { Run(*options); });
 }
 

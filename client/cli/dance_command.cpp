@@ -11,6 +11,7 @@
 #include "client/cli/control_options.h"
 #include "client/cli/dance_keys.h"
 #include "client/cli/interruption.h"
+#include "client/cli/key_faults.h"
 #include "client/cli/key_file.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
@@ -24,11 +25,14 @@
 namespace choreo::cli {
 namespace {
 
+constexpr const char* kNoKeys = "none";
+
 struct DanceOptions {
   ServerOptions server;
   std::string song;
   std::vector<std::string> keys;
   std::optional<double> seconds;
+  double song_start_s = 0;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   double fps = 0;
@@ -38,6 +42,20 @@ struct DanceOptions {
   std::string report;
   bool no_clobber = false;
 };
+
+/// Whether it is asked for that there be none.
+bool HasNoKeys(const DanceOptions& options) {
+  const bool none = std::ranges::find(options.keys, kNoKeys) != options.keys.end();
+  if (none && options.keys.size() > 1)
+    throw InvalidArgument("--keyframes",
+                          "none stands beside " + options.keys[options.keys[0] == kNoKeys]);
+  return none;
+}
+
+/// The key files and motions that are named.
+std::vector<std::string> KeySources(const DanceOptions& options) {
+  return HasNoKeys(options) ? std::vector<std::string>{} : options.keys;
+}
 
 std::filesystem::path OutputPath(const DanceOptions& options) {
   std::filesystem::path path = options.out;
@@ -49,7 +67,8 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
     throw InvalidArgument("--no-clobber", path.string() + " is there already");
   std::vector<NamedFile> inputs = options.controls.Files();
   inputs.push_back({"song", options.song});
-  for (const std::string& keys : options.keys) inputs.push_back({"--keyframes", FileOf(keys)});
+  for (const std::string& keys : KeySources(options))
+    inputs.push_back({"--keyframes", FileOf(keys)});
   RequireOutputs({{"--out", path}, {"--report", options.report}}, inputs);
   return path;
 }
@@ -65,7 +84,7 @@ double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& 
                            const client::ModelDescription& model) {
   if (options.seconds) return *options.seconds;
   int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
-  for (const std::string& source : options.keys) {
+  for (const std::string& source : KeySources(options)) {
     for (const client::KeyPose& key : ReadKeys(source, model.skeleton))
       last = std::max(last, FrameOf(key, model.fps));
   }
@@ -86,6 +105,7 @@ double ChooseSeconds(const DanceOptions& options, const Music& music) {
 
 DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& music, double seconds,
                      const DanceLength& length, const client::ModelDescription& model) {
+  if (HasNoKeys(options)) return {};
   if (!options.keys.empty()) {
     if (length.frames < 1) {
       std::ostringstream message;
@@ -101,7 +121,7 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
   // Its dancers hardly dance where no key is ahead.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   DanceKeys keys;
-  keys.poses = ComposeKeys(request, PoseLibrary(model.skeleton));
+  keys.poses = ComposeKeys(request, PosesToDance(model.skeleton));
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
     // Where the dancer is then, the path says.
@@ -177,7 +197,8 @@ void Run(const DanceOptions& options) {
   std::optional<Music> music;
   if (!options.song.empty()) {
     music =
-        ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()));
+        ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()),
+                  options.song_start_s);
   }
 
   const Connection connection(options.server);
@@ -196,6 +217,8 @@ void Run(const DanceOptions& options) {
   const DanceLength length{std::llround(seconds * model.fps), model.fps};
   const DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
   options.controls.RequireBegun(controls, length);
+  const std::vector<client::Warning> faults = KeyFaults(keys, model.fps, model.skeleton);
+  ShowWarnings(faults);
 
   client::DanceConfig config;
   config.model = options.model;
@@ -212,7 +235,8 @@ void Run(const DanceOptions& options) {
 
   WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
-  written.warnings = dance.warnings;
+  written.warnings = faults;
+  written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
   if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
   std::cout << ReportText(written) << out.string() << std::endl;
@@ -235,13 +259,15 @@ void AddDanceCommand(CLI::App& program) {
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses: a JSON key file, or poses of a motion file, as in "
               "walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 "
-              "(the pose at 1.2 s at second 4 of the dance). May be given more than once. "
+              "(the pose at 1.2 s at second 4 of the dance). May be given more than once. none: no "
+              "key at all. "
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
   command
       ->add_option("-s,--seconds", options->seconds,
                    "Length of the dance, which ends with the song at the latest; default: the "
                    "song's, or else up to the last key pose and point of the path.")
       ->check(AboveZero());
+  AddSongStart(*command, options->song_start_s);
   AddSeed(*command, options->seed,
           "Same seed, same dance; it also chooses among the library's key poses. Default: 0.");
   AddTemperature(*command, options->temperature);
@@ -262,8 +288,8 @@ void AddDanceCommand(CLI::App& program) {
       "If the server is lost and only one of another model or build is left, go on with that.");
   options->server.AddTo(*command);
   command->callback([options] {
-    if (options->song.empty() && !options->seconds && options->keys.empty() &&
-        options->controls.path.empty()) {
+    const bool keys = !options->keys.empty() && !HasNoKeys(*options);
+    if (options->song.empty() && !options->seconds && !keys && options->controls.path.empty()) {
       throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");
     }
     Run(*options);

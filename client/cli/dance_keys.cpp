@@ -13,6 +13,11 @@
 namespace choreo::cli {
 namespace {
 
+/// Whoever asks for second 30 of a dance of 30 seconds means its end.
+void ComeToEnd(client::KeyPose* key, const DanceLength& length) {
+  if (!key->frame && FrameOf(*key, length.fps) == length.frames) key->frame = length.frames - 1;
+}
+
 void CheckInside(const client::KeyPose& key, const std::string& place, const DanceLength& length) {
   const int64_t frame = FrameOf(key, length.fps);
   if (frame < length.frames) return;
@@ -47,6 +52,7 @@ DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLeng
         throw InvalidArgument(place + ".id",
                               "\"" + keys[i].id + "\" stands for " + same->second + " already");
       }
+      ComeToEnd(&keys[i], length);
       CheckInside(keys[i], place, length);
       read.poses.push_back(std::move(keys[i]));
       read.places.push_back(place);

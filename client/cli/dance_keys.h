@@ -28,7 +28,8 @@ int64_t FrameOf(const client::KeyPose& key, double fps);
 
 /// Reads key poses from sources as ReadKeys (key_file.h) takes them. Throws what that does, and
 /// Error(kInvalidArgument), whose field begins with the key's place, for an id that an earlier key
-/// has and for a key behind the dance's end.
+/// has and for a key behind the dance's end. A key at the very end, which is
+/// a frame behind the last, is danced on the last.
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton);
 

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "client/cli/key_faults.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
@@ -58,7 +59,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   frames_ = CountModelFrames(dance_, edit_.model);
   options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
   if (!options.song.empty()) {
-    const Music music = ReadMusic(options.song, Seconds(frames_));
+    const Music music = ReadMusic(options.song, Seconds(frames_), options.song_start_s);
     edit_.audio = AudioFor(music.audio, Seconds(frames_));
     edit_.music_beats = BeatsBefore(music, Seconds(frames_));
   }
@@ -86,7 +87,20 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   if (const auto next = keys_.find(edit.to); next != keys_.end())
     edit.to_id = next->second["id"].get<std::string>();
   DropWarnings(edit.from, edit.to);
+  WarnOfFaults(edit);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
+}
+
+void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
+  std::vector<TimedPose> around;
+  for (const int64_t frame : {edit.from, edit.to}) {
+    if (frame < 0 || frame >= frames_) continue;
+    around.push_back(
+        {Rounded(Seconds(frame)) + " s", Seconds(frame), PoseAt(dance_.motion, Seconds(frame))});
+  }
+  const auto faults = KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
+  ShowWarnings(faults);
+  warnings_.insert(warnings_.end(), faults.begin(), faults.end());
 }
 
 void EditSession::CloseLoop() {

@@ -24,6 +24,7 @@ struct EditOptions {
   bool loop = false;
   std::optional<double> around_s;
   std::string song;
+  double song_start_s = 0;
   std::string report;
   std::string new_report;
   std::optional<uint64_t> seed;
@@ -61,6 +62,8 @@ class EditSession {
   int64_t Before(int64_t frame) const;
   int64_t Behind(int64_t frame) const;
 
+  /// Warns of a key that no body could dance where it is set.
+  void WarnOfFaults(const client::KeyEdit& edit);
   /// What was said of frames that are danced anew, and of the way to `to`: of a loop, too, where
   /// the first frame is another one now.
   void DropWarnings(int64_t from, int64_t to);

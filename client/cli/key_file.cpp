@@ -1,5 +1,6 @@
 #include "client/cli/key_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,9 +8,11 @@
 #include <sstream>
 
 #include "client/cli/json_fields.h"
+#include "client/cli/key_joints.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
+#include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/motion/retarget.h"
 
@@ -18,6 +21,9 @@ namespace {
 
 using client::KeyPose;
 using nlohmann::json;
+
+constexpr double kHoldStep = 0.1;    // seconds between the keys that hold a pose
+constexpr double kLongestHold = 60;  // seconds
 
 Eigen::Vector3d Vector(const json& value, const std::string& field) {
   if (!value.is_array() || value.size() != 3) {
@@ -29,6 +35,10 @@ Eigen::Vector3d Vector(const json& value, const std::string& field) {
   }
   return out;
 }
+
+/// What may hold a pose in numbers.
+constexpr const char* kPoseMembers[] = {"rotations",  "root_position", "smpl_poses",
+                                        "smpl_trans", "poses",         "trans"};
 
 void CheckAngles(const Eigen::Matrix3Xd& rotations, const std::string& field) {
   for (Eigen::Index joint = 0; joint < rotations.cols(); ++joint) {
@@ -54,19 +64,6 @@ Eigen::Matrix3Xd Rotations(const json& value, const std::string& field, int join
     out.col(joint) = Vector(value[static_cast<size_t>(joint)], path);
   }
   CheckAngles(out, field);
-  return out;
-}
-
-std::vector<bool> Joints(const json& value, const std::string& field, const Skeleton& skeleton) {
-  if (!value.is_array() || value.empty()) {
-    throw InvalidArgument(field, Shown(value) + " is not a list of joint names");
-  }
-  std::vector<bool> out(static_cast<size_t>(skeleton.joints()), false);
-  for (const json& name : value) {
-    const int joint = name.is_string() ? skeleton.Find(name.get<std::string>()) : -1;
-    if (joint < 0) throw InvalidArgument(field, Shown(name) + " is no joint of " + skeleton.name);
-    out[static_cast<size_t>(joint)] = true;
-  }
   return out;
 }
 
@@ -125,6 +122,33 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
   return key;
 }
 
+/// Whether `joints` are turned to degrees, and not only named.
+bool HasDegrees(const json& value) {
+  return value.contains("joints") && value["joints"].is_object();
+}
+
+bool HasNumbers(const json& value) {
+  return std::ranges::any_of(kPoseMembers, [&](const char* name) { return value.contains(name); });
+}
+
+// The pose of a key that names one, or nothing but joints.
+KeyPose ParseNamed(const json& value, const std::string& field, const Skeleton& skeleton) {
+  for (const char* member : {"place", "facing"}) {
+    if (value.contains(member) && !value.contains("pose"))
+      throw InvalidArgument(field + "." + member, "goes with pose");
+  }
+  if (value.contains("pose")) {
+    for (const char* member : kPoseMembers) {
+      if (!value.contains(member)) continue;
+      throw InvalidArgument(field + "." + member, "stands beside pose; only one may be there");
+    }
+    return ReadNamedPose(value, field, skeleton);
+  }
+  KeyPose key;
+  key.pose = RestPose(skeleton);
+  return key;
+}
+
 // The pose under one of its three names, and whether it says where the dancer is.
 KeyPose ParsePose(const json& value, const std::string& field, const Skeleton& skeleton) {
   struct Names {
@@ -148,7 +172,7 @@ KeyPose ParsePose(const json& value, const std::string& field, const Skeleton& s
     }
     found = &names;
   }
-  if (!found) throw InvalidArgument(field + ".rotations", "is missing");
+  if (!found) throw InvalidArgument(field + ".rotations", "is missing, and so is pose");
   if (found != kNames)
     return ReadSmplKey(value, field, found->rotations, found->position, skeleton);
   KeyPose key;
@@ -162,11 +186,12 @@ KeyPose ParsePose(const json& value, const std::string& field, const Skeleton& s
 KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& skeleton,
                  size_t number) {
   CheckMembers(value, field,
-               {"id", "time", "frame", "root_position", "rotations", "joints", "smpl_poses",
-                "smpl_trans", "poses", "trans"},
-               "a key has id, time or frame, root_position, rotations, joints; or smpl_poses, "
-               "smpl_trans; or poses, trans");
-  KeyPose key = ParsePose(value, field, skeleton);
+               {"id", "time", "frame", "hold", "pose", "place", "facing", "joints", "root_position",
+                "rotations", "smpl_poses", "smpl_trans", "poses", "trans"},
+               "a key has id, time or frame, hold, joints, and pose, place, facing; or "
+               "root_position, rotations; or smpl_poses, smpl_trans; or poses, trans");
+  const bool named = value.contains("pose") || (HasDegrees(value) && !HasNumbers(value));
+  KeyPose key = named ? ParseNamed(value, field, skeleton) : ParsePose(value, field, skeleton);
   key.id = "key" + std::to_string(number);
   if (value.contains("id")) {
     if (!value["id"].is_string() || value["id"].get<std::string>().empty()) {
@@ -177,9 +202,27 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
   const Moment moment = ParseMoment(value, field);
   key.time_s = moment.time_s;
   key.frame = moment.frame;
-  if (value.contains("joints"))
-    key.mask.joints = Joints(value["joints"], field + ".joints", skeleton);
+  if (value.contains("joints")) ReadJoints(value["joints"], field + ".joints", skeleton, &key);
+  if (named && !value.contains("pose")) AskForNamed(value["joints"], skeleton, &key);
   return key;
+}
+
+/// Appends keys that keep a pose for so long: so close together that nothing else fits between.
+void AppendHold(const json& value, const std::string& field, std::vector<KeyPose>* keys) {
+  const double seconds = JsonNumber(value["hold"], field + ".hold");
+  if (!(seconds >= kHoldStep && seconds <= kLongestHold)) {
+    std::ostringstream message;
+    message << Shown(value["hold"]) << " s, must be " << kHoldStep << " to " << kLongestHold;
+    throw InvalidArgument(field + ".hold", message.str());
+  }
+  if (!value.contains("time")) throw InvalidArgument(field + ".hold", "goes with time");
+  const KeyPose key = keys->back();
+  const auto steps = static_cast<int>(std::floor(seconds / kHoldStep + 1e-9));
+  for (int step = 1; step <= steps; ++step) {
+    KeyPose& held = keys->emplace_back(key);
+    held.time_s += seconds * step / steps;
+    held.id += " held " + std::to_string(step);
+  }
 }
 
 double ParseSeconds(std::string_view text, const std::string& source) {
@@ -233,6 +276,7 @@ std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name
       throw InvalidArgument(field + ".id",
                             "\"" + keys.back().id + "\" stands for an earlier key already");
     }
+    if (list[i].contains("hold")) AppendHold(list[i], field, &keys);
   }
   return keys;
 }

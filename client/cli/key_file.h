@@ -22,7 +22,13 @@ namespace choreo::cli {
 /// names, limits it to these. In place of `root_position` and `rotations` there may be
 /// `smpl_poses` and `smpl_trans` as EDGE gives them (72 numbers, Z up, the translation is the
 /// pelvis), or `poses` and `trans` as AMASS does (72, 156 or 165 numbers, Z up, the translation is
-/// SMPL's): formats/amass_npz.h; a model of another skeleton takes them retargeted. Other members
+/// SMPL's): formats/amass_npz.h; a model of another skeleton takes them retargeted.
+///
+/// Or `pose` names one of the library, which `place` ([x, z], metres) and `facing` (degrees) put
+/// somewhere; without `place` the key asks nothing of where the dancer is. `joints` may be an
+/// object of joints in degrees (motion/joint_angles.h), on top of the pose; without a pose the key
+/// asks for these joints alone. In a list, "arms", "left_leg" ... stand for whole limbs. `hold`
+/// keeps the pose for seconds, with further keys "ID held 1", "ID held 2", ... Other members
 /// of the file's outermost object are ignored, so that it may describe itself; within a key they
 /// are errors, so that a misspelt one is found.
 ///

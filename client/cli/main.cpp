@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   choreo::cli::AddInfoCommand(program);
   choreo::cli::AddHealthCommand(program);
   choreo::cli::AddConvertCommand(program);
+  choreo::cli::AddPoseCommand(program);
   choreo::cli::AddPlotCommand(program);
   choreo::cli::AddRenderCommand(program);
   try {

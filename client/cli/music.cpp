@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "model/audio/onset.h"
+#include "model/core/error.h"
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
 namespace {
@@ -13,11 +15,24 @@ constexpr double kAfterglow = 0.5;
 /// Beats are counted at a tempo that is heard in windows of 8 s.
 constexpr double kTempoWindow = 8;
 
+/// Takes the first `seconds` away.
+void LeaveOut(double seconds, const std::filesystem::path& path, DecodedAudio* audio) {
+  const int64_t samples = std::llround(seconds * audio->sample_rate);
+  if (samples >= audio->samples()) {
+    throw InvalidArgument("--song-start", InFull(seconds) + " s lies behind the end of " +
+                                              path.string() + " at " + Rounded(audio->seconds()) +
+                                              " s");
+  }
+  audio->interleaved.erase(audio->interleaved.begin(),
+                           audio->interleaved.begin() + samples * audio->channels);
+}
+
 }  // namespace
 
-Music ReadMusic(const std::filesystem::path& path, double seconds) {
+Music ReadMusic(const std::filesystem::path& path, double seconds, double start) {
   Music music;
-  music.audio = DecodeAudioFile(path, seconds + kTempoWindow);
+  music.audio = DecodeAudioFile(path, start + seconds + kTempoWindow);
+  LeaveOut(start, path, &music.audio);
   music.mono = ToModelRate(music.audio);
   music.onset_strength = OnsetStrength(music.mono, OnsetAggregate::kMedian);
   music.track = TrackBeats(music.onset_strength);

@@ -19,9 +19,10 @@ struct Music {
 };
 
 /// Decodes a song and finds its beats: all of it, or its first `seconds` and what comes after them
-/// as far as they depend on it. Errors as DecodeAudioFile.
+/// as far as they depend on it. With `start`, as if the song began at that second of it. Errors as
+/// DecodeAudioFile; Error(kInvalidArgument) whose field is --song-start for one behind its end.
 Music ReadMusic(const std::filesystem::path& path,
-                double seconds = std::numeric_limits<double>::infinity());
+                double seconds = std::numeric_limits<double>::infinity(), double start = 0);
 
 /// Times of the beats before `seconds`, as DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);

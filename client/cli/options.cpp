@@ -45,6 +45,13 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
                     });
 }
 
+void AddSongStart(CLI::App& command, double& seconds) {
+  command
+      .add_option("--song-start", seconds,
+                  "Second of the song at which the dance begins; what is before it is left out.")
+      ->check(TimeInSeconds());
+}
+
 void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
   command.add_option("--temperature", temperature,
                      "Variety, 0 (calm) to 2; default: the model's. " + kOfChance);

@@ -23,6 +23,9 @@ CLI::Validator TimeInSeconds();
 CLI::Validator NumberFrom(double low, double high);
 CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 
+/// `--song-start`, seconds.
+void AddSongStart(CLI::App& command, double& seconds);
+
 /// `--temperature`.
 void AddTemperature(CLI::App& command, std::optional<double>& temperature);
 /// What the help of every option says that chooses among dances.

@@ -1,9 +1,8 @@
 #include "client/cli/pose_library.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "client/cli/key_file.h"
+#include "client/cli/pose_file.h"
 #include "client/cli/pose_sources.h"
 #include "model/core/error.h"
 #include "model/motion/retarget.h"
@@ -14,22 +13,32 @@ namespace {
 std::vector<LibraryPose> ParseLibrary() {
   std::vector<LibraryPose> poses;
   for (const PoseSource& source : kPoseSources) {
-    const auto keys = ParseKeyFile(source.json, source.name, Skeleton::Smpl24());
-    poses.push_back(
-        {keys.front().id, nlohmann::json::parse(source.json).at("description"), keys.front().pose});
+    DescribedPose read = ParsePoseFile(source.json, source.name, Skeleton::Smpl24());
+    poses.push_back({.id = std::move(read.key.id),
+                     .description = std::move(read.description),
+                     .tags = std::move(read.tags),
+                     .pose = std::move(read.key.pose)});
   }
   return poses;
 }
 
 }  // namespace
 
+const std::vector<std::string>& PoseTags() {
+  static const std::vector<std::string> kTags = {"standing", "travelling", "jump", "floor"};
+  return kTags;
+}
+
 const std::vector<LibraryPose>& PoseLibrary() {
   static const std::vector<LibraryPose> kPoses = ParseLibrary();
   return kPoses;
 }
 
-std::vector<LibraryPose> PoseLibrary(const Skeleton& skeleton) {
+std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton) {
   std::vector<LibraryPose> poses = PoseLibrary();
+  std::erase_if(poses, [](const LibraryPose& pose) {
+    return pose.tags.front() == "jump" || pose.tags.front() == "floor";
+  });
   try {
     for (LibraryPose& pose : poses) pose.pose = Retarget(Skeleton::Smpl24(), pose.pose, skeleton);
   } catch (const Error& error) {

@@ -114,6 +114,7 @@ void AddRenderCommand(CLI::App& program) {
       ->add_option("--song", options->film.format.song,
                    "The video's music: begins with the first frame, ends with the last.")
       ->check(CLI::ExistingFile);
+  AddSongStart(*command, options->film.format.song_start_s);
   command->add_option("--fps", options->film.format.fps, "Frames a second of the video, 1 to 120.")
       ->check(NumberFrom(1, 120))
       ->capture_default_str();

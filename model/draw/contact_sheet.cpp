@@ -68,7 +68,7 @@ struct Header {
   static constexpr int kLine = 26;
 
   Header(const Motion& motion, const ContactSheetOptions& options) {
-    if (!options.rows_apart) {
+    if (!options.rows_apart && options.captions.empty()) {
       char text[96];
       std::snprintf(text, sizeof(text), "%s   %zu frames at %g fps",
                     TimeText(static_cast<double>(motion.frames.size()) / motion.fps).c_str(),
@@ -114,7 +114,7 @@ struct Header {
 };
 
 void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const SheetFrame& shown,
-              int64_t since, double fps, bool numbered) {
+              const std::string& caption, bool numbered) {
   cairo_t* cr = canvas.cr();
   canvas.Paste(picture, x, y);
   // Rounds the corners by painting over what is outside.
@@ -125,7 +125,6 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
   cairo_fill(cr);
 
   const double text_y = y + picture.height + kLabel / 2.0 + 1;
-  const std::string time = TimeText(static_cast<double>(since) / fps);
   if (shown.key) {
     RoundedRectangle(canvas, x + 1.5, y + 1.5, picture.width - 3, picture.height - 3,
                      kCorner - 1.5);
@@ -134,7 +133,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
     cairo_stroke(cr);
   }
   canvas.SetColour(shown.key ? kInk : kFaint);
-  canvas.Text(time, x + 4, text_y, kFont, Align::kLeft, shown.key);
+  canvas.Text(caption, x + 4, text_y, kFont, Align::kLeft, shown.key);
   double right = x + picture.width - 4;
   if (numbered) {
     const std::string number = std::to_string(shown.frame);
@@ -142,8 +141,8 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
     canvas.Text(number, right, text_y, kFont - 2, Align::kRight);
     right -= canvas.TextWidth(number, kFont - 2) + 4;
   }
-  // Beside the time, where it hides nobody; a narrow tile has its frame alone.
-  const double badge = x + 12 + canvas.TextWidth(time, kFont, true);
+  // Beside the caption, where it hides nobody; a narrow tile has its frame alone.
+  const double badge = x + 12 + canvas.TextWidth(caption, kFont, true);
   const double width = canvas.TextWidth("key", kFont - 1, true) + 12;
   if (!shown.key || badge + width > right) return;
   RoundedRectangle(canvas, badge, text_y - 9, width, 18, 6);
@@ -188,6 +187,12 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
   if (motion.frames.empty()) {
     throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
   }
+  const bool captioned = !options.captions.empty();
+  if (captioned && options.captions.size() != motion.frames.size()) {
+    throw InvalidArgument("options.captions", std::to_string(options.captions.size()) +
+                                                  " captions for " +
+                                                  std::to_string(motion.frames.size()) + " frames");
+  }
   CheckWithin("options.columns", options.columns, 1, 100);
   CheckWithin("options.tile_width", options.tile_width, 16, 4096);
   CheckWithin("options.tile_height", options.tile_height, 16, 4096);
@@ -216,11 +221,13 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
     DrawFrame(skeleton, pose, StandingView(poses[i], azimuth, extent),
               KeyStyle(shown[i].key ? 1 : 0), picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
-    DrawTile(
-        canvas, picture, kMargin + column * (options.tile_width + kGap),
-        header + row * (options.tile_height + kLabel), shown[i],
-        shown[i].frame - (options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0),
-        motion.fps, !options.rows_apart);
+    const int64_t since = options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0;
+    const std::string caption =
+        captioned ? options.captions[static_cast<size_t>(shown[i].frame)]
+                  : TimeText(static_cast<double>(shown[i].frame - since) / motion.fps);
+    DrawTile(canvas, picture, kMargin + column * (options.tile_width + kGap),
+             header + row * (options.tile_height + kLabel), shown[i], caption,
+             !options.rows_apart && !captioned);
   }
   canvas.WritePng(png);
 }

@@ -23,12 +23,16 @@ struct ContactSheetOptions {
   /// Each row is a motion of its own: times begin again with it, and what is said of the whole
   /// (length, frame numbers) is left out. `frames` and `columns` must cut the motion so.
   bool rows_apart = false;
+  /// What stands below each frame in place of its time, one a frame of the motion; the length of
+  /// the whole is then left out. Empty: times.
+  std::vector<std::string> captions;
 };
 
 /// Draws a motion as rows of frames, in time from left to right, into a PNG. All frames are seen
 /// from one side, three quarters from the front of the first; the camera goes along with the
 /// dancer over a floor whose grid stands still. Throws Error(kInvalidArgument) for a motion without
-/// frames, a key frame that it does not have, or sizes outside their limits; Error(kInternal) where
+/// frames, a key frame that it does not have, another count of captions than of frames, or sizes
+/// outside their limits; Error(kInternal) where
 /// the file cannot be written. Thread-safe.
 void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
                       const ContactSheetOptions& options, const std::filesystem::path& png);

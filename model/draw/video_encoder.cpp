@@ -56,8 +56,8 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
   };
   if (!format.song.empty()) {
     // A song may hold its cover, which would be a second picture.
-    add({"-i", FileUrl(format.song), "-map", "0:v:0", "-map", "1:a:0", "-c:a", "aac", "-b:a",
-         "192k"});
+    add({"-ss", Decimal(format.song_start_s), "-i", FileUrl(format.song), "-map", "0:v:0", "-map",
+         "1:a:0", "-c:a", "aac", "-b:a", "192k"});
   }
   add({"-c:v", "libx264", "-preset", "medium", "-crf", "18",
        // Players take what is not marked for BT.709 and would shift our colours.

@@ -14,8 +14,10 @@ namespace choreo {
 struct VideoFormat {
   int width = 1280, height = 720;  ///< pixels, even, 16 to 8192
   double fps = 30;                 ///< 1 to 120
-  /// A file with music, which begins with the first frame and ends with the last; none if empty.
+  /// A file with music, which is heard from the first frame on and ends with the last; none if
+  /// empty.
   std::filesystem::path song;
+  double song_start_s = 0;  ///< second of the song that is heard with the first frame
 };
 
 /// Writes an MP4 (H.264, AAC) by the program `ffmpeg`, which runs beside us and takes frames

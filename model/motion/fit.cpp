@@ -53,14 +53,18 @@ std::vector<double> SlowQuantile(const std::vector<double>& values, double q,
 
 }  // namespace
 
-double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose) {
+Eigen::RowVectorXd FloorClearance(const Skeleton& skeleton) {
   const Eigen::RowVectorXd rest = JointPositions(skeleton, RestPose(skeleton)).row(1);
   // Some skeletons have more of the foot than its role names, such as heels.
   Eigen::RowVectorXd clearance = rest.cwiseMin(kBodyClearance);
   for (const int foot : skeleton.feet) {
     if (foot >= 0) clearance[foot] = rest[foot];
   }
-  return (JointPositions(skeleton, pose).row(1) - clearance).minCoeff();
+  return clearance;
+}
+
+double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose) {
+  return (JointPositions(skeleton, pose).row(1) - FloorClearance(skeleton)).minCoeff();
 }
 
 double Ground(const Skeleton& skeleton, Motion& motion) {

@@ -119,8 +119,11 @@ struct FitResult {
   FitReport report;
 };
 
-/// How far the lowest point of the body is above the floor, metres: below a foot joint lies as much
-/// body as at rest, below any other at most 5 cm of it.
+/// [joints] How much of the body lies below each joint where it touches the floor, metres: below a
+/// foot joint as much as at rest, below any other at most 5 cm.
+Eigen::RowVectorXd FloorClearance(const Skeleton& skeleton);
+
+/// How far the lowest point of the body is above the floor, metres, by that clearance.
 double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
 /// Brings the body down to the floor at least every few seconds. What is taken off changes slowly,

@@ -94,6 +94,15 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
     EXPECT_THAT(bad.said,
                 HasSubstr("--suggest-keys: " + count + " is not a whole number from 1 to 1000000"));
   }
+  // Between two moments, counting the beats of the whole song.
+  const nlohmann::json part =
+      nlohmann::json::parse(Choreo(analyze + "2 --from 3 --until 7 --json").said)["suggested_keys"];
+  ASSERT_EQ(part.size(), 2U);
+  for (const nlohmann::json& key : part) {
+    EXPECT_GE(key["time_s"].get<double>(), 3);
+    EXPECT_LE(key["time_s"].get<double>(), 7);
+    EXPECT_EQ(key["time_s"], heard["beats"][key["beat"].get<size_t>()]);
+  }
 }
 
 TEST_F(CommandTest, ConvertsAndDraws) {

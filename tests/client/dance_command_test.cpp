@@ -102,7 +102,83 @@ TEST_F(CommandTest, DancesThroughTheExampleOfTheReadme) {
   const Outcome outcome = Choreo("dance -k '" SOURCE_FOLDER "/examples/keys.json'" + Server() +
                                  At("song.wav") + " --report " + At("r.json"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_EQ(ReadJson(folder_ / "r.json")["keyframes"].size(), 3U);
+  EXPECT_EQ(ReadJson(folder_ / "r.json")["keyframes"].size(), 4U);
+}
+
+TEST_F(CommandTest, DancesThroughTheExampleInWords) {
+  const Outcome outcome = Choreo("dance -k '" SOURCE_FOLDER "/examples/poses.json'" + Server() +
+                                 "-o " + At("d.npz") + " --report " + At("r.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("warning: frame 0")));
+  const nlohmann::json report = ReadJson(folder_ / "r.json");
+  EXPECT_EQ(report["keyframes"].size(), 13U);  // of which five hold one
+  EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
+}
+
+TEST_F(CommandTest, DancesWithoutKeysWhereNoneIsSaid) {
+  WriteClicks(folder_ / "song.wav", 3);
+  const Outcome outcome =
+      Choreo("dance --keyframes none " + At("song.wav") + Server() + "--report " + At("r.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(ReadMotion(folder_ / "song.npz", Body()).frames.size(), 90U);
+  EXPECT_TRUE(ReadJson(folder_ / "r.json")["keyframes"].empty());
+  const Outcome both = Choreo("dance -k none -k x.json " + At("song.wav") + Server());
+  EXPECT_EQ(both.code, 1);
+  EXPECT_THAT(both.said, HasSubstr("--keyframes: none stands beside x.json"));
+  EXPECT_EQ(Choreo("dance -k none" + Server()).code, 2);  // it says of no length
+}
+
+TEST_F(CommandTest, BeginsWhereTheSongIsToBegin) {
+  WriteClicks(folder_ / "song.wav", 6);
+  const Outcome outcome =
+      Choreo("dance --song-start 2.5 -k none " + At("song.wav") + Server() + "-o " + At("d.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(ReadMotion(folder_ / "d.npz", Body()).frames.size(), 105U);
+  const Outcome late = Choreo("dance --song-start 7 " + At("song.wav") + Server());
+  EXPECT_EQ(late.code, 1);
+  EXPECT_THAT(late.said, HasSubstr("--song-start: 7 s lies behind the end of"));
+}
+
+TEST_F(CommandTest, AKeyAtTheVeryEndIsDancedOnTheLastFrame) {
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"time": 0, "pose": "stand"}, {"id": "end", "time": 3, "pose": "kick"}]})";
+  const std::string dance = "dance -k " + At("keys.json") + Server() + "-o " + At("d.npz");
+  ASSERT_EQ(Choreo(dance + " --seconds 3 --report " + At("r.json")).code, 0);
+  EXPECT_EQ(ReadJson(folder_ / "r.json")["keyframes"][1]["frame"], 89);
+  EXPECT_THAT(Choreo(dance + " --seconds 2.9").said, HasSubstr("lies behind the dance's end"));
+}
+
+TEST_F(CommandTest, WarnsOfKeysThatNoBodyCouldDance) {
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"id": "a", "time": 0, "pose": "stand", "place": [0, 0]},
+    {"id": "far", "time": 0.5, "pose": "stand", "place": [5, 0]}]})";
+  const Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("d.npz") +
+                                 " --report " + At("r.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const std::string fault =
+      "keyframes[1]): pelvis would go 10 m/s from \"a\" to \"far\"; people reach 5";
+  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 15: key \"far\" ("));
+  EXPECT_THAT(outcome.said, HasSubstr(fault));
+  const nlohmann::json warnings = ReadJson(folder_ / "r.json")["warnings"];
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0]["message"].get<std::string>(), HasSubstr(fault));
+  EXPECT_EQ(warnings[0]["frame"], 15);
+}
+
+TEST_F(CommandTest, AnEditWarnsOfAKeyThatNoBodyCouldDance) {
+  ASSERT_EQ(Choreo("dance --seconds 4 -o " + At("d.npz") + Server()).code, 0);
+  ASSERT_EQ(Choreo("pose --lift 0 --reach pelvis=0,0.5,0 --out " + At("low.json")).code, 0);
+  ASSERT_EQ(Choreo("pose --from " + At("low.json") +
+                   " --set left_knee=0 --set right_knee=0 "
+                   "--set left_hip=0,0,0 --set right_hip=0,0,0 --out " +
+                   At("sunk.json"))
+                .code,
+            0);
+  const Outcome outcome = Choreo("edit " + At("d.npz") + " --key " + At("sunk.json") +
+                                 " --at 2 -o " + At("e.npz") + Server());
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 60: key \"sunk\": "));
+  EXPECT_THAT(outcome.said, HasSubstr("cm under the floor"));
 }
 
 TEST_F(CommandTest, TheSameSeedWritesTheSameBytes) {

@@ -118,7 +118,7 @@ class NativeSkeletonTest : public testing::Test {
   // Those of SMPL's joints, for a model that has others.
   void ExpectToDanceThroughTheKeyPosesThatShip() const {
     const auto keys =
-        cli::ComposeKeys({.seconds = 4, .beats = {}, .seed = 1}, cli::PoseLibrary(skeleton_));
+        cli::ComposeKeys({.seconds = 4, .beats = {}, .seed = 1}, cli::PosesToDance(skeleton_));
     const client::DanceResult dance =
         client_->Dance({.seed = 1, .frames = 120}, keys, ClicksAudio(4));
     ASSERT_EQ(dance.report.keys.size(), keys.size());
@@ -160,7 +160,7 @@ TEST(PoseLibrary, AsksForKeyframesWhereItCannotBeRetargeted) {
   Skeleton stick = Native().skeleton;
   stick.right_elbow = -1;
   ExpectError(ErrorCode::kInvalidArgument, "--keyframes: key poses are needed",
-              [&] { cli::PoseLibrary(stick); });
+              [&] { cli::PosesToDance(stick); });
 }
 
 }  // namespace

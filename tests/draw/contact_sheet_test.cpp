@@ -49,6 +49,19 @@ TEST(ContactSheet, ChoosesFramesEvenlyAndKeysExactly) {
               [] { ChooseSheetFrames(31, Small({31})); });
 }
 
+TEST(ContactSheet, HasCaptionsInPlaceOfTimes) {
+  const TemporaryFolder folder;
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 2);
+  ContactSheetOptions options = Small();
+  DrawContactSheet(kSmpl, motion, options, folder / "times.png");
+  options.captions = {"front", "back"};
+  DrawContactSheet(kSmpl, motion, options, folder / "captions.png");
+  EXPECT_NE(DecodedPng(folder / "times.png").pixels, DecodedPng(folder / "captions.png").pixels);
+  options.captions = {"front"};
+  ExpectError(ErrorCode::kInvalidArgument, "options.captions: 1 captions for 2 frames",
+              [&] { DrawContactSheet(kSmpl, motion, options, folder / "x.png"); });
+}
+
 TEST(ContactSheet, IsAPictureOfTheMotion) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 31);

@@ -1,0 +1,51 @@
+#include "client/cli/key_faults.h"
+
+#include <algorithm>
+
+namespace choreo::cli {
+namespace {
+
+TimedPose Timed(const client::KeyPose& key, double fps) {
+  return {key.id, static_cast<double>(FrameOf(key, fps)) / fps, key.pose, key.mask};
+}
+
+}  // namespace
+
+std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
+                                       const Skeleton& skeleton) {
+  std::vector<TimedPose> poses;
+  for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
+  std::vector<client::Warning> warnings;
+  for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
+    client::Warning& warning = warnings.emplace_back();
+    warning.frame = FrameOf(keys.poses[fault.pose], fps);
+    warning.message = "key \"" + keys.poses[fault.pose].id + "\" (" + keys.places[fault.pose] +
+                      "): " + fault.message;
+  }
+  return warnings;
+}
+
+std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
+                                       const Skeleton& skeleton,
+                                       const std::vector<TimedPose>& around) {
+  std::vector<TimedPose> poses = around;
+  const TimedPose timed = Timed(key, fps);
+  const auto place = std::ranges::find_if(
+      poses, [&](const TimedPose& pose) { return pose.seconds > timed.seconds; });
+  const auto index = static_cast<size_t>(place - poses.begin());
+  poses.insert(place, timed);
+  std::vector<client::Warning> warnings;
+  for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
+    // What is wrong with the dance around it is not the key's: but ways to and from it are.
+    const bool its_own = fault.pose == index;
+    const bool way_from = fault.pose == index + 1 &&
+                          fault.message.find("from \"" + key.id + "\"") != std::string::npos;
+    if (!its_own && !way_from) continue;
+    client::Warning& warning = warnings.emplace_back();
+    warning.frame = FrameOf(key, fps);
+    warning.message = "key \"" + key.id + "\": " + fault.message;
+  }
+  return warnings;
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "client/cli/commands.h"
+#include "client/cli/key_file.h"
+#include "client/cli/options.h"
+#include "client/cli/output_file.h"
+#include "client/cli/pose_file.h"
+#include "client/cli/pose_library.h"
+#include "client/cli/pose_recipe.h"
+#include "model/core/atomic_file.h"
+#include "model/core/error.h"
+#include "model/draw/contact_sheet.h"
+#include "model/motion/canonical.h"
+#include "model/motion/joint_angles.h"
+#include "model/motion/pose_faults.h"
+
+namespace choreo::cli {
+namespace {
+
+struct PoseOptions {
+  PoseRecipe recipe;
+  double at_s = 0;
+  std::string description;
+  std::vector<std::string> tags;
+  std::string out;
+  std::string png;
+  bool list = false;
+};
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+struct SheetSize {
+  int columns;
+  int tile_width, tile_height;  // pixels
+};
+
+/// A sheet of poses that have captions in place of times.
+void Draw(const std::vector<Pose>& poses, const std::vector<std::string>& captions,
+          const std::string& title, const SheetSize& size, const std::string& png) {
+  ContactSheetOptions sheet;
+  sheet.title = title;
+  sheet.frames = static_cast<int>(poses.size());
+  sheet.captions = captions;
+  sheet.columns = size.columns;
+  sheet.tile_width = size.tile_width;
+  sheet.tile_height = size.tile_height;
+  DrawContactSheet(Body(), {.fps = 1, .frames = poses}, sheet, png);
+}
+
+/// All sides of a pose: three quarters from its front, from its left, and from behind.
+void DrawAround(const client::KeyPose& key, const std::string& png) {
+  const GroundFrame place = GroundFrame::Of(key.pose);
+  std::vector<Pose> sides;
+  for (const double turn : {0.0, -M_PI / 2, M_PI}) {
+    GroundFrame turned;
+    turned.heading = turn;
+    sides.push_back(turned.ToWorld(place.ToLocal(key.pose)));
+  }
+  Draw(sides, {"front", "left", "back"}, key.id, {3, 300, 360}, png);
+}
+
+void PrintAngles(const client::KeyPose& key) {
+  const Eigen::Vector3d& root = key.pose.root_position;
+  std::printf("%s: %s at %.2f, %.2f, %.2f m; degrees:\n", key.id.c_str(),
+              Body().joint_names[0].c_str(), root.x(), root.y(), root.z());
+  for (int joint = 0; joint < Body().joints(); ++joint) {
+    std::string line = Body().joint_names[static_cast<size_t>(joint)];
+    char separator = '=';
+    for (const double degrees : DegreesFromRotation(Body(), joint, key.pose.rotations.col(joint))) {
+      char number[32];
+      std::snprintf(number, sizeof(number), "%c%.0f", separator, std::round(degrees) + 0.0);
+      line += number;
+      separator = ',';
+    }
+    std::puts(line.c_str());
+  }
+}
+
+void List(const PoseOptions& options) {
+  const auto has_tags = [&](const LibraryPose& pose) {
+    return std::ranges::all_of(options.tags, [&](const std::string& tag) {
+      return std::ranges::find(pose.tags, tag) != pose.tags.end();
+    });
+  };
+  std::vector<Pose> poses;
+  std::vector<std::string> names;
+  for (const LibraryPose& pose : PoseLibrary()) {
+    if (!has_tags(pose)) continue;
+    poses.push_back(pose.pose);
+    names.push_back(pose.id);
+    std::printf("%-18s %s  [%s]\n", pose.id.c_str(), pose.description.c_str(),
+                Joined(pose.tags).c_str());
+  }
+  if (poses.empty()) {
+    throw Error(
+        ErrorCode::kNotFound, "--tag",
+        "no pose of the library is " + Joined(options.tags) + "; tags are " + Joined(PoseTags()));
+  }
+  if (options.png.empty()) return;
+  Draw(poses, names, "", {8, 150, 180}, options.png);
+}
+
+void Run(const PoseOptions& options) {
+  if (!options.png.empty()) RequireExtension("--png", options.png, ".png");
+  if (!options.out.empty()) RequireExtension("--out", options.out, ".json");
+  RequireOutputs({{"--out", options.out}, {"--png", options.png}}, {});
+  if (options.list) return List(options);
+  client::KeyPose key = MakePose(options.recipe, Body());
+  for (const std::string& fault : PoseFaults(Body(), key.pose, key.mask))
+    std::cerr << "warning: " << fault << '\n';
+  if (!options.out.empty()) {
+    key.id = std::filesystem::path(options.out).stem().string();
+    key.time_s = options.at_s;
+    key.frame.reset();
+    WriteFile(options.out, PoseFileText({key, options.description, options.tags}, Body()));
+  }
+  if (!options.png.empty()) DrawAround(key, options.png);
+  if (options.out.empty() && options.png.empty()) PrintAngles(key);
+}
+
+}  // namespace
+
+void AddPoseCommand(CLI::App& program) {
+  auto options = std::make_shared<PoseOptions>();
+  PoseRecipe& recipe = options->recipe;
+  CLI::App* command = program.add_subcommand(
+      "pose",
+      "Make a key pose: from another one, with joints in degrees, hands and feet in places.\n"
+      "It is done in the order of the options below. Without --out and --png the joints are "
+      "printed, in degrees.");
+  command
+      ->add_option("--from", recipe.from,
+                   "A pose of the library (--list), rest (arms out to the sides), a key file, or "
+                   "MOTION@SECOND.")
+      ->capture_default_str();
+  AddRepeated(*command, "--set", recipe.set,
+              "JOINT=DEGREES. Knees and elbows take one number, how far they bend; other joints "
+              "three, as in left_shoulder=10,0,-45: turns about x (to the dancer's left), y (up) "
+              "and z (forward), in this order. May be given more than once.");
+  CLI::Option* ground = command->add_flag_callback(
+      "--ground", [options] { options->recipe.height_m = 0; },
+      "Put the lowest point of the body onto the floor.");
+  command
+      ->add_option("--lift", recipe.height_m,
+                   "Put it so many metres above the floor, for a jump. Not with --ground.")
+      ->check(NumberFrom(0, 1.2))
+      ->excludes(ground);
+  AddRepeated(*command, "--reach", recipe.reach,
+              "JOINT=X,Y,Z: draw a joint to a place, metres, as in right_hand=0.3,1.6,0.2. Feet "
+              "that are not drawn stay where they are; a foot's height is its sole's. May be given "
+              "more than once.");
+  command->add_flag("--mirror", recipe.mirror, "Make left what is right.");
+  command->add_option("--at", options->at_s, "Second of the dance for the key that is written.")
+      ->check(TimeInSeconds())
+      ->capture_default_str();
+  command->add_option("--description", options->description, "Is written with the pose.");
+  AddRepeated(*command, "--tag", options->tags,
+              "Is written with the pose; with --list, only poses that have it. May be given more "
+              "than once.");
+  command->add_option("-o,--out", options->out, "Key file to write, FILE.json.");
+  command->add_option("--png", options->png, "Picture to write: the pose from three sides.");
+  command->add_flag("--list", options->list,
+                    "Show the poses of the library instead; with --png as a picture.");
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,112 @@
+#include "client/cli/pose_recipe.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "client/cli/pose_source.h"
+#include "model/body/ground.h"
+#include "model/core/error.h"
+#include "model/core/rounded.h"
+#include "model/motion/fit.h"
+#include "model/motion/inverse_kinematics.h"
+#include "model/motion/joint_angles.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/mirror.h"
+
+namespace choreo::cli {
+namespace {
+
+constexpr double kOutOfReach = 0.01;  // metres
+
+/// "left_elbow=90": a joint and its numbers.
+struct Assignment {
+  std::string field;  ///< the option as it was given
+  int joint = -1;
+  std::vector<double> numbers = {};
+};
+
+Assignment Parse(const std::string& option, const std::string& text, const Skeleton& skeleton) {
+  Assignment parsed{.field = option + " " + text};
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw InvalidArgument(parsed.field, "has no =, as in left_elbow=90");
+  parsed.joint = RequireJoint(skeleton, text.substr(0, equals), parsed.field);
+  std::string_view rest = std::string_view(text).substr(equals + 1);
+  while (true) {
+    const std::string_view item = rest.substr(0, rest.find(','));
+    double number = 0;
+    const char* end = item.data() + item.size();
+    const auto [stop, code] = std::from_chars(item.data(), end, number);
+    if (code != std::errc() || stop != end || !std::isfinite(number))
+      throw InvalidArgument(parsed.field, "\"" + std::string(item) + "\" is not a number");
+    parsed.numbers.push_back(number);
+    if (item.size() == rest.size()) return parsed;
+    rest.remove_prefix(item.size() + 1);
+  }
+}
+
+client::KeyPose Begin(const std::string& from, const Skeleton& skeleton) {
+  if (from != "rest") return ReadPose(from, skeleton).key;
+  client::KeyPose key;
+  key.id = from;
+  key.pose = RestPose(skeleton);
+  return key;
+}
+
+void Set(const std::vector<std::string>& set, const Skeleton& skeleton, client::KeyPose* key) {
+  for (const std::string& text : set) {
+    const auto [field, joint, degrees] = Parse("--set", text, skeleton);
+    key->pose.rotations.col(joint) = RotationFromDegrees(skeleton, joint, degrees, field);
+    if (!key->mask.joints.empty()) key->mask.joints[static_cast<size_t>(joint)] = true;
+  }
+}
+
+void Draw(const std::vector<std::string>& reach, const Skeleton& skeleton, Pose* pose) {
+  std::vector<JointTarget> targets;
+  std::vector<std::string> fields;
+  for (const std::string& text : reach) {
+    auto [field, joint, place] = Parse("--reach", text, skeleton);
+    if (place.size() != 3)
+      throw InvalidArgument(field, "takes three numbers, metres along x, y and z; there are " +
+                                       std::to_string(place.size()));
+    if (std::ranges::find(targets, joint, &JointTarget::joint) != targets.end())
+      throw InvalidArgument(field, "this joint has a target already");
+    if (std::ranges::find(skeleton.feet, joint) != skeleton.feet.end())
+      place[1] += FloorClearance(skeleton)[joint];
+    targets.push_back({joint, {place[0], place[1], place[2]}});
+    fields.push_back(std::move(field));
+  }
+  DrawnPose drawn = DrawJoints(skeleton, *pose, targets);
+  for (size_t i = 0; i < targets.size(); ++i) {
+    if (drawn.missed_m[i] <= kOutOfReach) continue;
+    throw InvalidArgument(
+        fields[i],
+        "is out of reach: " + skeleton.joint_names[static_cast<size_t>(targets[i].joint)] +
+            " ended " + Rounded(100 * drawn.missed_m[i]) + " cm off, and may be 1 cm");
+  }
+  *pose = std::move(drawn.pose);
+}
+
+void MirrorKey(const Skeleton& skeleton, client::KeyPose* key) {
+  const std::vector<int> pairs = MirrorPairs(skeleton);
+  key->pose = Mirror(pairs, key->pose);
+  const std::vector<bool> joints = key->mask.joints;
+  for (size_t joint = 0; joint < joints.size(); ++joint)
+    key->mask.joints[joint] = joints[static_cast<size_t>(pairs[joint])];
+}
+
+}  // namespace
+
+client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton) {
+  client::KeyPose key = Begin(recipe.from, skeleton);
+  Set(recipe.set, skeleton, &key);
+  if (recipe.height_m)
+    key.pose.root_position.y() += *recipe.height_m - DollAboveFloor(skeleton, key.pose);
+  Draw(recipe.reach, skeleton, &key.pose);
+  if (recipe.mirror) MirrorKey(skeleton, &key);
+  return key;
+}
+
+}  // namespace choreo::cli

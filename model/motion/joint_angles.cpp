@@ -1,0 +1,96 @@
+#include "model/motion/joint_angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "model/core/error.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;  // a radian
+constexpr double kMostBend = 160;
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
+// Degrees either way about each axis, by a part of the joint's name.
+constexpr struct {
+  std::string_view part;
+  double most;
+} kMostTurn[] = {{"collar", 60}, {"wrist", 90}, {"ankle", 80}, {"foot", 60},
+                 {"toe", 60},    {"spine", 60}, {"neck", 80},  {"head", 80}};
+
+std::optional<Hinge> HingeAt(const Skeleton& skeleton, int joint) {
+  for (const Hinge& hinge : Hinges(skeleton)) {
+    if (hinge.joint == joint) return hinge;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+int AngleCount(const Skeleton& skeleton, int joint) { return HingeAt(skeleton, joint) ? 1 : 3; }
+
+AngleRange RangeOf(const Skeleton& skeleton, int joint) {
+  if (HingeAt(skeleton, joint)) return {0, kMostBend};
+  const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];
+  for (const auto& [part, most] : kMostTurn) {
+    if (name.find(part) != std::string::npos) return {-most, most};
+  }
+  return {-180, 180};
+}
+
+int RequireJoint(const Skeleton& skeleton, const std::string& name, const std::string& field) {
+  const int joint = skeleton.Find(name);
+  if (joint >= 0) return joint;
+  std::string known;
+  for (const std::string& other : skeleton.joint_names)
+    known += (known.empty() ? "" : ", ") + other;
+  throw InvalidArgument(
+      field, "\"" + name + "\" is no joint of " + skeleton.name + ", which has " + known);
+}
+
+Eigen::Vector3d RotationFromDegrees(const Skeleton& skeleton, int joint,
+                                    std::span<const double> degrees, const std::string& field) {
+  const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];
+  const std::optional<Hinge> hinge = HingeAt(skeleton, joint);
+  if (degrees.size() != (hinge ? 1 : 3)) {
+    throw InvalidArgument(field, name + " takes " +
+                                     (hinge ? "one number, the degrees of its bend"
+                                            : "three numbers, degrees about x, y and z") +
+                                     "; there are " + std::to_string(degrees.size()));
+  }
+  const auto [low, high] = RangeOf(skeleton, joint);
+  for (size_t i = 0; i < degrees.size(); ++i) {
+    if (degrees[i] >= low && degrees[i] <= high) continue;
+    std::ostringstream message;
+    message << name << " is at " << degrees[i] << " degrees"
+            << (hinge ? "" : std::string(" about ") + kAxes[i]) << ", must be " << low << " to "
+            << high;
+    throw InvalidArgument(field, message.str());
+  }
+  if (hinge) return degrees[0] / kDegrees * hinge->axis;
+  const auto turn = [&](int axis) {
+    return ExpMap(degrees[static_cast<size_t>(axis)] / kDegrees * Eigen::Vector3d::Unit(axis));
+  };
+  return LogMap(turn(2) * turn(1) * turn(0));
+}
+
+std::vector<double> DegreesFromRotation(const Skeleton& skeleton, int joint,
+                                        const Eigen::Vector3d& rotation) {
+  if (const auto hinge = HingeAt(skeleton, joint)) return {kDegrees * hinge->axis.dot(rotation)};
+  const Eigen::Matrix3d r = ExpMap(rotation);
+  const double cosine = std::hypot(r(0, 0), r(1, 0));  // of the turn about y
+  // Where y is a quarter turn, x and z turn about one axis: x then has all of it.
+  const bool locked = cosine < 1e-9;
+  const double x = locked ? std::atan2(-r(1, 2), r(1, 1)) : std::atan2(r(2, 1), r(2, 2));
+  const double y = std::atan2(-r(2, 0), cosine);
+  const double z = locked ? 0 : std::atan2(r(1, 0), r(0, 0));
+  return {kDegrees * x, kDegrees * y, kDegrees * z};
+}
+
+}  // namespace choreo

@@ -1,0 +1,125 @@
+#include "model/motion/pose_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/core/rounded.h"
+#include "model/motion/fit.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;  // a radian
+constexpr double kUnderFloor = 0.05;                 // metres that a rounded pose may be
+constexpr double kHighestJump = 1.2;                 // metres that feet are above the floor
+constexpr double kBackwards = 15;                    // degrees; more than real limbs, or recordings
+constexpr double kFolded = 165;                      // degrees
+constexpr double kInAir = 0.15;                      // metres; less may be tiptoe
+constexpr double kLongestJump = 1.0;                 // seconds
+constexpr double kBodySpeed = 5;                     // m/s
+constexpr double kLimbSpeed = 7;
+
+/// Where each joint is, as far as the rotations above it are asked for.
+std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask) {
+  std::vector<bool> known(static_cast<size_t>(skeleton.joints()), true);
+  for (size_t joint = 1; joint < known.size(); ++joint) {
+    const int parent = skeleton.parents[joint];
+    known[joint] = known[static_cast<size_t>(parent)] && mask.Asks(parent);
+  }
+  return known;
+}
+
+bool AsksForAll(const PoseMask& mask) {
+  return mask.root_position && std::ranges::find(mask.joints, false) == mask.joints.end();
+}
+
+std::string FloorFault(const Skeleton& skeleton, const Pose& pose, const PoseMask& mask) {
+  const Eigen::RowVectorXd depth = FloorClearance(skeleton) - JointPositions(skeleton, pose).row(1);
+  const std::vector<bool> known = KnownPlaces(skeleton, mask);
+  Eigen::Index deepest = 0;
+  for (Eigen::Index joint = 0; joint < depth.cols(); ++joint) {
+    if (known[static_cast<size_t>(joint)] && depth[joint] > depth[deepest]) deepest = joint;
+  }
+  if (depth[deepest] > kUnderFloor) {
+    return skeleton.joint_names[static_cast<size_t>(deepest)] + " is " +
+           Rounded(100 * depth[deepest]) + " cm under the floor";
+  }
+  if (!AsksForAll(mask) || -depth.maxCoeff() <= kHighestJump) return "";
+  return "the body hangs " + Rounded(-depth.maxCoeff()) + " m above the floor; nobody jumps " +
+         Rounded(kHighestJump) + " m";
+}
+
+void AddHingeFaults(const Skeleton& skeleton, const Pose& pose, const PoseMask& mask,
+                    std::vector<std::string>* faults) {
+  for (const Hinge& hinge : Hinges(skeleton)) {
+    if (!mask.Asks(hinge.joint)) continue;
+    const double bend = kDegrees * hinge.axis.dot(pose.rotations.col(hinge.joint));
+    const std::string& name = skeleton.joint_names[static_cast<size_t>(hinge.joint)];
+    if (bend < -kBackwards)
+      faults->push_back(name + " bends " + Rounded(-bend) + " degrees backwards");
+    if (bend > kFolded)
+      faults->push_back(name + " bends " + Rounded(bend) +
+                        " degrees, further than the body allows");
+  }
+}
+
+/// The fastest joint on the straight way between two poses, beside what people reach.
+std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const TimedPose& to) {
+  const double seconds = to.seconds - from.seconds;
+  if (!from.mask.root_position || !to.mask.root_position || !(seconds > 0)) return "";
+  const Eigen::Matrix3Xd way =
+      JointPositions(skeleton, to.pose) - JointPositions(skeleton, from.pose);
+  const auto say = [&](int joint, double most) {
+    return skeleton.joint_names[static_cast<size_t>(joint)] + " would go " +
+           Rounded(way.col(joint).norm() / seconds) + " m/s from \"" + from.name + "\" to \"" +
+           to.name + "\"; people reach " + Rounded(most);
+  };
+  if (way.col(0).norm() / seconds > kBodySpeed) return say(0, kBodySpeed);
+  const std::vector<bool> begins = KnownPlaces(skeleton, from.mask);
+  const std::vector<bool> ends = KnownPlaces(skeleton, to.mask);
+  Eigen::Index fastest = 0;
+  for (Eigen::Index joint = 0; joint < way.cols(); ++joint) {
+    const auto i = static_cast<size_t>(joint);
+    if (begins[i] && ends[i] && way.col(joint).norm() > way.col(fastest).norm()) fastest = joint;
+  }
+  if (way.col(fastest).norm() / seconds <= kLimbSpeed) return "";
+  return say(static_cast<int>(fastest), kLimbSpeed);
+}
+
+}  // namespace
+
+std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
+                                    const PoseMask& mask) {
+  std::vector<std::string> faults;
+  if (mask.root_position) faults.push_back(FloorFault(skeleton, pose, mask));
+  std::erase(faults, "");
+  AddHingeFaults(skeleton, pose, mask, &faults);
+  return faults;
+}
+
+std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses) {
+  std::vector<TimedFault> faults;
+  size_t in_air = 0;  // poses since the floor was left
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const TimedPose& one = poses[i];
+    for (std::string& fault : PoseFaults(skeleton, one.pose, one.mask))
+      faults.push_back({i, std::move(fault)});
+    if (i > 0) {
+      if (std::string fault = SpeedFault(skeleton, poses[i - 1], one); !fault.empty())
+        faults.push_back({i, std::move(fault)});
+    }
+    in_air = AsksForAll(one.mask) && HeightAboveFloor(skeleton, one.pose) > kInAir ? in_air + 1 : 0;
+    if (in_air < 2) continue;
+    const TimedPose& left = poses[i + 1 - in_air];
+    if (one.seconds - left.seconds <= kLongestJump) continue;
+    faults.push_back({i, "the body would be in the air for " + Rounded(one.seconds - left.seconds) +
+                             " s, since \"" + left.name + "\"; a jump takes " +
+                             Rounded(kLongestJump)});
+    in_air = 0;  // once is enough
+  }
+  return faults;
+}
+
+}  // namespace choreo

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// What no body does, though a pose may say so; in words for people. Pure functions, which throw
+/// Error(kInvalidArgument) for a pose or mask of another joint count.
+namespace choreo {
+
+/// Of one pose, as far as `mask` asks for it: "left_foot is 12 cm under the floor", "the body hangs
+/// 1.5 m above the floor", "right_knee bends 40 degrees backwards".
+std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
+                                    const PoseMask& mask = {});
+
+/// A pose that is asked for at a moment.
+struct TimedPose {
+  std::string name;
+  double seconds = 0;
+  Pose pose;
+  PoseMask mask = {};
+};
+
+/// What is wrong with one of them.
+struct TimedFault {
+  size_t pose = 0;  ///< its index
+  std::string message;
+};
+
+/// Of poses in time, by time: the faults of each; ways that are too fast for a limb or the whole
+/// body ("left_hand would go 9.3 m/s from "a" to "b"; people reach 7"); and a body that is in the
+/// air for longer than a jump takes.
+std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses);
+
+}  // namespace choreo

@@ -1,0 +1,139 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "client/cli/json_fields.h"
+#include "client/cli/pose_file.h"
+#include "client/cli/pose_library.h"
+#include "client/cli/pose_recipe.h"
+#include "client/cli/pose_source.h"
+#include "model/body/ground.h"
+#include "model/motion/kinematics.h"
+#include "tests/client/run_choreo.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo::cli {
+namespace {
+
+using testing::HasSubstr;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+class PoseCommandTest : public testing::Test {
+ protected:
+  std::string At(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+  Pose Read(const std::string& name) const {
+    return ReadPose((folder_ / name).string(), Body()).key.pose;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(PoseCommandTest, WritesAKeyAndAPicture) {
+  const Outcome outcome = Choreo(
+      "pose --from kick --set left_elbow=90 --reach right_hand=0.3,1.6,0.2 --mirror "
+      "--ground --out " +
+      At("p.json") + " --png " + At("out.png"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_GT(std::filesystem::file_size(folder_ / "out.png"), 10'000U);
+  const Pose pose = Read("p.json");
+  const Eigen::Matrix3Xd joints = JointPositions(Body(), pose);
+  // Mirrored: the hand that was drawn is the left one, SMPL's sides differ by millimetres.
+  EXPECT_LT((joints.col(Body().Find("left_hand")) - Eigen::Vector3d(-0.3, 1.6, 0.2)).norm(), 0.03);
+  EXPECT_NEAR(DollAboveFloor(Body(), pose), 0, 0.02);
+  const Hinge elbow = Hinges(Body())[3];
+  EXPECT_NEAR(elbow.axis.dot(pose.rotations.col(elbow.joint)), M_PI / 2, 0.3);
+}
+
+TEST_F(PoseCommandTest, WhatIsWrittenIsReadAgainAndIsAKeyOfADance) {
+  ASSERT_EQ(Choreo("pose --from groove --at 2.5 --description 'Low \"and\" loose' --tag standing "
+                   "--out " +
+                   At("mine.json"))
+                .code,
+            0);
+  const std::string path = (folder_ / "mine.json").string();
+  const DescribedPose read = ParsePoseFile(ReadText(path, "pose"), path, Body());
+  EXPECT_EQ(read.key.id, "mine");
+  EXPECT_EQ(read.key.time_s, 2.5);
+  EXPECT_EQ(read.description, "Low \"and\" loose");
+  EXPECT_EQ(read.tags, std::vector<std::string>{"standing"});
+  EXPECT_LT(ComparePoses(Body(), read.key.pose, FindLibraryPose("groove").pose).position_m, 1e-3);
+  EXPECT_EQ(PoseFileText(read, Body()), ReadText(path, "pose"));
+}
+
+TEST_F(PoseCommandTest, PrintsJointsInDegrees) {
+  const Outcome outcome = Choreo("pose --set left_elbow=90 --set neck=-10,20,5");
+  EXPECT_THAT(outcome.said, HasSubstr("left_elbow=90\n"));
+  EXPECT_THAT(outcome.said, HasSubstr("neck=-10,20,5\n"));
+  EXPECT_THAT(outcome.said, HasSubstr("head=0,0,0\n"));
+}
+
+TEST_F(PoseCommandTest, ListsTheLibraryByTag) {
+  const Outcome all = Choreo("pose --list --png " + At("all.png"));
+  EXPECT_EQ(all.code, 0);
+  for (const LibraryPose& pose : PoseLibrary()) EXPECT_THAT(all.said, HasSubstr(pose.id));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "all.png"));
+  const Outcome none = Choreo("pose --list --tag flying");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_THAT(none.said, HasSubstr("no pose of the library is flying; tags are standing, "));
+}
+
+TEST_F(PoseCommandTest, ErrorsNameTheOptionTheValueAndTheLimit) {
+  const auto refused = [](const PoseRecipe& recipe, const std::string& part) {
+    ExpectError(ErrorCode::kInvalidArgument, part, [&] { MakePose(recipe, Body()); });
+  };
+  const auto set = [](const std::string& text) {
+    PoseRecipe recipe;
+    recipe.set = {text};
+    return recipe;
+  };
+  const auto reach = [](const std::vector<std::string>& texts) {
+    PoseRecipe recipe;
+    recipe.reach = texts;
+    return recipe;
+  };
+  refused(set("left_elbow=200"),
+          "--set left_elbow=200: left_elbow is at 200 degrees, must be 0 to 160");
+  refused(set("left_elbow"), "--set left_elbow: has no =, as in left_elbow=90");
+  refused(set("left_elbow=x"), "--set left_elbow=x: \"x\" is not a number");
+  refused(set("tail=1"), "--set tail=1: \"tail\" is no joint of smpl24, which has pelvis");
+  refused(reach({"head=1,2"}), "--reach head=1,2: takes three numbers, metres along x, y and z");
+  refused(reach({"head=0,1,0", "head=0,1,0"}), "this joint has a target already");
+  refused(reach({"right_hand=0,4,0"}),
+          "--reach right_hand=0,4,0: is out of reach: right_hand ended");
+}
+
+TEST_F(PoseCommandTest, AFootsHeightIsItsSoles) {
+  PoseRecipe recipe;
+  recipe.reach = {"left_foot=0.4,0,0.2"};
+  const Pose pose = MakePose(recipe, Body()).pose;
+  EXPECT_NEAR(DollAboveFloor(Body(), pose), 0, 0.01);
+}
+
+TEST_F(PoseCommandTest, WarnsOfWhatNoBodyDoes) {
+  ASSERT_EQ(Choreo("pose --reach pelvis=0,0.5,0 --out " + At("low.json")).code, 0);
+  const Outcome outcome = Choreo("pose --from " + At("low.json") +
+                                 " --set left_knee=0 --set right_knee=0 --set left_hip=0,0,0 "
+                                 "--set right_hip=0,0,0");
+  EXPECT_THAT(outcome.said, HasSubstr("warning: left_"));
+  EXPECT_THAT(outcome.said, HasSubstr("cm under the floor"));
+}
+
+TEST_F(PoseCommandTest, MirrorsTheMaskToo) {
+  std::ofstream(folder_ / "arm.json") << R"({"keyframes": [{"time": 1, "joints": ["left_elbow"],
+    "rotations": [[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],
+    [0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,-1,0],[0,0,0],[0,0,0],
+    [0,0,0],[0,0,0],[0,0,0]]}]})";
+  PoseRecipe recipe;
+  recipe.from = (folder_ / "arm.json").string();
+  recipe.mirror = true;
+  const client::KeyPose key = MakePose(recipe, Body());
+  EXPECT_TRUE(key.mask.Asks(Body().right_elbow));
+  EXPECT_FALSE(key.mask.Asks(Body().left_elbow));
+  EXPECT_NEAR(key.pose.rotations(1, Body().right_elbow), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace choreo::cli

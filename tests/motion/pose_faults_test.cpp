@@ -1,0 +1,84 @@
+#include "model/motion/pose_faults.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+Pose At(double x, double lift = 0) {
+  Pose pose = RestPose(Body());
+  pose.root_position += Eigen::Vector3d(x, lift, 0);
+  return pose;
+}
+
+std::vector<std::string> Messages(const std::vector<TimedPose>& poses) {
+  std::vector<std::string> messages;
+  for (const TimedFault& fault : DanceFaults(Body(), poses))
+    messages.push_back(poses[fault.pose].name + ": " + fault.message);
+  return messages;
+}
+
+TEST(PoseFaults, NamesWhatNoBodyDoes) {
+  EXPECT_THAT(PoseFaults(Body(), At(0)), IsEmpty());
+  EXPECT_THAT(PoseFaults(Body(), At(0, 0.4)), IsEmpty());  // a jump
+  EXPECT_THAT(PoseFaults(Body(), At(0, -0.12)),
+              ElementsAre(testing::HasSubstr("_ankle is 12 cm under the floor")));
+  EXPECT_THAT(PoseFaults(Body(), At(0, 1.5)),
+              ElementsAre("the body hangs 1.5 m above the floor; nobody jumps 1.2 m"));
+  Pose knee = At(0);
+  const Hinge hinge = Hinges(Body())[1];
+  knee.rotations.col(hinge.joint) = -0.7 * hinge.axis;
+  knee.root_position.y() = *StandingHeight(Body(), knee);
+  EXPECT_THAT(PoseFaults(Body(), knee), ElementsAre("right_knee bends 40.11 degrees backwards"));
+  knee.rotations.col(hinge.joint) = 3 * hinge.axis;
+  EXPECT_THAT(PoseFaults(Body(), knee),
+              ElementsAre(testing::StartsWith("right_knee bends 171.89 degrees, further")));
+}
+
+TEST(PoseFaults, WhatIsNotAskedForIsNoFault) {
+  Pose pose = At(0, -0.3);
+  const Hinge hinge = Hinges(Body())[0];
+  pose.rotations.col(hinge.joint) = -hinge.axis;
+  PoseMask head;
+  head.root_position = false;
+  head.joints.assign(24, false);
+  head.joints[15] = true;
+  EXPECT_THAT(PoseFaults(Body(), pose, head), IsEmpty());
+  // Of whom only the place is asked, the pelvis is known to be above the floor, the feet are not.
+  PoseMask place = head;
+  place.root_position = true;
+  EXPECT_THAT(PoseFaults(Body(), pose, place), IsEmpty());
+}
+
+TEST(DanceFaults, NamesWaysThatAreTooFast) {
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"b", 2, At(4)}}), IsEmpty());
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"b", 1.5, At(4)}}),
+              ElementsAre("b: pelvis would go 8 m/s from \"a\" to \"b\"; people reach 5"));
+  Pose up = At(0), down = At(0);
+  up.rotations(2, Body().left_shoulder) = 1.5;
+  down.rotations(2, Body().left_shoulder) = -1.5;
+  EXPECT_THAT(Messages({{"up", 1, up}, {"down", 1.5, down}}), IsEmpty());
+  EXPECT_THAT(Messages({{"up", 1, up}, {"down", 1.1, down}}),
+              ElementsAre(testing::StartsWith("down: left_hand would go 12")));
+  PoseMask nowhere;
+  nowhere.root_position = false;
+  EXPECT_THAT(Messages({{"a", 1, At(0)}, {"b", 1.5, At(4), nowhere}}), IsEmpty());
+}
+
+TEST(DanceFaults, NamesBodiesThatStayInTheAir) {
+  EXPECT_THAT(Messages({{"a", 1, At(0, 0.4)}, {"b", 1.6, At(0, 0.4)}, {"c", 2.4, At(0)}}),
+              IsEmpty());
+  EXPECT_THAT(Messages({{"a", 1, At(0, 0.4)}, {"b", 3, At(0, 0.4)}, {"c", 4, At(0)}}),
+              ElementsAre("b: the body would be in the air for 2 s, since \"a\"; a jump takes 1"));
+}
+
+}  // namespace
+}  // namespace choreo
