@@ -18,8 +18,7 @@ constexpr double kBackwards = 15;                    // degrees; more than real 
 constexpr double kFolded = 165;                      // degrees
 constexpr double kInAir = 0.15;                      // metres; less may be tiptoe
 constexpr double kLongestJump = 1.0;                 // seconds
-constexpr double kBodySpeed = 5;                     // m/s
-constexpr double kLimbSpeed = 7;
+constexpr double kLimbSpeed = 7;                     // m/s, about the body
 
 /// Where each joint is, as far as the rotations above it are asked for.
 std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask) {
@@ -65,18 +64,12 @@ void AddHingeFaults(const Skeleton& skeleton, const Pose& pose, const PoseMask& 
   }
 }
 
-/// The fastest joint on the straight way between two poses, beside what people reach.
+/// The joint that is fastest as seen from the root, on the straight way between two poses.
 std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const TimedPose& to) {
   const double seconds = to.seconds - from.seconds;
-  if (!from.mask.root_position || !to.mask.root_position || !(seconds > 0)) return "";
-  const Eigen::Matrix3Xd way =
-      JointPositions(skeleton, to.pose) - JointPositions(skeleton, from.pose);
-  const auto say = [&](int joint, double most) {
-    return skeleton.joint_names[static_cast<size_t>(joint)] + " would go " +
-           Rounded(way.col(joint).norm() / seconds) + " m/s from \"" + from.name + "\" to \"" +
-           to.name + "\"; people reach " + Rounded(most);
-  };
-  if (way.col(0).norm() / seconds > kBodySpeed) return say(0, kBodySpeed);
+  if (!(seconds > 0)) return "";
+  Eigen::Matrix3Xd way = JointPositions(skeleton, to.pose) - JointPositions(skeleton, from.pose);
+  way.colwise() -= way.col(0).eval();
   const std::vector<bool> begins = KnownPlaces(skeleton, from.mask);
   const std::vector<bool> ends = KnownPlaces(skeleton, to.mask);
   Eigen::Index fastest = 0;
@@ -84,8 +77,11 @@ std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const Ti
     const auto i = static_cast<size_t>(joint);
     if (begins[i] && ends[i] && way.col(joint).norm() > way.col(fastest).norm()) fastest = joint;
   }
-  if (way.col(fastest).norm() / seconds <= kLimbSpeed) return "";
-  return say(static_cast<int>(fastest), kLimbSpeed);
+  const double speed = way.col(fastest).norm() / seconds;
+  if (speed <= kLimbSpeed) return "";
+  return skeleton.joint_names[static_cast<size_t>(fastest)] + " would go " + Rounded(speed) +
+         " m/s about the body from \"" + from.name + "\" to \"" + to.name + "\"; people reach " +
+         Rounded(kLimbSpeed);
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ struct TimedFault {
   std::string message;
 };
 
-/// Of poses in time, by time: the faults of each; ways that are too fast for a limb or the whole
-/// body ("left_hand would go 9.3 m/s from "a" to "b"; people reach 7"); and a body that is in the
-/// air for longer than a jump takes.
+/// Of poses in time, by time: the faults of each; limbs that would be too fast ("left_hand would go
+/// 9.3 m/s about the body from "a" to "b"; people reach 7"); and a body that is in the air for
+/// longer than a jump takes. Of a body that travels too fast the server tells.
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses);
 
 }  // namespace choreo

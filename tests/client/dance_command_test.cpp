@@ -150,19 +150,17 @@ TEST_F(CommandTest, AKeyAtTheVeryEndIsDancedOnTheLastFrame) {
 
 TEST_F(CommandTest, WarnsOfKeysThatNoBodyCouldDance) {
   std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
-    {"id": "a", "time": 0, "pose": "stand", "place": [0, 0]},
-    {"id": "far", "time": 0.5, "pose": "stand", "place": [5, 0]}]})";
+    {"id": "a", "time": 1, "pose": "star_jump", "place": [0, 0]},
+    {"id": "up", "time": 3, "pose": "star_jump", "place": [0, 0]}]})";
   const Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("d.npz") +
                                  " --report " + At("r.json"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const std::string fault =
-      "keyframes[1]): pelvis would go 10 m/s from \"a\" to \"far\"; people reach 5";
-  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 15: key \"far\" ("));
+      "keyframes[1]): the body would be in the air for 2 s, since \"a\"; a jump takes 1";
+  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 90: key \"up\" ("));
   EXPECT_THAT(outcome.said, HasSubstr(fault));
-  const nlohmann::json warnings = ReadJson(folder_ / "r.json")["warnings"];
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_THAT(warnings[0]["message"].get<std::string>(), HasSubstr(fault));
-  EXPECT_EQ(warnings[0]["frame"], 15);
+  EXPECT_THAT(ReadJson(folder_ / "r.json")["warnings"].dump(),
+              HasSubstr("the body would be in the air"));
 }
 
 TEST_F(CommandTest, AnEditWarnsOfAKeyThatNoBodyCouldDance) {
