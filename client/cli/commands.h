@@ -15,5 +15,6 @@ void AddHealthCommand(CLI::App& program);
 void AddConvertCommand(CLI::App& program);
 void AddPlotCommand(CLI::App& program);
 void AddRenderCommand(CLI::App& program);
+void AddStudioCommand(CLI::App& program);  ///< studio/, which stands above this folder
 
 }  // namespace choreo::cli

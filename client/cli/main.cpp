@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   choreo::cli::AddConvertCommand(program);
   choreo::cli::AddPlotCommand(program);
   choreo::cli::AddRenderCommand(program);
+  choreo::cli::AddStudioCommand(program);
   try {
     program.parse(argc, argv);
     return 0;
