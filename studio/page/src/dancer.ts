@@ -19,8 +19,8 @@ const leadIn = 10;
 export type Watch = {
   /// More of it is there.
   grown: (motion: Motion) => void;
-  /// For people.
-  noted: (text: string) => void;
+  /// For people: of a frame, or of the whole.
+  noted: (text: string, frame?: number) => void;
 };
 
 const poseMessage = (pose: Pose, hasPlace = true): Init<typeof PoseSchema> => ({
@@ -63,7 +63,7 @@ export class Dancer {
               motion.append(said.value);
               watch.grown(motion);
             } else if (said.case === 'event' && said.value.event.case === 'warning') {
-              watch.noted(said.value.event.value.message);
+              watch.noted(said.value.event.value.message, Number(said.value.frame));
             } else if (said.case === 'summary') {
               this.wire.end(call);
               resolve(motion);
@@ -176,7 +176,7 @@ export class Dancer {
               parts.push(this.nothing());
               parts.at(-1)!.append(said.value);
             } else if (said.case === 'event' && said.value.event.case === 'warning') {
-              watch.noted(said.value.event.value.message);
+              watch.noted(said.value.event.value.message, Number(said.value.frame));
             } else if (said.case === 'summary') {
               this.wire.end(call);
               const continuation = said.value.candidates[0].continuation;

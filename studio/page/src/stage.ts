@@ -72,7 +72,7 @@ export class Stage {
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly doll: Doll, private readonly posed: () => Pose | null, private readonly onPlaced: (marks: { x: number; y: number }[]) => void) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.sharpen();
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.floor = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false }));
@@ -218,7 +218,7 @@ export class Stage {
     this.resize();
     if (!this.grabbed) this.posing = this.posed();
     const time = studio.audio.currentTime;
-    const motion = studio.motion.value;
+    const motion = studio.motionAt(time);
     const { doll } = this;
     doll.scene.visible = !!motion?.count || !!this.posing;
     if (this.posing) doll.take(this.posing);
@@ -235,7 +235,7 @@ export class Stage {
     this.look(this.middle);
     this.camera.updateMatrixWorld();
     // A picture that would be the same again is not drawn.
-    const seen = [time, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible,
+    const seen = [time, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible,
       studio.selectedKey.value, this.camera.aspect, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
       ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
     if (seen.every((value, i) => value === this.seen[i])) return;
@@ -244,6 +244,12 @@ export class Stage {
     this.onPlaced(marks);
     this.lateness = studio.audio.paused ? 0 : Math.max(this.lateness, studio.audio.currentTime - time);
     this.adapt();
+  }
+
+  /// As many pixels as the screen has, be it slow.
+  sharpen() {
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.rate = 60;
   }
 
   /// A slow machine gets fewer pixels rather than fewer pictures.

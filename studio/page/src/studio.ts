@@ -4,6 +4,7 @@ import type { Signal } from '@preact/signals';
 import { heading, Skeleton, turned } from './body';
 import type { Pose } from './body';
 import { Dancer } from './dancer';
+import type { Watch } from './dancer';
 import type { Welcome, LibraryPose, SongHeard } from './generated/studio/studio_pb';
 import { Motion } from './motion';
 import { emptyProject, freeId, fromJson, sorted, toJson } from './project';
@@ -11,7 +12,17 @@ import type { Key, Project } from './project';
 import { Wire } from './wire';
 
 /// A state that undo comes back to. `motion` grows while it is danced.
-type Moment = { project: Project; motion: Signal<Motion>; ready: Promise<Motion>; isReady: boolean };
+/// `before` is seen where `motion` has no frames yet.
+type Moment = {
+  project: Project;
+  motion: Signal<Motion>;
+  before: Motion;
+  warnings: Signal<Warning[]>;
+  ready: Promise<Motion>;
+  isReady: boolean;
+};
+/// What may look other than wished, and where.
+type Warning = { frame: number; text: string };
 type Song = { name: string; url: string; bytes: Uint8Array; heard: SongHeard };
 export type Take = { seed: number; motion: Motion };
 
@@ -37,6 +48,7 @@ export const audio = new Audio();
 export const moment = computed(() => moments.value[present.value]);
 export const project = computed(() => moment.value?.project);
 export const motion = computed(() => moment.value?.motion.value);
+export const warnings = computed(() => moment.value?.warnings.value ?? []);
 export const total = computed(() => (project.value && dancer ? dancer.frames(project.value) : 0));
 
 export let skeleton: Skeleton;
@@ -67,7 +79,18 @@ const wire = new Wire(
 export const tell = (text: string) => (message.value = { text, isError: false });
 export const complain = (error: unknown) =>
   (message.value = { text: error instanceof Error ? error.message : String(error), isError: true });
-const watch = { grown: () => {}, noted: tell };
+/// What is shown at a time.
+export const motionAt = (time: number) => {
+  const { value } = moment;
+  const isThere = !value || value.isReady || value.motion.value.count > time * dancer.fps + 1;
+  return isThere ? motion.value : value.before;
+};
+
+/// Notes warnings where they belong; the rest is told.
+const note = (list: Signal<Warning[]>) => (text: string, frame?: number) => {
+  if (frame === undefined) return tell(text);
+  if (!list.value.some((known) => known.frame === frame && known.text === text)) list.value = [...list.value, { frame, text }];
+};
 
 // ------------------------------------------------------------------------------------------- songs
 
@@ -150,7 +173,7 @@ async function openMotion(name: string, bytes: Uint8Array) {
 
 let streaming: AbortController | null = null;
 
-type Make = (show: (grown: Motion) => void) => Promise<Motion>;
+type Make = (watch: Watch) => Promise<Motion>;
 
 /// Gives a moment its motion; until that is there, what `make` shows is seen.
 function fill(filled: Moment, make: Make) {
@@ -160,7 +183,7 @@ function fill(filled: Moment, make: Make) {
   };
   busy.value += 1;
   filled.isReady = false;
-  filled.ready = make(show)
+  filled.ready = make({ grown: show, noted: note(filled.warnings) })
     .then(show, complain)
     .then(() => {
       busy.value -= 1;
@@ -170,11 +193,18 @@ function fill(filled: Moment, make: Make) {
 }
 
 /// A new moment behind the present one, in place of those that were undone.
-function push(next: Project, shown: Motion, make: Make) {
+function push(next: Project, shown: Motion, make: Make, known: Warning[] = []) {
   takes.value = [];
   chosen.value = null;
   const kept = moments.value.slice(Math.max(0, present.value + 2 - mostMoments), present.value + 1);
-  const added: Moment = { project: next, motion: signal(shown), ready: Promise.resolve(shown), isReady: false };
+  const added: Moment = {
+    project: next,
+    motion: signal(shown),
+    before: motion.value ?? shown,
+    warnings: signal(known),
+    ready: Promise.resolve(shown),
+    isReady: false,
+  };
   moments.value = [...kept, added];
   present.value = kept.length;
   danced.value = shown.count;
@@ -186,8 +216,8 @@ function streamFrom(next: Project, before: Motion, from: number): Make {
   streaming?.abort();
   const control = new AbortController();
   streaming = control;
-  return (show) =>
-    dancer.stream(next, before, from, { grown: show, noted: tell }, control.signal).finally(() => {
+  return (watch) =>
+    dancer.stream(next, before, from, watch, control.signal).finally(() => {
       if (streaming === control) streaming = null;
     });
 }
@@ -195,7 +225,8 @@ function streamFrom(next: Project, before: Motion, from: number): Make {
 /// Dances everything behind `from` anew.
 function danceFrom(next: Project, from: number) {
   const before = motion.value ?? new Motion(skeleton.joints, dancer.fps);
-  push(next, from >= 0 ? before.head(from + 1) : before, streamFrom(next, before, from));
+  const stay = warnings.value.filter(({ frame }) => frame <= from);
+  push(next, from >= 0 ? before.head(from + 1) : before, streamFrom(next, before, from), stay);
 }
 
 /// Changes the project and dances what it touches, `frames`, anew: from the key before them to the
@@ -208,10 +239,11 @@ function edit(next: Project, frames: number[]) {
   const long = !dancer.spans(to - from);
   const there = before.isReady || !streaming ? Infinity : before.motion.value.count;
   if (long || to + 30 > there) return danceFrom(next, Math.min(from, before.motion.value.count - 1));
-  push(next, before.motion.value, async () => {
+  const stay = before.warnings.value.filter(({ frame }) => frame <= from || frame > to);
+  push(next, before.motion.value, async (watch) => {
     const made = await before.ready;
     return (await dancer.between(next, made, from, Math.min(to, made.count), next.seed, 1, watch))[0];
-  });
+  }, stay);
 }
 
 export const undo = () => step(-1);
@@ -309,6 +341,9 @@ export function setLively(part: number, factor: number) {
 
 // ------------------------------------------------------------------------------------------- takes
 
+/// Of takes that may never be kept, nothing is said.
+const silent: Watch = { grown: () => {}, noted: () => {} };
+
 /// Other ways to dance the chosen interval, or all of it.
 export async function tryTakes(count = 3) {
   const before = moment.value;
@@ -319,7 +354,7 @@ export async function tryTakes(count = 3) {
     if (moment.value !== before) return;
     if (chosen.value) {
       const [from, to] = chosen.value;
-      const motions = await dancer.between(before.project, made, from, Math.min(to, made.count), seed, count, watch);
+      const motions = await dancer.between(before.project, made, from, Math.min(to, made.count), seed, count, silent);
       if (moment.value === before) takes.value = motions.map((other) => ({ seed: before.project.seed, motion: other }));
       return;
     }
@@ -331,7 +366,7 @@ export async function tryTakes(count = 3) {
       const next = { ...before.project, seed: seed + 1 + i };
       const take: Take = { seed: next.seed, motion: new Motion(skeleton.joints, dancer.fps) };
       others.push(take);
-      await dancer.stream(next, null, -1, { ...watch, grown: (grown) => {
+      await dancer.stream(next, null, -1, { ...silent, grown: (grown) => {
         if (take.motion === grown || moment.value !== before) return;
         take.motion = grown;
         takes.value = others.filter(({ motion: some }) => some.count > 0);
@@ -347,7 +382,7 @@ export async function tryTakes(count = 3) {
 export function keepTake(take: Take) {
   const { motion: kept, seed } = take;
   if (kept.count < total.value) return tell('This take is not danced to its end yet.');
-  push({ ...project.value, seed }, kept, async () => kept);
+  push({ ...project.value, seed }, kept, async () => kept, warnings.value);
   tell('Kept.');
 }
 

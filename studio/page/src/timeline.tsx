@@ -100,6 +100,19 @@ function Scrubber() {
   );
 }
 
+/// What may look other than wished, where it does.
+function Warnings() {
+  const { fps } = studio.dancer;
+  const frames = [...new Set(studio.warnings.value.map(({ frame }) => frame))];
+  return frames.map((frame) => {
+    const text = studio.warnings.value.filter((warning) => warning.frame === frame).map((warning) => warning.text).join('; ');
+    return (
+      <button class="warning" key={frame} style={{ left: `${x(frame / fps)}px` }} title={text} aria-label={`Warning at ${(frame / fps).toFixed(1)} s`}
+        onClick={() => studio.tell(`${(frame / fps).toFixed(1)} s: ${text}`)}>!</button>
+    );
+  });
+}
+
 const carriedKey = signal<{ id: string; frame: number } | null>(null);
 
 function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => string }) {
@@ -258,6 +271,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
           <div class="lane" role="group" aria-label="Key poses">
             {shown && <div class="danced" style={{ left: `${edge}px`, width: `${there * zoom.value}px` }} />}
             {shown && <Intervals />}
+            {shown && <Warnings />}
             {shown?.keys.map((key) => <KeyChip key={key.id} item={key} pictureOf={pictureOf} />)}
             {dropPose.value !== null && shown && <i class="drop" style={{ left: `${x(dropPose.value / studio.dancer.fps)}px` }} />}
           </div>

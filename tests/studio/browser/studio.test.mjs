@@ -3,7 +3,7 @@
 //   node studio.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
-import { mkdirSync, readFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
@@ -40,6 +40,13 @@ const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required'],
 });
+
+/// A project as a file.
+function saved(text) {
+  const path = join(pictures, 'project.json');
+  writeFileSync(path, text);
+  return path;
+}
 
 let passed = 0;
 const check = async (what, body) => {
@@ -165,6 +172,7 @@ try {
     await page.getByRole('button', { name: 'Try 3 more' }).click();
     const keep = page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Keep C' });
     await keep.waitFor();
+    await page.waitForTimeout(2000); // the camera steps back
     await page.screenshot({ path: join(pictures, 'takes.png'), timeout: patience });
     await keep.click();
     await settle();
@@ -182,6 +190,9 @@ try {
     const text = readFileSync(path, 'utf8');
     const keys = await page.evaluate(() => window.choreo.project.value.keys.length);
     assert.equal(JSON.parse(text).keyframes.length, keys);
+    // It is a key file, too.
+    const dance = join(pictures, 'project.npz');
+    execFileSync(program, ['dance', '--keyframes', saved(text), '--seconds', String(seconds), '--out', dance], { stdio: 'ignore' });
     await page.locator('input[type=file]').first().setInputFiles({ name: 'clicks.json', mimeType: 'application/json', buffer: Buffer.from(text) });
     await settle();
     assert.equal(await page.evaluate(() => window.choreo.project.value.keys.length), keys);
@@ -232,7 +243,10 @@ try {
     assert.deepEqual(errors, []);
   });
 
-  await page.evaluate(() => (window.choreo.message.value = null));
+  await page.evaluate(() => {
+    window.choreo.message.value = null;
+    window.choreo.stage.value.sharpen();
+  });
   await page.locator('.key').nth(2).click();
   for (const colorScheme of ['light', 'dark']) {
     for (const [width, height] of [[390, 844], [1600, 900]]) {
