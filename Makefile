@@ -11,13 +11,16 @@ export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
 SOURCES = $(shell git ls-files '*.cpp' '*.h')
 
-.PHONY: help demo test build packages bench verify format lint
+.PHONY: help demo studio test build packages bench verify format lint
 
 help:  ## Show this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-9s %s\n", $$1, $$2}'
 
 demo: build  ## Install, build, serve, and dance 24 s to a real song; results in out/demo/
 	@scripts/demo.sh $(BUILD)/bin out/demo
+
+studio: build  ## Install, build, and open the studio in a browser: SONG=file begins with that song
+	@$(BUILD)/bin/choreo studio $(if $(SONG),"$(SONG)")
 
 test: build  ## Install, build and run every test (a few minutes)
 	@scripts/install_packages.sh test
@@ -35,7 +38,7 @@ bench: build  ## Run the benchmarks; writes docs/performance.md
 	@scripts/install_packages.sh bench
 	@scripts/bench.sh $(BUILD)/bin
 
-verify: build  ## Everything too long for `make test`: figures (CHOREO_RECORDINGS=folder), sanitizers, no gRPC, the installed package, the container (as root)
+verify: build  ## Everything too long for `make test`: figures (CHOREO_RECORDINGS=folder), the studio in a browser, sanitizers, no gRPC, the installed package, the container (as root)
 	@scripts/install_packages.sh test
 	@scripts/verify.sh $(BUILD)
 

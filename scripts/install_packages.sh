@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that this project needs. The one place that names them.
 #
-#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint verify; default: build run demo video test
+#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint browser verify; default: build run demo video test
 #
 # Runs as root, or through sudo. Quick when everything is there already: it asks dpkg first and touches apt only for what is missing.
 set -euo pipefail
@@ -12,6 +12,7 @@ build=(
   libtorch-dev libopenblas0-pthread
   libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
   libeigen3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+  libboost-dev
   libsndfile1-dev libzip-dev libxxhash-dev libcairo2-dev libtinygltf-dev
   libgtest-dev libgmock-dev libbenchmark-dev libdnnl-dev
 )
@@ -29,6 +30,8 @@ test=(python3-numpy python3-grpcio nodejs npm)
 # What `make bench` compares with.
 bench=(python3-torch python3-numpy)
 lint=(clang-format clang-tidy)
+# To use the studio in a browser that nobody sees.
+browser=(chromium nodejs npm)
 # To build the container without a container engine.
 verify=(buildah debootstrap)
 
@@ -45,8 +48,9 @@ for group in "${groups[@]}"; do
     test) wanted+=("${test[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
+    browser) wanted+=("${browser[@]}") ;;
     verify) wanted+=("${verify[@]}") ;;
-    *) echo "install_packages.sh: unknown group '$group' (build run demo video test bench lint verify)" >&2; exit 2 ;;
+    *) echo "install_packages.sh: unknown group '$group' (build run demo video test bench lint browser verify)" >&2; exit 2 ;;
   esac
 done
 

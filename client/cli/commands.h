@@ -16,5 +16,6 @@ void AddConvertCommand(CLI::App& program);
 void AddPoseCommand(CLI::App& program);
 void AddPlotCommand(CLI::App& program);
 void AddRenderCommand(CLI::App& program);
+void AddStudioCommand(CLI::App& program);  ///< studio/, which stands above this folder
 
 }  // namespace choreo::cli

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   choreo::cli::AddPoseCommand(program);
   choreo::cli::AddPlotCommand(program);
   choreo::cli::AddRenderCommand(program);
+  choreo::cli::AddStudioCommand(program);
   try {
     program.parse(argc, argv);
     return 0;

@@ -17,7 +17,8 @@ namespace {
 using ::testing::IsEmpty;
 
 const Includes& House() {
-  static const Includes includes(CHOREO_SOURCE_DIR, {"model", "server", "client", "bench"});
+  static const Includes includes(CHOREO_SOURCE_DIR,
+                                 {"model", "server", "client", "studio", "bench"});
   return includes;
 }
 
@@ -52,6 +53,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {"model/lab", {core, engine, "model/training", "model/evaluation"}},
         {"server", {core, audio, motion, engine, dance, "choreo", "google"}},
         {"client", {core, audio, motion, formats, draw, "choreo", "google", "grpc"}},
+        {"studio", {core, audio, motion, formats, "client", "choreo"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, dance, "server", "client", "choreo"}},
     };

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "studio/house.h"
+
+namespace choreo::studio {
+
+/// Does what one page asks. Dances run beside each other; everything else is done one after
+/// another, in the order in which it was asked. A call that fails is answered by a Failure, and the
+/// others go on.
+class Desk {
+ public:
+  /// Called from any thread, one at a time.
+  using Send = std::function<void(const Response&)>;
+
+  /// `house` must outlive it. Sends the Welcome.
+  Desk(const House& house, Send send);
+  /// Ends all calls: waits for a transition in progress, and for nothing else.
+  ~Desk();
+  Desk(const Desk&) = delete;
+  Desk& operator=(const Desk&) = delete;
+
+  /// Blocks for no call. From one thread.
+  void Take(Request request);
+
+ private:
+  /// A dance in progress, and the thread that reads it.
+  struct Dancing {
+    std::unique_ptr<client::RemoteDance> dance;
+    std::thread reader;
+    bool over = false;  // guarded by mutex_
+  };
+
+  void TakeDance(uint32_t call, const v1::StreamDanceRequest& request);
+  void StartDance(uint32_t call, const v1::DanceConfig& config);
+  void ReadDance(uint32_t call, Dancing* dancing);
+  void EndDance(uint32_t call);
+  void Reap();
+
+  /// The calls that are done one after another.
+  void Work();
+  void Do(const Request& request);
+  void HearSongOf(uint32_t call, const File& file);
+  void Transition(uint32_t call, const v1::GenerateTransitionRequest& request);
+  void ComposeKeys(uint32_t call, const Compose& request);
+  void WriteClip(uint32_t call, const Export& request);
+  void ReadClip(uint32_t call, const File& file);
+
+  std::shared_ptr<const Song> song() const;
+  void Answer(uint32_t call, Response response);
+  void Fail(uint32_t call, const std::string& message);
+
+  const House& house_;
+  const Send send_;
+  std::map<uint32_t, Dancing> dances_;  // of the thread of Take
+
+  mutable std::mutex mutex_;
+  std::mutex sending_;
+  std::condition_variable asked_;
+  bool stop_ = false;
+  std::deque<Request> queue_;
+  std::shared_ptr<const Song> song_;
+  std::thread worker_;
+};
+
+}  // namespace choreo::studio

@@ -1,0 +1,51 @@
+#include "studio/house.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "client/cli/pose_library.h"
+#include "client/convert.h"
+#include "model/formats/motion_file.h"
+#include "model/motion/kinematics.h"
+#include "studio/convert.h"
+#include "studio/scratch_folder.h"
+
+namespace choreo::studio {
+namespace {
+
+/// The body that the page shows, the same as in every other picture.
+std::string BodyAtRest(const Skeleton& skeleton) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder.path() / "body.glb";
+  WriteMotion(path, skeleton, {.fps = 30, .frames = {RestPose(skeleton)}});
+  return ReadBytes(path);
+}
+
+}  // namespace
+
+std::string ReadBytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+House::House(const client::Options& server, const std::filesystem::path& song) : client_(server) {
+  const client::ServerDescription description = client_.GetServerInfo();
+  model_ = description.models.front();
+  welcome_.set_version(description.version);
+  *welcome_.mutable_model() = ToProto(model_);
+  for (const cli::LibraryPose& pose : cli::PoseLibrary(model_.skeleton)) {
+    LibraryPose* added = welcome_.add_poses();
+    added->set_id(pose.id);
+    added->set_description(pose.description);
+    *added->mutable_pose() = client::ToProto(pose.pose);
+  }
+  welcome_.set_body(BodyAtRest(model_.skeleton));
+  if (song.empty()) return;
+  song_ = std::make_shared<const Song>(HearSong(song, song.string()));
+  welcome_.mutable_song()->set_name(song.filename().string());
+  welcome_.mutable_song()->set_data(ReadBytes(song));
+  *welcome_.mutable_heard() = song_->heard;
+}
+
+}  // namespace choreo::studio

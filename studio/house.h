@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/choreo_client.h"
+#include "studio/song.h"
+#include "studio/studio.pb.h"
+
+namespace choreo::studio {
+
+/// What all pages share. Thread-safe: nothing changes after construction.
+class House {
+ public:
+  /// Asks the server what it has. `song` may be empty. Throws what the client library, HearSong and
+  /// the library's retargeting do.
+  House(const client::Options& server, const std::filesystem::path& song);
+
+  const client::Client& client() const { return client_; }
+  const client::ModelDescription& model() const { return model_; }
+  /// The first message to every page.
+  const Welcome& welcome() const { return welcome_; }
+  /// That of the command line, or null.
+  const std::shared_ptr<const Song>& song() const { return song_; }
+
+ private:
+  client::Client client_;
+  client::ModelDescription model_;
+  std::shared_ptr<const Song> song_;
+  Welcome welcome_;
+};
+
+/// The bytes of a file. Throws Error(kNotFound) where it cannot be opened.
+std::string ReadBytes(const std::filesystem::path& path);
+
+}  // namespace choreo::studio

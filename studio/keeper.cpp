@@ -1,0 +1,72 @@
+#include "studio/keeper.h"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "client/cli/local_server.h"
+#include "model/core/error.h"
+
+namespace choreo::studio {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::seconds kPause{1};  // a server that cannot start is not tried all the time
+
+}  // namespace
+
+Keeper::Keeper(const std::filesystem::path& program) {
+  std::exception_ptr failure;
+  thread_ = std::thread([this, &program, &failure] { Keep(program, &failure); });
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return started_; });
+  }
+  if (!failure) return;
+  thread_.join();
+  std::rethrow_exception(failure);
+}
+
+Keeper::~Keeper() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void Keeper::Keep(const std::filesystem::path& program, std::exception_ptr* failure) {
+  const std::filesystem::path path = program;
+  std::unique_ptr<cli::LocalServer> server;
+  try {
+    server = std::make_unique<cli::LocalServer>(path);
+    address_ = server->address();
+    process_ = server->process();
+  } catch (...) {
+    *failure = std::current_exception();
+  }
+  std::unique_lock lock(mutex_);
+  started_ = true;
+  changed_.notify_all();
+  if (!server) return;
+  std::chrono::milliseconds wait = kLook;
+  while (!changed_.wait_for(lock, wait, [this] { return stop_; })) {
+    lock.unlock();
+    wait = kLook;
+    try {
+      if (server) server->RequireRunning();
+      if (!server) {
+        server = std::make_unique<cli::LocalServer>(path, address_);
+        process_ = server->process();
+      }
+    } catch (const Error& error) {
+      std::cerr << "choreo: " << error.what() << "; it is started again" << std::endl;
+      if (!server) wait = kPause;
+      server.reset();
+    }
+    lock.lock();
+  }
+}
+
+}  // namespace choreo::studio

@@ -1,0 +1,203 @@
+// The page: bar, stage, poses, panels, timeline.
+import { effect, signal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import type { Pose } from './body';
+import { Doll } from './doll';
+import type { LibraryPose } from './generated/studio/studio_pb';
+import { Panels } from './panels';
+import { Pictures } from './pictures';
+import { Stage } from './stage';
+import * as studio from './studio';
+import { Timeline, dropPose, frameUnder } from './timeline';
+
+export const stage = signal<Stage | null>(null);
+export const pictures = signal<Pictures | null>(null);
+const marks = signal<{ x: number; y: number }[]>([]);
+const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null);
+export const pictureOf = (pose: Pose) => pictures.value?.of(pose) ?? '';
+
+/// The pose of the chosen key while the playhead rests on it.
+function posed(): Pose | null {
+  const key = studio.keyOf(studio.selectedKey.value);
+  if (!key || !studio.audio.paused) return null;
+  const away = Math.abs(studio.audio.currentTime - key.frame / studio.dancer.fps);
+  return away < 0.02 ? key.pose : null;
+}
+
+function View() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => effect(() => {
+    const { value } = studio.welcome;
+    if (!value || stage.peek()) return;
+    void Doll.load(value.body, studio.skeleton).then((doll) => {
+      pictures.value = new Pictures(doll.another());
+      const made = new Stage(canvas.current!, doll, posed, (places) => {
+        if (places.length || marks.peek().length) marks.value = places;
+      });
+      made.onPosed = (pose) => studio.poseKey(studio.selectedKey.value!, pose);
+      stage.value = made;
+    });
+  }), []);
+  const takes = studio.takes.value;
+  return (
+    <main class="stage" aria-label="Stage">
+      <canvas ref={canvas} tabIndex={0} role="img" aria-label="The dancer. Drag to look around; drag a handle of a chosen key to pose it." />
+      {takes.length > 0 && marks.value.map(({ x, y }, i) => i <= takes.length && (
+        <span class="mark" style={{ left: `${x}px`, top: `${y}px` }} key={i}>
+          {i === 0
+            ? <button class="quiet" onClick={() => (studio.takes.value = [])}>Keep A</button>
+            : <button onClick={() => studio.keepTake(takes[i - 1])}>Keep {'ABCDEFG'[i]}</button>}
+        </span>
+      ))}
+      {!studio.moment.value && <Welcome />}
+      <Progress />
+    </main>
+  );
+}
+
+function Welcome() {
+  return (
+    <div class="welcome">
+      <h1>Drop a song here</h1>
+      <p>It is danced to at once, through poses on its beats. Then make it yours: move the poses, bend them, set others.</p>
+      <FileButton label="Choose a song" primary />
+      <p class="small">WAV, FLAC, Ogg or MP3. Nothing leaves this machine.</p>
+    </div>
+  );
+}
+
+function Progress() {
+  const [there, all] = [studio.danced.value, studio.total.value];
+  if (!studio.busy.value) return null;
+  const share = all ? Math.min(100, Math.round((100 * there) / all)) : 0;
+  return <div class="progress" role="status">{there < all && there > 0 ? `dancing … ${share} %` : 'working …'}</div>;
+}
+
+function FileButton({ label, primary = false }: { label: string; primary?: boolean }) {
+  const input = useRef<HTMLInputElement>(null);
+  return (
+    <>
+      <button class={primary ? 'primary' : ''} onClick={() => input.current!.click()}>{label}</button>
+      <input ref={input} type="file" hidden aria-label={label} accept=".wav,.flac,.ogg,.mp3,.json,.npz,.bvh,.glb"
+        onChange={(event) => {
+          const [file] = event.currentTarget.files!;
+          event.currentTarget.value = '';
+          if (file) void studio.openFile(file);
+        }} />
+    </>
+  );
+}
+
+function Bar() {
+  const { song, moments, present, message, isConnected } = studio;
+  const said = message.value;
+  return (
+    <header>
+      <strong class="name">Choreo <span>studio</span></strong>
+      <span class="song">
+        {song.value ? `${song.value.name} · ${Math.round(song.value.heard.tempo)} beats a minute` : isConnected.value ? '' : 'connecting …'}
+      </span>
+      <nav aria-label="Project">
+        <button class="icon" aria-label="Undo" title="Undo (Ctrl+Z)" disabled={present.value < 1} onClick={studio.undo}>↶</button>
+        <button class="icon" aria-label="Redo" title="Redo (Ctrl+Shift+Z)" disabled={present.value >= moments.value.length - 1} onClick={studio.redo}>↷</button>
+        <FileButton label="Open" />
+        <button disabled={!studio.moment.value} onClick={studio.saveProject}>Save</button>
+        <label class="export">
+          <span class="hidden">Export the dance</span>
+          <select disabled={!studio.moment.value} value="" onChange={(event) => {
+            void studio.exportAs(event.currentTarget.value);
+            event.currentTarget.value = '';
+          }}>
+            <option value="" disabled>Export …</option>
+            <option value="glb">glTF, with the body (.glb)</option>
+            <option value="bvh">BVH (.bvh)</option>
+            <option value="npz">SMPL, as AMASS (.npz)</option>
+          </select>
+        </label>
+      </nav>
+      {said && (
+        <div class={said.isError ? 'message error' : 'message'} role={said.isError ? 'alert' : 'status'}>
+          {said.text}
+          <button class="icon" aria-label="Close this message" onClick={() => (message.value = null)}>×</button>
+        </div>
+      )}
+    </header>
+  );
+}
+
+function Library() {
+  const start = (pose: LibraryPose) => (event: PointerEvent) => {
+    const from = { x: event.clientX, y: event.clientY };
+    const move = ({ clientX: x, clientY: y }: PointerEvent) => {
+      if (carried.value || Math.hypot(x - from.x, y - from.y) > 6) carried.value = { pose, x, y };
+      dropPose.value = carried.value ? frameUnder(x, y) : null;
+    };
+    const end = (last: PointerEvent) => {
+      window.removeEventListener('pointermove', move);
+      window.removeEventListener('pointerup', end);
+      window.removeEventListener('pointercancel', end);
+      const at = carried.value && last.type === 'pointerup' ? dropPose.value : null;
+      if (at !== null) studio.addKey(pose, at);
+      setTimeout(() => (carried.value = null));
+      dropPose.value = null;
+    };
+    window.addEventListener('pointermove', move);
+    window.addEventListener('pointerup', end);
+    window.addEventListener('pointercancel', end);
+  };
+  return (
+    <aside class="library" aria-label="Poses">
+      <h2>Poses</h2>
+      <p class="small">Drag one onto the timeline, or press it to set it at the playhead.</p>
+      <ul>
+        {studio.welcome.value?.poses.map((pose) => (
+          <li key={pose.id}>
+            <button title={pose.description} disabled={!studio.project.value} onPointerDown={start(pose)}
+              onClick={() => !carried.value && studio.addKey(pose, Math.round(studio.audio.currentTime * studio.dancer.fps))}>
+              <img alt="" draggable={false} src={pictureOf({ root: [0, pose.pose!.rootPosition!.y, 0], rotations: pose.pose!.rotations })} />
+              <span>{pose.id.replaceAll('_', ' ')}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+      {carried.value && (
+        <img class="carried" alt="" style={{ left: `${carried.value.x}px`, top: `${carried.value.y}px` }}
+          src={pictureOf({ root: [0, carried.value.pose.pose!.rootPosition!.y, 0], rotations: carried.value.pose.pose!.rotations })} />
+      )}
+    </aside>
+  );
+}
+
+function useKeyboard() {
+  useEffect(() => {
+    const press = (event: KeyboardEvent) => {
+      const at = event.target as HTMLElement;
+      if (event.defaultPrevented || at.matches('input, select')) return;
+      if (event.key === ' ' && !at.matches('button')) studio.togglePlay();
+      else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z') event.shiftKey ? studio.redo() : studio.undo();
+      else if (event.key === 'Escape') [studio.selectedKey.value, studio.chosen.value, studio.takes.value] = [null, null, []];
+      else if (event.key === 'Delete' && studio.selectedKey.value) studio.removeKey(studio.selectedKey.value);
+      else return;
+      event.preventDefault();
+    };
+    window.addEventListener('keydown', press);
+    return () => window.removeEventListener('keydown', press);
+  }, []);
+}
+
+export function App() {
+  useKeyboard();
+  return (
+    <div class="page" onDragOver={(event) => event.preventDefault()} onDrop={(event) => {
+      event.preventDefault();
+      const file = event.dataTransfer?.files[0];
+      if (file) void studio.openFile(file);
+    }}>
+      <Bar />
+      <Library />
+      <View />
+      <Panels stage={stage.value} />
+      <Timeline pictureOf={pictureOf} />
+    </div>
+  );
+}

@@ -1,0 +1,58 @@
+// The body, as the program draws it in its pictures: a glTF skin whose bones have the joints' names.
+import { Color, Mesh, MeshStandardMaterial, Object3D, Quaternion } from 'three';
+import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { clone } from 'three/examples/jsm/utils/SkeletonUtils.js';
+import { toQuaternion } from './body';
+import type { Pose, Skeleton, Triple } from './body';
+import type { Motion } from './motion';
+
+export class Doll {
+  private readonly bones: Object3D[];
+  private readonly turns: Quaternion[];
+  private readonly root: Triple = [0, 0, 0];
+
+  private constructor(readonly scene: Object3D, private readonly skeleton: Skeleton) {
+    this.bones = skeleton.names.map((name) => scene.getObjectByName(name)!);
+    this.turns = this.bones.map(() => new Quaternion());
+    scene.traverse((part) => {
+      part.frustumCulled = false;
+      if (part instanceof Mesh) part.castShadow = true;
+    });
+  }
+
+  static async load(bytes: Uint8Array, skeleton: Skeleton) {
+    const { scene } = await new GLTFLoader().parseAsync(bytes.slice().buffer as ArrayBuffer, '');
+    return new Doll(scene, skeleton);
+  }
+
+  another() {
+    return new Doll(clone(this.scene), this.skeleton);
+  }
+
+  /// A ghost: one colour, seen through.
+  fade(colour: string, opacity: number) {
+    const material = new MeshStandardMaterial({ color: new Color(colour), transparent: true, opacity, roughness: 1, depthWrite: false });
+    this.scene.traverse((part) => {
+      if (!(part instanceof Mesh)) return;
+      part.material = material;
+      part.castShadow = false;
+    });
+    return this;
+  }
+
+  take(pose: Pose) {
+    this.bones[0].position.set(...pose.root);
+    this.bones.forEach((bone, joint) => toQuaternion(pose.rotations, 3 * joint, bone.quaternion));
+  }
+
+  /// The moment of a motion; nothing where it has none.
+  follow(motion: Motion, time: number) {
+    if (!motion.sample(time, this.root, this.turns)) return;
+    this.bones[0].position.set(...this.root);
+    this.bones.forEach((bone, joint) => bone.quaternion.copy(this.turns[joint]));
+  }
+
+  place() {
+    return this.bones[0].position;
+  }
+}

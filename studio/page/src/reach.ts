@@ -1,0 +1,101 @@
+// Inverse kinematics: what a body does when one of its handles is pulled.
+import { Quaternion, Vector3 } from 'three';
+import { Figure } from './body';
+import type { Pose, Skeleton } from './body';
+
+/// What can be pulled. `joint` is where the handle sits; of limbs, `chain` is the joint above, the
+/// hinge, and the end.
+export type Handle = { id: string; label: string; joint: string; chain?: [string, string, string] };
+
+const limb = (side: string, label: string, ends: [string, string, string]): Handle => ({
+  id: `${side}_${label}`,
+  label: `${side} ${label}`,
+  joint: `${side}_${ends[2]}`,
+  chain: ends.map((end) => `${side}_${end}`) as [string, string, string],
+});
+
+export const handles: Handle[] = [
+  { id: 'head', label: 'head', joint: 'head' },
+  limb('left', 'hand', ['shoulder', 'elbow', 'wrist']),
+  limb('right', 'hand', ['shoulder', 'elbow', 'wrist']),
+  { id: 'pelvis', label: 'hips', joint: 'pelvis' },
+  limb('left', 'foot', ['hip', 'knee', 'ankle']),
+  limb('right', 'foot', ['hip', 'knee', 'ankle']),
+];
+
+/// The floor handle moves the whole body.
+export const floorHandle: Handle = { id: 'floor', label: 'place', joint: 'pelvis' };
+
+/// The pose after a handle was pulled to a place in the world.
+export function pull(skeleton: Skeleton, pose: Pose, handle: Handle, to: Vector3): Pose {
+  if (handle.id === 'floor') {
+    return { ...pose, root: [to.x, pose.root[1], to.z] };
+  }
+  const figure = new Figure(skeleton, pose);
+  if (handle.chain) bendLimb(figure, handle.chain.map((name) => skeleton.find(name)), to);
+  else if (handle.id === 'head') bendSpine(figure, to);
+  else moveHips(figure, to);
+  return figure.pose();
+}
+
+/// The hips go there, the feet stay where they are.
+function moveHips(figure: Figure, to: Vector3) {
+  const legs = handles.filter(({ id }) => id.endsWith('_foot'));
+  const chains = legs.map(({ chain }) => chain!.map((name) => figure.skeleton.find(name)));
+  const ends = chains.map(([, , end]) => ({
+    place: figure.places[end].clone(),
+    world: figure.world[end].clone(),
+  }));
+  figure.root.copy(to);
+  figure.place();
+  chains.forEach((chain, i) => {
+    bendLimb(figure, chain, ends[i].place);
+    figure.orient(chain[2], ends[i].world);
+  });
+}
+
+/// Two bones reach as far as they can: the hinge opens or closes in the plane in which it is bent,
+/// then the limb swings. Hand or foot keeps its direction in the world.
+function bendLimb(figure: Figure, [upper, hinge, end]: number[], to: Vector3) {
+  const facing = figure.world[end].clone();
+  const [a, b, c] = [figure.places[upper], figure.places[hinge], figure.places[end]];
+  const above = a.distanceTo(b);
+  const below = b.distanceTo(c);
+  const reach = Math.min(Math.max(to.distanceTo(a), Math.abs(above - below) + 1e-3), (above + below) * 0.9995);
+  const up = a.clone().sub(b).normalize();
+  const down = c.clone().sub(b).normalize();
+  const axis = up.clone().cross(down);
+  if (axis.length() < 0.02) axis.copy(hingeAxis(figure, hinge));
+  const open = Math.acos(Math.min(1, Math.max(-1, up.dot(down))));
+  const wanted = Math.acos((above * above + below * below - reach * reach) / (2 * above * below));
+  figure.turn(hinge, new Quaternion().setFromAxisAngle(axis.normalize(), wanted - open));
+  swing(figure, upper, figure.places[end], to, 1);
+  figure.orient(end, facing);
+}
+
+/// The way that a straight limb bends: shins backwards, forearms forwards.
+function hingeAxis(figure: Figure, hinge: number) {
+  const name = figure.skeleton.names[hinge];
+  const axis = name.endsWith('knee') ? new Vector3(-1, 0, 0)
+    : new Vector3(0, name.startsWith('left') ? 1 : -1, 0);
+  return axis.applyQuaternion(figure.world[figure.skeleton.parents[hinge]]);
+}
+
+/// Turns a joint so that `from`, which hangs on it, goes `share` of the way towards `to`.
+function swing(figure: Figure, joint: number, from: Vector3, to: Vector3, share: number) {
+  const here = from.clone().sub(figure.places[joint]).normalize();
+  const there = to.clone().sub(figure.places[joint]).normalize();
+  const turn = new Quaternion().setFromUnitVectors(here, there);
+  figure.turn(joint, new Quaternion().slerp(turn, share));
+}
+
+/// The spine bends a little in each joint until the head is near the place.
+function bendSpine(figure: Figure, to: Vector3) {
+  const head = figure.skeleton.find('head');
+  const facing = figure.world[head].clone();
+  const joints = ['neck', 'spine3', 'spine2', 'spine1'].map((name) => figure.skeleton.find(name));
+  for (let round = 0; round < 8; ++round) {
+    for (const joint of joints) swing(figure, joint, figure.places[head], to, 0.35);
+  }
+  figure.orient(head, facing);
+}

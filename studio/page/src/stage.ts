@@ -1,0 +1,325 @@
+// The stage: floor, light, camera, the dancers, and the handles of the pose that is being made.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { Figure } from './body';
+import type { Pose } from './body';
+import { Doll } from './doll';
+import { floorHandle, handles, pull } from './reach';
+import type { Handle } from './reach';
+import * as studio from './studio';
+
+const middle = 0.92; // metres: what the camera looks at
+const apart = 1.25; // metres between takes
+const near = 26; // pixels from a handle that still grab it
+
+const look = {
+  light: { back: '#fbf9f6', floor: '#ece6dc', line: '#d9d0c2', sky: 1.9, lamp: 2.0 },
+  dark: { back: '#16181c', floor: '#23272e', line: '#343a44', sky: 1.3, lamp: 1.7 },
+};
+
+/// A round floor that fades into the background, with lines half a metre apart.
+function floorTexture({ floor, line }: (typeof look)['light']) {
+  const size = 1024;
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = size;
+  const pen = canvas.getContext('2d')!;
+  pen.fillStyle = floor;
+  pen.fillRect(0, 0, size, size);
+  pen.strokeStyle = line;
+  pen.lineWidth = 1.6;
+  for (let at = 0; at <= size; at += size / 24) {
+    pen.strokeRect(at, -2, 0, size + 4);
+    pen.strokeRect(-2, at, size + 4, 0);
+  }
+  const fade = pen.createRadialGradient(size / 2, size / 2, size * 0.16, size / 2, size / 2, size / 2);
+  fade.addColorStop(0, 'rgba(0,0,0,1)');
+  fade.addColorStop(1, 'rgba(0,0,0,0)');
+  pen.globalCompositeOperation = 'destination-in';
+  pen.fillStyle = fade;
+  pen.fillRect(0, 0, size, size);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.anisotropy = 8;
+  return texture;
+}
+
+export class Stage {
+  follows = true;
+  /// Called with the pose that was pulled into shape, when the handle is let go.
+  onPosed: (pose: Pose) => void = () => {};
+  /// Pictures a second, while there is something to draw.
+  rate = 60;
+
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
+  private readonly controls: OrbitControls;
+  private readonly lamp = new THREE.DirectionalLight('#fff6e8', 2);
+  private readonly sky = new THREE.HemisphereLight('#ffffff', '#b8a88f', 1.8);
+  private readonly floor: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshBasicMaterial>;
+  private readonly others: Doll[] = [];
+  private readonly ghost: Doll;
+  private readonly dots = new THREE.Group();
+  private posing: Pose | null = null;
+  private grabbed: { handle: Handle; plane: THREE.Plane; from: Pose; offset: THREE.Vector3 } | null = null;
+  /// How far the sound went while a picture was made, seconds: at most, while it played last.
+  lateness = 0;
+
+  private readonly middle = new THREE.Vector3(); // of all dancers
+  private seen: unknown[] = [];
+  private drawn = 0;
+  private isDark = false;
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly doll: Doll, private readonly posed: () => Pose | null, private readonly onPlaced: (marks: { x: number; y: number }[]) => void) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.sharpen();
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.floor = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false }));
+    this.floor.rotation.x = -Math.PI / 2;
+    const shade = new THREE.Mesh(new THREE.PlaneGeometry(14, 14), new THREE.ShadowMaterial({ opacity: 0.22 }));
+    shade.rotation.x = -Math.PI / 2;
+    shade.receiveShadow = true;
+    shade.position.y = 0.001;
+    this.lamp.castShadow = true;
+    this.lamp.shadow.mapSize.set(1024, 1024);
+    this.lamp.shadow.radius = 5;
+    this.lamp.shadow.bias = -0.0005;
+    Object.assign(this.lamp.shadow.camera, { left: -4, right: 4, top: 3, bottom: -3, near: 0.5, far: 12 });
+    this.ghost = doll.another().fade('#c9a227', 0.28);
+    this.ghost.scene.visible = false;
+    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, shade, doll.scene, this.ghost.scene, this.dots);
+    this.makeDots();
+    this.camera.position.set(1.5, 1.35, 4.4);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.target.set(0, middle, 0);
+    this.controls.enablePan = false;
+    this.controls.minDistance = 1.2;
+    this.controls.maxDistance = 14;
+    this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
+    this.controls.enableDamping = true;
+    canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
+    canvas.addEventListener('pointermove', (event) => this.drag(event));
+    canvas.addEventListener('pointerup', () => this.release());
+    canvas.addEventListener('pointercancel', () => this.release());
+    const dark = matchMedia('(prefers-color-scheme: dark)');
+    dark.addEventListener('change', () => this.dress(dark.matches));
+    this.dress(dark.matches);
+    this.renderer.setAnimationLoop(() => this.draw());
+  }
+
+  /// Where a handle is on the page; null while no pose is bent.
+  whereIs(id: string) {
+    if (!this.posing) return null;
+    const { x, y } = this.toScreen(this.places(this.posing).get(id)!);
+    const { left, top } = this.canvas.getBoundingClientRect();
+    return { x: x + left, y: y + top };
+  }
+
+  /// Moves a handle by metres, as its dragging would.
+  nudge(id: string, by: THREE.Vector3) {
+    const handle = [...handles, floorHandle].find((some) => some.id === id);
+    if (!handle || !this.posing) return;
+    const to = this.places(this.posing).get(id)!.add(by);
+    this.posing = pull(studio.skeleton, this.posing, handle, to);
+    this.onPosed(this.posing);
+  }
+
+  private dress(isDark: boolean) {
+    this.isDark = isDark;
+    const { back, floor, line, sky, lamp } = look[isDark ? 'dark' : 'light'];
+    this.scene.background = new THREE.Color(back);
+    this.floor.material.map?.dispose();
+    this.floor.material.map = floorTexture({ back, floor, line, sky, lamp });
+    this.floor.material.needsUpdate = true;
+    this.sky.intensity = sky;
+    this.lamp.intensity = lamp;
+  }
+
+  private makeDots() {
+    const dot = (colour: string, radius: number) =>
+      new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.9 }));
+    for (const handle of handles) {
+      const colour = handle.id.startsWith('left') ? '#e8663d' : handle.id.startsWith('right') ? '#2f7fa8' : '#c9a227';
+      const rim = dot('#ffffff', 0.034);
+      const core = dot(colour, 0.026);
+      rim.renderOrder = 1;
+      core.renderOrder = 2;
+      const both = new THREE.Group().add(rim, core);
+      both.name = handle.id;
+      this.dots.add(both);
+    }
+    const ring = new THREE.Mesh(new THREE.RingGeometry(0.3, 0.34, 48), new THREE.MeshBasicMaterial({ color: '#c9a227', depthTest: false, transparent: true, opacity: 0.9 }));
+    ring.rotation.x = -Math.PI / 2;
+    ring.renderOrder = 1;
+    const disc = new THREE.Group().add(ring);
+    disc.name = floorHandle.id;
+    this.dots.add(disc);
+  }
+
+  /// Where the handles of a pose are in the world.
+  private places(pose: Pose) {
+    const figure = new Figure(studio.skeleton, pose);
+    const out = new Map<string, THREE.Vector3>();
+    for (const { id, joint } of handles) out.set(id, figure.places[studio.skeleton.find(joint)].clone());
+    out.set(floorHandle.id, new THREE.Vector3(pose.root[0], 0, pose.root[2]));
+    return out;
+  }
+
+  private toScreen(point: THREE.Vector3) {
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const seen = point.clone().project(this.camera);
+    return { x: ((seen.x + 1) / 2) * width, y: ((1 - seen.y) / 2) * height };
+  }
+
+  private ray(event: PointerEvent) {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    const caster = new THREE.Raycaster();
+    caster.setFromCamera(new THREE.Vector2((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height), this.camera);
+    return caster.ray;
+  }
+
+  private grab(event: PointerEvent) {
+    if (!this.posing) return;
+    const { left, top } = this.canvas.getBoundingClientRect();
+    const places = this.places(this.posing);
+    const away = (id: string) => {
+      const { x, y } = this.toScreen(places.get(id)!);
+      const off = Math.hypot(x - event.clientX + left, y - event.clientY + top);
+      return id === floorHandle.id ? Math.min(off, Math.abs(off - 30)) : off;
+    };
+    const [handle] = [...handles, floorHandle].sort((a, b) => away(a.id) - away(b.id));
+    if (away(handle.id) > near) return;
+    event.stopImmediatePropagation();
+    this.canvas.setPointerCapture(event.pointerId);
+    const place = places.get(handle.id)!;
+    const normal = handle === floorHandle ? new THREE.Vector3(0, 1, 0) : this.camera.getWorldDirection(new THREE.Vector3());
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, place);
+    const hit = this.ray(event).intersectPlane(plane, new THREE.Vector3()) ?? place;
+    this.grabbed = { handle, plane, from: this.posing, offset: place.clone().sub(hit) };
+    this.controls.enabled = false;
+  }
+
+  private drag(event: PointerEvent) {
+    if (!this.grabbed) return;
+    const hit = this.ray(event).intersectPlane(this.grabbed.plane, new THREE.Vector3());
+    if (hit) this.posing = pull(studio.skeleton, this.grabbed.from, this.grabbed.handle, hit.add(this.grabbed.offset));
+  }
+
+  private release() {
+    if (!this.grabbed) return;
+    const changed = this.posing !== this.grabbed.from;
+    this.grabbed = null;
+    this.controls.enabled = true;
+    if (changed && this.posing) this.onPosed(this.posing);
+  }
+
+  private draw() {
+    this.resize();
+    if (!this.grabbed) this.posing = this.posed();
+    const time = studio.audio.currentTime;
+    const motion = studio.motionAt(time);
+    const { doll } = this;
+    doll.scene.visible = !!motion?.count || !!this.posing;
+    if (this.posing) doll.take(this.posing);
+    else if (motion) doll.follow(motion, time);
+    const centre = doll.place().clone();
+    const marks = this.drawTakes(time, centre);
+    this.drawGhost(time);
+    this.dots.visible = !!this.posing;
+    if (this.posing) {
+      for (const [id, place] of this.places(this.posing)) {
+        this.dots.getObjectByName(id)!.position.copy(place).setY(id === floorHandle.id ? 0.004 : place.y);
+      }
+    }
+    this.look(this.middle);
+    this.camera.updateMatrixWorld();
+    // A picture that would be the same again is not drawn.
+    const seen = [time, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible,
+      studio.selectedKey.value, this.camera.aspect, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
+      ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
+    if (seen.every((value, i) => value === this.seen[i])) return;
+    this.seen = seen;
+    this.renderer.render(this.scene, this.camera);
+    this.onPlaced(marks);
+    this.lateness = studio.audio.paused ? 0 : Math.max(this.lateness, studio.audio.currentTime - time);
+    this.adapt();
+  }
+
+  /// As many pixels as the screen has, be it slow.
+  sharpen() {
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.rate = 60;
+  }
+
+  /// A slow machine gets fewer pixels rather than fewer pictures.
+  private adapt() {
+    const now = performance.now();
+    const took = now - this.drawn;
+    this.drawn = now;
+    if (took > 400) return; // it rested
+    this.rate += (1000 / Math.max(took, 1) - this.rate) * 0.1;
+    if (this.rate < 22 && this.renderer.getPixelRatio() > 0.6) {
+      this.renderer.setPixelRatio(this.renderer.getPixelRatio() * 0.75);
+      this.rate = 60;
+    }
+  }
+
+  /// The other takes, beside the dancer from left to right; where their names go on the screen.
+  private drawTakes(time: number, centre: THREE.Vector3) {
+    const takes = studio.takes.value;
+    while (this.others.length < takes.length) {
+      this.others.push(this.doll.another());
+      this.scene.add(this.others.at(-1)!.scene);
+    }
+    const side = new THREE.Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion).setY(0).normalize();
+    this.middle.copy(side).multiplyScalar((takes.length * apart) / 2).add(centre);
+    const marks = [this.toScreen(centre.clone().setY(2))];
+    this.others.forEach((other, i) => {
+      other.scene.visible = i < takes.length;
+      if (!other.scene.visible) return;
+      other.follow(takes[i].motion, time);
+      other.scene.position.copy(side).multiplyScalar((i + 1) * apart);
+      marks.push(this.toScreen(other.place().clone().add(other.scene.position).setY(2)));
+    });
+    return takes.length ? marks : [];
+  }
+
+  /// The chosen key, where it will be hit.
+  private drawGhost(time: number) {
+    const key = studio.keyOf(studio.selectedKey.value);
+    const away = key ? Math.abs(key.frame / studio.dancer.fps - time) : 0;
+    this.ghost.scene.visible = !!key?.hasPlace && !this.posing && away > 0.05 && studio.takes.value.length === 0;
+    if (this.ghost.scene.visible) this.ghost.take(key!.pose);
+  }
+
+  private look(at: THREE.Vector3) {
+    if (this.follows && !this.grabbed) {
+      const step = new THREE.Vector3(at.x, middle, at.z).sub(this.controls.target).multiplyScalar(0.12);
+      this.controls.target.add(step);
+      this.camera.position.add(step);
+    }
+    this.controls.update();
+    // All dancers fit into the picture.
+    const width = 2 * this.camera.position.distanceTo(this.controls.target) * Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect;
+    const wanted = Math.min(1, width / ((studio.takes.value.length + 1) * apart + 0.4));
+    if (Math.abs(wanted - this.camera.zoom) > 1e-3) {
+      this.camera.zoom += (wanted - this.camera.zoom) * 0.2;
+      this.camera.updateProjectionMatrix();
+    }
+    this.lamp.target.position.copy(this.controls.target);
+    this.lamp.position.copy(this.controls.target).add(new THREE.Vector3(1.6, 4.2, 2.6));
+    this.floor.position.set(this.controls.target.x - (this.controls.target.x % 0.5), 0, this.controls.target.z - (this.controls.target.z % 0.5));
+  }
+
+  private resize() {
+    const { clientWidth, clientHeight } = this.canvas;
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (size.x === clientWidth && size.y === clientHeight) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
+    // A narrow screen needs distance, not a cut-off body.
+    this.camera.fov = this.camera.aspect < 1 ? 40 : 32;
+    this.camera.updateProjectionMatrix();
+  }
+}

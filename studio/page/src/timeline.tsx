@@ -1,0 +1,283 @@
+// The song with its beats, the key poses on it, and where we are.
+import { signal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import WaveSurfer from 'wavesurfer.js';
+import type { Pose } from './body';
+import type { Key } from './project';
+import * as studio from './studio';
+
+const zoom = signal(48); // pixels a second
+const speed = signal(1);
+const loops = signal(false);
+const isPlaying = signal(false);
+const dark = matchMedia('(prefers-color-scheme: dark)');
+const isDark = signal(dark.matches);
+dark.addEventListener('change', () => (isDark.value = dark.matches));
+const edge = 40; // pixels beside the song
+const snap = 10; // pixels to a beat
+let content: HTMLElement | null = null;
+
+/// The frame over which a pose is carried.
+export const dropPose = signal<number | null>(null);
+
+const x = (seconds: number) => edge + seconds * zoom.value;
+const clock = (seconds: number) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')}`;
+const seconds = () => studio.project.value?.seconds ?? 0;
+
+/// The nearest beat's frame, if one is near on the screen.
+function snapped(time: number): number {
+  const heard = studio.song.value?.heard;
+  const at = Math.min(Math.max(time, 0), seconds());
+  let best = at;
+  let away = snap / zoom.value;
+  for (const beat of [...(heard?.suggested ?? []), ...(heard?.beats ?? [])]) {
+    if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
+  }
+  return Math.round(best * studio.dancer.fps);
+}
+
+const timeUnder = (clientX: number) => (clientX - content!.getBoundingClientRect().left - edge) / zoom.value;
+
+/// Of a point of the screen on the timeline; null elsewhere.
+export function frameUnder(clientX: number, clientY: number): number | null {
+  const box = content?.parentElement!.getBoundingClientRect();
+  if (!box || !studio.project.value) return null;
+  const inside = clientX >= box.left && clientX <= box.right && clientY >= box.top && clientY <= box.bottom;
+  return inside ? snapped(timeUnder(clientX)) : null;
+}
+
+const seek = (time: number) => (studio.audio.currentTime = Math.min(Math.max(time, 0), Math.max(0, seconds() - 0.01)));
+
+function Wave() {
+  const box = useRef<HTMLDivElement>(null);
+  const { value } = studio.song;
+  useEffect(() => {
+    if (!value) return;
+    const style = getComputedStyle(document.documentElement);
+    const wave = WaveSurfer.create({
+      container: box.current!,
+      media: studio.audio,
+      peaks: [value.heard.peaks],
+      duration: value.heard.seconds,
+      height: 56,
+      interact: false,
+      cursorWidth: 0,
+      normalize: true,
+      barWidth: 2,
+      barGap: 1,
+      barRadius: 2,
+      waveColor: style.getPropertyValue('--wave'),
+      progressColor: style.getPropertyValue('--wave-done'),
+    });
+    return () => wave.destroy();
+  }, [value, zoom.value, isDark.value]);
+  return <div class="wave" ref={box} style={{ left: `${edge}px`, width: `${seconds() * zoom.value}px` }} />;
+}
+
+function Scrubber() {
+  const slide = (event: PointerEvent) => {
+    const at = event.currentTarget as HTMLElement;
+    if (event.type === 'pointerdown') at.setPointerCapture(event.pointerId);
+    else if (!at.hasPointerCapture(event.pointerId)) return;
+    seek(timeUnder(event.clientX));
+  };
+  const press = (event: KeyboardEvent) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: 30, PageDown: -30 }[event.key];
+    if (event.key === 'Home') seek(0);
+    else if (event.key === 'End') seek(seconds());
+    else if (step) seek(studio.audio.currentTime + step / studio.dancer.fps);
+    else return;
+    event.preventDefault();
+  };
+  const heard = studio.song.value?.heard;
+  return (
+    <div class="scrubber" role="slider" tabIndex={0} aria-label="Playhead" aria-valuemin={0} aria-valuemax={Math.round(seconds())}
+      aria-valuenow={0} onPointerDown={slide} onPointerMove={slide} onKeyDown={press}>
+      <Wave />
+      {heard?.beats.map((beat) => <i class="beat" key={beat} style={{ left: `${x(beat)}px` }} />)}
+      {heard?.suggested.map((beat) => <i class="suggested" key={`s${beat}`} style={{ left: `${x(beat)}px` }} />)}
+    </div>
+  );
+}
+
+/// What may look other than wished, where it does.
+function Warnings() {
+  const { fps } = studio.dancer;
+  const frames = [...new Set(studio.warnings.value.map(({ frame }) => frame))];
+  return frames.map((frame) => {
+    const text = studio.warnings.value.filter((warning) => warning.frame === frame).map((warning) => warning.text).join('; ');
+    return (
+      <button class="warning" key={frame} style={{ left: `${x(frame / fps)}px` }} title={text} aria-label={`Warning at ${(frame / fps).toFixed(1)} s`}
+        onClick={() => studio.tell(`${(frame / fps).toFixed(1)} s: ${text}`)}>!</button>
+    );
+  });
+}
+
+const carriedKey = signal<{ id: string; frame: number } | null>(null);
+
+function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => string }) {
+  const { fps } = studio.dancer;
+  const isSelected = studio.selectedKey.value === item.id;
+  const frame = carriedKey.value?.id === item.id ? carriedKey.value.frame : item.frame;
+  const choose = () => {
+    studio.selectedKey.value = item.id;
+    studio.audio.pause();
+    seek(item.frame / fps);
+  };
+  const grab = (event: PointerEvent) => {
+    const chip = event.currentTarget as HTMLElement;
+    const offset = item.frame / fps - timeUnder(event.clientX);
+    const from = event.clientX;
+    chip.setPointerCapture(event.pointerId);
+    const move = ({ clientX, altKey }: PointerEvent) => {
+      if (!carriedKey.value && Math.abs(clientX - from) < 4) return;
+      const time = timeUnder(clientX) + offset;
+      carriedKey.value = { id: item.id, frame: altKey ? Math.max(0, Math.round(time * fps)) : snapped(time) };
+    };
+    const end = ({ type }: PointerEvent) => {
+      chip.removeEventListener('pointermove', move);
+      chip.removeEventListener('pointerup', end);
+      chip.removeEventListener('pointercancel', end);
+      const to = carriedKey.value;
+      carriedKey.value = null;
+      if (to && type === 'pointerup') studio.moveKey(item.id, to.frame);
+      else if (!to) choose();
+    };
+    chip.addEventListener('pointermove', move);
+    chip.addEventListener('pointerup', end);
+    chip.addEventListener('pointercancel', end);
+  };
+  const press = (event: KeyboardEvent) => {
+    const beats = studio.song.value?.heard.beats.map((beat) => Math.round(beat * fps)) ?? [];
+    if (event.key === 'Enter') choose();
+    else if (event.key === 'Delete' || event.key === 'Backspace') studio.removeKey(item.id);
+    else if (event.key === 'ArrowRight')
+      studio.moveKey(item.id, event.shiftKey ? item.frame + 1 : beats.find((beat) => beat > item.frame) ?? item.frame + 15);
+    else if (event.key === 'ArrowLeft')
+      studio.moveKey(item.id, event.shiftKey ? item.frame - 1 : beats.findLast((beat) => beat < item.frame) ?? item.frame - 15);
+    else return;
+    event.preventDefault();
+  };
+  return (
+    <button class={isSelected ? 'key selected' : 'key'} style={{ left: `${x(frame / fps)}px` }} data-key={item.id} data-frame={item.frame}
+      aria-label={`Key ${item.id} at ${(frame / fps).toFixed(1)} s`} aria-pressed={isSelected}
+      title={`${item.id.replaceAll('_', ' ')} at ${(frame / fps).toFixed(2)} s. Drag to move, press to pose.`}
+      onPointerDown={grab} onKeyDown={press} onClick={(event) => event.detail === 0 && choose()}>
+      <img alt="" draggable={false} src={pictureOf(item.pose)} />
+    </button>
+  );
+}
+
+/// The stretches between keys: chosen, they are looped, or danced in other ways.
+function Intervals() {
+  const { fps } = studio.dancer;
+  const { keys } = studio.project.value!;
+  return keys.slice(1).map((key, i) => {
+    const from = keys[i].frame;
+    const isChosen = studio.chosen.value?.[0] === from && studio.chosen.value[1] === key.frame;
+    return (
+      <button key={`${from}-${key.frame}`} class={isChosen ? 'interval selected' : 'interval'} aria-pressed={isChosen}
+        aria-label={`Interval from ${(from / fps).toFixed(1)} to ${(key.frame / fps).toFixed(1)} s`} title="Choose this interval: loop it, or try other ways to dance it"
+        style={{ left: `${x(from / fps)}px`, width: `${((key.frame - from) / fps) * zoom.value}px` }}
+        onClick={() => {
+          studio.takes.value = [];
+          studio.chosen.value = isChosen ? null : [from, key.frame];
+          if (!isChosen) seek(from / fps);
+        }} />
+    );
+  });
+}
+
+function Transport({ time }: { time: preact.Ref<HTMLElement> }) {
+  const turn = (by: number) => (zoom.value = Math.min(200, Math.max(8, zoom.value * by)));
+  return (
+    <div class="transport">
+      <button class="play" aria-label={isPlaying.value ? 'Pause' : 'Play'} title="Space" disabled={!studio.moment.value} onClick={studio.togglePlay}>
+        {isPlaying.value ? '❚❚' : '▶'}
+      </button>
+      <output ref={time as preact.Ref<HTMLOutputElement>} class="clock">0:00.0</output>
+      <div class="choices" role="group" aria-label="Speed">
+        {[1, 0.5, 0.25].map((factor) => (
+          <button key={factor} aria-pressed={speed.value === factor} onClick={() => (speed.value = studio.audio.defaultPlaybackRate = studio.audio.playbackRate = factor)}>
+            {{ 1: '1×', 0.5: '½×', 0.25: '¼×' }[factor]}
+          </button>
+        ))}
+      </div>
+      <button aria-pressed={loops.value} onClick={() => (loops.value = !loops.value)} title="Loop the chosen interval, or all of it">Loop</button>
+      <span class="space" />
+      <button disabled={!studio.song.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.complain)}
+        title="Other poses of the library on the song's beats">New poses</button>
+      <div class="choices" role="group" aria-label="Zoom">
+        <button class="icon" aria-label="Show more of the song" onClick={() => turn(0.7)}>−</button>
+        <button class="icon" aria-label="Show less of the song" onClick={() => turn(1.4)}>+</button>
+      </div>
+    </div>
+  );
+}
+
+/// Moves what follows the sound, sixty times a second, without a render.
+function usePlayhead(line: preact.RefObject<HTMLElement>, time: preact.RefObject<HTMLElement>) {
+  useEffect(() => {
+    let next = 0;
+    const tick = () => {
+      next = requestAnimationFrame(tick);
+      const { audio } = studio;
+      if (isPlaying.value === audio.paused) isPlaying.value = !audio.paused;
+      if (!studio.project.value) return;
+      const [from, to] = studio.chosen.value?.map((frame) => frame / studio.dancer.fps) ?? [0, seconds() - 0.05];
+      if (loops.value && !audio.paused && (audio.currentTime >= to || audio.currentTime < from - 0.1)) audio.currentTime = from;
+      const at = x(audio.currentTime);
+      line.current!.style.transform = `translateX(${at}px)`;
+      time.current!.textContent = clock(audio.currentTime);
+      const scrubber = content!.querySelector('.scrubber')!;
+      scrubber.setAttribute('aria-valuenow', audio.currentTime.toFixed(1));
+      const view = content!.parentElement!;
+      const isSeen = at > view.scrollLeft && at < view.scrollLeft + view.clientWidth * 0.9;
+      if (!audio.paused && !isSeen) view.scrollLeft = at - view.clientWidth * 0.1;
+    };
+    tick();
+    const over = () => {
+      if (loops.value) studio.togglePlay();
+    };
+    studio.audio.addEventListener('ended', over);
+    return () => {
+      cancelAnimationFrame(next);
+      studio.audio.removeEventListener('ended', over);
+    };
+  }, []);
+}
+
+export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
+  const box = useRef<HTMLDivElement>(null);
+  const line = useRef<HTMLElement>(null);
+  const time = useRef<HTMLElement>(null);
+  useEffect(() => {
+    content = box.current;
+  }, []);
+  usePlayhead(line, time);
+  // A short song fills the width, a long one keeps its keys apart.
+  const length = seconds();
+  useEffect(() => {
+    if (length) zoom.value = Math.min(130, Math.max(48, (box.current!.parentElement!.clientWidth - 2 * edge) / length));
+  }, [length]);
+  const shown = studio.project.value;
+  const there = studio.danced.value / (shown ? studio.dancer.fps : 1);
+  return (
+    <section class="timeline" aria-label="Timeline">
+      <Transport time={time} />
+      <div class="scroll">
+        <div class="content" ref={box} style={{ width: `${2 * edge + seconds() * zoom.value}px` }}>
+          <Scrubber />
+          <div class="lane" role="group" aria-label="Key poses">
+            {shown && <div class="danced" style={{ left: `${edge}px`, width: `${there * zoom.value}px` }} />}
+            {shown && <Intervals />}
+            {shown && <Warnings />}
+            {shown?.keys.map((key) => <KeyChip key={key.id} item={key} pictureOf={pictureOf} />)}
+            {dropPose.value !== null && shown && <i class="drop" style={{ left: `${x(dropPose.value / studio.dancer.fps)}px` }} />}
+          </div>
+          <i class="playhead" ref={line} />
+        </div>
+      </div>
+    </section>
+  );
+}

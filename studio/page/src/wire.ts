@@ -1,0 +1,78 @@
+// The WebSocket to the program: calls go out, answers come back to those who asked.
+import { create, fromBinary, toBinary } from '@bufbuild/protobuf';
+import type { MessageInitShape } from '@bufbuild/protobuf';
+import { RequestSchema, ResponseSchema } from './generated/studio/studio_pb';
+import type { Response } from './generated/studio/studio_pb';
+
+type Body = NonNullable<MessageInitShape<typeof RequestSchema>['request']>;
+type Listener = { heard: (response: Response) => void; failed: (error: Error) => void };
+
+export class Wire {
+  private socket?: WebSocket;
+  private calls = new Map<number, Listener>();
+  private last = 0;
+
+  constructor(
+    private readonly welcomed: (response: Response) => void,
+    private readonly lost: () => void,
+  ) {
+    this.connect();
+  }
+
+  /// A call with many answers; `heard` gets each until `end` is called.
+  open(body: Body, listener: Listener): number {
+    const call = ++this.last;
+    this.calls.set(call, listener);
+    this.say(call, body);
+    return call;
+  }
+
+  say(call: number, body: Body) {
+    if (this.socket?.readyState === WebSocket.OPEN) {
+      this.socket.send(toBinary(RequestSchema, create(RequestSchema, { call, request: body })));
+    } else {
+      this.calls.get(call)?.failed(new Error('The studio program is not there.'));
+      this.calls.delete(call);
+    }
+  }
+
+  end(call: number) {
+    this.calls.delete(call);
+  }
+
+  /// A call with one answer.
+  ask(body: Body): Promise<Response['response']> {
+    return new Promise((resolve, reject) => {
+      const call = this.open(body, {
+        heard: ({ response }) => {
+          this.end(call);
+          resolve(response);
+        },
+        failed: reject,
+      });
+    });
+  }
+
+  private connect() {
+    const socket = new WebSocket(`ws://${location.host}/studio`);
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = ({ data }) => this.take(fromBinary(ResponseSchema, new Uint8Array(data)));
+    socket.onclose = () => {
+      const calls = [...this.calls.values()];
+      this.calls.clear();
+      this.lost();
+      for (const { failed } of calls) failed(new Error('The studio program is gone.'));
+      setTimeout(() => this.connect(), 1000);
+    };
+    this.socket = socket;
+  }
+
+  private take(response: Response) {
+    if (response.response.case === 'welcome') return this.welcomed(response);
+    const listener = this.calls.get(response.call);
+    if (!listener) return;
+    if (response.response.case !== 'failure') return listener.heard(response);
+    this.calls.delete(response.call);
+    listener.failed(new Error(response.response.value.message));
+  }
+}

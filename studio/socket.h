@@ -1,0 +1,37 @@
+#pragma once
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "studio/desk.h"
+
+namespace choreo::studio {
+
+/// One page's WebSocket. Reads and writes on its server's thread; the desk's answers come from
+/// others and wait their turn.
+class Socket : public std::enable_shared_from_this<Socket> {
+ public:
+  Socket(boost::beast::tcp_stream stream, const House& house);
+
+  /// Takes over from HTTP.
+  void Start(const boost::beast::http::request<boost::beast::http::string_body>& request);
+  /// Ends all calls and the connection. On the server's thread.
+  void Close();
+
+ private:
+  void Read();
+  void Queue(std::string message);
+  void Write();
+
+  boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+  const House& house_;
+  boost::beast::flat_buffer received_;
+  std::deque<std::string> unsent_;
+  std::unique_ptr<Desk> desk_;
+};
+
+}  // namespace choreo::studio

@@ -1,0 +1,72 @@
+#include "studio/song.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/audio/suggest_keys.h"
+
+namespace choreo::studio {
+namespace {
+
+constexpr double kSuggestedEvery = 2.4;  // seconds, about
+constexpr double kPeaksPerSecond = 40;
+constexpr int64_t kMostPeaks = 12000;
+
+/// Largest amplitudes of equal pieces.
+std::vector<float> Peaks(const DecodedAudio& audio) {
+  const int64_t samples = audio.samples();
+  const int64_t count = std::clamp<int64_t>(std::llround(audio.seconds() * kPeaksPerSecond), 1,
+                                            std::min(kMostPeaks, samples));
+  std::vector<float> peaks(static_cast<size_t>(count));
+  for (int64_t i = 0; i < count; ++i) {
+    const float* first =
+        &audio.interleaved[static_cast<size_t>(i * samples / count * audio.channels)];
+    const float* end = audio.interleaved.data() + (i + 1) * samples / count * audio.channels;
+    for (; first < end; ++first)
+      peaks[static_cast<size_t>(i)] = std::max(peaks[static_cast<size_t>(i)], std::abs(*first));
+  }
+  return peaks;
+}
+
+/// How many keys fit between the beats.
+int64_t Room(const std::vector<double>& beats) {
+  int64_t count = 0;
+  double last = -kShortestKeyInterval;
+  for (const double beat : beats) {
+    if (beat - last < kShortestKeyInterval) continue;
+    last = beat;
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+Song HearSong(const std::filesystem::path& path, const std::string& name) {
+  Song song;
+  try {
+    song.music = cli::ReadMusic(path);
+  } catch (const Error& error) {
+    std::string message = error.what();
+    if (message.starts_with(error.field() + ": ")) message.erase(0, error.field().size() + 2);
+    throw Error(error.code(), name, message);
+  }
+  const double seconds = song.music.audio.seconds();
+  song.audio = cli::AudioFor(song.music.audio, seconds);
+  const std::vector<double> beats = song.music.track.Seconds();
+  song.heard.set_seconds(seconds);
+  song.heard.set_tempo(song.music.track.tempo_bpm);
+  song.heard.mutable_beats()->Add(beats.begin(), beats.end());
+  const int64_t count =
+      std::min(Room(beats), static_cast<int64_t>(std::ceil(seconds / kSuggestedEvery)));
+  if (count > 0) {
+    for (const SuggestedKey& key :
+         SuggestKeys(song.music.track, song.music.onset_strength, count, "suggested"))
+      song.heard.add_suggested(key.time_s);
+  }
+  const std::vector<float> peaks = Peaks(song.music.audio);
+  song.heard.mutable_peaks()->Add(peaks.begin(), peaks.end());
+  return song;
+}
+
+}  // namespace choreo::studio

@@ -1,0 +1,56 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "client/cli/commands.h"
+#include "client/cli/connection.h"
+#include "client/cli/interruption.h"
+#include "studio/keeper.h"
+#include "studio/web_server.h"
+
+namespace choreo::cli {
+namespace {
+
+struct StudioOptions {
+  ServerOptions server;
+  std::string song;
+  std::string listen = "127.0.0.1:8765";
+};
+
+void Run(const StudioOptions& options) {
+  const Interruption interruption;
+  client::Options server = options.server.ForClient();
+  std::optional<studio::Keeper> own;
+  if (options.server.addresses.empty()) {
+    own.emplace(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod");
+    server.addresses = {own->address()};
+  }
+  server.before_retry = [] { Interruption::Check(); };
+  const studio::House house(server, options.song);
+  studio::WebServer web(options.listen, house);
+  std::cout << "The studio is open at " << web.url() << "  (Ctrl-C closes it)" << std::endl;
+  web.Run([] { return !Interruption::Came(); });
+}
+
+}  // namespace
+
+void AddStudioCommand(CLI::App& program) {
+  auto options = std::make_shared<StudioOptions>();
+  CLI::App* command = program.add_subcommand(
+      "studio",
+      "Compose dances in the browser: a song, key poses on its beats, and the dance that goes "
+      "through them.\n"
+      "Serves a page on this machine and says where; nothing that the page does leaves it.");
+  command->add_option("song", options->song, "Song to begin with; others are dropped on the page.")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--listen", options->listen,
+                   "HOST:PORT to serve the page at; port 0 takes a free one. Whoever reaches it "
+                   "can use the studio: it knows no passwords.")
+      ->capture_default_str();
+  options->server.AddTo(*command);
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

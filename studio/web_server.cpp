@@ -1,0 +1,177 @@
+#include "studio/web_server.h"
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/ip/address.hpp>
+#include <charconv>
+#include <chrono>
+#include <future>
+
+#include "model/core/error.h"
+#include "studio/page.h"
+#include "studio/socket.h"
+
+namespace choreo::studio {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using tcp = boost::asio::ip::tcp;
+
+constexpr std::chrono::milliseconds kAskEvery{100};
+constexpr std::chrono::seconds kPatience{30};  // for a request
+constexpr const char* kSocketPath = "/studio";
+// Browsers hold the page to this, whatever it loads.
+constexpr const char* kPolicy =
+    "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+    "media-src 'self' blob:; connect-src 'self' blob:; frame-ancestors 'none'";
+
+struct Place {
+  std::string host;
+  std::string port;
+};
+
+Place ParsePlace(const std::string& listen) {
+  const size_t colon = listen.rfind(':');
+  int port = -1;
+  if (colon != std::string::npos) {
+    const char* end = listen.data() + listen.size();
+    const auto [stop, code] = std::from_chars(listen.data() + colon + 1, end, port);
+    if (code != std::errc() || stop != end) port = -1;
+  }
+  if (colon == 0 || port < 0 || port > 65535) {
+    throw InvalidArgument("--listen",
+                          "\"" + listen + "\" is not HOST:PORT with a port from 0 to 65535");
+  }
+  std::string host = listen.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  return {host, listen.substr(colon + 1)};
+}
+
+/// One connection until it becomes a WebSocket or ends.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  using Upgrade = std::function<void(beast::tcp_stream, const http::request<http::string_body>&)>;
+
+  Connection(tcp::socket socket, std::string host, Upgrade upgrade)
+      : stream_(std::move(socket)), host_(std::move(host)), upgrade_(std::move(upgrade)) {}
+
+  void Read() {
+    request_ = {};
+    stream_.expires_after(kPatience);
+    http::async_read(stream_, buffer_, request_,
+                     [self = shared_from_this()](beast::error_code error, size_t) {
+                       if (!error) self->Answer();
+                     });
+  }
+
+ private:
+  /// Where the browser believes to be. A name that anybody can point here is nobody's home.
+  bool AskedForUs() const {
+    const std::string host(request_[http::field::host]);
+    const std::string name = host.substr(0, host.rfind(':'));
+    return name == "localhost" || name == "127.0.0.1" || name == "[::1]" || name == host_;
+  }
+  bool FromOurPage() const {
+    const std::string origin(request_[http::field::origin]);
+    return origin.empty() || origin == "http://" + std::string(request_[http::field::host]);
+  }
+
+  void Answer() {
+    if (!AskedForUs() || !FromOurPage())
+      return Say(http::status::forbidden, "text/plain", "The studio is for its own page.\n");
+    if (beast::websocket::is_upgrade(request_)) {
+      if (request_.target() != kSocketPath)
+        return Say(http::status::not_found, "text/plain", "No WebSocket here.\n");
+      return upgrade_(std::move(stream_), request_);
+    }
+    if (request_.method() != http::verb::get && request_.method() != http::verb::head)
+      return Say(http::status::method_not_allowed, "text/plain", "GET alone.\n");
+    const std::string target(request_.target());
+    const PageFile* file = FindPageFile(std::string_view(target).substr(0, target.find('?')));
+    if (!file) return Say(http::status::not_found, "text/plain", "No such page.\n");
+    Say(http::status::ok, file->type, file->data);
+  }
+
+  void Say(http::status status, std::string_view type, std::string_view text) {
+    auto response = std::make_shared<http::response<http::string_body>>(status, request_.version());
+    response->set(http::field::content_type, beast::string_view(type.data(), type.size()));
+    response->set(http::field::cache_control, "no-cache");
+    response->set("Content-Security-Policy", kPolicy);
+    response->set("X-Content-Type-Options", "nosniff");
+    response->keep_alive(request_.keep_alive());
+    if (request_.method() != http::verb::head) response->body() = text;
+    response->prepare_payload();
+    http::async_write(stream_, *response,
+                      [self = shared_from_this(), response](beast::error_code error, size_t) {
+                        if (!error && response->keep_alive()) self->Read();
+                      });
+  }
+
+  beast::tcp_stream stream_;
+  const std::string host_;
+  const Upgrade upgrade_;
+  beast::flat_buffer buffer_;
+  http::request<http::string_body> request_;
+};
+
+}  // namespace
+
+WebServer::WebServer(const std::string& listen, const House& house)
+    : house_(house), acceptor_(io_), timer_(io_) {
+  const Place place = ParsePlace(listen);
+  host_ = place.host;
+  try {
+    const tcp::endpoint endpoint = *tcp::resolver(io_).resolve(place.host, place.port).begin();
+    acceptor_.open(endpoint.protocol());
+    acceptor_.set_option(tcp::acceptor::reuse_address(true));
+    acceptor_.bind(endpoint);
+    acceptor_.listen();
+  } catch (const boost::system::system_error& error) {
+    throw InvalidArgument("--listen", listen + ": " + error.code().message());
+  }
+}
+
+WebServer::~WebServer() {
+  for (const auto& weak : sockets_)
+    if (const auto socket = weak.lock()) socket->Close();
+}
+
+std::string WebServer::url() const {
+  const bool is_v6 = host_.find(':') != std::string::npos;
+  return "http://" + (is_v6 ? "[" + host_ + "]" : host_) + ":" + std::to_string(port());
+}
+
+void WebServer::Run(const std::function<bool()>& go_on) {
+  Accept();
+  Ask(go_on);
+  io_.run();
+}
+
+void WebServer::Stop() { io_.stop(); }
+
+void WebServer::Ask(const std::function<bool()>& go_on) {
+  timer_.expires_after(kAskEvery);
+  timer_.async_wait([this, &go_on](beast::error_code error) {
+    if (error) return;
+    std::erase_if(sockets_, [](const auto& weak) { return weak.expired(); });
+    go_on() ? Ask(go_on) : Stop();
+  });
+}
+
+void WebServer::Accept() {
+  acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
+    if (!error) {
+      std::make_shared<Connection>(
+          std::move(socket), host_,
+          [this](beast::tcp_stream stream, const http::request<http::string_body>& request) {
+            const auto page = std::make_shared<Socket>(std::move(stream), house_);
+            sockets_.insert(page);
+            page->Start(request);
+          })
+          ->Read();
+    }
+    Accept();
+  });
+}
+
+}  // namespace choreo::studio

@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Builds the page as it is committed, and uses the studio in a headless Chromium.
+#   run.sh BUILD_DIRECTORY [PICTURES_FOLDER]
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+page=$here/../../../studio/page
+build=$(realpath "$1")
+CHOREO_SKIP_CODE=1 "$here/../../support/npm_ci.sh" "$page"
+"$here/check_page.sh" "$page"
+node "$here/studio.test.mjs" "$build/bin/choreo" "${2:-$build/studio_pictures}"
