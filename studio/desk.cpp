@@ -234,7 +234,7 @@ void Desk::ComposeKeys(uint32_t call, const Compose& request) {
     composition.beats = music->music.track.Seconds();
   Response response;
   response.mutable_keyframes();
-  const auto library = cli::PoseLibrary(house_.model().skeleton);
+  const auto library = cli::PosesToDance(house_.model().skeleton);
   for (const client::KeyPose& key : cli::ComposeKeys(composition, library))
     *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   Answer(call, std::move(response));

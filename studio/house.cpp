@@ -34,7 +34,7 @@ House::House(const client::Options& server, const std::filesystem::path& song) :
   model_ = description.models.front();
   welcome_.set_version(description.version);
   *welcome_.mutable_model() = ToProto(model_);
-  for (const cli::LibraryPose& pose : cli::PoseLibrary(model_.skeleton)) {
+  for (const cli::LibraryPose& pose : cli::PosesToDance(model_.skeleton)) {
     LibraryPose* added = welcome_.add_poses();
     added->set_id(pose.id);
     added->set_description(pose.description);

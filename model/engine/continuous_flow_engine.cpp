@@ -16,9 +16,8 @@ namespace choreo {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr double kNearEnough = 0.05;  // logarithm of a factor
-constexpr double kAnswer = 0.6;       // of what is missing comes of as much more
-constexpr double kFarthest = 1;       // logarithm of what is asked for over what is wanted
+constexpr double kAnswer = 0.6;  // of what is missing comes of as much more
+constexpr double kFarthest = 1;  // logarithm of what is asked for over what is wanted
 
 WindowRequest ToWindowRequest(const TransitionSpec& spec) {
   WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
@@ -65,7 +64,7 @@ std::vector<Pose> SampleAsLively(const FlowModelParts& model, const FlowNetwork&
   const Eigen::VectorXd asked = wanted.rowwise().mean();
   Factors more = {};  // logarithms
   double least = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kRounds && least > kNearEnough; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     std::vector<Pose> poses = SampleTransition(model, network, request, noise);
     const Factors danced = MeanFactors(model.skeleton, weights, request.history.back(), poses);
     double most = 0;
@@ -111,14 +110,20 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
                 "all " + std::to_string(slots_.size()) + " slots are taken");
   }
   Slot slot;
-  const WindowRequest request = ToWindowRequest(spec);
+  WindowRequest request = ToWindowRequest(spec);
   const FlowNoise noise{.seed = spec.seed,
                         .candidate = spec.candidate,
                         .first_frame = spec.first_frame,
                         .temperature = spec.temperature};
-  slot.poses = request.energy.cols() > 0
-                   ? SampleAsLively(*parts_, *network_, weights_, request, noise)
-                   : SampleTransition(*parts_, *network_, request, noise);
+  const bool lively_as_asked = request.energy.cols() > 0;
+  if (!lively_as_asked && !Keyed(spec)) {
+    // Neither keys nor factors say how lively; a dance that took it from itself would fade or rage.
+    const auto& median = parts_->config.median_factors;
+    request.energy =
+        Eigen::Map<const Eigen::VectorXd>(median.data(), kBodyParts).replicate(1, spec.frames);
+  }
+  slot.poses = lively_as_asked ? SampleAsLively(*parts_, *network_, weights_, request, noise)
+                               : SampleTransition(*parts_, *network_, request, noise);
   LimitHinges(info_.skeleton, slot.poses);
   if (!spec.target && !(spec.controls.root_path.cols() > 0 && spec.controls.path_heights))
     ReturnToFloor(info_.skeleton, slot.poses);

@@ -10,6 +10,7 @@ namespace choreo {
 namespace {
 
 constexpr double kSoftness = 0.03;  // radians of bend over which a hinge is led to a stop
+constexpr double kFolded = 2.7;     // radians: a calf on its thigh
 
 // As max(0, bend), but smooth.
 double SoftBend(double bend) {
@@ -25,7 +26,8 @@ void LimitHinges(const Skeleton& skeleton, std::span<Pose> poses) {
     for (const Hinge& hinge : hinges) {
       auto rotation = pose.rotations.col(hinge.joint);
       const double bend = hinge.axis.dot(rotation);
-      rotation += (SoftBend(bend) - bend) * hinge.axis;
+      const double possible = kFolded - SoftBend(kFolded - SoftBend(bend));
+      rotation += (possible - bend) * hinge.axis;
     }
   }
 }

@@ -8,8 +8,8 @@
 /// What bodies can't do, though what is drawn for them may. Pure functions.
 namespace choreo {
 
-/// Knees and elbows bend one way: the bend of each about its hinge, radians, is led softly to
-/// nothing where it would pass straight. A bend of more than a tenth stays as it is.
+/// Knees and elbows bend one way, until the limb is folded: the bend of each about its hinge is led
+/// softly to a stop at 0 and at 2.7 radians. One that is a tenth from both stays as it is.
 void LimitHinges(const Skeleton& skeleton, std::span<Pose> poses);
 
 /// Whoever dances for seconds touches the floor: by the last pose the root is as much lower, or

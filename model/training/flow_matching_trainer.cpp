@@ -23,8 +23,6 @@ namespace {
 
 constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48;
 constexpr int kValidationWindows = 24;
-// Samples lean and reach farther than bodies do; nearer to the mean they stand, and still live.
-constexpr double kServedTemperature = 0.85;
 constexpr double kAverage = 0.999;                                  // of the weights, a step
 constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
 constexpr double kEnergy = 0.6;  // share of windows whose energy is told
@@ -72,7 +70,6 @@ class FlowMatchingRun : public TrainingRun {
     torch::manual_seed(options.seed);
     ContinuousFlowConfig config;
     if (!options.name.empty()) config.name = options.name;
-    config.temperature = kServedTemperature;
     config.styles = train_.styles();
     config.median_factors = train_.MedianFactors();
     model_ = ContinuousFlow(config, train_.skeleton());

@@ -1,12 +1,14 @@
 #include "model/training/train_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "model/controllers/controllers_config.h"
 #include "model/core/error.h"
-#include "model/flow/flow_config.h"
 #include "model/training/control_trainer.h"
 #include "model/training/flow_matching_trainer.h"
 #include "model/training/trainer.h"
@@ -15,6 +17,8 @@ namespace choreo {
 namespace {
 
 constexpr const char* kContinuous = "default";
+constexpr std::string_view kPresets[] = {kContinuous, "paper", "ablation",
+                                         ControllersConfig::kPreset};
 
 // Switches that only flows, or only controllers (true), have.
 constexpr std::pair<const char*, bool> kAblations[] = {
@@ -33,13 +37,9 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& name) {
-            if (name == ControllersConfig::kPreset || name == kContinuous) return std::string();
-            try {
-              FlowConfig::Preset(name);
-            } catch (const Error& error) {
-              return std::string(error.what()).substr(error.field().size() + 2);
-            }
-            return std::string();
+            return std::ranges::find(kPresets, name) != std::end(kPresets)
+                       ? std::string()
+                       : "'" + name + "' is not one of default, paper, ablation, controllers-paper";
           },
           ""));
   command->add_option("--name", options->name,

@@ -52,7 +52,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {"model/evaluation", {core, audio, motion, draw, engine, dance, "model/training", metrics}},
         {"model/lab", {core, engine, "model/training", "model/evaluation"}},
         {"server", {core, audio, motion, engine, dance, "choreo", "google"}},
-        {"client", {core, audio, motion, formats, draw, "choreo", "google", "grpc"}},
+        {"client", {core, audio, motion, body, formats, draw, "choreo", "google", "grpc"}},
         {"studio", {core, audio, motion, formats, "client", "choreo"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, dance, "server", "client", "choreo"}},

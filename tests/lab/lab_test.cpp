@@ -46,7 +46,7 @@ TEST(LabTest, ExplainsItself) {
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << command;
   }
-  EXPECT_THAT(Lab("train --help").said, HasSubstr("Steps of the first stage"));
+  EXPECT_THAT(Lab("train --help").said, HasSubstr("Steps of the run"));
 }
 
 TEST(LabTest, MisuseIsCodeTwo) {
@@ -179,7 +179,8 @@ TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
 TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
   for (const auto& [options, why] : std::vector<std::pair<std::string, std::string>>{
            {"ablation --one-lstm", "--one-lstm: is no ablation of the preset ablation"},
-           {"controllers-paper --no-keys", "--no-keys: is no ablation of the preset controllers-paper"}}) {
+           {"controllers-paper --no-keys",
+            "--no-keys: is no ablation of the preset controllers-paper"}}) {
     const Outcome outcome = Lab("train --run refused --preset " + options + kData, folder_.path());
     EXPECT_EQ(outcome.code, 1) << options;
     EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: " + why)) << options;
@@ -188,11 +189,11 @@ TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
 
 TEST_F(LabEval, WarnsOfLengthsWithoutWindowsAndOfPlotsThatAreNotDrawn) {
   TrainOneStep("ablation");
-  TrainOneStep("recurrent");
+  TrainOneStep("controllers-paper");
   const Outcome outcome = Lab("eval --model ablation/checkpoint.safetensors" + kData +
                                   " --lengths 10 115 --windows 1 --best-of 0 --long-dances 0 "
                                   "--no-encoder --markdown alone.md --engine packed "
-                                  "--other 'a baseline=recurrent/checkpoint.safetensors'",
+                                  "--other 'a baseline=controllers-paper/checkpoint.safetensors'",
                               folder_.path());
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("--lengths: no clip of clips has 115 frames"));
@@ -201,19 +202,21 @@ TEST_F(LabEval, WarnsOfLengthsWithoutWindowsAndOfPlotsThatAreNotDrawn) {
   EXPECT_THAT(Bytes(folder_.path() / "alone.md"), HasSubstr("0 windows of 115 frames"));
   // What has nothing to pack is stepped by torch.
   EXPECT_THAT(Bytes(folder_.path() / "alone.md"), HasSubstr("; torch for a baseline."));
-  const Outcome endless = Lab("eval --model ablation/checkpoint.safetensors" + kData +
-                                  " --lengths 1800 --other r=recurrent/checkpoint.safetensors",
-                              folder_.path());
-  EXPECT_EQ(endless.code, 1);
-  EXPECT_THAT(endless.said, HasSubstr("choreo-lab: --lengths: 1800 frames are more than the 150 "
-                                      "that --other r (recurrent) takes"));
-  // The judged one is not called by the baselines that are made of it.
-  const Outcome judged =
-      Lab("eval --model recurrent/checkpoint.safetensors" + kData + " --lengths 10 151 --name mine",
+  const Outcome endless =
+      Lab("eval --model ablation/checkpoint.safetensors" + kData +
+              " --lengths 1800 --other r=controllers-paper/checkpoint.safetensors",
           folder_.path());
+  EXPECT_EQ(endless.code, 1);
+  EXPECT_THAT(endless.said, HasSubstr("choreo-lab: --lengths: 1800 frames are more than the 600 "
+                                      "that --other r (controllers-paper) takes"));
+  // The judged one is not called by the baselines that are made of it.
+  const Outcome judged = Lab("eval --model controllers-paper/checkpoint.safetensors" + kData +
+                                 " --lengths 10 601 --name mine",
+                             folder_.path());
   EXPECT_EQ(judged.code, 1);
-  EXPECT_THAT(judged.said,
-              HasSubstr("--lengths: 151 frames are more than the 150 that --model (recurrent)"));
+  EXPECT_THAT(
+      judged.said,
+      HasSubstr("--lengths: 601 frames are more than the 600 that --model (controllers-paper)"));
 }
 
 TEST_F(LabEval, MeasuresAnyGroupOfTheSplitsFileAndNamesThemAll) {

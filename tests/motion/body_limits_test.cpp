@@ -59,5 +59,23 @@ TEST(BodyLimits, AFloatingDanceComesDownAndOneOnTheFloorStays) {
   }
 }
 
+TEST(LimitHinges, NoLimbFoldsThroughItself) {
+  for (const Hinge& hinge : Hinges(Body())) {
+    double before = 0;
+    for (double bend = 2; bend < 3.5; bend += 0.1) {
+      Pose pose = RestPose(Body());
+      pose.rotations.col(hinge.joint) = bend * hinge.axis;
+      LimitHinges(Body(), {&pose, 1});
+      const double now = hinge.axis.dot(pose.rotations.col(hinge.joint));
+      EXPECT_LE(now, 2.7);
+      EXPECT_GE(now, before - 1e-12) << "it goes on bending, ever less";
+      if (bend < 2.55) {
+        EXPECT_NEAR(now, bend, 1e-2);
+      }
+      before = now;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace choreo
