@@ -192,16 +192,13 @@ TEST_F(LabEval, WarnsOfLengthsWithoutWindowsAndOfPlotsThatAreNotDrawn) {
   TrainOneStep("controllers-paper");
   const Outcome outcome = Lab("eval --model ablation/checkpoint.safetensors" + kData +
                                   " --lengths 10 115 --windows 1 --best-of 0 --long-dances 0 "
-                                  "--no-encoder --markdown alone.md --engine packed "
-                                  "--other 'a baseline=controllers-paper/checkpoint.safetensors'",
+                                  "--no-encoder --markdown alone.md --engine packed",
                               folder_.path());
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("--lengths: no clip of clips has 115 frames"));
   EXPECT_THAT(outcome.said, testing::Not(HasSubstr("has 10 frames")));
   EXPECT_THAT(outcome.said, HasSubstr("--markdown: no plots without --json"));
   EXPECT_THAT(Bytes(folder_.path() / "alone.md"), HasSubstr("0 windows of 115 frames"));
-  // What has nothing to pack is stepped by torch.
-  EXPECT_THAT(Bytes(folder_.path() / "alone.md"), HasSubstr("; torch for a baseline."));
   const Outcome endless =
       Lab("eval --model ablation/checkpoint.safetensors" + kData +
               " --lengths 1800 --other r=controllers-paper/checkpoint.safetensors",
