@@ -114,7 +114,7 @@ void Frames(benchmark::State& state, StepEngine& engine, int streams) {
   state.SetItemsProcessed(state.iterations() * streams);
 }
 
-/// Admissions of transitions of kFrames: the plan and what is computed ahead.
+/// Admissions of transitions of kFrames: all that is computed ahead.
 void Admissions(benchmark::State& state, StepEngine& engine) {
   for (auto _ : state) engine.Release(engine.Admit(Spec(engine.model(), 1)));
   state.SetItemsProcessed(state.iterations());

@@ -144,7 +144,7 @@ def gpu_rows(figures, gpu):
     """A row an engine, with the card that was there; the bars are for one of H200's class."""
     bars = "1,500 / 60,000 | 4,000 / 250,000"
     rows = []
-    for engine in ("torch", "torch-bf16"):
+    for engine in ("torch",):
         rates = [figures.get(f"paper/cuda/{engine}/{streams}") for streams in (1, 512)]
         if None in rates:
             continue

@@ -71,11 +71,11 @@ std::string Plain(const nlohmann::ordered_json& value) {
 void PrintAncestors(const nlohmann::ordered_json& card) {
   const nlohmann::ordered_json unknown = "?";
   const nlohmann::ordered_json* from = &card;
-  while (from->is_object() && from->contains("planner_from")) {
-    const nlohmann::ordered_json& parent = (*from)["planner_from"];
+  while (from->is_object() && from->contains("from")) {
+    const nlohmann::ordered_json& parent = (*from)["from"];
     if (!parent.is_object() || !parent.contains("card") || !parent["card"].is_object()) return;
     from = &parent["card"];
-    std::printf("  planner from %s: %s\n", Plain(parent.value("hash", unknown)).c_str(),
+    std::printf("  went on from %s: %s\n", Plain(parent.value("hash", unknown)).c_str(),
                 Plain(from->value("command", unknown)).c_str());
   }
 }
@@ -91,7 +91,7 @@ void PrintCard(const std::string& card) {
     } else if (name == "data" && value.is_object()) {
       for (const auto& [part, content] : value.items())
         std::printf("  data, %s: %s\n", part.c_str(), Plain(content).c_str());
-    } else if (name == "planner_from") {
+    } else if (name == "from") {
       PrintAncestors(json);
     } else if (name != "licence") {  // said above
       std::printf("  %s: %s\n", name.c_str(), Plain(value).c_str());

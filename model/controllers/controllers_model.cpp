@@ -60,9 +60,8 @@ Tensor ControlledScale::Unit(const Tensor& joints) const {
 
 ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
   ControlledGiven part = *this;
-  for (Tensor* tensor : {&part.path, &part.ahead, &part.ramp, &part.joints, &part.turn, &part.root,
-                         &part.path_window, &part.factor_window, &part.path_memory,
-                         &part.factor_memory, &part.code}) {
+  for (Tensor* tensor : {&part.path, &part.ahead, &part.ramp, &part.joints, &part.path_window,
+                         &part.factor_window, &part.path_memory, &part.factor_memory, &part.code}) {
     if (tensor->defined()) *tensor = tensor->narrow(1, first, count);
   }
   return part;
@@ -155,8 +154,6 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
                                   -1);
   given.code = position_code_(place);
   given.joints = reference;
-  given.turn = torch::zeros({batch, frames, 2}, options);
-  given.root = torch::zeros({batch, frames, 3}, options);
 
   const auto encode = [&](const WindowController& controller, const Tensor& windows) {
     return controller->Encode(windows.flatten(0, 1)).unflatten(0, {batch, frames});
@@ -186,7 +183,8 @@ FrameTensors ControllersModelImpl::Compose(const ControlledGiven& given, const T
 }
 
 FrameTensors ControllersModelImpl::Planned(const ControlledGiven& given) const {
-  return Compose(given, given.joints, given.turn, given.root);
+  const Tensor none = torch::zeros_like(given.path);
+  return Compose(given, given.joints, none.narrow(2, 0, 2), none);
 }
 
 ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
@@ -256,8 +254,7 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
   const Tensor joints = given.joints + given.ramp.unsqueeze(-1) * scale_.joint_std *
                                            decoded.narrow(2, 0, pose).unflatten(2, {others_, 3});
   ControlledOutput output;
-  output.frames = Compose(given, joints, given.turn + root.narrow(2, 3, 2),
-                          given.root + kPlace * root.narrow(2, 0, 3));
+  output.frames = Compose(given, joints, root.narrow(2, 3, 2), kPlace * root.narrow(2, 0, 3));
   output.contact_logits = decoded.narrow(2, 2 * pose, kContacts);
   output.frames.contacts = torch::sigmoid(output.contact_logits);
   output.velocities =

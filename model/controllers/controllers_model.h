@@ -26,8 +26,6 @@ struct ControlledGiven {
   torch::Tensor ahead;          ///< [batch, N, 2] heading of the straight way to the target
   torch::Tensor ramp;           ///< [batch, N, 1] how free a frame is of history and target, [0, 1]
   torch::Tensor joints;         ///< [batch, N, joints - 1, 3] interpolated
-  torch::Tensor turn;           ///< [batch, N, 2] planned, from `ahead`; not of unit length
-  torch::Tensor root;           ///< [batch, N, 3] planned, from the path, in the frame of `ahead`
   torch::Tensor path_window;    ///< [batch, N, window, 3]
   torch::Tensor factor_window;  ///< [batch, N, window, 5]
   torch::Tensor path_memory, factor_memory;  ///< what the controllers' encoders make of them

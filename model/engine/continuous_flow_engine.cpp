@@ -9,13 +9,11 @@
 #include "model/core/error.h"
 #include "model/engine/plan_timing.h"
 #include "model/motion/body_limits.h"
-#include "model/motion/kinematics.h"
 
 namespace choreo {
-
 namespace {
 
-constexpr int kRounds = 3;
+constexpr int kRounds = 3;       // in which energy is asked for
 constexpr double kAnswer = 0.6;  // of what is missing comes of as much more
 constexpr double kFarthest = 1;  // logarithm of what is asked for over what is wanted
 
@@ -37,36 +35,20 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec) {
   return request;
 }
 
-using Factors = std::array<double, kBodyParts>;
-
-// Mean velocity factors of the poses behind `last`.
-Factors MeanFactors(const Skeleton& skeleton, const BodyPartWeights& weights, const Pose& last,
-                    std::span<const Pose> poses) {
-  Factors mean = {};
-  Eigen::Matrix3Xd before = JointPositions(skeleton, last);
-  for (const Pose& pose : poses) {
-    const Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
-    const Factors factors = VelocityFactors(weights, before, now);
-    for (size_t part = 0; part < mean.size(); ++part)
-      mean[part] += factors[part] / static_cast<double>(poses.size());
-    before = now;
-  }
-  return mean;
-}
-
 // The network answers energy that is asked for, but by less. So what came of it is measured and, as
 // far as it missed, asked for again; the nearest is danced.
 std::vector<Pose> SampleAsLively(const FlowModelParts& model, const FlowNetwork& network,
-                                 const BodyPartWeights& weights, WindowRequest request,
-                                 const FlowNoise& noise) {
+                                 WindowRequest request, const FlowNoise& noise) {
   std::vector<Pose> nearest;
   const Eigen::MatrixXd wanted = request.energy;
   const Eigen::VectorXd asked = wanted.rowwise().mean();
-  Factors more = {};  // logarithms
+  std::array<double, kBodyParts> more = {};  // logarithms
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Pose> poses = SampleTransition(model, network, request, noise);
-    const Factors danced = MeanFactors(model.skeleton, weights, request.history.back(), poses);
+    std::vector<Pose> seen = {request.history.back()};
+    seen.insert(seen.end(), poses.begin(), poses.end());
+    const auto danced = MeanVelocityFactors(model.skeleton, seen);
     double most = 0;
     for (int part = 0; part < asked.size(); ++part) {
       const auto at = static_cast<size_t>(part);
@@ -93,7 +75,6 @@ ContinuousFlowEngine::ContinuousFlowEngine(ModelInfo info, std::string device, i
       device_(std::move(device)),
       parts_(std::move(parts)),
       network_(std::move(network)),
-      weights_(WeighBodyParts(info_.skeleton)),
       slots_(static_cast<size_t>(slots)) {}
 
 int ContinuousFlowEngine::free_slots() const {
@@ -110,6 +91,21 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
                 "all " + std::to_string(slots_.size()) + " slots are taken");
   }
   Slot slot;
+  slot.poses = Sample(spec);
+  LimitHinges(info_.skeleton, slot.poses);
+  if (!spec.target && !(spec.controls.root_path.cols() > 0 && spec.controls.path_heights))
+    ReturnToFloor(info_.skeleton, slot.poses);
+  // Where a path says when to be where, time is not the beats' to bend.
+  if (!spec.beats.empty() && spec.controls.root_path.cols() == 0)
+    slot.poses = TimeToBeats(spec.history, slot.poses, spec.beats, Keyed(spec));
+  Motion motion{.fps = info_.fps, .frames = {spec.history.back()}};
+  motion.frames.insert(motion.frames.end(), slot.poses.begin(), slot.poses.end());
+  slot.contacts = DetectContacts(info_.skeleton, motion);
+  free->emplace(std::move(slot));
+  return static_cast<int>(free - slots_.begin());
+}
+
+std::vector<Pose> ContinuousFlowEngine::Sample(const TransitionSpec& spec) const {
   WindowRequest request = ToWindowRequest(spec);
   const FlowNoise noise{.seed = spec.seed,
                         .candidate = spec.candidate,
@@ -122,19 +118,8 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
     request.energy =
         Eigen::Map<const Eigen::VectorXd>(median.data(), kBodyParts).replicate(1, spec.frames);
   }
-  slot.poses = lively_as_asked ? SampleAsLively(*parts_, *network_, weights_, request, noise)
-                               : SampleTransition(*parts_, *network_, request, noise);
-  LimitHinges(info_.skeleton, slot.poses);
-  if (!spec.target && !(spec.controls.root_path.cols() > 0 && spec.controls.path_heights))
-    ReturnToFloor(info_.skeleton, slot.poses);
-  // Where a path says when to be where, time is not the beats' to bend.
-  if (!spec.beats.empty() && spec.controls.root_path.cols() == 0)
-    slot.poses = TimeToBeats(spec.history, slot.poses, spec.beats, Keyed(spec));
-  Motion motion{.fps = info_.fps, .frames = {spec.history.back()}};
-  motion.frames.insert(motion.frames.end(), slot.poses.begin(), slot.poses.end());
-  slot.contacts = DetectContacts(info_.skeleton, motion);
-  free->emplace(std::move(slot));
-  return static_cast<int>(free - slots_.begin());
+  return lively_as_asked ? SampleAsLively(*parts_, *network_, request, noise)
+                         : SampleTransition(*parts_, *network_, request, noise);
 }
 
 void ContinuousFlowEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {

@@ -34,12 +34,13 @@ class ContinuousFlowEngine : public StepEngine {
     std::vector<Contacts> contacts;
     int next = 0;
   };
+  /// The transition as the network has it.
+  std::vector<Pose> Sample(const TransitionSpec& spec) const;
 
   ModelInfo info_;
   std::string device_;
   std::shared_ptr<const FlowModelParts> parts_;
   std::shared_ptr<const FlowNetwork> network_;
-  BodyPartWeights weights_;
   std::vector<std::optional<Slot>> slots_;
 };
 

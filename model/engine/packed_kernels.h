@@ -19,7 +19,7 @@ struct PackedProduct {
   const float* b = nullptr;
   long depth = 0, panels = 0;
   const float* init = nullptr;  ///< [rows, panels * panel]; may be `c`
-  long init_stride = 0;         ///< 0: one row for all (a bias); -1: diagonals have one value
+  long init_stride = 0;         ///< 0: one row for all (a bias)
   float* c = nullptr;
   long c_stride = 0;
   long rows = 0;
@@ -58,8 +58,6 @@ struct PackedKernels {
   void (*layer_norm)(const float* x, const float* gain, const float* bias, long width, float* out);
   /// x = x times the normal distribution's share below x
   void (*gelu)(float* x, long count);
-  /// x = log(1 + exp(x))
-  void (*softplus)(float* x, long count);
 };
 
 /// What this machine can run in float32, fastest first; never empty.

@@ -140,7 +140,6 @@ const PackedKernels CHOREO_KERNELS = {.name = CHOREO_KERNELS_NAME,
                                       .bend = Bend,
                                       .softmax = Softmax,
                                       .layer_norm = LayerNorm,
-                                      .gelu = Gelu,
-                                      .softplus = Softplus};
+                                      .gelu = Gelu};
 
 }  // namespace choreo

@@ -55,15 +55,6 @@ PackedLinear::PackedLinear(const PackedKernels& kernels, const RowMajorMatrix& w
   }
 }
 
-void PackedLinear::Accumulate(const float* x, long x_stride, float* y, long y_stride,
-                              long rows) const {
-  const Eigen::Map<const Eigen::RowVectorXf> bias(bias_.data(), padded());
-  for (long row = 0; row < rows; ++row) {
-    Eigen::Map<Eigen::RowVectorXf>(y + row * y_stride, padded()) += bias;
-  }
-  Add(x, x_stride, y, y_stride, rows);
-}
-
 void PackedLinear::Multiply(const float* x, long x_stride, const float* init, long init_stride,
                             float* y, long y_stride, long rows) const {
   if (kernels_->pair != nullptr) {

@@ -79,8 +79,6 @@ class PackedLinear {
   void Run(const float* x, long x_stride, float* y, long y_stride, long rows) const {
     Multiply(x, x_stride, bias_.data(), 0, y, y_stride, rows);
   }
-  /// y += bias + x W
-  void Accumulate(const float* x, long x_stride, float* y, long y_stride, long rows) const;
   /// y += x W, without the bias
   void Add(const float* x, long x_stride, float* y, long y_stride, long rows) const {
     Multiply(x, x_stride, y, y_stride, y, y_stride, rows);

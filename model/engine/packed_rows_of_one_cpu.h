@@ -169,18 +169,3 @@ inline float Erf(float x) {
 void Gelu(float* __restrict x, long count) {
   for (long i = 0; i < count; ++i) x[i] = 0.5F * x[i] * (1.0F + Erf(0.70710678F * x[i]));
 }
-
-// log(1 + y) for y in (0, 1], to 2e-7: 2 artanh(y / (2 + y)), whose argument is at most 1/3.
-inline float LogOnePlus(float y) {
-  const float s = y / (2.0F + y), s2 = s * s;
-  return 2.0F * s *
-         (1.0F + s2 * (0.33333333F +
-                       s2 * (0.2F + s2 * (0.14285714F + s2 * (0.11111111F + s2 * 0.09090909F)))));
-}
-
-void Softplus(float* __restrict x, long count) {
-  for (long i = 0; i < count; ++i) {
-    const float size = x[i] < 0 ? -x[i] : x[i];
-    x[i] = (x[i] < 0 ? 0 : x[i]) + LogOnePlus(Exp(-size));
-  }
-}

@@ -134,8 +134,7 @@ class StepEngine {
   virtual int free_slots() const = 0;
   /// How many slots it steps best together: with more, the first would wait for the last.
   virtual int batch() const { return 64; }
-  /// Takes a slot, numbered 0 to slots() - 1, and computes what is known before the loop (the plan,
-  /// hoisted condition columns). Throws Error(kResourceExhausted) with no slot free,
+  /// Takes a slot, numbered 0 to slots() - 1, and computes what is known before the loop. Throws Error(kResourceExhausted) with no slot free,
   /// Error(kInvalidArgument) for a spec of the wrong shape.
   virtual int Admit(const TransitionSpec& spec) = 0;
   /// Steps every named slot by one frame; a slot is named at most once. `out` has the size of `in`.

@@ -76,11 +76,7 @@ Table SampleTable(const ClipSet& set, const std::vector<LengthFigures>& lengths,
   Table table = RatioTable(lengths, "samples");
   table.name = "samples_" + set.name;
   table.title = "L2P of samples over interpolation's, " + set.name;
-  table.note =
-      "The best of several is the one nearest to the real dance, window by window. At T = 1 a way "
-      "to a key varies in the first quarter of variety's components alone, in a model that has "
-      "variety (model/engine/temperature.h): these rows are of less than all that it has learnt to "
-      "vary.";
+  table.note = "The best of several is the one nearest to the real dance, window by window.";
   Plot plot = RatioPlot(table.title);
   // The real dance lies on itself.
   table.rows.push_back({{"real"}, std::vector<Cell>(lengths.size(), Cell{0, {}})});

@@ -29,7 +29,7 @@ void AddPoint(Plot* plot, const std::string& label, double x, double y);
 Table GenreTable(const ClipSet& set, const std::vector<LengthFigures>& lengths);
 
 /// The ratios of real motion, of the model as served, at temperature 1, and of the best samples
-/// there, which vary in a quarter of what variety has (model/engine/temperature.h).
+/// there.
 Table SampleTable(const ClipSet& set, const std::vector<LengthFigures>& lengths,
                   const EvalOptions& options);
 

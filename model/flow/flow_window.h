@@ -58,7 +58,8 @@ class FlowWindow {
   /// Which dimensions the key fixes, [dimensions].
   const std::vector<bool>& keyed() const { return keyed_; }
 
-  /// How much what is known of the window moves, of what the prior expects: mean square.
+  /// How far the key is or, without one, how fast the history was, of what the prior expects: mean
+  /// square.
   double surprise() const { return surprise_; }
   /// MotionPrior::Scales of that and of the energy asked for, [dimensions]: white coordinates are
   /// in their units.

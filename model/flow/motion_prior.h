@@ -17,7 +17,7 @@ namespace choreo {
 /// How far dancers stray from the prior's mean, by what is known of them: powers that training
 /// measured of the variance.
 struct VariancePowers {
-  double surprise = 0;  ///< of how much history and key move, of what the covariance expects
+  double surprise = 0;  ///< of FlowWindow::surprise
   /// What of that training saw: who moves less or more counts as so much.
   double least = 1e-3, most = 1e3;
   /// Of a body part whose energy is known: times e to `offset`, the surprise to a power, and e to

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
@@ -95,6 +96,21 @@ std::array<double, kBodyParts> VelocityFactors(const BodyPartWeights& weights,
     for (int part = 0; part < kBodyParts; ++part) factors[part] += weights(part, joint) * speed;
   }
   return factors;
+}
+
+std::array<double, kBodyParts> MeanVelocityFactors(const Skeleton& skeleton,
+                                                   std::span<const Pose> poses) {
+  const BodyPartWeights weights = WeighBodyParts(skeleton);
+  std::array<double, kBodyParts> mean = {};
+  Eigen::Matrix3Xd before = JointPositions(skeleton, poses.front());
+  for (const Pose& pose : poses.subspan(1)) {
+    const Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+    const std::array<double, kBodyParts> factors = VelocityFactors(weights, before, now);
+    for (size_t part = 0; part < mean.size(); ++part)
+      mean[part] += factors[part] / static_cast<double>(poses.size() - 1);
+    before = now;
+  }
+  return mean;
 }
 
 }  // namespace choreo

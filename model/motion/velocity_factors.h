@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
@@ -47,5 +49,9 @@ BodyPartWeights WeighBodyParts(const Skeleton& skeleton);
 std::array<double, kBodyParts> VelocityFactors(const BodyPartWeights& weights,
                                                const Eigen::Matrix3Xd& positions_before,
                                                const Eigen::Matrix3Xd& positions);
+
+/// Their mean over the steps between successive poses, of which there are at least two.
+std::array<double, kBodyParts> MeanVelocityFactors(const Skeleton& skeleton,
+                                                   std::span<const Pose> poses);
 
 }  // namespace choreo

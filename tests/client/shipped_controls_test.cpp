@@ -63,15 +63,7 @@ class ShippedControlsTest : public testing::Test {
   }
   /// Mean velocity factors, metres a frame.
   static std::array<double, kBodyParts> Liveliness(const Motion& motion) {
-    const BodyPartWeights weights = WeighBodyParts(Body());
-    std::array<double, kBodyParts> mean = {};
-    for (size_t i = 1; i < motion.frames.size(); ++i) {
-      const auto factors = VelocityFactors(weights, JointPositions(Body(), motion.frames[i - 1]),
-                                           JointPositions(Body(), motion.frames[i]));
-      for (size_t part = 0; part < kBodyParts; ++part)
-        mean[part] += factors[part] / static_cast<double>(motion.frames.size() - 1);
-    }
-    return mean;
+    return MeanVelocityFactors(Body(), motion.frames);
   }
 
   /// No joint flips, which is 94 radians a second; no pose is that of the frame before.
@@ -117,6 +109,12 @@ TEST_F(ShippedControlsTest, TheCommandTellsSpeeds) {
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, testing::HasSubstr("by model \"default\""));
   EXPECT_THAT(outcome.said, testing::HasSubstr("speeds danced (and asked)"));
+}
+
+TEST_F(ShippedControlsTest, InfoTellsWhatItsTrainingWentOnFrom) {
+  const Outcome outcome = Choreo("info --server " + server_->address());
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, testing::HasSubstr("went on from"));
 }
 
 TEST_F(ShippedControlsTest, KeepsToADrawnPathThroughKeys) {

@@ -88,18 +88,15 @@ TEST_P(PackedKernelsTest, CurvesAreThoseOfTheLibrary) {
   }
 }
 
-TEST_P(PackedKernelsTest, PlannersCurvesAreThoseOfTheLibrary) {
+TEST_P(PackedKernelsTest, GeluIsThatOfTheLibrary) {
   std::vector<float> x;
   for (double at = -30; at <= 30; at += 0.0137) x.push_back(static_cast<float>(at));
-  std::vector<float> gelu = x, softplus = x;
+  std::vector<float> gelu = x;
   const auto count = static_cast<long>(x.size());
   GetParam()->gelu(gelu.data(), count);
-  GetParam()->softplus(softplus.data(), count);
   for (size_t i = 0; i < x.size(); ++i) {
     const double at = x[i], size = std::max(1.0, std::abs(at));
     ASSERT_NEAR(gelu[i], 0.5 * at * (1 + std::erf(at / std::sqrt(2.0))), 4e-7 * size) << at;
-    ASSERT_NEAR(softplus[i], std::max(at, 0.0) + std::log1p(std::exp(-std::abs(at))), 4e-7 * size)
-        << at;
   }
 }
 
