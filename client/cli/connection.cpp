@@ -1,11 +1,18 @@
 #include "client/cli/connection.h"
 
 #include <algorithm>
+#include <iostream>
 
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
 
 namespace choreo::cli {
+namespace {
+
+// Paths and velocity factors had a model of their own before 0.2.0; servers take its name, too.
+constexpr const char* kFormerControls = "controllers";
+
+}  // namespace
 
 void ServerOptions::AddTo(CLI::App& command) {
   AddRepeated(command, "--server", addresses,
@@ -51,6 +58,11 @@ const client::ModelDescription& Connection::model(const std::string& name) const
       std::find_if(server_.models.begin(), server_.models.end(),
                    [&](const client::ModelDescription& model) { return model.name == name; });
   if (found != server_.models.end()) return *found;
+  if (name == kFormerControls) {
+    std::cerr << "warning: --model: \"" << name << "\" is now another name of \""
+              << server_.models.front().name << "\"\n";
+    return server_.models.front();
+  }
   std::string known;
   for (const client::ModelDescription& model : server_.models)
     known += (known.empty() ? "" : ", ") + model.name;

@@ -100,6 +100,11 @@ TEST_F(ShippedControlsTest, TheFormerModelsNameIsThatOfTheDefault) {
     return client_->Dance(request, {}, {}).motion.frames.back().rotations;
   };
   EXPECT_EQ(danced(named), danced(plain));
+  const TemporaryFolder folder;
+  const Outcome outcome = Choreo("dance --seconds 3 --model controllers --server " +
+                                 server_->address() + " -o " + (folder / "d.npz").string());
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, testing::HasSubstr("warning: --model: \"controllers\" is now another"));
 }
 
 TEST_F(ShippedControlsTest, TheCommandTellsSpeeds) {
