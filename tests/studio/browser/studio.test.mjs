@@ -135,10 +135,13 @@ try {
   await check('a pose is bent by its hand, and danced', async () => {
     await page.locator('.key').nth(1).click();
     const { x, y } = await until(() => window.choreo.stage.value?.whereIs('left_hand'));
+    // Half way to the head, which every arm reaches.
+    const head = await page.evaluate(() => window.choreo.stage.value.whereIs('head'));
+    const aim = { x: (x + head.x) / 2, y: (y + head.y) / 2 };
     await page.mouse.move(x, y);
     await page.mouse.down();
-    await page.mouse.move(x + 10, y - 30);
-    await page.mouse.move(x + 20, y - 60);
+    await page.mouse.move((x + aim.x) / 2, (y + aim.y) / 2);
+    await page.mouse.move(aim.x, aim.y);
     await page.mouse.up();
     await settle();
     const away = await page.evaluate(() => {
@@ -149,7 +152,7 @@ try {
     });
     assert.ok(away < 1e-3, `the dance is ${away} m off the key`);
     const to = await page.evaluate(() => window.choreo.stage.value.whereIs('left_hand'));
-    assert.ok(Math.hypot(to.x - x - 20, to.y - y + 60) < 25, 'the hand is not where it was pulled');
+    assert.ok(Math.hypot(to.x - aim.x, to.y - aim.y) < 25, 'the hand is not where it was pulled');
   });
 
   await check('a pose of the library is carried onto the timeline', async () => {
