@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "model/engine/packed_matrix.h"
+#include "model/engine/packed/matrix.h"
 
 namespace choreo {
 

@@ -12,8 +12,8 @@
 #include "bench/flow_probe.h"
 #include "model/core/threads.h"
 #include "model/engine/engines.h"
-#include "model/engine/packed_kernels.h"
-#include "model/engine/packed_matrix.h"
+#include "model/engine/packed/kernels.h"
+#include "model/engine/packed/matrix.h"
 #include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
 

@@ -7,7 +7,7 @@
 
 #include "model/core/random.h"
 #include "model/core/safetensors.h"
-#include "model/engine/packed_tile.h"
+#include "model/engine/packed/tile.h"
 
 namespace choreo {
 namespace {

@@ -68,7 +68,8 @@ struct ModelDescription {
     std::vector<double> speeds = {};  ///< metres a frame, in the order of kBodyPartNames
   };
   std::vector<VelocityReference> velocity_references = {};
-  bool takes_music = true;     ///< false: it refuses audio
+  std::vector<std::string> styles = {};  ///< that DanceConfig::style may name
+  bool takes_music = true;               ///< false: it refuses audio
   bool deterministic = false;  ///< seed and temperature change nothing; rests without a key ahead
   double audio_lead_s = 0;     ///< music that a transition wants before its first frame
   int latency_frames = 0;      ///< how far the music must be ahead of the frame that is made
@@ -161,6 +162,7 @@ struct DanceConfig {
   double fps = 0;          ///< of the frames received, 1 to 120; 0: the model's
   std::optional<uint64_t> seed = {};
   std::optional<double> temperature = {};  ///< 0 to 2
+  std::string style = {};                  ///< one of the model's; empty: as it comes
   /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
   /// rest, facing +Z, where a path from frame 0 on begins, or else at the origin.
   std::vector<Pose> history = {};

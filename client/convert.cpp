@@ -126,6 +126,7 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
   if (config.seed) out.set_seed(*config.seed);
   if (config.temperature) out.set_temperature(*config.temperature);
+  out.set_style(config.style);
   if (config.continuation) {
     if (!out.mutable_continuation()->ParseFromString(config.continuation->bytes)) {
       throw InvalidArgument("continuation", "the bytes are not those of a continuation");
@@ -270,6 +271,7 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
       added.velocity_references.push_back(
           {reference.name(), {reference.speeds().begin(), reference.speeds().end()}});
     }
+    added.styles = {model.styles().begin(), model.styles().end()};
     added.takes_music = !model.takes_no_music();
     added.deterministic = model.deterministic();
     added.audio_lead_s = model.audio_lead_s();

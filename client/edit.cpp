@@ -117,6 +117,7 @@ class Edit {
     request.config.model = options_.model.name;
     request.config.seed = options_.seed;
     request.config.temperature = options_.temperature;
+    request.config.style = options_.style;
     request.config.music_beats = options_.music_beats;
     request.config.controls = options_.controls;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));

@@ -26,6 +26,7 @@ struct EditOptions {
   ModelDescription model = {};             ///< of the client's server
   uint64_t seed = 0;                       ///< same seed, same edit
   std::optional<double> temperature = {};  ///< 0 to 2
+  std::string style = {};                  ///< one of the model's; empty: as it comes
   Audio audio = {};                        ///< the song from its start, kPcmFloat; or none
   std::vector<double> music_beats = {};    ///< as DanceConfig::music_beats
   Controls controls = {};                  ///< of the new frames

@@ -97,6 +97,8 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
     out->temperature = static_cast<float>(config.temperature());
     ValidateTemperature(*out->temperature, "config.temperature");
   }
+  out->style = config.style();
+  ValidateStyle(model, out->style, "config.style");
   out->seed = config.has_seed()           ? config.seed()
               : config.has_continuation() ? config.continuation().seed()
                                           : fresh_seed;

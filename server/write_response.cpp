@@ -188,6 +188,7 @@ void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
     added->mutable_speeds()->Add(reference.factors.begin(), reference.factors.end());
   }
   out->set_deterministic(model.deterministic);
+  out->mutable_styles()->Add(model.styles.begin(), model.styles.end());
   out->set_takes_no_music(!TakesMusic(model));
   if (out->takes_no_music()) return;
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.

@@ -35,6 +35,7 @@ struct DanceOptions {
   double song_start_s = 0;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  std::string style;
   double fps = 0;
   ControlOptions controls;
   std::string model;
@@ -225,6 +226,7 @@ void Run(const DanceOptions& options) {
   config.fps = options.fps;
   config.seed = options.seed.value_or(0);
   config.temperature = options.temperature;
+  config.style = options.style;
   config.frames = length.frames;
   config.controls = controls;
   if (music) config.music_beats = BeatsBefore(*music, seconds);
@@ -271,6 +273,7 @@ void AddDanceCommand(CLI::App& program) {
   AddSeed(*command, options->seed,
           "Same seed, same dance; it also chooses among the library's key poses. Default: 0.");
   AddTemperature(*command, options->temperature);
+  AddStyle(*command, options->style);
   command
       ->add_option("--fps", options->fps,
                    "Frames a second that are written, 1 to 120; default: the model's.")

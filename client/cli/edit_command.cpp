@@ -82,6 +82,7 @@ void AddEditCommand(CLI::App& program) {
                       "warnings of its edits and of frames that stay.");
   AddSeed(*command, options->seed, "Same seed, same edit. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
+  AddStyle(*command, options->style);
   options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")

@@ -29,6 +29,7 @@ struct EditOptions {
   std::string new_report;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  std::string style;
   ControlOptions controls;
   std::string model;
   std::string out;

@@ -39,6 +39,7 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   json["controls"] = model.controls;
   json["takes_music"] = model.takes_music;
   json["deterministic"] = model.deterministic;
+  json["styles"] = model.styles;
   json["velocity_references"] = nlohmann::ordered_json::array();
   for (const auto& reference : model.velocity_references)
     json["velocity_references"].push_back(ToJson(reference));
@@ -116,6 +117,14 @@ void PrintControls(const client::ModelDescription& model) {
   }
 }
 
+void PrintStyles(const client::ModelDescription& model) {
+  if (model.styles.empty()) return;
+  std::printf("  styles (--style):");
+  for (size_t i = 0; i < model.styles.size(); ++i)
+    std::printf("%s %s", i == 0 ? "" : ",", model.styles[i].c_str());
+  std::printf("\n");
+}
+
 void PrintServer(const client::ServerDescription& server, bool as_json) {
   if (as_json) {
     nlohmann::ordered_json json;
@@ -147,6 +156,7 @@ void PrintServer(const client::ServerDescription& server, bool as_json) {
         model.latency_frames, model.max_transition_frames, model.default_temperature,
         model.fingerprint.c_str(), model.licence.c_str());
     PrintControls(model);
+    PrintStyles(model);
     PrintCard(model.card);
   }
 }

@@ -57,6 +57,12 @@ void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
                      "Variety, 0 (calm) to 2; default: the model's. " + kOfChance);
 }
 
+void AddStyle(CLI::App& command, std::string& style) {
+  command.add_option("--style", style,
+                     "How to dance, as happy or tired: a style that `choreo info` lists. Default: "
+                     "as it comes.");
+}
+
 void NoteDeterministic(const client::ModelDescription& model,
                        std::initializer_list<std::pair<std::string_view, bool>> options) {
   if (!model.deterministic) return;

@@ -28,6 +28,8 @@ void AddSongStart(CLI::App& command, double& seconds);
 
 /// `--temperature`.
 void AddTemperature(CLI::App& command, std::optional<double>& temperature);
+/// `--style`, one that `choreo info` lists.
+void AddStyle(CLI::App& command, std::string& style);
 /// What the help of every option says that chooses among dances.
 inline const std::string kOfChance =
     "Changes nothing where `choreo info` calls the model deterministic.";

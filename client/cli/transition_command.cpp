@@ -31,6 +31,7 @@ struct TransitionOptions {
   int candidates = 1;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  std::string style;
   std::string model;
   ControlOptions controls;
   std::string out;
@@ -80,6 +81,7 @@ void Run(const TransitionOptions& options) {
   request.config.model = options.model;
   request.config.seed = options.seed.value_or(0);
   request.config.temperature = options.temperature;
+  request.config.style = options.style;
   request.config.controls = options.controls.Read(model, connection.server());
   request.config.first_frame = std::llround(options.at_s * model.fps);
   options.controls.RequireBegun(request.config.controls,
@@ -147,6 +149,7 @@ void AddTransitionCommand(CLI::App& program) {
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
+  AddStyle(*command, options->style);
   options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")

@@ -272,6 +272,7 @@ void DanceChain::Start(const Segment& segment) {
   request.candidate = config_.candidate;
   request.first_frame = segment.from;
   request.beats = beats_.Around(segment.from, segment.to);
+  request.style = config_.style;
   request.temperature =
       config_.temperature.value_or(static_cast<float>(model_.default_temperature));
   try {

@@ -13,6 +13,7 @@ namespace choreo {
 
 void DanceConfig::Validate(const ModelInfo& model) const {
   if (temperature) ValidateTemperature(*temperature, "config.temperature");
+  ValidateStyle(model, style, "config.style");
   ValidateOutputFps(output_fps, "config.output_fps");
   if (history.size() > static_cast<size_t>(model.history_frames)) {
     throw InvalidArgument("config.history", std::to_string(history.size()) +

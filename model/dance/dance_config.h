@@ -15,6 +15,7 @@ struct DanceConfig {
   /// Which of the seed's dances. Candidate 0 is that of chained single transitions.
   uint32_t candidate = 0;
   std::optional<float> temperature;  ///< 0..2; none: the model's default
+  std::string style;                 ///< one of the model's, or empty: any
   double output_fps = 30;            ///< 1..120; the model's own rate passes through untouched
   /// Up to tau poses before frame 0 (world, model rate, oldest first). None: the neutral stance
   /// where a root path begins at frame 0, or else at the origin; or the first key's pose if that

@@ -16,6 +16,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
                                             std::to_string(kMaxCandidates) + "]");
   }
   if (temperature) ValidateTemperature(*temperature, "temperature");
+  ValidateStyle(model, style, "style");
   ValidateOutputFps(output_fps, "output_fps");
   const int longest = std::min(kMaxTransitionFrames, model.max_transition_frames);
   if (frames < 1 || frames > longest) {

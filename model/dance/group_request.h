@@ -16,6 +16,7 @@ struct GroupRequest {
   uint64_t seed = 0;
   int candidates = 1;                ///< 1..32, numbered from 0
   std::optional<float> temperature;  ///< 0..2; none: the model's default
+  std::string style;                 ///< one of the model's, or empty: any
   double output_fps = 30;
   int frames = 0;             ///< 1..min(1800, the model's longest)
   std::vector<Pose> history;  ///< as TransitionRequest's, but none is the neutral stance where the

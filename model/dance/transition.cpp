@@ -126,6 +126,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.candidate = request.candidate;
   spec_.first_frame = request.first_frame;
   spec_.temperature = request.temperature;
+  spec_.style = request.style;
   if (world_target_) {
     const auto& [pose, mask] = *world_target_;
     spec_.target = Target{Near(ground_.ToLocal(pose), spec_.history.back()), mask};

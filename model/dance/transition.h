@@ -47,6 +47,7 @@ struct TransitionRequest {
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute
   float temperature = 0.3F;
+  std::string style = {};  ///< one of the model's, or empty: any
   /// To measure the model alone: arrival.frames = 0, foot_lock = false.
   Arrival::Options arrival;
   bool foot_lock = true;

@@ -215,6 +215,7 @@ void TransitionGroup::Impl::Begin() {
   transition.seed = request_.seed;
   transition.first_frame = first_frame_;
   transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, transition.frames);
+  transition.style = request_.style;
   transition.temperature =
       request_.temperature.value_or(static_cast<float>(model_.default_temperature));
 

@@ -86,6 +86,15 @@ void ValidateTemperature(float temperature, const std::string& field) {
   }
 }
 
+void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field) {
+  if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
+  std::string known;
+  for (const std::string& name : model.styles) known += (known.empty() ? "" : ", ") + name;
+  throw InvalidArgument(field, "\"" + style.substr(0, kMaxIdLength) +
+                                   "\" is no style of the model " + model.name + "; " +
+                                   (known.empty() ? "it has none" : "it has " + known));
+}
+
 void ValidateOutputFps(double fps, const std::string& field) {
   if (!(fps >= kMinOutputFps && fps <= kMaxOutputFps)) {
     throw InvalidArgument(

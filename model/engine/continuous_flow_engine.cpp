@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/engine/plan_timing.h"
-#include "model/motion/body_limits.h"
+#include "model/plan/plan_stage.h"
 
 namespace choreo {
 namespace {
@@ -17,7 +16,7 @@ constexpr int kRounds = 3;       // in which energy is asked for
 constexpr double kAnswer = 0.6;  // of what is missing comes of as much more
 constexpr double kFarthest = 1;  // logarithm of what is asked for over what is wanted
 
-WindowRequest ToWindowRequest(const TransitionSpec& spec) {
+WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
   WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
   if (spec.target) {
     request.key = spec.target->pose;
@@ -32,6 +31,8 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec) {
   request.beats = spec.beats;
   request.energy = spec.controls.velocity_factors.cast<double>();
   request.asked = spec.controls.parts_asked;
+  if (const auto style = std::ranges::find(styles, spec.style); style != styles.end())
+    request.style = static_cast<int>(style - styles.begin());
   return request;
 }
 
@@ -92,12 +93,13 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
   }
   Slot slot;
   slot.poses = Sample(spec);
-  LimitHinges(info_.skeleton, slot.poses);
-  if (!spec.target && !(spec.controls.root_path.cols() > 0 && spec.controls.path_heights))
-    ReturnToFloor(info_.skeleton, slot.poses);
-  // Where a path says when to be where, time is not the beats' to bend.
-  if (!spec.beats.empty() && spec.controls.root_path.cols() == 0)
-    slot.poses = TimeToBeats(spec.history, slot.poses, spec.beats, Keyed(spec));
+  FinishPlan({.skeleton = info_.skeleton,
+              .history = spec.history,
+              .beats = spec.beats,
+              .keyed = Keyed(spec),
+              .has_path = spec.controls.root_path.cols() > 0,
+              .has_heights = spec.controls.path_heights},
+             &slot.poses);
   Motion motion{.fps = info_.fps, .frames = {spec.history.back()}};
   motion.frames.insert(motion.frames.end(), slot.poses.begin(), slot.poses.end());
   slot.contacts = DetectContacts(info_.skeleton, motion);
@@ -106,20 +108,14 @@ int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
 }
 
 std::vector<Pose> ContinuousFlowEngine::Sample(const TransitionSpec& spec) const {
-  WindowRequest request = ToWindowRequest(spec);
+  const WindowRequest request = ToWindowRequest(spec, info_.styles);
   const FlowNoise noise{.seed = spec.seed,
                         .candidate = spec.candidate,
                         .first_frame = spec.first_frame,
                         .temperature = spec.temperature};
-  const bool lively_as_asked = request.energy.cols() > 0;
-  if (!lively_as_asked && !Keyed(spec)) {
-    // Neither keys nor factors say how lively; a dance that took it from itself would fade or rage.
-    const auto& median = parts_->config.median_factors;
-    request.energy =
-        Eigen::Map<const Eigen::VectorXd>(median.data(), kBodyParts).replicate(1, spec.frames);
-  }
-  return lively_as_asked ? SampleAsLively(*parts_, *network_, request, noise)
-                         : SampleTransition(*parts_, *network_, request, noise);
+  const bool is_asked = request.energy.cols() > 0 && std::ranges::count(request.asked, true) > 0;
+  return is_asked ? SampleAsLively(*parts_, *network_, request, noise)
+                  : SampleTransition(*parts_, *network_, request, noise);
 }
 
 void ContinuousFlowEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {

@@ -17,12 +17,12 @@
 #include "model/core/threads.h"
 #include "model/engine/build_identity.h"
 #include "model/engine/continuous_flow_engine.h"
-#include "model/engine/controllers_engine.h"
 #include "model/engine/flow_engine.h"
-#include "model/engine/packed_flow.h"
-#include "model/engine/packed_kernels.h"
-#include "model/engine/packed_tile.h"
-#include "model/engine/torch_tile.h"
+#include "model/engine/packed/flow.h"
+#include "model/engine/packed/kernels.h"
+#include "model/engine/packed/tile.h"
+#include "model/engine/torch/controllers_engine.h"
+#include "model/engine/torch/tile.h"
 #include "model/flow/checkpoint.h"
 #include "model/flow/continuous_flow.h"
 
@@ -156,6 +156,7 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
   info.default_temperature = config.temperature;
   info.root_path = info.velocity_factors = true;
   info.velocity_references = {Median(config.median_factors)};
+  info.styles = config.styles;
   return [info, device, parts, network](int slots) {
     return std::make_unique<ContinuousFlowEngine>(info, device.name(), slots, parts, network);
   };

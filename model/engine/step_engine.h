@@ -41,6 +41,7 @@ struct ModelInfo {
   bool velocity_factors = false;  ///< takes Controls::velocity_factors
   /// The first one, "median", is the default. At least one where velocity factors are taken.
   std::vector<VelocityReference> velocity_references = {};
+  std::vector<std::string> styles = {};  ///< that may be asked for
 };
 
 /// The key pose at the end of a transition.
@@ -75,7 +76,7 @@ struct TransitionSpec {
   Eigen::MatrixXf
       audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first
   /// Where the music beats, in frames from frame 0, ascending; a dance without a path is timed to
-  /// it (plan_timing.h). Empty: unknown.
+  /// it (plan/beat_timing.h). Empty: unknown.
   std::vector<double> beats;
   Controls controls;
   uint64_t seed = 0;
@@ -83,6 +84,7 @@ struct TransitionSpec {
   int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,
                             ///< absolute frame, dimension)
   float temperature = 0.3F;
+  std::string style = {};  ///< one of the model's, or empty: any
 };
 
 /// Whether its target asks for the root's position or a joint.
@@ -134,8 +136,9 @@ class StepEngine {
   virtual int free_slots() const = 0;
   /// How many slots it steps best together: with more, the first would wait for the last.
   virtual int batch() const { return 64; }
-  /// Takes a slot, numbered 0 to slots() - 1, and computes what is known before the loop. Throws Error(kResourceExhausted) with no slot free,
-  /// Error(kInvalidArgument) for a spec of the wrong shape.
+  /// Takes a slot, numbered 0 to slots() - 1, and computes what is known before the loop. Throws
+  /// Error(kResourceExhausted) with no slot free, Error(kInvalidArgument) for a spec of the wrong
+  /// shape.
   virtual int Admit(const TransitionSpec& spec) = 0;
   /// Steps every named slot by one frame; a slot is named at most once. `out` has the size of `in`.
   virtual void Step(std::span<const StepInput> in, std::span<StepOutput> out) = 0;

@@ -3,6 +3,7 @@
 #include <ATen/autocast_mode.h>
 #include <torch/torch.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/flow/checkpoint.h"
@@ -133,7 +134,7 @@ class TorchFlowNetwork : public FlowNetwork {
   torch::Device device_;
 };
 
-constexpr const char* kFormat = "choreo-continuous-flow-2";
+constexpr const char* kFormat = "choreo-continuous-flow-3";
 
 }  // namespace
 
@@ -147,6 +148,9 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   SetPowers({});
   mixing_ = register_buffer("mixing", torch::eye(dimensions));
   spread_ = register_buffer("spread", torch::ones({dimensions}));
+  velocity_ = register_buffer("velocity_spread", torch::ones({dimensions}));
+  energy_ = register_buffer(
+      "energy_prior", torch::zeros({std::ssize(EnergyPrior(config.styles.size()).ToNumbers())}));
   const int64_t features = kFramesAToken * (6 * dimensions - 3 + FrameFeatures());
   embed_ = register_module("embed", torch::nn::Linear(features, width));
   condition_in_ = register_module(
@@ -170,10 +174,9 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
                                    const Tensor& t) {
   const int64_t batch = z.size(0), window = z.size(1), dimensions = z.size(2);
   const int64_t tau = poses.size(1) - window;
-  const Tensor velocity = covariance_.select(1, 0).sqrt();
   const Tensor silent = torch::zeros({batch, tau, dimensions}, z.options());
-  Tensor x = torch::cat({torch::cat({silent, z}, 1), poses / spread_, Steps(poses) / velocity,
-                         mean / spread_, Steps(mean) / velocity, frames, joints / kReach},
+  Tensor x = torch::cat({torch::cat({silent, z}, 1), poses / spread_, Steps(poses) / velocity_,
+                         mean / spread_, Steps(mean) / velocity_, frames, joints / kReach},
                         -1);
   // An odd frame out stands in front, where history is oldest.
   if (x.size(1) % kFramesAToken != 0) x = torch::cat({x.narrow(1, 0, 1), x}, 1);
@@ -208,12 +211,18 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Varia
   SetPowers(powers);
   set(mixing_, mixing);
   set(spread_, spread);
+  set(velocity_, MotionPrior(covariance).VelocitySpread());
 }
 
 void ContinuousFlowImpl::SetPowers(const VariancePowers& powers) {
   torch::NoGradGuard no_grad;
   powers_.copy_(torch::tensor({powers.surprise, powers.least, powers.most, powers.offset,
                                powers.known_surprise, powers.level}));
+}
+
+void ContinuousFlowImpl::SetEnergy(const EnergyPrior& energy) {
+  torch::NoGradGuard no_grad;
+  energy_.copy_(torch::tensor(energy.ToNumbers()));
 }
 
 FlowModelParts ContinuousFlowImpl::Parts() const {
@@ -232,8 +241,11 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
     weights.col(joint).maxCoeff(&part);
     powers.parts.insert(powers.parts.end(), 3, part);
   }
+  EnergyPrior energy(config_.styles.size());
+  const Eigen::MatrixXd measured = ToEigen(energy_);
+  energy.SetNumbers({measured.data(), static_cast<size_t>(measured.size())});
   return {skeleton_, config_, MotionPrior(ToEigen(covariance_), std::move(powers)),
-          ToEigen(mixing_)};
+          ToEigen(mixing_), energy};
 }
 
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model, torch::Device device) {

@@ -35,6 +35,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
   /// displacements over a window.
   void SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
                 const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread);
+  void SetEnergy(const EnergyPrior& energy);
   /// What sampling needs besides the network.
   FlowModelParts Parts() const;
 
@@ -46,7 +47,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
 
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
-  torch::Tensor covariance_, powers_, mixing_, spread_;
+  torch::Tensor covariance_, powers_, mixing_, spread_, velocity_, energy_;
   torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
       condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;

@@ -25,6 +25,28 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
   return model.mixing.triangularView<Eigen::Lower>() * z;
 }
 
+// Says how lively the parts are that nobody asks for: as dancers may be there, all along.
+void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, WindowRequest* request) {
+  if (request->energy.cols() == 0) {
+    request->energy = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
+    request->asked.fill(false);
+  }
+  // Behind the numbers that the window's first frame is made of.
+  std::vector<float> normal(static_cast<size_t>(model.prior.dimensions() + kBodyParts));
+  FillNormal(noise.seed, noise.candidate, noise.first_frame, normal);
+  EnergyPrior::Levels levels;
+  std::copy(normal.end() - kBodyParts, normal.end(), levels.begin());
+  levels = model.energy.Sample(KnownOfEnergy(model, *request),
+                               std::min(noise.temperature, 1.0) * levels);
+  for (size_t part = 0; part < request->asked.size(); ++part) {
+    if (request->asked[part]) continue;
+    const auto row = static_cast<Eigen::Index>(part);
+    request->energy.row(row).setConstant(
+        EnergyFactor(levels[row], model.config.median_factors[part]));
+    request->asked[part] = true;
+  }
+}
+
 // Joint positions of each pose, by column.
 void PlaceJoints(const Skeleton& skeleton, std::span<const Pose> poses,
                  Eigen::Ref<Eigen::MatrixXf> joints) {
@@ -37,8 +59,23 @@ void PlaceJoints(const Skeleton& skeleton, std::span<const Pose> poses,
 
 }  // namespace
 
+EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request) {
+  EnergyPrior::Known known{.key = request.key.has_value(),
+                           .surprise = FlowWindow(model.prior, request).surprise(),
+                           .frames = request.frames,
+                           .style = request.style};
+  const auto factors = MeanVelocityFactors(model.skeleton, request.history);
+  for (size_t part = 0; part < factors.size(); ++part) {
+    if (factors[part] > 0)
+      known.history[static_cast<int>(part)] =
+          EnergyLevel(factors[part], model.config.median_factors[part]);
+  }
+  return known;
+}
+
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
-                               const WindowRequest& request, const FlowNoise& noise) {
+                               WindowRequest request, const FlowNoise& noise) {
+  FillInEnergy(model, noise, &request);
   const FlowWindow window(model.prior, request);
   const WindowFeatures features =
       DescribeWindow(model.skeleton, model.config, model.prior, request, window);

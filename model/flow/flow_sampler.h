@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/flow/energy_prior.h"
 #include "model/flow/flow_window.h"
 #include "model/flow/window_features.h"
 
@@ -29,6 +30,7 @@ struct FlowModelParts {
   MotionPrior prior;
   Eigen::MatrixXd mixing;  ///< [dimensions, dimensions] lower Cholesky factor of the noise's
                            ///< correlation over dimensions
+  EnergyPrior energy = EnergyPrior();
 };
 
 struct FlowNoise {
@@ -40,13 +42,17 @@ struct FlowNoise {
   double temperature = 0;
 };
 
+/// What of a window says how lively it may be.
+EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request);
+
 /// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +
 /// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) and the
 /// angle tan = t/(1 - t) that is dw = F, solved by Adams and Bashforth's steps of second order:
 /// what is as lively as the prior expects stays so, however few steps are taken. The poses [w]
-/// stand in the request's frame. A path that is asked for is met exactly.
+/// stand in the request's frame. A path that is asked for is met exactly. Of body parts whose
+/// energy is not asked for the energy prior says it: its mean at temperature 0, else a sample.
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
-                               const WindowRequest& request, const FlowNoise& noise);
+                               WindowRequest request, const FlowNoise& noise);
 
 /// Samples a transition of any length: windows of at most config.window_frames, one after another,
 /// each in its own canonical frame; their key is the transition's, however far it is. `request` is

@@ -47,6 +47,22 @@ double EnergyLevel(double factor, double median) {
   return std::log((factor + kLeastEnergy) / (median + kLeastEnergy));
 }
 
+double EnergyFactor(double level, double median) {
+  return std::max(0.0, std::exp(level) * (median + kLeastEnergy) - kLeastEnergy);
+}
+
+Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still) {
+  const auto turns = spread.tail(spread.size() - 3).array();
+  const auto moves = (turns > still).cast<double>().eval();
+  const double mean = (turns * moves).sum() / std::max(1.0, moves.sum());
+  spread.tail(spread.size() - 3) = (turns > still).select(turns, std::max(mean, still));
+  return spread;
+}
+
+Eigen::VectorXd MotionPrior::VelocitySpread() const {
+  return AsTheOthers(covariance_.col(0).cwiseSqrt(), kStillness);
+}
+
 bool MotionPrior::Moves(int dimension) const {
   return covariance_(dimension, 0) > kStillness * kStillness;
 }

@@ -30,6 +30,13 @@ struct VariancePowers {
 /// How much livelier a body part is than its median: the logarithm of its velocity factor's share,
 /// flat below a millimetre a frame.
 double EnergyLevel(double factor, double median);
+/// The factor of that level, at least 0.
+double EnergyFactor(double level, double median);
+
+/// Units of rotations that a network is told of. What spreads by no more than `still` is not in the
+/// recordings; keys may move it all the same, and in units of nothing that would be beyond all
+/// bounds: it has the mean of the others. The first three, of the root's position, stay.
+Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still);
 
 /// How poses move when nothing but their past and a key is known: the velocity of every degree of
 /// freedom is a stationary Gaussian process. Its mean through history and key is the line that the
@@ -68,8 +75,8 @@ class MotionPrior {
   /// `levels`: EnergyLevel of each body part whose energy is known.
   Eigen::VectorXd Scales(double surprise,
                          const std::array<std::optional<double>, kBodyParts>& levels) const;
-  /// Standard deviation of a velocity, [dimensions].
-  Eigen::VectorXd VelocitySpread() const { return covariance_.col(0).cwiseSqrt(); }
+  /// The unit that networks have velocities in, [dimensions]: their standard deviation.
+  Eigen::VectorXd VelocitySpread() const;
 
   /// False for what recordings lack, as the joints of hands.
   bool Moves(int dimension) const;

@@ -16,11 +16,14 @@ namespace {
 
 constexpr double kAtNoise = 0.2;     // share of samples at t = 0, half of them without noise
 constexpr double kNear = 0.01;       // share of the variance below which distances count as squares
-constexpr double kShrinkage = 0.15;  // of correlations over dimensions towards none
+constexpr double kShrinkage = 0.02;  // of correlations over dimensions towards none
 constexpr double kRare = 0.025;      // share of windows at either end that count as those before
-constexpr size_t kLeastWindows = 16;  // that tell how energy counts
-constexpr double kFootprint = 0.01;   // metres that feet are wrong by, below which it hardly counts
-constexpr double kStep = 0.2;         // metres that count as much as all white coordinates
+constexpr size_t kLeastWindows = 16;    // that tell how energy counts
+constexpr double kUsualStyle = 20;      // windows without difference that each style begins with
+constexpr size_t kLeastEnergies = 100;  // windows that tell how lively the next are
+constexpr double kStill = 1e-3;  // metres or radians: what spreads less is not in the recordings
+constexpr double kFootprint = 0.01;  // metres that feet are wrong by, below which it hardly counts
+constexpr double kStep = 0.2;        // metres that count as much as all white coordinates
 constexpr const char *kWhite = "white_mse", *kWhere = "where_distance", *kFeet = "feet_distance";
 
 Tensor Stack(const std::vector<MotionPrior::Bridge>& bridges) {
@@ -181,6 +184,61 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
   return measured;
 }
 
+EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowBatch>& batches) {
+  EnergyPrior measured(model.config.styles.size());
+  std::vector<double> of_style(model.config.styles.size(), kUsualStyle);
+  for (const bool keyed : {true, false}) {
+    std::vector<EnergyPrior::Inputs> inputs;
+    std::vector<EnergyPrior::Levels> levels;
+    std::vector<int> styles;
+    for (const WindowBatch& batch : batches) {
+      for (size_t i = 0; i < batch.requests.size(); ++i) {
+        const WindowRequest& request = batch.requests[i];
+        if (request.key.has_value() != keyed) continue;
+        const auto told = LevelsOf(request, model.config.median_factors);
+        if (!std::ranges::all_of(told, [](const auto& level) { return level.has_value(); }))
+          continue;
+        EnergyPrior::Levels all;
+        std::ranges::transform(told, all.begin(), [](const auto& level) { return *level; });
+        levels.push_back(all);
+        styles.push_back(request.style);
+        inputs.push_back(EnergyPrior::Describe(KnownOfEnergy(model, request)));
+      }
+    }
+    if (inputs.size() < kLeastEnergies) continue;
+    using Square = Eigen::Matrix<double, EnergyPrior::kInputs, EnergyPrior::kInputs>;
+    Square normal = Square::Identity();  // a little towards zero
+    EnergyPrior::Weights right = EnergyPrior::Weights::Zero();
+    for (size_t i = 0; i < inputs.size(); ++i) {
+      normal += inputs[i] * inputs[i].transpose();
+      right += levels[i] * inputs[i].transpose();
+    }
+    EnergyPrior::Weights& weights = keyed ? measured.keyed : measured.free;
+    weights = normal.ldlt().solve(right.transpose()).transpose();
+    Eigen::Matrix<double, kBodyParts, kBodyParts> left = 1e-6 * decltype(left)::Identity();
+    for (size_t i = 0; i < inputs.size(); ++i) {
+      const EnergyPrior::Levels off = levels[i] - weights * inputs[i];
+      left += off * off.transpose() / static_cast<double>(inputs.size());
+      if (styles[i] < 0) continue;
+      measured.styles.col(styles[i]) += off;
+      ++of_style[static_cast<size_t>(styles[i])];
+    }
+    if (!keyed) continue;
+    measured.spread = left.llt().matrixL();
+    for (int input = 0; input < EnergyPrior::kInputs; ++input) {
+      std::vector<double> values;
+      for (const EnergyPrior::Inputs& one : inputs) values.push_back(one[input]);
+      std::ranges::sort(values);
+      const auto rank = static_cast<size_t>(kRare * static_cast<double>(values.size()));
+      measured.least[input] = values[rank];
+      measured.most[input] = values[values.size() - 1 - rank];
+    }
+  }
+  for (size_t i = 0; i < of_style.size(); ++i)
+    measured.styles.col(static_cast<Eigen::Index>(i)) /= of_style[i];
+  return measured;
+}
+
 WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
   const int64_t dimensions = batches.front().z.size(2);
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(dimensions, dimensions);
@@ -200,8 +258,8 @@ WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
   Eigen::MatrixXd correlation = scale.asDiagonal() * products * scale.asDiagonal();
   correlation *= 1 - kShrinkage;
   correlation.diagonal().setOnes();
-  return {Eigen::MatrixXd(correlation.llt().matrixL()),
-          (squares / poses).cwiseSqrt().cwiseMax(1e-3)};
+  const Eigen::VectorXd spread = (squares / poses).cwiseSqrt();
+  return {Eigen::MatrixXd(correlation.llt().matrixL()), AsTheOthers(spread, kStill)};
 }
 
 }  // namespace choreo

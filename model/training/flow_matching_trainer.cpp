@@ -25,7 +25,7 @@ constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48;
 constexpr int kValidationWindows = 24;
 constexpr double kAverage = 0.999;                                  // of the weights, a step
 constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
-constexpr double kEnergy = 0.6;  // share of windows whose energy is told
+constexpr double kEnergy = 0.9;  // share of windows whose energy is told, as it is when served
 // Frames of training windows: few, so that what belongs to a length is made once.
 constexpr int kLengths[] = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
 
@@ -58,6 +58,36 @@ float Bfloat16(float value) {
   return std::bit_cast<float>((bits + 0x7FFFU + ((bits >> 16U) & 1U)) & 0xFFFF0000U);
 }
 
+// Gives another model's weights the styles of `model`: what both know by name stays, what is new
+// begins at zero.
+void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl& model,
+                Safetensors* weights) {
+  Safetensors own;
+  ExportTensors(model, "", &own);
+  weights->tensors["energy_prior"] = own.tensors.at("energy_prior");  // is measured anew
+  const std::vector<std::string>& styles = model.config().styles;
+  const std::string name = "condition_in.weight";  // its inputs end with style, then time
+  const auto& from = weights->tensors.at(name);
+  auto to = own.tensors.at(name);
+  const auto rows = static_cast<size_t>(to.shape[0]), width = static_cast<size_t>(to.shape[1]),
+             width_before = static_cast<size_t>(from.shape[1]);
+  const auto first =
+      static_cast<size_t>(WholeFeatures(model.skeleton(), model.config())) - styles.size();
+  for (size_t row = 0; row < rows; ++row) {
+    const auto in = from.data.begin() + static_cast<ptrdiff_t>(row * width_before);
+    const auto out = to.data.begin() + static_cast<ptrdiff_t>(row * width);
+    std::copy_n(in, first, out);
+    for (size_t i = 0; i < styles.size(); ++i) {
+      const auto found = std::ranges::find(before, styles[i]);
+      out[static_cast<ptrdiff_t>(first + i)] =
+          found == before.end() ? 0 : in[static_cast<ptrdiff_t>(first) + (found - before.begin())];
+    }
+    std::copy_n(in + static_cast<ptrdiff_t>(first + before.size()), width - first - styles.size(),
+                out + static_cast<ptrdiff_t>(first + styles.size()));
+  }
+  weights->tensors[name] = std::move(to);
+}
+
 class FlowMatchingRun : public TrainingRun {
  public:
   FlowMatchingRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
@@ -75,11 +105,11 @@ class FlowMatchingRun : public TrainingRun {
     model_ = ContinuousFlow(config, train_.skeleton());
     if (!options.from.empty()) {
       const auto base = ParseContinuousFlow(ReadSafetensors(options.from), options.from.string());
-      config.styles = base.model->config().styles;
       config.median_factors = base.model->config().median_factors;
       model_ = ContinuousFlow(config, train_.skeleton());
       Safetensors weights;
       ExportTensors(*base.model, "", &weights);
+      KeepStyles(base.model->config().styles, *model_, &weights);
       ImportTensors(weights, "", model_.get());
       base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
     }
@@ -110,8 +140,7 @@ class FlowMatchingRun : public TrainingRun {
                                      .style = 0.6,
                                      .hold_history = 0.05,
                                      .astray = 0.2};
-    if (random.Uniform() < kNoLabels)
-      variation.beats = variation.energy = variation.path = variation.style = 0;
+    if (random.Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;
     const double kind = random.Uniform();
     if (kind < kNoKeys) {
@@ -236,16 +265,21 @@ class FlowMatchingRun : public TrainingRun {
                      Eigen::VectorXd::Ones(dimensions));
     const WindowStatistics measured = MeasureWindows(StatisticsBatches(kEnergy));
     model_->SetPrior(covariance, powers, measured.mixing, measured.spread);
+    std::vector<WindowBatch> of_all_lengths;
+    for (const int frames : {20, 60, 90})
+      std::ranges::move(StatisticsBatches(1, frames), std::back_inserter(of_all_lengths));
+    model_->SetEnergy(MeasureEnergy(model_->Parts(), of_all_lengths));
   }
 
-  std::vector<WindowBatch> StatisticsBatches(double energy) const {
-    const int frames = std::min(60, train_.Longest(model_->config().history_frames));
+  std::vector<WindowBatch> StatisticsBatches(double energy, int most = 60) const {
+    const int frames = std::min(most, train_.Longest(model_->config().history_frames));
     std::vector<WindowBatch> batches;
     for (int i = 0; i < kStatisticsBatches; ++i) {
       Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
       batches.push_back(train_.Draw(
           model_->Parts(), kStatisticsWindows, frames, frames,
-          {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0, .energy = energy}, &random));
+          {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0, .energy = energy, .style = 1},
+          &random));
     }
     return batches;
   }

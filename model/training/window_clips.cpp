@@ -176,6 +176,7 @@ WindowClips::WindowClips(const std::vector<PreparedClip>& clips)
       styles_.push_back(style);
   }
   std::ranges::sort(styles_);
+  styles_.erase(std::ranges::unique(styles_).begin(), styles_.end());
   for (const double tempo : kTempi) {
     for (const PreparedClip& clip : clips) tracks_.push_back(MakeTrack(clip, tempo));
   }
@@ -293,7 +294,7 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
       for (Pose& pose : poses) pose = Mirror(pairs, pose);
     }
     if (random->Uniform() < variation.astray)
-      LeadAstray(model.prior.VelocitySpread(), tau, random, &poses);
+      LeadAstray(model.prior.covariance().col(0).cwiseSqrt(), tau, random, &poses);
     Eigen::Vector3d turning = Eigen::Vector3d::Zero();
     for (size_t i = static_cast<size_t>(tau); i < poses.size(); ++i)
       turning += RotationDifference(poses[i - 1].rotations.col(0), poses[i].rotations.col(0));
@@ -324,11 +325,11 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
         request.energy.row(1).swap(request.energy.row(2));
         request.energy.row(3).swap(request.energy.row(4));
       }
-      if (random->Uniform() < 0.5) {  // as constants
+      if (random->Uniform() < 0.7) {  // as constants
         const Eigen::VectorXd constant = request.energy.rowwise().mean();
         request.energy = constant.replicate(1, frames);
       }
-      const double known = random->Uniform() < 0.5 ? 1 : random->Uniform();
+      const double known = random->Uniform() < 0.7 ? 1 : random->Uniform();
       for (bool& asked : request.asked) asked = random->Uniform() < known;
     }
     if (random->Uniform() < variation.path) {

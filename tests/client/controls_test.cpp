@@ -56,6 +56,24 @@ TEST(ControlsTest, OfTheConfigHoldFromTheFirstFrameOn) {
   EXPECT_NEAR(dance.report.part_speeds[1].asked, 0.04, 1e-6);
 }
 
+TEST(ControlsTest, AStyleIsDancedByBothCalls) {
+  const TestServer server(std::make_unique<ControlledEngine>());
+  const Client client({.addresses = {server.address()}});
+  EXPECT_EQ(client.GetServerInfo().models.at(0).styles, (std::vector<std::string>{"calm", "wild"}));
+  const auto danced = [&](const std::string& style) {
+    return client.Dance({.style = style, .frames = 20}, {}, {}).motion.frames.back();
+  };
+  const auto transition = [&](const std::string& style) {
+    return client.GenerateTransition({.config = {.style = style}, .frames = 20})
+        .candidates.at(0)
+        .motion.frames.back();
+  };
+  EXPECT_EQ(danced("").rotations, danced("calm").rotations);
+  EXPECT_NE(danced("").rotations, danced("wild").rotations);
+  EXPECT_NE(transition("").rotations, transition("wild").rotations);
+  ExpectError(ErrorCode::kInvalidArgument, "config.style", [&] { danced("foxtrot"); });
+}
+
 TEST(ControlsTest, ChangeWhileTheDanceGoesOn) {
   const TestServer server(std::make_unique<ControlledEngine>());
   const Client client({.addresses = {server.address()}});

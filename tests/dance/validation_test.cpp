@@ -79,6 +79,9 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
             "config.temperature: -0.1 is not in [0, 2]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = std::nanf(""); }),
             "config.temperature: nan is not in [0, 2]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "calm"; }), "accepted");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "Calm"; }),
+            "config.style: \"Calm\" is no style of the model fake; it has calm, wild");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 0; }),
             "config.output_fps: 0 is not in [1, 120]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 121; }),

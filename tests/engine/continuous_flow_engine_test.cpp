@@ -105,6 +105,14 @@ TEST_F(ContinuousFlowEngineTest, BeatsAndLimbsThatAreAskedForChangeIt) {
   ExpectSameBits(plain, Dance(other));
 }
 
+TEST_F(ContinuousFlowEngineTest, AStyleThatIsAskedForChangesIt) {
+  EXPECT_EQ(engine_->model().styles, std::vector<std::string>{"waltz"});
+  const TransitionSpec spec = Spec(2);
+  TransitionSpec waltz = spec;
+  waltz.style = "waltz";
+  EXPECT_GT(LargestDifference(Dance(spec), Dance(waltz)), 1e-6);
+}
+
 TEST_F(ContinuousFlowEngineTest, DancesWithoutAKeyWithAPathAndFromHeldHistory) {
   TransitionSpec spec = Spec(3, 40);
   spec.target.reset();

@@ -3,7 +3,7 @@
 
 #include "model/core/error.h"
 #include "model/engine/engines.h"
-#include "model/engine/packed_kernels.h"
+#include "model/engine/packed/kernels.h"
 #include "tests/engine/engine_dances.h"
 
 /// Which instructions the packed engine is told to use.

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "model/engine/engines.h"
-#include "model/engine/packed_kernels.h"
+#include "model/engine/packed/kernels.h"
 #include "tests/engine/engine_dances.h"
 
 // Counts what this program asks the C library for, thread by thread: operator new and Eigen come

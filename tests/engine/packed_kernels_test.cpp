@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "model/core/random.h"
-#include "model/engine/packed_kernels.h"
-#include "model/engine/packed_matrix.h"
+#include "model/engine/packed/kernels.h"
+#include "model/engine/packed/matrix.h"
 
 // The packed engine's kernels against the same in double.
 namespace choreo {

@@ -6,7 +6,7 @@
 
 #include "model/core/random.h"
 #include "model/engine/engines.h"
-#include "model/engine/torch_tile.h"
+#include "model/engine/torch/tile.h"
 #include "model/flow/checkpoint.h"
 #include "model/motion/contacts.h"
 #include "model/motion/pose_codec.h"

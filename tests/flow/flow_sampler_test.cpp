@@ -133,6 +133,39 @@ TEST(FlowSampler, SeedsTakeOtherWaysToTheSameKey) {
   for (size_t i = 0; i < a.size(); ++i) EXPECT_EQ(Apart(a[i], again[i]), 0);
 }
 
+// What the network is told of the energy.
+class Listening : public Silent {
+ public:
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                           const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
+                           const WindowFeatures& features, float t) const override {
+    told = features.frames.rightCols(1);
+    return Silent::Evaluate(z, poses, joints, mean, features, t);
+  }
+  mutable Eigen::VectorXf told;
+};
+
+TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
+  const Scene scene = MakeScene(30);
+  FlowModelParts parts = Parts();
+  parts.config.median_factors.fill(0.01);
+  parts.energy.spread.setIdentity();
+  const Listening network;
+  const auto told = [&](const WindowRequest& request, uint64_t seed) {
+    SampleWindow(parts, network, request, {.seed = seed, .temperature = 1});
+    return network.told;
+  };
+  EXPECT_EQ(told(scene.request, 1), told(scene.request, 1));
+  const Eigen::VectorXf differ = told(scene.request, 1) - told(scene.request, 2);
+  EXPECT_EQ((differ.array() != 0).count(), kBodyParts);
+  WindowRequest arm = scene.request;
+  arm.energy = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
+  arm.asked = {false, true, false, false, false};
+  const Eigen::VectorXf of_others = told(arm, 1) - told(arm, 2);
+  EXPECT_EQ((of_others.array() != 0).count(), kBodyParts - 1);
+  EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
+}
+
 TEST(FlowSampler, APathIsMetExactlyAndItsHeightsWhereTheyAreAskedFor) {
   Scene scene = MakeScene(30);
   scene.request.path.resize(3, 30);

@@ -76,5 +76,18 @@ TEST(MotionPrior, RefusesWhatIsNoCovariance) {
               [] { MotionPrior(Eigen::MatrixXd::Zero(2, 3)); });
 }
 
+// Toes that no recording bends may be bent by a key: a network would take that for a storm.
+TEST(MotionPrior, WhatRecordingsLackIsToldInTheUnitsOfTheOthers) {
+  Eigen::MatrixXd covariance = SmoothCovariance().replicate(9, 1);
+  covariance.row(4) *= 4;
+  covariance.row(8) *= 1e-8;
+  const MotionPrior prior(covariance);
+  EXPECT_FALSE(prior.Moves(8));
+  const Eigen::VectorXd spread = prior.VelocitySpread();
+  EXPECT_DOUBLE_EQ(spread[4], std::sqrt(covariance(4, 0)));
+  const double others = spread.tail(15).sum() - spread[8];
+  EXPECT_NEAR(spread[8], others / 14, 1e-12);
+}
+
 }  // namespace
 }  // namespace choreo

@@ -36,6 +36,7 @@ class FakeEngine : public StepEngine {
     model_.licence = "none";
     model_.card = R"({"name": "fake"})";
     model_.skeleton = skeleton;
+    model_.styles = {"calm", "wild"};
     noise_.resize(static_cast<size_t>(Width()));
   }
 
@@ -115,6 +116,7 @@ class FakeEngine : public StepEngine {
     for (int d = 3; d < Width(); ++d) next[d] += 0.003 * music * std::sin(0.7 * d + slot.frame);
     for (const double beat : spec.beats)
       next[Width() - 1] += 0.01 * std::max(0.0, 1 - std::abs(beat - slot.frame));
+    if (spec.style == "wild") next[Width() - 2] += 0.01;
     Obey(spec.controls, slot.frame, &next);
 
     slot.pose.root_position = next.head<3>();

@@ -46,6 +46,14 @@ class WindowClipsTest : public testing::Test {
     return torch::stack(x);
   }
 
+  static PreparedClip FastClip() {
+    PreparedClip clip = SyntheticClip("fast", 800, 0, false);
+    std::vector<Pose> fast;
+    for (size_t i = 0; i < clip.motion.frames.size(); i += 2) fast.push_back(clip.motion.frames[i]);
+    clip.motion.frames = fast;
+    return clip;
+  }
+
   WindowClips clips_;
 };
 
@@ -106,6 +114,27 @@ TEST_F(WindowClipsTest, EnergyTellsHowFarDancersStray) {
                         unknown = prior.Scales(1, {});
   EXPECT_LT(calm[3], lively[3]);
   EXPECT_EQ(unknown, Eigen::VectorXd::Ones(unknown.size()));
+}
+
+TEST_F(WindowClipsTest, DancersGoOnAsLivelyAsTheyWere) {
+  // One dances twice as fast as the other.
+  const WindowClips clips({SyntheticClip("calm", 400, 0, false), FastClip()});
+  FlowModelParts parts = Parts();
+  parts.config.median_factors = clips.MedianFactors();
+  std::vector<WindowBatch> batches;
+  for (uint32_t i = 0; i < 6; ++i) {
+    Random random(4, i);
+    batches.push_back(clips.Draw(parts, 64, kFrames, kFrames,
+                                 {.no_key = i % 2 == 0 ? 1.0 : 0.0, .energy = 1}, &random));
+  }
+  const EnergyPrior measured = MeasureEnergy(parts, batches);
+  const auto trunk = [&](bool keyed, double history) {
+    return measured.Sample(
+        {.key = keyed, .history = EnergyPrior::Levels::Constant(history), .frames = kFrames},
+        EnergyPrior::Levels::Zero())[0];
+  };
+  EXPECT_LT(trunk(true, -0.4) + 0.1, trunk(true, 0.4));
+  EXPECT_EQ(trunk(false, -0.4), trunk(false, 0.4)) << "it would fade or rage";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "model/engine/plan_timing.h"
+#include "model/plan/beat_timing.h"
 
 #include <gtest/gtest.h>
 
@@ -28,12 +28,12 @@ std::vector<double> EveryFifteen(double first, double last) {
   return beats;
 }
 
-TEST(PlanTime, KeepsTheEndsAndNeverRunsBackwards) {
+TEST(BeatTiming, KeepsTheEndsAndNeverRunsBackwards) {
   for (const int frames : {2, 7, 30, 32, 45, 60, 75, 90}) {
     for (const double first : {-11.0, -16.0}) {  // the second: on all keys of whole seconds' ways
       for (const bool keyed : {false, true}) {
         const std::vector<double> beats = EveryFifteen(first, frames + 15);
-        const auto time = [&](double t) { return PlanTime(beats, frames, keyed, t); };
+        const auto time = [&](double t) { return BeatTiming().Time(beats, frames, keyed, t); };
         EXPECT_NEAR(time(-1), -1, 1e-12);
         EXPECT_NEAR(time(frames - 1), frames - 1, 1e-12);
         for (double t = -1; t < frames - 1; t += 0.1) {
@@ -45,15 +45,17 @@ TEST(PlanTime, KeepsTheEndsAndNeverRunsBackwards) {
   }
 }
 
-TEST(PlanTime, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(PlanTime({}, 31, true, t), t);
+TEST(BeatTiming, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(BeatTiming().Time({}, 31, true, t), t);
   const std::vector<double> pause = {-100, 200};
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(PlanTime(pause, 31, true, t), t);
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(BeatTiming().Time(pause, 31, true, t), t);
 }
 
-TEST(PlanTime, RunsFastestAtKeysThatStandOnBeats) {
+TEST(BeatTiming, RunsFastestAtKeysThatStandOnBeats) {
   const auto pace = [](std::span<const double> beats, int frames, bool keyed, double t) {
-    return (PlanTime(beats, frames, keyed, t + 0.05) - PlanTime(beats, frames, keyed, t)) / 0.05;
+    return (BeatTiming().Time(beats, frames, keyed, t + 0.05) -
+            BeatTiming().Time(beats, frames, keyed, t)) /
+           0.05;
   };
   const std::vector<double> on = EveryFifteen(-16, 100), off = EveryFifteen(-9, 100);
   // 60 frames from key to key, both on a beat: 1 + 0.25 + 0.75 at each.
@@ -64,11 +66,12 @@ TEST(PlanTime, RunsFastestAtKeysThatStandOnBeats) {
   EXPECT_NEAR(pace(on, 30, true, 28.95), 1.25, 0.05);  // there is no room
 }
 
-TEST(TimeToBeats, SpeedPeaksOnTheBeats) {
+TEST(BeatTiming, SpeedPeaksOnTheBeats) {
   const std::vector<Pose> plan = EvenWalk(90);
   const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
   const std::vector<double> beats = EveryFifteen(-8, 110);
-  const std::vector<Pose> timed = TimeToBeats(before, plan, beats, false);
+  std::vector<Pose> timed = plan;
+  BeatTiming().Apply({Skeleton::Smpl24(), before, beats}, &timed);
   ASSERT_EQ(timed.size(), plan.size());
   std::vector<float> speeds;
   for (size_t t = 1; t < timed.size(); ++t) {
@@ -87,10 +90,12 @@ TEST(TimeToBeats, SpeedPeaksOnTheBeats) {
   EXPECT_NEAR((timed.back().rotations - plan.back().rotations).norm(), 0, 1e-9);
 }
 
-TEST(TimeToBeats, AnEvenCurveStaysOnItself) {
+TEST(BeatTiming, AnEvenCurveStaysOnItself) {
   const std::vector<Pose> plan = EvenWalk(40);
-  const std::vector<Pose> timed =
-      TimeToBeats(std::vector{RestPose(Skeleton::Smpl24())}, plan, EveryFifteen(-8, 60), true);
+  const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
+  const std::vector<double> beats = EveryFifteen(-8, 60);
+  std::vector<Pose> timed = plan;
+  BeatTiming().Apply({Skeleton::Smpl24(), before, beats, /*keyed=*/true}, &timed);
   for (const Pose& pose : timed) {
     // Arm and feet keep step: both are a hundredth and two of the same time.
     EXPECT_NEAR(pose.rotations(2, 16) / 0.01, (pose.root_position.x()) / 0.02, 1e-2);

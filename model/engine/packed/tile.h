@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/engine/flow_tile.h"
-#include "model/engine/packed_flow.h"
+#include "model/engine/packed/flow.h"
 
 namespace choreo {
 

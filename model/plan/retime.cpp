@@ -1,4 +1,4 @@
-#include "model/engine/retime.h"
+#include "model/plan/retime.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "model/engine/packed_kernels.h"
+#include "model/engine/packed/kernels.h"
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "model/core/safetensors.h"
-#include "model/engine/packed_kernels.h"
-#include "model/engine/packed_matrix.h"
+#include "model/engine/packed/kernels.h"
+#include "model/engine/packed/matrix.h"
 #include "model/flow/flow_config.h"
 
 namespace choreo {

@@ -1,4 +1,4 @@
-#include "model/engine/controllers_engine.h"
+#include "model/engine/torch/controllers_engine.h"
 
 #include <torch/torch.h>
 

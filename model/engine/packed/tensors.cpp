@@ -1,4 +1,4 @@
-#include "model/engine/packed_tensors.h"
+#include "model/engine/packed/tensors.h"
 
 #include "model/core/error.h"
 

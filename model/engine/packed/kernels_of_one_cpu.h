@@ -1,4 +1,4 @@
-// The body of packed_kernels_*.cpp, which is compiled for one instruction set each: no #pragma
+// The body of kernels_*.cpp, which is compiled for one instruction set each: no #pragma
 // once, and nothing of the standard library is called, because the linker could take such an inline
 // function's copy from here for all machines. Defines CHOREO_KERNELS, after these are defined:
 //   CHOREO_KERNELS        variable to define
@@ -10,7 +10,7 @@
 #include <immintrin.h>
 #endif
 
-#include "model/engine/packed_kernels.h"
+#include "model/engine/packed/kernels.h"
 
 namespace choreo {
 extern const PackedKernels CHOREO_KERNELS;
@@ -125,7 +125,7 @@ void Multiply(const PackedProduct& p) {
   }
 }
 
-#include "model/engine/packed_rows_of_one_cpu.h"
+#include "model/engine/packed/rows_of_one_cpu.h"
 
 }  // namespace
 

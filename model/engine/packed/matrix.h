@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "model/engine/packed_kernels.h"
+#include "model/engine/packed/kernels.h"
 
 namespace choreo {
 

@@ -1,4 +1,4 @@
-#include "model/engine/packed_tile.h"
+#include "model/engine/packed/tile.h"
 
 #include <algorithm>
 #include <cmath>

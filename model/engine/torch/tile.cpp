@@ -1,4 +1,4 @@
-#include "model/engine/torch_tile.h"
+#include "model/engine/torch/tile.h"
 
 #include <torch/torch.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/core/safetensors.h"
-#include "model/engine/packed_matrix.h"
+#include "model/engine/packed/matrix.h"
 
 namespace choreo {
 

@@ -1,4 +1,4 @@
-// Row by row work, the second half of packed_kernels_of_one_cpu.h, which includes it inside its
+// Row by row work, the second half of kernels_of_one_cpu.h, which includes it inside its
 // namespace: no #pragma once.
 
 // From here on scalars: compilers make vectors of these loops. Selections are written as minima and

@@ -1,4 +1,4 @@
-#include "model/engine/packed_matrix.h"
+#include "model/engine/packed/matrix.h"
 
 #include <sys/mman.h>
 

@@ -1,11 +1,11 @@
-#include "model/engine/packed_flow.h"
+#include "model/engine/packed/flow.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <string>
 
 #include "model/core/error.h"
-#include "model/engine/packed_tensors.h"
+#include "model/engine/packed/tensors.h"
 
 namespace choreo {
 namespace {

@@ -1,0 +1,60 @@
+#include "model/flow/energy_prior.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace choreo {
+namespace {
+
+constexpr double kUsualFrames = 60;
+
+// All that was measured, part by part.
+template <typename Prior, typename Visit>
+void VisitNumbers(Prior& prior, Visit visit) {
+  visit(prior.least);
+  visit(prior.most);
+  visit(prior.keyed);
+  visit(prior.free);
+  visit(prior.spread);
+  visit(prior.styles);
+}
+
+}  // namespace
+
+EnergyPrior::Inputs EnergyPrior::Describe(const Known& known) {
+  constexpr int kHalf = kInputs / 2;
+  Inputs inputs;
+  inputs.head<kHalf>().setZero();
+  inputs[0] = 1;
+  // Without a key the past is all the dance's own: who went on from it would fade or rage.
+  if (known.key)
+    inputs.segment<kHalf - 1>(1) << std::log(std::max(known.surprise, 1e-6)), known.history;
+  inputs.tail<kHalf>() = std::log2(known.frames / kUsualFrames) * inputs.head<kHalf>();
+  return inputs;
+}
+
+EnergyPrior::Levels EnergyPrior::Sample(const Known& known, const Levels& normal) const {
+  const Inputs inputs = Describe(known).cwiseMax(least).cwiseMin(most);
+  Levels levels = (known.key ? keyed : free) * inputs + spread * normal;
+  if (known.style >= 0) levels += styles.col(known.style);
+  return levels.cwiseMax(least.segment<kBodyParts>(kHistoryInput))
+      .cwiseMin(most.segment<kBodyParts>(kHistoryInput));
+}
+
+std::vector<double> EnergyPrior::ToNumbers() const {
+  std::vector<double> numbers;
+  VisitNumbers(*this, [&](const auto& part) {
+    numbers.insert(numbers.end(), part.data(), part.data() + part.size());
+  });
+  return numbers;
+}
+
+void EnergyPrior::SetNumbers(std::span<const double> numbers) {
+  auto next = numbers.begin();
+  VisitNumbers(*this, [&](auto& part) {
+    std::copy_n(next, part.size(), part.data());
+    next += part.size();
+  });
+}
+
+}  // namespace choreo

@@ -1,0 +1,78 @@
+#include "model/flow/energy_prior.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace choreo {
+namespace {
+
+using Levels = EnergyPrior::Levels;
+
+TEST(EnergyPrior, ComesBackFromItsNumbers) {
+  EnergyPrior prior(3);
+  prior.most.setRandom();
+  prior.styles.setRandom();
+  prior.keyed.setRandom();
+  prior.free.setRandom();
+  prior.spread.setRandom();
+  EnergyPrior back(3);
+  back.SetNumbers(prior.ToNumbers());
+  EXPECT_EQ(back.keyed, prior.keyed);
+  EXPECT_EQ(back.free, prior.free);
+  EXPECT_EQ(back.spread, prior.spread);
+  EXPECT_EQ(back.most, prior.most);
+  EXPECT_EQ(back.styles, prior.styles);
+}
+
+TEST(EnergyPrior, UntrainedEverybodyIsAsLivelyAsTheMedian) {
+  EXPECT_EQ(EnergyPrior().Sample({.surprise = 3}, Levels::Ones()), Levels::Zero());
+}
+
+TEST(EnergyPrior, AFartherKeyAndALivelierPastCountAsTrainingFound) {
+  EnergyPrior prior;
+  prior.keyed(1, 1) = 0.5;   // surprise → left arm
+  prior.keyed(2, 4) = 0.25;  // what the right arm did → right arm
+  prior.free(2, 4) = 0.25;   // counts nothing
+  prior.spread(1, 1) = 0.1;
+  const EnergyPrior::Known known{
+      .key = true, .surprise = std::exp(2.0), .history = Levels::Constant(4), .frames = 60};
+  EXPECT_NEAR(prior.Sample(known, Levels::Zero())[1], 1, 1e-12);
+  EXPECT_NEAR(prior.Sample(known, Levels::Ones())[1], 1.1, 1e-12);
+  EXPECT_NEAR(prior.Sample(known, Levels::Zero())[2], 1, 1e-12);
+  EnergyPrior::Known free = known;
+  free.key = false;
+  EXPECT_EQ(prior.Sample(free, Levels::Zero())[2], 0) << "a dance does not follow itself";
+}
+
+TEST(EnergyPrior, WhatTrainingNeverSawCountsAsTheMostThatItSaw) {
+  EnergyPrior prior;
+  prior.keyed(1, 1) = 1;
+  prior.spread.setIdentity();
+  prior.most[1] = 2;                                 // of the surprise
+  prior.most[EnergyPrior::kHistoryInput + 1] = 2.5;  // of the left arm
+  const EnergyPrior::Known far{.key = true, .surprise = std::exp(7.0)};
+  EXPECT_NEAR(prior.Sample(far, Levels::Zero())[1], 2, 1e-12);
+  EXPECT_NEAR(prior.Sample(far, Levels::Ones())[1], 2.5, 1e-12);
+}
+
+TEST(EnergyPrior, SomeStylesAreLivelier) {
+  EnergyPrior prior(2);
+  prior.styles(4, 1) = 0.3;
+  EXPECT_EQ(prior.Sample({.style = 0}, Levels::Zero())[4], 0);
+  EXPECT_EQ(prior.Sample({.style = 1}, Levels::Zero())[4], 0.3);
+}
+
+TEST(EnergyPrior, WindowsOfOtherLengthsMayCountOtherwise) {
+  EnergyPrior prior;
+  prior.keyed(0, EnergyPrior::kInputs / 2) = -0.5;
+  const auto trunk = [&](int frames) {
+    return prior.Sample({.key = true, .frames = frames}, Levels::Zero())[0];
+  };
+  EXPECT_EQ(trunk(60), 0);
+  EXPECT_NEAR(trunk(120), -0.5, 1e-12);
+  EXPECT_NEAR(trunk(30), 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace choreo
