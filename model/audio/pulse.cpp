@@ -12,6 +12,9 @@ constexpr double kRowRate = 30;  // a second
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
 constexpr double kRangeDb = 40;  // what lies further below the loudest band is not heard
+// Up to 130 Hz, where the low drum is. It says which of two pulses half a beat apart is the beat,
+// so these few bands weigh as much as all.
+constexpr size_t kBassBands = 4;
 
 // ---- Onsets, evened out.
 constexpr double kMeanSeconds = 1;   // over which steady rustle is taken away
@@ -243,14 +246,16 @@ float RowOnset::Add(std::span<const double, kMelBands> db) {
   const double floor =
       *std::max_element(loudest_.begin(), loudest_.begin() + static_cast<std::ptrdiff_t>(known)) -
       kRangeDb;
-  double rise = 0;
+  double all = 0, bass = 0;
   auto& before = before_[at % kBack];
   for (size_t band = 0; band < kMelBands; ++band) {
-    if (at >= kBack) rise += std::max(0.0, db[band] - std::max(before[band], floor));
+    const double rise = at < kBack ? 0 : std::max(0.0, db[band] - std::max(before[band], floor));
+    all += rise;
+    if (band < kBassBands) bass += rise;
     before[band] = db[band];
   }
   ++rows_;
-  return static_cast<float>(rise / kMelBands);
+  return static_cast<float>(0.5 * (all / kMelBands + bass / kBassBands));
 }
 
 bool Pulse::Certain() const { return confidence >= kLeastConfidence; }

@@ -11,8 +11,9 @@
 /// in the rows of a FeatureStream, 30 a second.
 namespace choreo {
 
-/// Onset strength row by row: by how many dB the mel bands rose within two rows, on average. What
-/// lies more than 40 dB below the loudest band of the last two seconds is not heard. Row r's value
+/// Onset strength row by row: by how many dB the mel bands rose within two rows, the mean of all
+/// bands and of the bass. What lies more than 40 dB below the loudest band of the last two seconds
+/// is not heard. Row r's value
 /// is known with row r. It looks back kOnsetMemory rows and no further. Not thread-safe.
 class RowOnset {
  public:

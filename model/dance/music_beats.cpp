@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 #include "model/audio/pulse.h"
@@ -13,15 +12,16 @@
 namespace choreo {
 namespace {
 
-constexpr double kOnsetOverMean = 2;  // an onset is so much above what the music has on average
+constexpr double kOnsetOverMedian = 2;  // an onset is so much above what the music mostly has
 
 // Whether the music rose in the frame of a beat or in the one before.
 bool HasOnset(const AudioFeed& audio, int64_t frame) {
-  const std::vector<float> onsets = audio.Onsets(frame + 1);
+  std::vector<float> onsets = audio.Onsets(frame + 1);
   if (onsets.size() < 2) return false;
-  const double mean =
-      std::accumulate(onsets.begin(), onsets.end(), 0.0) / static_cast<double>(onsets.size());
-  return std::max(onsets.back(), onsets[onsets.size() - 2]) > kOnsetOverMean * mean;
+  const float here = std::max(onsets.back(), onsets[onsets.size() - 2]);
+  const auto median = onsets.begin() + static_cast<std::ptrdiff_t>(onsets.size() / 2);
+  std::nth_element(onsets.begin(), median, onsets.end());
+  return here > kOnsetOverMedian * *median;
 }
 
 }  // namespace

@@ -102,6 +102,29 @@ TEST(PulseTest, SoftMusicHasTheSamePulse) {
   EXPECT_NEAR(soft.next, loud.next, 0.5);
 }
 
+// Metal: what is bright and loud strikes between the beats, the low drum on them.
+TEST(PulseTest, TheLowDrumSaysWhichHalfOfABeatIsTheBeat) {
+  for (const double bpm : {100.0, 135.0}) {
+    const double period = 60 / bpm;
+    const std::vector<double> beats = Times(20, period, 20, period);
+    std::vector<double> between = beats;
+    for (double& time : between) time += 0.5 * period;
+    std::vector<float> wave = ClicksAt(20, between);
+    const std::vector<float> thump = Sine(65, kRate, kRate / 8, 0.5);
+    for (const double beat : beats) {
+      const auto at = static_cast<size_t>(beat * kRate);
+      for (size_t i = 0; i < thump.size() && at + i < wave.size(); ++i)
+        wave[at + i] += thump[i] * std::exp(-30 * static_cast<float>(i) / kRate);
+    }
+    const std::vector<float> onsets = Onsets(wave);
+    for (const double seconds : {8.0, 15.0}) {
+      const Pulse pulse = After(onsets, seconds);
+      EXPECT_TRUE(pulse.Certain()) << bpm << " after " << seconds;
+      EXPECT_LT(FurthestOff(pulse, seconds, beats), 0.07) << bpm << " after " << seconds;
+    }
+  }
+}
+
 // Bursts of random length, loudness and colour, four or five a second, and pauses now and then.
 std::vector<float> Babble(double seconds, uint32_t seed) {
   std::mt19937 random(seed);
