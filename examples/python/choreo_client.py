@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 
 import google
 import grpc
@@ -60,6 +61,43 @@ def pose(skeleton, rotations=None, x=0.0, z=0.0):
         root_position=motion.Vector3(x=x, y=skeleton.pelvis_height, z=z),
         rotations=[number for joint in skeleton.joint_names for number in rotations.get(joint, [0, 0, 0])],
     )
+
+
+class Requests:
+    """The requests of a dance that may have to be said again, to another server or over another connection. `source` yields them as
+    {field: message}, the configuration first; music in 16-bit mono samples."""
+
+    def __init__(self, source):
+        self._source, self._said, self._lock = iter(source), [], threading.Lock()
+
+    def all(self):
+        """From the beginning."""
+        at = 0
+        while True:
+            with self._lock:  # a call that was cancelled may still wait for the source
+                if at == len(self._said):
+                    request = next(self._source, None)
+                    if request is None:
+                        return
+                    self._said.append(choreography.StreamDanceRequest(**request))
+            yield self._said[at]
+            at += 1
+
+    def since(self, continuation):
+        """What goes on from there: the same messages in the same order, but for the music before it."""
+        for request in self.all():
+            again = choreography.StreamDanceRequest()
+            again.CopyFrom(request)
+            if again.HasField("config"):
+                again.config.continuation.CopyFrom(continuation)
+                again.config.audio_format.first_sample = continuation.audio_from_sample
+            elif again.HasField("audio"):
+                early = max(0, continuation.audio_from_sample - again.audio.first_sample)
+                again.audio.data = again.audio.data[2 * early :]
+                again.audio.first_sample += early
+                if not again.audio.data:
+                    continue
+            yield again
 
 
 def run(main):

@@ -1,4 +1,4 @@
-// A choreod with a fake engine: says where it listens and serves until SIGTERM.
+// A choreod with a fake engine that takes controls: says where it listens and serves until SIGTERM.
 //   fake_choreod [--listen HOST:PORT] ...
 #include <signal.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   choreo::ServerConfig config;
   config.listen = argc > 2 ? argv[2] : "127.0.0.1:0";
   std::vector<choreo::Server::Engines> models(1);
-  models[0].push_back(std::make_unique<choreo::FakeEngine>());
+  models[0].push_back(std::make_unique<choreo::ControlledEngine>());
   choreo::Server server(config, std::move(models));
   std::cout << "choreod listens on 127.0.0.1:" << server.port() << std::endl;
   // Whoever waited for that line may have stopped reading; the log goes elsewhere.

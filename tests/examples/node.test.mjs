@@ -170,6 +170,12 @@ test('stream_dance.js dances live and to a song', async () => {
   }
 });
 
+test('live_edit.js changes keys on the way', async () => {
+  const { code, out, err } = await program('live_edit.js', '--seconds', '5', '--speed', '50');
+  assert.equal(code, 0, err);
+  assert.equal(out, 'second 2: reached\nsecond 4: reached\n150 frames\n');
+});
+
 test('options that are no numbers, and songs that are missing, are named', async () => {
   for (const seconds of ['abc', '-3', '0']) {
     const { code, err } = await program('stream_dance.js', `--seconds=${seconds}`);

@@ -72,6 +72,20 @@ class PythonTest(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("60 frames", done.stdout)
 
+    def test_live_edit_changes_keys_on_the_way(self):
+        done = program("live_edit.py", "--seconds", 5, "--speed", 50)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "second 2: reached\nsecond 4: reached\n150 frames\n")
+
+    def test_live_edit_survives_the_loss_of_its_connection(self):
+        with tempfile.TemporaryDirectory() as folder:
+            whole, resumed = pathlib.Path(folder, "whole.json"), pathlib.Path(folder, "resumed.json")
+            self.assertEqual(program("live_edit.py", "--seconds", 6, "--speed", 50, "--out", whole).returncode, 0)
+            done = program("live_edit.py", "--seconds", 6, "--speed", 50, "--lose-at", 3, "--out", resumed)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"goes on from frame \d+\n")
+            self.assertEqual(json.loads(resumed.read_text()), json.loads(whole.read_text()))
+
     def test_a_missing_song_is_named(self):
         done = program("stream_dance.py", "--song", "/absent/song.mp3")
         self.assertEqual((done.returncode, done.stderr), (1, "/absent/song.mp3: No such file or directory\n"))
