@@ -20,6 +20,8 @@ target_compile_options(choreo_torch INTERFACE ${torch_flags})
 
 if(CHOREO_SERVICE)
   pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
+  pkg_check_modules(alsa REQUIRED IMPORTED_TARGET alsa)
+  pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
   find_package(spdlog REQUIRED)
   find_package(Protobuf REQUIRED)
   find_package(gRPC REQUIRED)

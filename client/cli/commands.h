@@ -7,6 +7,7 @@
 namespace choreo::cli {
 
 void AddDanceCommand(CLI::App& program);
+void AddLiveCommand(CLI::App& program);
 void AddTransitionCommand(CLI::App& program);
 void AddEditCommand(CLI::App& program);
 void AddAnalyzeCommand(CLI::App& program);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/control_options.h"
+#include "client/cli/dance_display.h"
 #include "client/cli/dance_keys.h"
 #include "client/cli/interruption.h"
 #include "client/cli/key_faults.h"
@@ -17,8 +19,8 @@
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
+#include "client/cli/vmc_show.h"
 #include "model/core/atomic_file.h"
-#include "model/core/progress.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
@@ -41,6 +43,7 @@ struct DanceOptions {
   std::string model;
   std::string out;
   std::string report;
+  std::string vmc;
   bool no_clobber = false;
 };
 
@@ -131,51 +134,20 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
   return keys;
 }
 
-/// Shows messages while they come.
-class Display {
- public:
-  Display(int64_t frames, double model_fps) : frames_(frames), model_fps_(model_fps) {}
-
-  void operator()(const client::Message& message) {
-    if (const auto* header = std::get_if<client::Header>(&message)) {
-      bar_ = std::make_unique<ProgressBar>(
-          "dancing",
-          1 + static_cast<int64_t>(static_cast<double>(frames_ - 1) * header->fps / model_fps_));
-    } else if (const auto* block = std::get_if<client::FrameBlock>(&message)) {
-      bar_->Advance(static_cast<int64_t>(block->poses.size()));
-    } else if (const auto* key = std::get_if<client::KeyReached>(&message)) {
-      bar_->Advance(0, key->id);
-    } else if (const auto* warning = std::get_if<client::Warning>(&message)) {
-      bar_->Print("warning: frame " + std::to_string(warning->frame) + ": " + warning->message);
-    } else if (const auto* rejected = std::get_if<client::KeyRejected>(&message)) {
-      bar_->Print("warning: key " + rejected->id + " was refused: " + rejected->reason);
-    } else if (const auto* resumed = std::get_if<client::Resumed>(&message)) {
-      bar_->Print("lost the server (" + resumed->reason + "); " + resumed->address + " goes on" +
-                  (resumed->exact ? "" : ", with another model or build"));
-    } else if (std::holds_alternative<client::Report>(message)) {
-      bar_->Finish();
-    }
-  }
-
- private:
-  int64_t frames_;
-  double model_fps_;
-  std::unique_ptr<ProgressBar> bar_;
-};
-
 /// Dances. What came of a dance that was cut off, or interrupted, is written, too.
 client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
                           const DanceKeys& keys, const client::Audio& audio, double model_fps,
-                          const DanceOptions& options, const std::filesystem::path& out) {
+                          const DanceOptions& options, const std::filesystem::path& out,
+                          VmcShow* show) {
   client::DanceResult dance;
-  Display display(*config.frames, model_fps);
-  const Interruption interruption;
+  DanceDisplay display(*config.frames, model_fps);
   try {
     client.Dance(
         config, keys.poses, audio,
         [&](const client::Message& message) {
           Interruption::Check();
           display(message);
+          if (show) show->Take(message);
         },
         &dance);
   } catch (const Error& error) {
@@ -232,8 +204,11 @@ void Run(const DanceOptions& options) {
   if (music) config.music_beats = BeatsBefore(*music, seconds);
   const client::Audio audio =
       music && model.takes_music ? AudioFor(music->audio, seconds) : client::Audio{};
-  const client::DanceResult dance =
-      Dance(connection.client(), config, keys, audio, model.fps, options, out);
+  std::optional<VmcShow> show;
+  if (!options.vmc.empty()) show.emplace(options.vmc, model.skeleton);
+  const Interruption interruption;
+  const client::DanceResult dance = Dance(connection.client(), config, keys, audio, model.fps,
+                                          options, out, show ? &*show : nullptr);
 
   WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
@@ -242,6 +217,8 @@ void Run(const DanceOptions& options) {
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
   if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
   std::cout << ReportText(written) << out.string() << std::endl;
+  constexpr std::chrono::milliseconds kPatience{50};
+  while (show && !show->Over(kPatience)) Interruption::Check();
   CheckKeys(written);
 }
 
@@ -285,6 +262,7 @@ void AddDanceCommand(CLI::App& program) {
                       "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song, or "
                       "dance.npz. A file that is there is replaced.");
   command->add_option("--report", options->report, "JSON file to write the report to.");
+  AddVmc(*command, options->vmc);
   command->add_flag("--no-clobber", options->no_clobber, "Replace no motion file that is there.");
   command->add_flag(
       "--allow-inexact-resume", options->server.allow_inexact_resume,

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     return std::string("choreo: ") + error.what() + "; see --help\n";
   });
   choreo::cli::AddDanceCommand(program);
+  choreo::cli::AddLiveCommand(program);
   choreo::cli::AddTransitionCommand(program);
   choreo::cli::AddEditCommand(program);
   choreo::cli::AddAnalyzeCommand(program);

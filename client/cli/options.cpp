@@ -52,6 +52,12 @@ void AddSongStart(CLI::App& command, double& seconds) {
       ->check(TimeInSeconds());
 }
 
+void AddVmc(CLI::App& command, std::string& address) {
+  command.add_option("--vmc", address,
+                     "HOST:PORT to stream the dance to in real time as VMC, which VTuber programs "
+                     "and game engines receive, often at port 39539.");
+}
+
 void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
   command.add_option("--temperature", temperature,
                      "Variety, 0 (calm) to 2; default: the model's. " + kOfChance);

@@ -26,6 +26,9 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 /// `--song-start`, seconds.
 void AddSongStart(CLI::App& command, double& seconds);
 
+/// `--vmc`, HOST:PORT.
+void AddVmc(CLI::App& command, std::string& address);
+
 /// `--temperature`.
 void AddTemperature(CLI::App& command, std::optional<double>& temperature);
 /// `--style`, one that `choreo info` lists.

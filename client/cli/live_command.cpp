@@ -1,0 +1,208 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "client/cli/commands.h"
+#include "client/cli/connection.h"
+#include "client/cli/dance_keys.h"
+#include "client/cli/interruption.h"
+#include "client/cli/key_file.h"
+#include "client/cli/options.h"
+#include "client/cli/output_file.h"
+#include "client/cli/pose_library.h"
+#include "client/live/live_dance.h"
+#include "client/live/midi_clock.h"
+#include "client/live/vmc.h"
+#include "model/formats/motion_file.h"
+
+namespace choreo::cli {
+namespace {
+
+struct LiveCommand {
+  ServerOptions server;
+  std::string song;
+  double song_start_s = 0;
+  std::string input = "default";
+  std::vector<std::string> keys;
+  int osc_port = 0;
+  std::string midi_clock;
+  double ahead_s = 1;
+  double look_ahead_s = 0.3;
+  std::optional<double> seconds;
+  std::optional<uint64_t> seed;
+  std::optional<double> temperature;
+  double fps = 0;
+  std::string model;
+  std::string vmc;
+  std::string out;
+};
+
+void CheckOutput(const LiveCommand& options) {
+  if (options.out.empty()) return;
+  RequireMotionFile(options.out);
+  std::vector<NamedFile> inputs = {{"song", options.song}};
+  for (const std::string& keys : options.keys) inputs.push_back({"--keyframes", FileOf(keys)});
+  RequireOutputs({{"--out", options.out}}, inputs);
+}
+
+std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
+  if (options.song.empty()) return live::ListenTo(options.input);
+  return live::PlaySong(options.song, options.song_start_s);
+}
+
+/// Which key of the keyboard stands for which pose, as wide as a terminal.
+std::string Legend(const std::vector<LibraryPose>& poses) {
+  constexpr size_t kColumns = 4;
+  std::ostringstream legend;
+  for (size_t i = 0; i < std::min(poses.size(), live::KeyboardKeys().size()); ++i) {
+    legend << "  " << live::KeyboardKeys()[i] << ' ' << std::left << std::setw(15) << poses[i].id;
+    if (i % kColumns == kColumns - 1) legend << '\n';
+  }
+  legend << "\nBackspace takes the last one back; Ctrl-C ends the dance.\n";
+  return legend.str();
+}
+
+std::vector<std::unique_ptr<live::Cues>> OpenCues(const LiveCommand& options,
+                                                  const std::vector<LibraryPose>& poses) {
+  std::vector<std::unique_ptr<live::Cues>> cues;
+  if (options.osc_port > 0) cues.push_back(live::HearOsc(options.osc_port));
+  std::vector<std::string> names;
+  for (const LibraryPose& pose : poses) names.push_back(pose.id);
+  if (auto keyboard = live::ReadKeyboard(STDIN_FILENO, names)) {
+    cues.push_back(std::move(keyboard));
+    std::cout << Legend(poses);
+  }
+  return cues;
+}
+
+std::string Say(const live::LiveFigures& figures) {
+  std::ostringstream line;
+  line << std::fixed << std::setprecision(0) << figures.seconds << " s: " << figures.frames
+       << " frames, " << figures.late << " late";
+  if (figures.late > 0) line << " by " << figures.most_late_ms << " ms at most";
+  if (figures.tempo) {
+    line << std::setprecision(1) << "; " << *figures.tempo << " beats a minute, confidence "
+         << std::setprecision(2) << figures.confidence;
+  }
+  line << "; poses: " << figures.keys_taken << " taken, " << figures.keys_danced << " danced, "
+       << figures.keys_refused << " refused\n";
+  return line.str();
+}
+
+void Run(const LiveCommand& options) {
+  CheckOutput(options);
+  if (options.look_ahead_s >= options.ahead_s) {
+    throw InvalidArgument("--look-ahead",
+                          "poses come --ahead of what sounds, and have to come "
+                          "behind what is danced already: it must be less");
+  }
+  const Connection connection(options.server);
+  const client::ModelDescription& model = connection.model(options.model);
+  live::LiveOptions dance;
+  dance.config.model = options.model;
+  dance.config.fps = options.fps;
+  dance.config.seed = options.seed.value_or(0);
+  dance.config.temperature = options.temperature;
+  dance.ahead_s = options.ahead_s;
+  dance.look_ahead_s = options.look_ahead_s;
+  const double most = connection.server().limits.max_audio_s;
+  dance.seconds = std::min(options.seconds.value_or(most), most);
+  const DanceLength length{std::llround(dance.seconds * model.fps), model.fps};
+  dance.keys = ReadDanceKeys(options.keys, length, model.skeleton).poses;
+  const std::vector<LibraryPose> poses = PosesToDance(model.skeleton);
+  for (const LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;
+
+  live::LiveObserver observer;
+  observer.go_on = [] { return !Interruption::Came(); };
+  observer.figures = [](const live::LiveFigures& figures) { std::cout << Say(figures); };
+  observer.note = [](const std::string& text) { std::cerr << "note: " << text << '\n'; };
+  std::optional<live::VmcSender> vmc;
+  if (!options.vmc.empty()) {
+    vmc.emplace(options.vmc, model.skeleton);
+    observer.show = [&vmc](const Pose& pose, double seconds) { vmc->Send(pose, seconds); };
+  }
+  const std::unique_ptr<live::Sound> sound = OpenSound(options);
+  std::optional<live::MidiClock> midi;
+  if (!options.midi_clock.empty()) midi.emplace(options.midi_clock);
+  const Interruption interruption;
+  const std::vector<std::unique_ptr<live::Cues>> cues = OpenCues(options, poses);
+  std::cout << std::unitbuf << "listening to "
+            << (options.song.empty() ? options.input : options.song) << '\n';
+  live::LiveDance live(connection.client(), model, std::move(dance), std::move(observer));
+  const auto write = [&] {
+    if (options.out.empty() || live.motion().frames.empty()) return;
+    WriteMotion(options.out, live.header().skeleton, live.motion(), &live.contacts());
+    std::cout << options.out << '\n';
+  };
+  try {
+    live.Run(*sound, cues, midi ? &*midi : nullptr);
+  } catch (const Error&) {
+    write();  // what came is kept
+    throw;
+  }
+  write();
+}
+
+}  // namespace
+
+void AddLiveCommand(CLI::App& program) {
+  auto options = std::make_shared<LiveCommand>();
+  CLI::App* command = program.add_subcommand(
+      "live",
+      "Dance to music that is sounding now, through poses that are asked for on the way.\n"
+      "Each pose is danced on the first beat that is a second ahead. At a terminal, letters stand "
+      "for poses of the library. Ends with the music, with Ctrl-C, or after the server's longest "
+      "music.");
+  command
+      ->add_option(
+          "song", options->song,
+          "WAV, FLAC, Ogg or MP3 file to take for what sounds. Without one a microphone or "
+          "line in is listened to.")
+      ->check(CLI::ExistingFile);
+  AddSongStart(*command, options->song_start_s);
+  command
+      ->add_option("--input", options->input,
+                   "Microphone or line in, by its name in ALSA; `arecord -L` lists them.")
+      ->capture_default_str();
+  AddRepeated(*command, "-k,--keyframes", options->keys,
+              "Key poses that are known from the beginning, as `choreo dance` takes them; seconds "
+              "count from when the dance begins.");
+  command
+      ->add_option("--osc", options->osc_port,
+                   "UDP port for OSC messages of anybody who reaches it: /choreo/key POSE [SECONDS "
+                   "ahead], /choreo/undo.")
+      ->check(WholeNumberFrom(1, 65535));
+  command->add_option("--midi-clock", options->midi_clock,
+                      "Device that raw MIDI comes from, as /dev/snd/midiC1D0: its clock says where "
+                      "the beats are from its Start on, instead of the music.");
+  command
+      ->add_option("--ahead", options->ahead_s,
+                   "Seconds from asking for a pose to the first beat that it may stand on.")
+      ->check(NumberFrom(0.2, 60))
+      ->capture_default_str();
+  command
+      ->add_option("--look-ahead", options->look_ahead_s,
+                   "Seconds ahead of the music that are settled: poses can't be asked for or taken "
+                   "back there.")
+      ->check(NumberFrom(0, 60))
+      ->capture_default_str();
+  command->add_option("-s,--seconds", options->seconds, "Of music, at most.")->check(AboveZero());
+  AddSeed(*command, options->seed, "Same seed, same music, same poses: same dance. Default: 0.");
+  AddTemperature(*command, options->temperature);
+  command->add_option("--fps", options->fps, "Frames a second, 1 to 120; default: the model's.")
+      ->check(NumberFrom(1, 120));
+  command->add_option("-m,--model", options->model,
+                      "Model of the server to dance with; default: its first.");
+  AddVmc(*command, options->vmc);
+  command->add_option("-o,--out", options->out,
+                      "FILE.npz, FILE.bvh or FILE.glb to write the dance to.");
+  options->server.AddTo(*command);
+  command->callback([options] { Run(*options); });
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "client/choreo_client.h"
+#include "client/live/pose_player.h"
+#include "client/live/vmc.h"
+
+namespace choreo::cli {
+
+/// `--vmc`, for dances that are made faster than they are danced: streams one in real time from its
+/// first frame on.
+class VmcShow {
+ public:
+  /// Errors as VmcSender.
+  VmcShow(const std::string& address, const Skeleton& skeleton) : sender_(address, skeleton) {}
+
+  /// Each message of the dance, in order.
+  void Take(const client::Message& message);
+  /// Whether the last frame is out, if need be after `patience`.
+  bool Over(std::chrono::milliseconds patience) { return !player_ || player_->Shown(patience); }
+
+ private:
+  live::VmcSender sender_;
+  double fps_ = 0;
+  std::unique_ptr<live::PosePlayer> player_;
+};
+
+}  // namespace choreo::cli

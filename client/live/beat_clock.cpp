@@ -1,0 +1,38 @@
+#include "client/live/beat_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace choreo::live {
+namespace {
+
+constexpr size_t kBeats = 9;        // that are looked at
+constexpr double kForgotten = 3;    // seconds without a beat, and there is none
+constexpr double kRounding = 1e-3;  // seconds, of a beat that is asked for itself
+
+}  // namespace
+
+void BeatClock::Hear(const client::Beat& beat) {
+  beats_.push_back(beat);
+  if (beats_.size() > kBeats) beats_.pop_front();
+}
+
+std::optional<double> BeatClock::Period(double now) const {
+  if (beats_.size() < 3 || now - beats_.back().time_s > kForgotten) return std::nullopt;
+  std::vector<double> steps;
+  for (size_t i = 1; i < beats_.size(); ++i)
+    steps.push_back(beats_[i].time_s - beats_[i - 1].time_s);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+double BeatClock::AtOrBehind(double seconds, double now) const {
+  const std::optional<double> period = Period(now);
+  if (!period) return seconds;
+  const double last = beats_.back().time_s;
+  return last + *period * std::ceil((seconds - last - kRounding) / *period);
+}
+
+}  // namespace choreo::live

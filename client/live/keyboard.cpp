@@ -1,0 +1,56 @@
+#include <termios.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "client/live/cues.h"
+
+namespace choreo::live {
+namespace {
+
+class Keyboard final : public Cues {
+ public:
+  Keyboard(int terminal, const termios& before, std::vector<std::string> poses)
+      : terminal_(terminal), before_(before), poses_(std::move(poses)) {
+    // Keys come one by one, at once or not at all; Ctrl-C is still Ctrl-C.
+    termios now = before;
+    now.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    now.c_cc[VMIN] = 0;
+    now.c_cc[VTIME] = 0;
+    tcsetattr(terminal_, TCSANOW, &now);
+  }
+  ~Keyboard() override { tcsetattr(terminal_, TCSANOW, &before_); }
+
+  std::vector<Cue> Take() override {
+    constexpr char kBackspace = 0x7f, kControlH = 0x08;
+    std::vector<Cue> cues;
+    for (char key = 0; read(terminal_, &key, 1) == 1;) {
+      const size_t at = KeyboardKeys().find(key);
+      if (key == kBackspace || key == kControlH)
+        cues.push_back({});
+      else if (at < poses_.size())
+        cues.push_back({poses_[at]});
+    }
+    return cues;
+  }
+
+ private:
+  int terminal_;
+  termios before_;
+  std::vector<std::string> poses_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cues> ReadKeyboard(int terminal, std::vector<std::string> poses) {
+  termios before{};
+  if (tcgetattr(terminal, &before) != 0) return nullptr;
+  return std::make_unique<Keyboard>(terminal, before, std::move(poses));
+}
+
+const std::string& KeyboardKeys() {
+  static const std::string kKeys = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  return kKeys;
+}
+
+}  // namespace choreo::live

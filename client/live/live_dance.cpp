@@ -1,0 +1,203 @@
+#include "client/live/live_dance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+#include <variant>
+
+namespace choreo::live {
+namespace {
+
+constexpr double kSpareSeconds = 0.05;      // for the way from here to the server and back
+constexpr double kLeastWaySeconds = 0.5;    // from pose to pose
+constexpr double kLeastAheadSeconds = 0.1;  // of a pose before what is danced already
+constexpr double kMostAheadSeconds = 60;
+
+void Add(const LiveFigures& figures, LiveFigures* all) {
+  all->frames += figures.frames;
+  all->late += figures.late;
+  all->most_late_ms = std::max(all->most_late_ms, figures.most_late_ms);
+  all->keys_taken += figures.keys_taken;
+  all->keys_danced += figures.keys_danced;
+  all->keys_refused += figures.keys_refused;
+}
+
+}  // namespace
+
+LiveDance::LiveDance(const client::Client& client, const client::ModelDescription& model,
+                     LiveOptions options, LiveObserver observer)
+    : client_(client),
+      model_(model),
+      options_(std::move(options)),
+      observer_(std::move(observer)) {}
+
+LiveDance::~LiveDance() = default;
+
+int64_t LiveDance::FrameAt(double seconds) const { return std::llround(seconds * model_.fps); }
+
+void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi) {
+  client::DanceConfig config = options_.config;
+  config.audio = {client::AudioKind::kPcmFloat, sound.sample_rate(), sound.channels()};
+  config.generate_until = 0;
+  dance_ = client_.StartDance(config);
+  for (const client::KeyPose& key : options_.keys) {
+    dance_->SendKey(key);
+    keys_[key.frame.value_or(FrameAt(key.time_s))] = key.id;
+  }
+  began_ = PosePlayer::Clock::now();
+  std::thread reader([this] { Read(); });
+  try {
+    Play(sound, cues, midi);
+  } catch (...) {
+    dance_->Cancel();
+    reader.join();
+    throw;
+  }
+  reader.join();
+  if (failure_) std::rethrow_exception(failure_);
+  constexpr std::chrono::milliseconds kPatience{50};
+  while (player_ && !player_->Shown(kPatience) && observer_.go_on()) continue;
+  Add(since_, &all_);
+  all_.seconds = since_.seconds;
+  observer_.figures(all_);
+}
+
+void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi) {
+  int64_t samples = 0;
+  double now = 0, told = 0;
+  while (!over_ && now < options_.seconds && observer_.go_on()) {
+    const std::span<const float> piece = sound.Next();
+    if (piece.empty()) break;
+    samples += static_cast<int64_t>(piece.size()) / sound.channels();
+    now = static_cast<double>(samples) / sound.sample_rate();
+    for (const auto& source : cues) {
+      for (const Cue& cue : source->Take()) Follow(cue, now);
+    }
+    if (midi) SendBeats(midi->Take(now), now);
+    granted_ = FrameAt(now + options_.look_ahead_s);
+    dance_->GenerateUntil(granted_);
+    dance_->SendSamples(piece);
+    if (now >= told + 1) Tell(told = std::floor(now));
+  }
+  since_.seconds = now;
+  // The dance ends with the music: poses that would come later are not danced.
+  for (auto key = keys_.lower_bound(granted_); key != keys_.end(); ++key)
+    dance_->RemoveKey(key->second);
+  dance_->EndAudio();
+  dance_->CompleteKeys();
+}
+
+// Those that are settled already would come too late.
+void LiveDance::SendBeats(std::vector<double> beats, double now) {
+  std::erase_if(beats, [&](double beat) { return beat < now + options_.look_ahead_s; });
+  if (!beats.empty()) dance_->SendBeats(beats);
+}
+
+void LiveDance::Follow(const Cue& cue, double now) {
+  if (cue.pose.empty()) return TakeBack();
+  const auto pose = options_.poses.find(cue.pose);
+  if (pose == options_.poses.end()) return Note("there is no pose \"" + cue.pose + "\"");
+  const double ahead = std::clamp(cue.ahead_s.value_or(options_.ahead_s),
+                                  options_.look_ahead_s + kLeastAheadSeconds, kMostAheadSeconds);
+  BeatClock clock;
+  {
+    const std::lock_guard lock(mutex_);
+    ++since_.keys_taken;
+    clock = clock_;
+  }
+  double at = clock.AtOrBehind(now + ahead, now);
+  while (const std::optional<int64_t> near = KeyNear(FrameAt(at)))
+    at = clock.AtOrBehind(static_cast<double>(*near + 1) / model_.fps + kLeastWaySeconds, now);
+  client::KeyPose key;
+  key.id = "cue " + std::to_string(++cues_) + " " + cue.pose;
+  key.frame = FrameAt(at);
+  key.pose = pose->second;
+  key.mask.root_position = false;  // wherever the dancer is then
+  keys_[*key.frame] = key.id;
+  dance_->SendKey(key);
+}
+
+// The last one that is too near to another one at this frame.
+std::optional<int64_t> LiveDance::KeyNear(int64_t frame) const {
+  const int64_t least = FrameAt(kLeastWaySeconds);
+  const auto behind = keys_.upper_bound(frame + least);
+  if (behind == keys_.begin() || std::prev(behind)->first < frame - least) return std::nullopt;
+  return std::prev(behind)->first;
+}
+
+void LiveDance::TakeBack() {
+  if (keys_.empty() || keys_.rbegin()->first < granted_) return Note("no pose can be taken back");
+  dance_->RemoveKey(keys_.rbegin()->second);
+  keys_.erase(std::prev(keys_.end()));
+}
+
+void LiveDance::Tell(double seconds) {
+  const std::lock_guard lock(mutex_);
+  since_.seconds = seconds;
+  since_.confidence = 0;
+  since_.tempo = clock_.Period(seconds);
+  if (since_.tempo) {
+    since_.tempo = 60 / *since_.tempo;
+    since_.confidence = clock_.confidence();
+  }
+  observer_.figures(since_);
+  Add(std::exchange(since_, {}), &all_);
+}
+
+void LiveDance::Read() {
+  try {
+    while (const std::optional<client::Message> message = dance_->Next()) Take(*message);
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+  over_ = true;
+}
+
+void LiveDance::Take(const client::Message& message) {
+  if (const auto* header = std::get_if<client::Header>(&message)) {
+    header_ = *header;
+    motion_.fps = header->fps;
+    const std::chrono::duration<double> behind(header->latency_frames / header->model_fps +
+                                               kPieceSeconds + kSpareSeconds);
+    player_ = std::make_unique<PosePlayer>(
+        header->fps, began_ + std::chrono::duration_cast<PosePlayer::Clock::duration>(behind),
+        observer_.show);
+  } else if (const auto* block = std::get_if<client::FrameBlock>(&message)) {
+    TakeFrames(*block);
+  } else if (const auto* warning = std::get_if<client::Warning>(&message)) {
+    Note("frame " + std::to_string(warning->frame) + ": " + warning->message);
+  } else if (const auto* rejected = std::get_if<client::KeyRejected>(&message)) {
+    Note("key " + rejected->id + " was refused: " + rejected->reason);
+    const std::lock_guard lock(mutex_);
+    ++since_.keys_refused;
+  } else if (const auto* resumed = std::get_if<client::Resumed>(&message)) {
+    Note("lost the server (" + resumed->reason + "); " + resumed->address + " goes on");
+  } else {
+    const std::lock_guard lock(mutex_);
+    if (const auto* beat = std::get_if<client::Beat>(&message)) clock_.Hear(*beat);
+    since_.keys_danced += std::holds_alternative<client::KeyReached>(message);
+  }
+}
+
+void LiveDance::TakeFrames(const client::FrameBlock& block) {
+  const auto now = PosePlayer::Clock::now();
+  motion_.frames.insert(motion_.frames.end(), block.poses.begin(), block.poses.end());
+  contacts_.insert(contacts_.end(), block.contacts.begin(), block.contacts.end());
+  if (observer_.show) player_->Push(block.first_frame, block.poses);
+  const std::lock_guard lock(mutex_);
+  for (size_t i = 0; i < block.poses.size(); ++i) {
+    const std::chrono::duration<double, std::milli> late =
+        now - player_->Due(block.first_frame + static_cast<int64_t>(i));
+    ++since_.frames;
+    since_.late += late.count() > 0;
+    since_.most_late_ms = std::max(since_.most_late_ms, late.count());
+  }
+}
+
+void LiveDance::Note(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  observer_.note(text);
+}
+
+}  // namespace choreo::live

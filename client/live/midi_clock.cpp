@@ -1,0 +1,82 @@
+#include "client/live/midi_clock.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <span>
+
+#include "client/live/sound.h"
+#include "model/core/error.h"
+
+namespace choreo::live {
+namespace {
+
+constexpr uint8_t kTick = 0xF8, kStart = 0xFA, kContinue = 0xFB, kStop = 0xFC;
+constexpr int64_t kBeat = 24;  // ticks
+// Ticks that the tempo is told from, at most and at least: each of them is late by up to a piece of
+// sound, which makes one in a hundred over four beats.
+constexpr size_t kMost = 8 * kBeat, kLeast = 4 * kBeat;
+constexpr double kAheadSeconds = 4;     // as far as transitions reach
+constexpr double kPauseSeconds = 0.25;  // from tick to tick, beyond the slowest tempo
+
+}  // namespace
+
+MidiClock::MidiClock(const std::string& device)
+    : file_(open(device.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+  if (file_ < 0) {
+    throw Error(ErrorCode::kNotFound, "--midi-clock",
+                "\"" + device + "\" can't be read: " + std::strerror(errno));
+  }
+}
+
+MidiClock::~MidiClock() { close(file_); }
+
+std::vector<double> MidiClock::Take(double now) {
+  // What came since the last piece of sound, came on average half a piece ago.
+  const double then = now - 0.5 * kPieceSeconds;
+  std::vector<double> beats;
+  std::array<uint8_t, 256> bytes;
+  for (ssize_t size = 0; (size = read(file_, bytes.data(), bytes.size())) > 0;) {
+    for (const uint8_t byte : std::span(bytes).first(static_cast<size_t>(size))) {
+      if (byte == kStart) tick_ = -1;
+      if (byte == kContinue && !tick_) tick_ = -1;
+      if (byte == kStart || byte == kContinue) times_.clear();
+      if (byte == kStop) tick_.reset();
+      if (byte == kTick) Tick(then, &beats);
+    }
+  }
+  return beats;
+}
+
+void MidiClock::Tick(double now, std::vector<double>* beats) {
+  if (!tick_) return;  // where its beats are, is not known
+  ++*tick_;
+  if (!times_.empty() && now - times_.back() > kPauseSeconds) times_.clear();
+  times_.push_back(now);
+  if (times_.size() > kMost) times_.pop_front();
+  if (*tick_ % (2 * kBeat) == 0 && times_.size() > kLeast) *beats = Ahead();
+}
+
+std::vector<double> MidiClock::Ahead() const {
+  // The line through the ticks: each of them is late by up to a piece of sound.
+  const auto count = static_cast<double>(times_.size());
+  double mean = 0, slope = 0, squares = 0;
+  for (const double time : times_) mean += time / count;
+  for (size_t i = 0; i < times_.size(); ++i) {
+    const double x = static_cast<double>(i) - 0.5 * (count - 1);
+    slope += x * (times_[i] - mean);
+    squares += x * x;
+  }
+  const double period = slope / squares * kBeat;
+  const double last = mean + slope / squares * 0.5 * (count - 1);
+  std::vector<double> beats;
+  if (!(period > 0)) return beats;
+  for (double beat = last + period; beat < last + kAheadSeconds; beat += period)
+    beats.push_back(beat);
+  return beats;
+}
+
+}  // namespace choreo::live

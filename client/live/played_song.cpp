@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "client/live/sound.h"
+#include "model/audio/decode.h"
+#include "model/core/error.h"
+#include "model/core/rounded.h"
+
+namespace choreo::live {
+namespace {
+
+class PlayedSong final : public Sound {
+ public:
+  PlayedSong(DecodedAudio song, int64_t first) : song_(std::move(song)), first_(first) {}
+
+  int sample_rate() const override { return song_.sample_rate; }
+  int channels() const override { return song_.channels; }
+
+  std::span<const float> Next() override {
+    using Clock = std::chrono::steady_clock;
+    if (!began_) began_ = Clock::now();
+    const int64_t piece = std::llround(kPieceSeconds * song_.sample_rate);
+    const int64_t from = first_ + played_;
+    const int64_t count = std::min(piece, song_.samples() - from);
+    played_ += count;
+    const std::chrono::duration<double> sounded(static_cast<double>(played_) / song_.sample_rate);
+    std::this_thread::sleep_until(*began_ + std::chrono::duration_cast<Clock::duration>(sounded));
+    return std::span(song_.interleaved)
+        .subspan(static_cast<size_t>(from * song_.channels),
+                 static_cast<size_t>(count * song_.channels));
+  }
+
+ private:
+  DecodedAudio song_;
+  int64_t first_;  // sample
+  int64_t played_ = 0;
+  std::optional<std::chrono::steady_clock::time_point> began_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start) {
+  DecodedAudio song = DecodeAudioFile(path);
+  const int64_t first = std::llround(start * song.sample_rate);
+  if (first >= song.samples()) {
+    throw InvalidArgument("--song-start", InFull(start) + " s lies behind the end of " +
+                                              path.string() + " at " + Rounded(song.seconds()) +
+                                              " s");
+  }
+  return std::make_unique<PlayedSong>(std::move(song), first);
+}
+
+}  // namespace choreo::live

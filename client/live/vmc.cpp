@@ -1,0 +1,132 @@
+#include "client/live/vmc.h"
+
+#include <lo/lo.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/motion/rotation.h"
+
+namespace choreo::live {
+namespace {
+
+// Joints as Skeleton names them, and VRM's bones. SMPL's hands turn nothing and are left out.
+constexpr std::pair<const char*, const char*> kBones[] = {
+    {"spine1", "Spine"},
+    {"spine2", "Chest"},
+    {"spine3", "UpperChest"},
+    {"neck", "Neck"},
+    {"head", "Head"},
+    {"left_collar", "LeftShoulder"},
+    {"left_shoulder", "LeftUpperArm"},
+    {"left_elbow", "LeftLowerArm"},
+    {"left_wrist", "LeftHand"},
+    {"right_collar", "RightShoulder"},
+    {"right_shoulder", "RightUpperArm"},
+    {"right_elbow", "RightLowerArm"},
+    {"right_wrist", "RightHand"},
+    {"left_hip", "LeftUpperLeg"},
+    {"left_knee", "LeftLowerLeg"},
+    {"left_ankle", "LeftFoot"},
+    {"left_foot", "LeftToes"},
+    {"right_hip", "RightUpperLeg"},
+    {"right_knee", "RightLowerLeg"},
+    {"right_ankle", "RightFoot"},
+    {"right_foot", "RightToes"},
+};
+
+/// Everything that happened at one time.
+class Bundle {
+ public:
+  Bundle() : bundle_(lo_bundle_new(LO_TT_IMMEDIATE)) {}
+  ~Bundle() { lo_bundle_free_recursive(bundle_); }
+  Bundle(const Bundle&) = delete;
+  Bundle& operator=(const Bundle&) = delete;
+
+  void Add(const char* path, int32_t value) {
+    lo_message message = lo_message_new();
+    lo_message_add_int32(message, value);
+    lo_bundle_add_message(bundle_, path, message);
+  }
+  void Add(const char* path, float value) {
+    lo_message message = lo_message_new();
+    lo_message_add_float(message, value);
+    lo_bundle_add_message(bundle_, path, message);
+  }
+  void Add(const char* path, const char* name, const Eigen::Vector3d& position,
+           const Eigen::Quaterniond& rotation) {
+    lo_message message = lo_message_new();
+    lo_message_add_string(message, name);
+    // x points the other way.
+    for (const double value : {-position.x(), position.y(), position.z(), rotation.x(),
+                               -rotation.y(), -rotation.z(), rotation.w()})
+      lo_message_add_float(message, static_cast<float>(value));
+    lo_bundle_add_message(bundle_, path, message);
+  }
+  bool SendTo(lo_address address) const { return lo_send_bundle(address, bundle_) >= 0; }
+
+ private:
+  lo_bundle bundle_;
+};
+
+lo_address Resolve(const std::string& address) {
+  const size_t colon = address.rfind(':');
+  if (colon == std::string::npos || colon == 0 || colon + 1 == address.size())
+    throw InvalidArgument("--vmc", "\"" + address + "\" is not HOST:PORT");
+  std::string host = address.substr(0, colon);
+  if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+  return lo_address_new(host.c_str(), address.c_str() + colon + 1);
+}
+
+}  // namespace
+
+struct VmcSender::Impl {
+  struct Bone {
+    int joint;
+    const char* name;
+  };
+
+  Impl(const std::string& named, const Skeleton& body)
+      : skeleton(body), address(Resolve(named), lo_address_free) {
+    skeleton.RequireRoles();
+    for (const auto& [joint, name] : kBones) {
+      if (const int found = skeleton.Find(joint); found >= 0) bones.push_back({found, name});
+    }
+    // The host is looked up when something is sent: this says that a dancer is about to come.
+    Bundle bundle;
+    bundle.Add("/VMC/Ext/OK", int32_t{0});
+    if (!bundle.SendTo(address.get())) {
+      const char* reason = lo_address_errstr(address.get());
+      throw InvalidArgument(
+          "--vmc", "\"" + named + "\" can't be reached: " + (reason ? reason : "it is no address"));
+    }
+  }
+
+  Skeleton skeleton;
+  std::unique_ptr<void, void (*)(lo_address)> address;
+  std::vector<Bone> bones;
+};
+
+VmcSender::VmcSender(const std::string& address, const Skeleton& skeleton)
+    : impl_(std::make_unique<Impl>(address, skeleton)) {}
+VmcSender::~VmcSender() = default;
+
+void VmcSender::Send(const Pose& pose, double seconds) {
+  constexpr const char* kBonePath = "/VMC/Ext/Bone/Pos";
+  const auto turn = [&](int joint) { return QuaternionFromExp(pose.rotations.col(joint)); };
+  const Eigen::Vector3d& root = pose.root_position;
+  Bundle bundle;
+  bundle.Add("/VMC/Ext/OK", int32_t{1});
+  bundle.Add("/VMC/Ext/T", static_cast<float>(seconds));
+  bundle.Add("/VMC/Ext/Root/Pos", "root", {root.x(), 0, root.z()}, Eigen::Quaterniond::Identity());
+  bundle.Add(kBonePath, "Hips", {0, root.y(), 0}, turn(0));
+  for (const Impl::Bone& bone : impl_->bones)
+    bundle.Add(kBonePath, bone.name, impl_->skeleton.offsets.col(bone.joint), turn(bone.joint));
+  bundle.SendTo(impl_->address.get());
+}
+
+}  // namespace choreo::live

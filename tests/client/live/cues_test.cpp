@@ -1,0 +1,138 @@
+#include "client/live/cues.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "client/live/beat_clock.h"
+#include "client/live/midi_clock.h"
+#include "client/live/sound.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo::live {
+namespace {
+
+TEST(Keyboard, LettersStandForPosesAndTheTerminalIsAsBefore) {
+  int master = -1, terminal = -1;
+  ASSERT_EQ(openpty(&master, &terminal, nullptr, nullptr, nullptr), 0);
+  termios before{}, during{}, after{};
+  tcgetattr(terminal, &before);
+  {
+    const std::unique_ptr<Cues> keyboard = ReadKeyboard(terminal, {"kick", "groove"});
+    ASSERT_TRUE(keyboard);
+    tcgetattr(terminal, &during);
+    EXPECT_EQ(during.c_lflag & ECHO, 0U);
+    EXPECT_TRUE(keyboard->Take().empty());
+    ASSERT_EQ(write(master, "bz!a\x7f", 5), 5);
+    std::vector<Cue> cues;
+    while (cues.size() < 3) {
+      for (const Cue& cue : keyboard->Take()) cues.push_back(cue);
+    }
+    EXPECT_EQ(cues[0].pose, "groove");
+    EXPECT_EQ(cues[1].pose, "kick");
+    EXPECT_EQ(cues[2].pose, "");
+  }
+  tcgetattr(terminal, &after);
+  EXPECT_EQ(after.c_lflag, before.c_lflag);
+  close(terminal);
+  close(master);
+}
+
+TEST(Keyboard, IsNoneWhereThereIsNoTerminal) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  EXPECT_FALSE(ReadKeyboard(ends[0], {"kick"}));
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST(BeatClock, GoesOnFromTheBeatsThatWereDanced) {
+  BeatClock clock;
+  EXPECT_EQ(clock.AtOrBehind(1.3, 0.3), 1.3);
+  for (const double second : {1.0, 1.5, 2.02, 2.5})
+    clock.Hear({.time_s = second, .confidence = 0.6});
+  ASSERT_TRUE(clock.Period(2.6));
+  EXPECT_NEAR(*clock.Period(2.6), 0.5, 1e-9);
+  EXPECT_EQ(clock.confidence(), 0.6);
+  EXPECT_NEAR(clock.AtOrBehind(3.6, 2.6), 4.0, 1e-9);
+  EXPECT_NEAR(clock.AtOrBehind(4.0, 2.6), 4.0, 1e-9);
+  EXPECT_NEAR(clock.AtOrBehind(4.01, 2.6), 4.5, 1e-9);
+  // The music has paused.
+  EXPECT_FALSE(clock.Period(6));
+  EXPECT_EQ(clock.AtOrBehind(7, 6), 7);
+}
+
+// 24 ticks a beat at 125 a minute, read piece by piece.
+TEST(MidiClock, TellsTheBeatsAheadOnceItWasStarted) {
+  const TemporaryFolder folder;
+  const std::string device = folder / "midi";
+  ASSERT_EQ(mkfifo(device.c_str(), 0600), 0);
+  MidiClock clock(device);
+  const int out = open(device.c_str(), O_WRONLY);
+  const auto say = [&](uint8_t byte) { ASSERT_EQ(write(out, &byte, 1), 1); };
+  constexpr double kBeat = 0.48, kStart = 1.013;
+  int ticks = -30, told = 0;  // some before the start say nothing
+  for (double now = kPieceSeconds; now < 8; now += kPieceSeconds) {
+    for (; kStart + ticks * kBeat / 24 < now; ++ticks) {
+      if (ticks == 0) say(0xFA);
+      say(0x90);  // a note, which is none of ours
+      say(0xF8);
+    }
+    const std::vector<double> beats = clock.Take(now);
+    if (beats.empty()) continue;
+    ++told;
+    EXPECT_GE(beats.size(), 7U);
+    for (const double beat : beats) {
+      const double turns = (beat - kStart) / kBeat;
+      EXPECT_LT(std::abs(turns - std::round(turns)) * kBeat, 0.01) << beat;
+      EXPECT_GT(beat, now);
+    }
+  }
+  EXPECT_EQ(told, 6);
+  say(0xFC);
+  for (int i = 0; i < 100; ++i) say(0xF8);
+  EXPECT_TRUE(clock.Take(8.1).empty());
+  close(out);
+}
+
+TEST(MidiClock, ADeviceThatIsNoneIsNamed) {
+  ExpectError(ErrorCode::kNotFound, "--midi-clock: \"/no/midi\"", [] { MidiClock("/no/midi"); });
+}
+
+// ALSA's own device that plays a file into whoever records.
+TEST(LineIn, HearsWhatTheDeviceRecords) {
+  const TemporaryFolder folder;
+  std::vector<float> played(44100);
+  for (size_t i = 0; i < played.size(); ++i) played[i] = static_cast<float>(i) / 44100;
+  std::ofstream(folder / "played.raw", std::ios::binary)
+      .write(reinterpret_cast<const char*>(played.data()),
+             static_cast<std::streamsize>(played.size() * sizeof(float)));
+  std::ofstream(folder / "alsa.conf")
+      << "pcm.nothing { type null }\n"
+      << "pcm.deck { type file slave.pcm nothing file /dev/null format raw infile " << '"'
+      << (folder / "played.raw").string() << "\" }\n";
+  setenv("ALSA_CONFIG_PATH", (folder / "alsa.conf").c_str(), 1);
+  const std::unique_ptr<Sound> sound = ListenTo("deck");
+  EXPECT_EQ(sound->sample_rate(), 44100);
+  EXPECT_EQ(sound->channels(), 1);
+  std::vector<float> heard;
+  while (heard.size() < played.size()) {
+    const std::span<const float> piece = sound->Next();
+    ASSERT_FALSE(piece.empty());
+    heard.insert(heard.end(), piece.begin(), piece.end());
+  }
+  heard.resize(played.size());
+  EXPECT_EQ(heard, played);
+  unsetenv("ALSA_CONFIG_PATH");
+}
+
+}  // namespace
+}  // namespace choreo::live

@@ -1,0 +1,222 @@
+#include "client/live/live_dance.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <lo/lo.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include "client/cli/pose_library.h"
+#include "model/formats/motion_file.h"
+#include "model/motion/kinematics.h"
+#include "tests/client/command_fixture.h"
+#include "tests/client/live/osc_receiver.h"
+#include "tests/client/test_music.h"
+
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+/// Clicks that wait for nobody.
+class HastySound final : public live::Sound {
+ public:
+  explicit HastySound(double seconds) : samples_(Clicks(seconds)) {}
+  int sample_rate() const override { return 22050; }
+  int channels() const override { return 1; }
+  std::span<const float> Next() override {
+    const size_t from = at_;
+    at_ = std::min(at_ + 441, samples_.size());
+    return std::span(samples_).subspan(from, at_ - from);
+  }
+
+ private:
+  std::vector<float> samples_;
+  size_t at_ = 0;
+};
+
+/// A drum machine that keeps 125 beats a minute, started with the music.
+class DrumMachine final : public live::Cues {
+ public:
+  explicit DrumMachine(const std::string& device)
+      : clock_(device), out_(open(device.c_str(), O_WRONLY)) {
+    Say(0xFA);
+  }
+  ~DrumMachine() override { close(out_); }
+  live::MidiClock& clock() { return clock_; }
+  std::vector<live::Cue> Take() override {
+    for (now_ += live::kPieceSeconds; ticks_ * 0.02 < now_; ++ticks_) Say(0xF8);
+    return {};
+  }
+
+ private:
+  void Say(uint8_t byte) const { EXPECT_EQ(write(out_, &byte, 1), 1); }
+
+  live::MidiClock clock_;
+  int out_;
+  double now_ = 0;
+  int ticks_ = 0;
+};
+
+/// Says what it is to say before the given piece of music.
+class Script final : public live::Cues {
+ public:
+  explicit Script(std::multimap<int, live::Cue> said) : said_(std::move(said)) {}
+  std::vector<live::Cue> Take() override {
+    std::vector<live::Cue> cues;
+    const auto [from, to] = said_.equal_range(pieces_++);
+    for (auto cue = from; cue != to; ++cue) cues.push_back(cue->second);
+    return cues;
+  }
+
+ private:
+  std::multimap<int, live::Cue> said_;
+  int pieces_ = 0;
+};
+
+class LiveDanceTest : public CommandTest {
+ protected:
+  /// Four seconds of clicks, in no time.
+  void Dance(std::multimap<int, live::Cue> said) {
+    HastySound sound(4);
+    Dance(sound, std::make_unique<Script>(std::move(said)), nullptr);
+  }
+  void Dance(live::Sound& sound, std::unique_ptr<live::Cues> said, live::MidiClock* midi) {
+    const client::Client client({.addresses = {server_.address()}});
+    const client::ModelDescription model = client.GetServerInfo().models.front();
+    live::LiveOptions options;
+    options.config.seed = 1;
+    for (const char* name : {"kick", "groove"})
+      options.poses[name] = cli::FindLibraryPose(name).pose;
+    live::LiveObserver observer{
+        [] { return true; },
+        [this](const live::LiveFigures& figures) { figures_.push_back(figures); },
+        [this](const std::string& note) { notes_.push_back(note); }};
+    live::LiveDance dance(client, model, std::move(options), std::move(observer));
+    std::vector<std::unique_ptr<live::Cues>> cues;
+    cues.push_back(std::move(said));
+    dance.Run(sound, cues, midi);
+    motion_ = dance.motion();
+  }
+  /// How far from a pose of the library a frame is, degrees.
+  double Off(size_t frame, const char* pose) const {
+    PoseMask mask;
+    mask.root_position = false;
+    return ComparePoses(Skeleton::Smpl24(), motion_.frames[frame], cli::FindLibraryPose(pose).pose,
+                        mask)
+        .angle_deg;
+  }
+
+  std::vector<live::LiveFigures> figures_;
+  std::vector<std::string> notes_;
+  Motion motion_;
+};
+
+TEST_F(LiveDanceTest, EndsWithItsMusicAndTellsEachSecond) {
+  Dance({});
+  EXPECT_EQ(motion_.frames.size(), 120U);
+  ASSERT_EQ(figures_.size(), 5U);  // the last one is of all
+  EXPECT_EQ(figures_[0].seconds, 1);
+  EXPECT_EQ(figures_[4].seconds, 4);
+  EXPECT_EQ(figures_[4].frames, 120);
+  EXPECT_TRUE(notes_.empty()) << notes_.front();
+}
+
+// Piece 25 begins at 0.5 s; no beat is known so early. The third would come with the second, and
+// the fifth behind the music's end.
+TEST_F(LiveDanceTest, PosesComeASecondBehindTheirCuesAndApart) {
+  Dance({{24, {"kick"}}, {75, {"groove"}}, {75, {"kick"}}, {80, {"nobody"}}, {170, {"kick"}}});
+  EXPECT_LT(Off(45, "kick"), 0.1);
+  EXPECT_LT(Off(76, "groove"), 0.1);
+  EXPECT_LT(Off(92, "kick"), 0.1);
+  ASSERT_EQ(motion_.frames.size(), 120U);
+  EXPECT_EQ(figures_.back().keys_taken, 4);
+  EXPECT_EQ(figures_.back().keys_danced, 3);
+  EXPECT_EQ(figures_.back().keys_refused, 0);
+  EXPECT_THAT(notes_, testing::ElementsAre("there is no pose \"nobody\""));
+}
+
+TEST_F(LiveDanceTest, APoseIsTakenBackUntilItIsDanced) {
+  Dance({{24, {"kick"}}, {40, {}}, {99, {"groove", 1.5}}, {150, {}}, {170, {}}});
+  EXPECT_GT(Off(45, "kick"), 5);
+  EXPECT_EQ(figures_.back().keys_danced, 0);
+  EXPECT_THAT(notes_, testing::ElementsAre("no pose can be taken back"));
+}
+
+// The music has 120 beats a minute, the clock 125.
+TEST_F(LiveDanceTest, AMidiClockSaysWhereTheBeatsAre) {
+  const std::string device = folder_ / "midi";
+  ASSERT_EQ(mkfifo(device.c_str(), 0600), 0);
+  WriteClicks(folder_ / "song.wav", 6);
+  auto drums = std::make_unique<DrumMachine>(device);
+  live::MidiClock* midi = &drums->clock();
+  Dance(*live::PlaySong(folder_ / "song.wav"), std::move(drums), midi);
+  bool told = false;
+  for (const live::LiveFigures& figures : figures_) {
+    if (!figures.tempo) continue;
+    EXPECT_NEAR(*figures.tempo, 125, 2);
+    EXPECT_EQ(figures.confidence, 1);
+    told = true;
+  }
+  EXPECT_TRUE(told);
+}
+
+TEST_F(CommandTest, ALiveDanceHasKeysOfAFileAndIsStreamed) {
+  WriteClicks(folder_ / "song.wav", 3);
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [{"time": 2, "pose": "kick"}]})";
+  OscReceiver receiver;
+  const Outcome outcome =
+      Choreo("live " + At("song.wav") + Server() + "-k " + At("keys.json") + " -o " + At("d.npz") +
+             " --song-start 0.5 --vmc " + receiver.address() + " </dev/null");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  for (const char* said : {"1 s: ", "2 s: ", "75 frames, ", "0 taken, 1 danced, 0 refused"})
+    EXPECT_THAT(outcome.said, HasSubstr(said));
+  const Motion motion = ReadMotion(folder_ / "d.npz", Skeleton::Smpl24());
+  EXPECT_EQ(motion.frames.size(), 75U);
+  EXPECT_EQ(receiver.Stop().size(), 1 + motion.frames.size());
+}
+
+TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
+  WriteClicks(folder_ / "song.wav", 4);
+  const int port = OscReceiver().port();
+  std::atomic<bool> over = false;
+  std::thread performer([&] {
+    const std::unique_ptr<void, void (*)(lo_address)> to(
+        lo_address_new("127.0.0.1", std::to_string(port).c_str()), lo_address_free);
+    while (!over) {
+      lo_send(to.get(), "/choreo/key", "s", "kick");
+      lo_send(to.get(), "/choreo/key", "sf", "nobody", 1.0F);
+      lo_send(to.get(), "/choreo/key", "i", 5);
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+  });
+  const Outcome outcome =
+      Choreo("live " + At("song.wav") + Server() + "--osc " + std::to_string(port) + " </dev/null");
+  over = true;
+  performer.join();
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("there is no pose \"nobody\""));
+  EXPECT_THAT(outcome.said,
+              testing::ContainsRegex(" [1-9][0-9]* taken, [1-9][0-9]* danced, 0 ref"));
+}
+
+TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
+  const auto live = [&](const std::string& rest) { return Choreo("live " + rest + Server()); };
+  WriteClicks(folder_ / "song.wav", 1);
+  EXPECT_THAT(live("--input no-such-card").said, HasSubstr("--input: \"no-such-card\""));
+  EXPECT_THAT(live(At("song.wav") + " --song-start 2").said, HasSubstr("--song-start: 2 s lies"));
+  EXPECT_THAT(live(At("song.wav") + " --ahead 0.3").said, HasSubstr("--look-ahead: "));
+  const OscReceiver taken;
+  EXPECT_THAT(live(At("song.wav") + " --osc " + std::to_string(taken.port())).said,
+              HasSubstr("--osc: port "));
+}
+
+}  // namespace
+}  // namespace choreo
