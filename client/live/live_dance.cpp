@@ -98,8 +98,8 @@ void LiveDance::Follow(const Cue& cue, double now) {
   if (cue.pose.empty()) return TakeBack();
   const auto pose = options_.poses.find(cue.pose);
   if (pose == options_.poses.end()) return Note("there is no pose \"" + cue.pose + "\"");
-  const double ahead = std::clamp(cue.ahead_s.value_or(options_.ahead_s),
-                                  options_.look_ahead_s + kLeastAheadSeconds, kMostAheadSeconds);
+  const double ahead = std::max(std::min(cue.ahead_s.value_or(options_.ahead_s), kMostAheadSeconds),
+                                options_.look_ahead_s + kLeastAheadSeconds);
   BeatClock clock;
   {
     const std::lock_guard lock(mutex_);

@@ -19,7 +19,8 @@ constexpr int64_t kBeat = 24;  // ticks
 // Ticks that the tempo is told from, at most and at least: each of them is late by up to a piece of
 // sound, which makes one in a hundred over four beats.
 constexpr size_t kMost = 8 * kBeat, kLeast = 4 * kBeat;
-constexpr double kAheadSeconds = 4;     // as far as transitions reach
+constexpr int kAhead = 8;               // beats: about as far as transitions reach
+constexpr double kFastest = 0.2;        // seconds a beat; faster ones would soon be too many
 constexpr double kPauseSeconds = 0.25;  // from tick to tick, beyond the slowest tempo
 
 }  // namespace
@@ -73,9 +74,8 @@ std::vector<double> MidiClock::Ahead() const {
   const double period = slope / squares * kBeat;
   const double last = mean + slope / squares * 0.5 * (count - 1);
   std::vector<double> beats;
-  if (!(period > 0)) return beats;
-  for (double beat = last + period; beat < last + kAheadSeconds; beat += period)
-    beats.push_back(beat);
+  if (period < kFastest) return beats;
+  for (int beat = 1; beat <= kAhead; ++beat) beats.push_back(last + beat * period);
   return beats;
 }
 

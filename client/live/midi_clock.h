@@ -20,7 +20,7 @@ class MidiClock {
   MidiClock& operator=(const MidiClock&) = delete;
 
   /// Reads what has come until `now`, seconds of the music, without blocking. From the fifth beat
-  /// on, at every second one, the next ones, for four seconds; otherwise none.
+  /// on, at every second one, the next eight; otherwise none.
   std::vector<double> Take(double now);
 
  private:

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <lo/lo.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -205,6 +206,28 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
   EXPECT_THAT(outcome.said, HasSubstr("there is no pose \"nobody\""));
   EXPECT_THAT(outcome.said,
               testing::ContainsRegex(" [1-9][0-9]* taken, [1-9][0-9]* danced, 0 ref"));
+}
+
+TEST_F(CommandTest, ALiveDanceEndsInOrderWhenInterrupted) {
+  WriteClicks(folder_ / "song.wav", 60);
+  const std::string pid_file = (folder_ / "pid").string();
+  std::atomic<bool> over = false;
+  std::thread sender([&] {
+    while (!over && server_.transitions() == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    pid_t process = 0;
+    if (std::ifstream(pid_file) >> process) kill(process, SIGINT);
+  });
+  const Outcome outcome =
+      Choreo("live " + At("song.wav") + Server() + "-o " + At("d.npz") + " </dev/null",
+             "echo $$ > '" + pid_file + "'; exec ");
+  over = true;
+  sender.join();
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  const size_t frames = ReadMotion(folder_ / "d.npz", Skeleton::Smpl24()).frames.size();
+  EXPECT_GT(frames, 0U);
+  EXPECT_LT(frames, 1800U);
 }
 
 TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
