@@ -42,7 +42,7 @@ constexpr std::pair<const char*, const char*> kBones[] = {
 /// Everything that happened at one time.
 class Bundle {
  public:
-  Bundle() : bundle_(lo_bundle_new(LO_TT_IMMEDIATE)) {}
+  Bundle() : bundle_(lo_bundle_new(lo_timetag{0, 1})) {}  // OSC's "at once"
   ~Bundle() { lo_bundle_free_recursive(bundle_); }
   Bundle(const Bundle&) = delete;
   Bundle& operator=(const Bundle&) = delete;
