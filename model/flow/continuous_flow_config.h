@@ -20,7 +20,7 @@ struct ContinuousFlowConfig {
   int width = 224, layers = 6, heads = 7;
   int condition = 128;  ///< of what each block is modulated by: time, history, key, style
 
-  int steps = 4;                         ///< K, evaluations of the network from noise to motion
+  int steps = 3;                         ///< K, evaluations of the network from noise to motion
   double temperature = 1;                ///< served by default, as FlowNoise has it
   std::vector<std::string> styles = {};  ///< that it was told of in training
   /// Medians of the velocity factors of the training clips, metres a frame.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 
 #include "model/core/error.h"
 #include "model/dance/quality_report.h"
@@ -14,6 +13,7 @@
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
+#include "model/training/style.h"
 
 namespace choreo {
 namespace {
@@ -27,35 +27,6 @@ constexpr double kUneven = 0.3;                   // that such beats may be apar
 constexpr int kBeatTries = 12;
 constexpr double kFarAstray = 3;      // times a velocity's spread
 constexpr double kLeastSpeed = 1e-4;  // radians a frame
-
-const std::map<std::string, std::string>& StyleOfWord() {
-  static const std::map<std::string, std::string> styles = {
-      {"afraid", "afraid"},       {"angry", "angry"},     {"annoyed", "annoyed"},
-      {"bored", "bored"},         {"excited", "excited"}, {"happy", "happy"},
-      {"miserable", "miserable"}, {"active", "active"},   {"neutral", "neutral"},
-      {"pleased", "pleased"},     {"relaxed", "relaxed"}, {"sad", "sad"},
-      {"satisfied", "satisfied"}, {"tired", "tired"},     {"salsa", "salsa"},
-      {"indian", "indian"},       {"martial", "martial"}, {"w", "waltz"},
-      {"c", "cha-cha"},           {"r", "rumba"},         {"t", "tango"},
-      {"nervous", "nervous"},     {"scary", "scary"},     {"005", "modern"},
-      {"aachan", "pop"},          {"kashiyuka", "pop"},   {"nocchi", "pop"}};
-  return styles;
-}
-
-// What a clip's name says of how it is danced, as in Sophie_Afraid_v2 or DANCE_W_12; else "".
-std::string StyleOf(const PreparedClip& clip) {
-  std::string word;
-  for (const char c : clip.name + "_") {
-    if (c != '_') {
-      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      continue;
-    }
-    const auto found = StyleOfWord().find(word);
-    if (found != StyleOfWord().end()) return found->second;
-    word.clear();
-  }
-  return "";
-}
 
 double Note(const PreparedClip& clip, const std::string& key) {
   const auto found = clip.notes.find(key);
@@ -171,9 +142,8 @@ struct Lever {
 
 WindowClips::WindowClips(const std::vector<PreparedClip>& clips)
     : skeleton_(clips.front().skeleton), clips_(clips.size()) {
-  for (const auto& [word, style] : StyleOfWord()) {
-    if (std::ranges::any_of(clips, [&](const auto& clip) { return StyleOf(clip) == style; }))
-      styles_.push_back(style);
+  for (const PreparedClip& clip : clips) {
+    if (const std::string style = StyleOf(clip.name); !style.empty()) styles_.push_back(style);
   }
   std::ranges::sort(styles_);
   styles_.erase(std::ranges::unique(styles_).begin(), styles_.end());
@@ -218,7 +188,7 @@ WindowClips::Track WindowClips::MakeTrack(const PreparedClip& clip, double tempo
          at += period)
       track.beats.push_back(at * fps / tempo);
   }
-  const auto style = std::ranges::find(styles_, StyleOf(clip));
+  const auto style = std::ranges::find(styles_, StyleOf(clip.name));
   if (style != styles_.end()) track.style = static_cast<int>(style - styles_.begin());
   return track;
 }
