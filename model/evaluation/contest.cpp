@@ -23,7 +23,7 @@ std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std:
   std::vector<std::string> taken = {kFree, "real", "interpolation", kLockedLine};
   if (std::ranges::find(taken, judged) != taken.end())
     throw InvalidArgument("--name", "'" + judged + "': another row is called so");
-  taken.insert(taken.end(), {kServed, judged});
+  taken.push_back(judged);
   std::vector<Other> others;
   for (const std::string& text : texts) {
     const size_t equals = text.find('=');
@@ -43,10 +43,7 @@ std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std:
 std::string EngineOf(const ModelInfo& model, EngineKind kind) {
   const size_t packed = model.fingerprint.find("/packed ");
   if (packed == std::string::npos) return "torch";
-  const std::string kernels = model.fingerprint.substr(packed + 1);
-  if (kind != EngineKind::kPacked) return kernels;
-  const bool planned = kernels.find("plans by") == std::string::npos;
-  return planned ? "packed float32" : "packed float32, plans by torch";
+  return kind == EngineKind::kPacked ? "packed float32" : model.fingerprint.substr(packed + 1);
 }
 
 }  // namespace
@@ -83,7 +80,7 @@ Contest MakeContest(const ContestOptions& options) {
     const std::string by = EngineOf(engine->model(), kind);
     if (by != EngineOf(model, kind)) contest.stepped_by += "; " + by + " for " + other.name;
   }
-  contest.methods.push_back({kServed, Kind::kEngine, judged});
+  contest.methods.push_back({options.name, Kind::kEngine, judged});
   return contest;
 }
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/evaluation/method.h"
-#include "model/evaluation/windows.h"
+#include "model/evaluation/evaluation.h"
 #include "model/training/clip_split.h"
 
 namespace choreo {
@@ -17,10 +16,10 @@ struct ContestOptions {
   std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
   std::vector<std::string> others;  ///< NAME=CHECKPOINT
   std::string engine = "auto";      ///< ParseEngineKind
-  std::string name = kServed;       ///< what the judged model is shown as
+  std::string name = "model";       ///< what the judged model is shown as
 };
 
-/// The engines of one evaluation, and the methods that use them: the judged one, kServed, is last.
+/// The engines of one evaluation, and the methods that use them: the judged one is last.
 struct Contest {
   std::vector<std::unique_ptr<StepEngine>> engines;
   std::vector<Method> methods;

@@ -8,15 +8,17 @@
 
 namespace choreo {
 
-std::vector<ControlledWay> WaysOf(const std::vector<Method>& methods) {
-  using Kind = ControlledWay::Kind;
-  std::vector<ControlledWay> ways = {{"real", Kind::kReal},
-                                     {"interpolation", Kind::kInterpolation}};
+std::vector<Method> WaysOf(const std::vector<Method>& methods) {
+  std::vector<Method> ways = {{"real", Method::Kind::kReal},
+                              {"interpolation", Method::Kind::kInterpolation}};
   for (const Method& method : methods) {
     if (method.kind != Method::Kind::kEngine) continue;
-    if (method.keys && method.network)
-      ways.push_back({method.name + ", network alone", Kind::kEngine, method.engine, true, false});
-    ways.push_back({method.name, Kind::kEngine, method.engine, method.keys});
+    if (method.Judged()) {
+      ways.push_back(method);
+      ways.back().name += ", network alone";
+      ways.back().finished = false;
+    }
+    ways.push_back(method);
   }
   return ways;
 }
@@ -42,15 +44,14 @@ double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
   return MeasureMotion(skeleton, {.fps = fps, .frames = Behind(before, danced)}).skate_ratio;
 }
 
-ControlCourse::ControlCourse(const ClipSet& set, const ModelInfo& model, int frames, int per_clip,
-                             ProgressBar* progress)
-    : set_(set),
-      model_(model),
+ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
+    : evaluation_(evaluation),
+      model_(evaluation.model()),
       frames_(frames),
-      progress_(progress),
-      chosen_(ChooseWindows(set, model.history_frames, frames, per_clip)) {
+      chosen_(ChooseWindows(evaluation.set, model_.history_frames, frames,
+                            evaluation.options.windows_per_clip)) {
   for (const EvalWindow& window : chosen_) {
-    std::vector<Pose> poses = RealPoses(set, window, frames, 1);
+    std::vector<Pose> poses = RealPoses(evaluation.set, window, frames, 1);
     ControlledWindow one;
     one.clip = window.clip;
     one.before = poses.front();
@@ -59,13 +60,13 @@ ControlCourse::ControlCourse(const ClipSet& set, const ModelInfo& model, int fra
     one.path.resize(3, frames);
     for (int t = 0; t < frames; ++t)
       one.path.col(t) = one.real[static_cast<size_t>(t)].root_position;
-    one.factors = FactorTrackOf(model.skeleton, one.before, one.real);
+    one.factors = FactorTrackOf(model_.skeleton, one.before, one.real);
     windows_.push_back(std::move(one));
   }
 }
 
 TransitionJob ControlCourse::JobFor(size_t window) const {
-  TransitionJob job = JobOf(model_, set_, chosen_[window], frames_,
+  TransitionJob job = JobOf(model_, evaluation_.set, chosen_[window], frames_,
                             static_cast<float>(model_.default_temperature), window);
   job.request.target->pose = windows_[window].key;
   return job;
@@ -101,31 +102,24 @@ std::vector<Pose> ControlCourse::Interpolated(const ControlledWindow& window) co
   return poses;
 }
 
-Dances ControlCourse::Dance(const ControlledWay& way, double scale) const {
+Dances ControlCourse::Dance(const Method& way, double scale) const {
   Dances dances;
   if (!way.Lasts(frames_)) return dances;
-  if (way.kind != ControlledWay::Kind::kEngine) {
-    for (const ControlledWindow& window : windows_) {
-      dances.push_back(way.kind == ControlledWay::Kind::kReal ? window.real : Interpolated(window));
-    }
+  if (way.kind != Method::Kind::kEngine) {
+    for (const ControlledWindow& window : windows_)
+      dances.push_back(way.kind == Method::Kind::kReal ? window.real : Interpolated(window));
     return dances;
   }
   std::vector<TransitionJob> jobs;
   for (size_t i = 0; i < windows_.size(); ++i) {
     TransitionJob job = JobFor(i);
-    if (!way.keys) job.request.target.reset();
     if (way.TakesPath()) job.request.controls.root_path = windows_[i].path;
     if (way.TakesVelocityFactors())
       job.request.controls.velocity_factors = (scale * windows_[i].factors).cast<float>();
-    if (!way.finished) {
-      job.request.arrival.frames = 0;
-      job.request.foot_lock = false;
-    }
+    way.Restrict(&job.request);
     jobs.push_back(std::move(job));
   }
-  for (const TransitionResult& result : DanceTransitions(*way.engine, jobs, [this](int danced) {
-         if (progress_ != nullptr) progress_->Advance(danced);
-       })) {
+  for (const TransitionResult& result : evaluation_.runner.Dance(*way.engine, jobs)) {
     std::vector<Pose> poses;
     for (const DanceFrame& frame : result.frames) poses.push_back(frame.pose);
     dances.push_back(std::move(poses));

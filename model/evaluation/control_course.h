@@ -5,41 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "model/core/progress.h"
 #include "model/dance/root_path.h"
-#include "model/evaluation/method.h"
-#include "model/evaluation/table.h"
-#include "model/evaluation/windows.h"
+#include "model/evaluation/evaluation.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {
 
-/// One way of answering requests with controls.
-struct ControlledWay {
-  enum class Kind {
-    kReal,           ///< what was really danced
-    kInterpolation,  ///< slerp, its root on the path
-    kEngine,
-  };
-  std::string name;
-  Kind kind = Kind::kEngine;
-  StepEngine* engine = nullptr;  ///< of kEngine; not owned
-  bool keys = true;
-  bool finished = true;  ///< as served: with arrival and foot lock
-
-  /// Whether it can dance that many frames at all.
-  bool Lasts(int frames) const {
-    return kind != Kind::kEngine || frames <= engine->model().max_transition_frames;
-  }
-  bool TakesPath() const { return kind != Kind::kEngine || engine->model().root_path; }
-  bool TakesVelocityFactors() const {
-    return kind == Kind::kEngine && engine->model().velocity_factors;
-  }
-};
-
-/// Real motion, interpolation along the path, and each engine of `methods`: the network alone, if
-/// there is one, and as served; without keys, as served.
-std::vector<ControlledWay> WaysOf(const std::vector<Method>& methods);
+/// Who answers requests with controls: real motion, interpolation along the path, and each engine
+/// of `methods`: the network alone, if there is one, and as served; without keys, as served.
+std::vector<Method> WaysOf(const std::vector<Method>& methods);
 
 /// [kBodyParts, frames] metres a frame.
 using FactorTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
@@ -65,11 +39,10 @@ struct ControlledWindow {
 /// One dance a window.
 using Dances = std::vector<std::vector<Pose>>;
 
-/// The windows of one length, danced by anyone. Set, model and progress must outlive it.
+/// The windows of one length, danced by anyone. The evaluation must outlive it.
 class ControlCourse {
  public:
-  ControlCourse(const ClipSet& set, const ModelInfo& model, int frames, int per_clip,
-                ProgressBar* progress);
+  ControlCourse(const Evaluation& evaluation, int frames);
 
   const std::vector<ControlledWindow>& windows() const { return windows_; }
 
@@ -83,7 +56,7 @@ class ControlCourse {
 
   /// With what is asked: real path and factors unless they were drawn anew; `scale` times the
   /// factors where the way takes any. None of a way that can't dance as long.
-  Dances Dance(const ControlledWay& way, double scale = 1) const;
+  Dances Dance(const Method& way, double scale = 1) const;
 
   /// A figure of each window, and its mean over windows.
   using Figure = std::function<double(const ControlledWindow&, const std::vector<Pose>& danced)>;
@@ -96,10 +69,9 @@ class ControlCourse {
   TransitionJob JobFor(size_t window) const;
   std::vector<Pose> Interpolated(const ControlledWindow& window) const;
 
-  const ClipSet& set_;
+  const Evaluation& evaluation_;
   const ModelInfo& model_;
   int frames_;
-  ProgressBar* progress_;
   std::vector<EvalWindow> chosen_;
   std::vector<ControlledWindow> windows_;
 };

@@ -1,8 +1,4 @@
-#include "model/evaluation/control_tables.h"
-
 #include "model/evaluation/control_course.h"
-#include "model/evaluation/drawn_table.h"
-#include "model/evaluation/multiplier_tables.h"
 #include "model/metrics/control_figures.h"
 #include "model/metrics/joint_track.h"
 #include "model/metrics/repetition.h"
@@ -28,28 +24,19 @@ JointTrack FacingTrack(const Skeleton& skeleton, const std::vector<Pose>& poses)
   return track;
 }
 
-const ModelInfo* Judged(const std::vector<Method>& methods) {
-  for (const Method& method : methods) {
-    if (method.name == kServed && method.engine->model().root_path) return &method.engine->model();
-  }
-  return nullptr;
-}
-
-Table LengthTable(const char* name, const ClipSet& set, const std::string& title,
-                  const std::string& note, int digits, std::span<const int> lengths) {
-  Table table;
-  table.name = std::string(name) + "_" + set.name;
-  table.title = title + ", " + set.name;
+Table LengthTable(const Evaluation& evaluation, const char* name, const std::string& title,
+                  const std::string& note, int digits) {
+  Table table = evaluation.NewTable(name, title);
   table.note = note;
   table.label_headings = {"method"};
-  for (const int length : lengths) table.columns.push_back({std::to_string(length), digits});
+  for (const int length : kLengths) table.columns.push_back({std::to_string(length), digits});
   return table;
 }
 
 // Who is not told what is asked.
-std::string WithoutControls(const std::vector<ControlledWay>& ways) {
+std::string WithoutControls(const std::vector<Method>& ways) {
   std::string names;
-  for (const ControlledWay& way : ways) {
+  for (const Method& way : ways) {
     if (!way.TakesPath() && way.finished) names += (names.empty() ? "; " : ", ") + way.name;
   }
   return names.empty() ? names : names + " takes neither";
@@ -58,9 +45,12 @@ std::string WithoutControls(const std::vector<ControlledWay>& ways) {
 // What the dances of one way came to, length by length.
 using Lengths = std::vector<std::vector<ClipFigure>>;
 
-std::vector<Table> PaperTables(const ClipSet& set, const ModelInfo& model,
-                               const std::vector<ControlledWay>& ways, const EvalOptions& options,
-                               ProgressBar* progress) {
+}  // namespace
+
+std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  if (!model.root_path) return {};
+  const std::vector<Method> ways = WaysOf(evaluation.methods);
   const std::string asked =
       "Transitions between real poses, with the real dance's root path and velocity factors" +
       WithoutControls(ways) + ". ";
@@ -72,58 +62,58 @@ std::vector<Table> PaperTables(const ClipSet& set, const ModelInfo& model,
     std::vector<Lengths> ways = {};
   };
   std::vector<Figured> all = {
-      {LengthTable("lrp", set, "LRP, cm",
+      {LengthTable(evaluation, "lrp", "LRP, cm",
                    asked + "Paper C, Table 2: distance of root-relative positions of postures that "
                            "face +Z.",
-                   1, kLengths),
+                   1),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
          return kCentimetre * RootRelativeDistance(FacingTrack(skeleton, danced),
                                                    FacingTrack(skeleton, window.real));
        },
        true},
-      {LengthTable("lrp_turned", set, "LRP in the scene's axes, cm",
-                   asked + "As LRP, but a wrong heading counts too.", 1, kLengths),
+      {LengthTable(evaluation, "lrp_turned", "LRP in the scene's axes, cm",
+                   asked + "As LRP, but a wrong heading counts too.", 1),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
          return kCentimetre * RootRelativeDistance(TrackJoints(skeleton, danced),
                                                    TrackJoints(skeleton, window.real));
        },
        false},
-      {LengthTable("avf", set, "AVF",
-                   asked + "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, kLengths),
+      {LengthTable(evaluation, "avf", "AVF",
+                   asked + "Paper C, Table 3: share that keeps within 1 cm/frame.", 2),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
          const auto factors = FactorTrackOf(skeleton, window.before, danced);
          return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
        },
        true},
-      {LengthTable("art", set, "ART",
-                   asked + "Paper C, Table 4: share whose root keeps within 7 cm.", 2, kLengths),
+      {LengthTable(evaluation, "art", "ART",
+                   asked + "Paper C, Table 4: share whose root keeps within 7 cm.", 2),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
          const double off = RootDeviation(TrackJoints(skeleton, danced), window.path);
          return off < kRootTolerance ? 1.0 : 0.0;
        },
        true},
-      {LengthTable("control_skate", set, "Skating ratio",
-                   asked + "Share of the steps in which a foot skates.", 3, kLengths),
+      {LengthTable(evaluation, "control_skate", "Skating ratio",
+                   asked + "Share of the steps in which a foot skates.", 3),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
          return SkateRatioOf(skeleton, model.fps, window.before, danced);
        },
        false},
-      {LengthTable("tremor", set, "Trembling",
-                   asked + "Share of the joints' movement from the root above 4 Hz.", 2, kLengths),
+      {LengthTable(evaluation, "tremor", "Trembling",
+                   asked + "Share of the joints' movement from the root above 4 Hz.", 2),
        [&](const ControlledWindow&, const std::vector<Pose>& danced) {
          return TremorShare(TrackJoints(skeleton, danced), model.fps);
        },
        false}};
   for (Figured& one : all) one.ways.resize(ways.size());
   for (const int frames : kLengths) {
-    const ControlCourse course(set, model, frames, options.windows_per_clip, progress);
+    const ControlCourse course(evaluation, frames);
     for (size_t w = 0; w < ways.size(); ++w) {
       const Dances dances = course.Dance(ways[w]);
       for (Figured& one : all) one.ways[w].push_back(course.FiguresOf(dances, one.figure));
     }
   }
-  Table ratio = LengthTable("lrp_ratio", set, "LRP over interpolation's",
-                            asked + "Interpolation: slerp, its root on the path.", 2, kLengths);
+  Table ratio = LengthTable(evaluation, "lrp_ratio", "LRP over interpolation's",
+                            asked + "Interpolation: slerp, its root on the path.", 2);
   std::vector<Table> tables;
   for (Figured& one : all) {
     if (one.averaged) one.table.columns.push_back({"mean", one.table.columns.front().digits});
@@ -145,21 +135,23 @@ std::vector<Table> PaperTables(const ClipSet& set, const ModelInfo& model,
   return tables;
 }
 
-Table RepetitionTable(const ClipSet& set, const ModelInfo& model,
-                      const std::vector<ControlledWay>& ways, const EvalOptions& options,
-                      ProgressBar* progress) {
-  Table table = LengthTable("repetition", set, "Repetition and endings",
-                            "Shares of half seconds: that repeat one before them, and that hold "
-                            "still in the last fifth (repetition.h).",
-                            2, {});
+std::vector<Table> EvaluateRepetition(const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  if (!model.root_path) return {};
+  const std::vector<Method> ways = WaysOf(evaluation.methods);
+  Table table = evaluation.NewTable("repetition", "Repetition and endings");
+  table.note =
+      "Shares of half seconds: that repeat one before them, and that hold still in the last fifth "
+      "(repetition.h).";
+  table.label_headings = {"method"};
   for (const char* what : {"repeated", "still at the end"}) {
     for (const int frames : kLongLengths)
       table.columns.push_back({std::string(what) + ", " + std::to_string(frames), 3});
   }
   std::vector<std::vector<Cell>> endings(ways.size());
-  for (const ControlledWay& way : ways) table.rows.push_back({{way.name}, {}});
+  for (const Method& way : ways) table.rows.push_back({{way.name}, {}});
   for (const int frames : kLongLengths) {
-    const ControlCourse course(set, model, frames, options.windows_per_clip, progress);
+    const ControlCourse course(evaluation, frames);
     for (size_t w = 0; w < ways.size(); ++w) {
       const Dances dances = course.Dance(ways[w]);
       const auto last_part = static_cast<int>((1 - kEnding) * frames);
@@ -175,48 +167,7 @@ Table RepetitionTable(const ClipSet& set, const ModelInfo& model,
   }
   for (size_t w = 0; w < ways.size(); ++w)
     table.rows[w].cells.insert(table.rows[w].cells.end(), endings[w].begin(), endings[w].end());
-  return table;
-}
-
-}  // namespace
-
-std::vector<Table> EvaluateControls(const ClipSet& set, const std::vector<Method>& methods,
-                                    const EvalOptions& options, ProgressBar* progress) {
-  const ModelInfo* model = Judged(methods);
-  if (model == nullptr) return {};
-  const std::vector<ControlledWay> ways = WaysOf(methods);
-  std::vector<Table> tables = PaperTables(set, *model, ways, options, progress);
-  if (!options.all_controls) return tables;
-  for (Table& table : EvaluateMultipliers(set, *model, ways, options, progress))
-    tables.push_back(std::move(table));
-  tables.push_back(RepetitionTable(set, *model, ways, options, progress));
-  tables.push_back(EvaluateDrawnPaths(set, *model, ways, options, progress));
-  return tables;
-}
-
-int64_t CountControlFrames(const ClipSet& set, const std::vector<Method>& methods,
-                           const EvalOptions& options) {
-  const ModelInfo* model = Judged(methods);
-  if (model == nullptr) return 0;
-  const std::vector<ControlledWay> ways = WaysOf(methods);
-  int64_t total = 0;
-  if (options.all_controls) {
-    total += CountDrawnFrames(set, *model, ways, options) +
-             CountMultiplierFrames(set, *model, ways, options);
-  }
-  for (const ControlledWay& way : ways) {
-    if (way.kind != ControlledWay::Kind::kEngine) continue;
-    const auto count = [&](int frames) {
-      if (!way.Lasts(frames)) return int64_t{0};
-      const auto windows =
-          ChooseWindows(set, model->history_frames, frames, options.windows_per_clip).size();
-      return frames * static_cast<int64_t>(windows);
-    };
-    for (const int frames : kLengths) total += count(frames);
-    if (!options.all_controls) continue;
-    for (const int frames : kLongLengths) total += count(frames);
-  }
-  return total;
+  return {table};
 }
 
 }  // namespace choreo

@@ -1,9 +1,7 @@
-#include "model/evaluation/drawn_table.h"
-
 #include <algorithm>
 #include <cstdio>
 
-#include "model/dance/quality_report.h"
+#include "model/evaluation/control_course.h"
 #include "model/metrics/control_figures.h"
 #include "model/metrics/joint_track.h"
 #include "model/motion/kinematics.h"
@@ -47,13 +45,6 @@ RootPath Draw(Way way, ControlledWindow* window) {
   return path;
 }
 
-std::vector<ControlledWay> Drawable(const std::vector<ControlledWay>& ways) {
-  std::vector<ControlledWay> some;
-  std::ranges::copy_if(ways, std::back_inserter(some),
-                       [](const ControlledWay& way) { return way.TakesPath() && way.keys; });
-  return some;
-}
-
 double PathSpeed(const ControlledWindow& window, double fps) {
   Eigen::Vector3d last = window.before.root_position;
   double length = 0;
@@ -66,12 +57,10 @@ double PathSpeed(const ControlledWindow& window, double fps) {
 
 }  // namespace
 
-Table EvaluateDrawnPaths(const ClipSet& set, const ModelInfo& model,
-                         const std::vector<ControlledWay>& ways, const EvalOptions& options,
-                         ProgressBar* progress) {
-  Table table;
-  table.name = "drawn_" + set.name;
-  table.title = "Drawn paths, " + set.name;
+std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  if (!model.root_path) return {};
+  Table table = evaluation.NewTable("drawn", "Drawn paths");
   char note[256];
   std::snprintf(note, sizeof(note),
                 "%d frames between real poses on paths that nobody danced, no velocity factors "
@@ -87,11 +76,12 @@ Table EvaluateDrawnPaths(const ClipSet& set, const ModelInfo& model,
                    {"a joint off degrees", 1}};
   const Skeleton& skeleton = model.skeleton;
   for (const DrawnPath& path : kPaths) {
-    ControlCourse course(set, model, kFrames, options.windows_per_clip, progress);
+    ControlCourse course(evaluation, kFrames);
     if (path.way != Way::kDanced)
       course.Redraw([&](ControlledWindow* window) { return Draw(path.way, window); });
-    for (const ControlledWay& way : Drawable(ways)) {
-      if (way.kind == ControlledWay::Kind::kReal && path.way != Way::kDanced) continue;
+    for (const Method& way : WaysOf(evaluation.methods)) {
+      if (!way.TakesPath() || !way.keys) continue;
+      if (way.kind == Method::Kind::kReal && path.way != Way::kDanced) continue;
       const Dances dances = course.Dance(way);
       const auto mean = [&](auto&& figure) { return course.MeanOf(dances, figure); };
       using Danced = const std::vector<Pose>&;
@@ -114,16 +104,7 @@ Table EvaluateDrawnPaths(const ClipSet& set, const ModelInfo& model,
             })}});
     }
   }
-  return table;
-}
-
-int64_t CountDrawnFrames(const ClipSet& set, const ModelInfo& model,
-                         const std::vector<ControlledWay>& ways, const EvalOptions& options) {
-  const auto engines =
-      std::ranges::count(Drawable(ways), ControlledWay::Kind::kEngine, &ControlledWay::kind);
-  const auto windows =
-      ChooseWindows(set, model.history_frames, kFrames, options.windows_per_clip).size();
-  return static_cast<int64_t>(std::size(kPaths) * windows) * kFrames * engines;
+  return {table};
 }
 
 }  // namespace choreo

@@ -1,8 +1,7 @@
-#include "model/evaluation/encoder_table.h"
-
 #include <algorithm>
 
 #include "model/evaluation/long_plans.h"
+#include "model/evaluation/motion_encoder.h"
 #include "model/metrics/frechet.h"
 
 namespace choreo {
@@ -14,11 +13,11 @@ constexpr int kSamples = 15;  // of an input, as in the paper
 constexpr int kFrames = 300;  // of each dance, at most
 
 // Inputs one after another, the samples of each together.
-std::vector<LongPlan> Plans(const ClipSet& set, const Method& method, const EvalOptions& options) {
+std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) {
   const KeyTimes times = method.keys ? KeyTimes::kEachTwoSeconds : KeyTimes::kNone;
   std::vector<LongPlan> plans;
-  for (const LongPlan& input :
-       PlanLongDances(method.engine->model(), set, times, kInputs, Shorter(options, kFrames))) {
+  for (const LongPlan& input : PlanLongDances(method.engine->model(), evaluation.set, times,
+                                              kInputs, Shorter(evaluation.options, kFrames))) {
     for (int sample = 0; sample < kSamples; ++sample) {
       plans.push_back(input);
       plans.back().chain.seed += static_cast<uint64_t>(1000 * sample);
@@ -37,13 +36,6 @@ Eigen::MatrixXd Join(const std::vector<Eigen::MatrixXd>& parts) {
     at += part.cols();
   }
   return all;
-}
-
-// Mean squared distance of corresponding windows of two dances, over their common length.
-double Apart(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  const Eigen::Index common = std::min(a.cols(), b.cols());
-  if (common == 0) return 0;
-  return (a.leftCols(common) - b.leftCols(common)).colwise().squaredNorm().mean();
 }
 
 TableRow RowOf(const Method& method, const std::vector<LongPlan>& plans,
@@ -68,20 +60,11 @@ TableRow RowOf(const Method& method, const std::vector<LongPlan>& plans,
 
 }  // namespace
 
-double MeanApart(const std::vector<Eigen::MatrixXd>& dances) {
-  double sum = 0;
-  int pairs = 0;
-  for (size_t i = 0; i < dances.size(); ++i) {
-    for (size_t k = 0; k < i; ++k, ++pairs) sum += Apart(dances[i], dances[k]);
-  }
-  return pairs > 0 ? sum / pairs : 0;
-}
-
-Table EvaluateEncoded(const ClipSet& set, const std::vector<Method>& methods,
-                      const MotionEncoder& encoder, const EvalOptions& options,
-                      ProgressBar* progress) {
+std::vector<Table> EvaluateEncoded(const Evaluation& evaluation) {
+  if (evaluation.encoder == nullptr) return {};
+  const MotionEncoder& encoder = *evaluation.encoder;
   std::vector<Eigen::MatrixXd> even, odd;
-  for (const PreparedClip& clip : set.clips) {
+  for (const PreparedClip& clip : evaluation.set.clips) {
     const std::span<const Pose> poses(clip.motion.frames);
     for (size_t block = 0; (block + 1) * kBlock <= poses.size(); ++block) {
       (block % 2 == 0 ? even : odd)
@@ -89,9 +72,7 @@ Table EvaluateEncoded(const ClipSet& set, const std::vector<Method>& methods,
     }
   }
   const Eigen::MatrixXd reference = Join(even);
-  Table table;
-  table.name = "encoder_" + set.name;
-  table.title = "FID, variability, diversity, " + set.name;
+  Table table = evaluation.NewTable("encoder", "FID, variability, diversity");
   char explained[32];
   std::snprintf(explained, sizeof(explained), "%.1f %%", 100 * encoder.explained());
   table.note = "Codes of the motion encoder " + encoder.version() + ", which explains " +
@@ -101,33 +82,19 @@ Table EvaluateEncoded(const ClipSet& set, const std::vector<Method>& methods,
                "other 5 s of the real clips, whose remaining seconds are the row of real motion.";
   table.label_headings = {"method"};
   table.columns = {{"FID", 2}, {"variability", 2}, {"diversity", 1}};
-  if (reference.cols() < 2) return table;
-  for (const Method& method : methods) {
+  if (reference.cols() < 2) return {table};
+  for (const Method& method : evaluation.methods) {
     if (method.kind == Method::Kind::kReal && !odd.empty()) {
       table.rows.push_back(
           {{method.name},
            {Cell{FrechetDistance(Join(odd), reference), {}}, Cell{}, Cell{MeanApart(odd), {}}}});
     }
     if (method.kind != Method::Kind::kEngine) continue;
-    const std::vector<LongPlan> plans = Plans(set, method, options);
-    std::vector<ChainPlan> chains;
-    for (const LongPlan& plan : plans) chains.push_back(plan.chain);
-    const std::vector<Chain> danced = DanceChains(*method.engine, chains, [&](int frames) {
-      if (progress != nullptr) progress->Advance(frames, set.name + ", samples");
-    });
+    const std::vector<LongPlan> plans = Plans(evaluation, method);
+    const std::vector<Chain> danced = DanceLong(evaluation.runner, *method.engine, plans);
     table.rows.push_back(RowOf(method, plans, danced, encoder, reference));
   }
-  return table;
-}
-
-int64_t CountEncodedFrames(const ClipSet& set, const std::vector<Method>& methods,
-                           const EvalOptions& options) {
-  int64_t frames = 0;
-  for (const Method& method : methods) {
-    if (method.kind != Method::Kind::kEngine) continue;
-    for (const LongPlan& plan : Plans(set, method, options)) frames += plan.chain.frames;
-  }
-  return frames;
+  return {table};
 }
 
 }  // namespace choreo

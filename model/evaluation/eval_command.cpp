@@ -11,31 +11,47 @@
 #include "model/core/error.h"
 #include "model/engine/engine_kind.h"
 #include "model/evaluation/contest.h"
-#include "model/evaluation/control_tables.h"
-#include "model/evaluation/encoder_table.h"
 #include "model/evaluation/eval_report.h"
-#include "model/evaluation/liveliness_table.h"
-#include "model/evaluation/long_tables.h"
-#include "model/evaluation/method_sheet.h"
+#include "model/evaluation/motion_encoder.h"
 #include "model/evaluation/paired_sheets.h"
-#include "model/evaluation/stress_table.h"
-#include "model/evaluation/transition_tables.h"
 
 namespace choreo {
 namespace {
 
-enum class Scope { kAll, kControls, kLiveliness };
+using Evaluate = std::vector<Table> (*)(const Evaluation&);
+
+enum class Scope { kAll, kControls, kPaperControls, kLiveliness };
+
+// In the order in which they are told.
+std::vector<Evaluate> TablesOf(Scope scope) {
+  switch (scope) {
+    case Scope::kPaperControls:
+      return {EvaluateControls};
+    case Scope::kControls:
+      return {EvaluateControls, EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths};
+    case Scope::kLiveliness:
+      return {EvaluateLiveliness, EvaluateNearness};
+    case Scope::kAll:
+      break;
+  }
+  return {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition,  EvaluateDrawnPaths,
+          EvaluateLiveliness, EvaluateNearness,    EvaluateTransitions, EvaluateLongDances,
+          EvaluateEncoded,    EvaluateStress};
+}
 
 struct Arguments {
   ContestOptions contest;
   std::vector<std::filesystem::path> data;
   std::filesystem::path splits;
   std::string split = "validation";
-  ReportPaths paths;
+  std::filesystem::path json;
   EvalOptions options;
   float temperature = -1;
   Scope scope = Scope::kAll;
-  bool encode = true, sheets = false;  // of the tables
+  bool encode = true, sheets = false;
+
+  // Their lengths are their own.
+  bool controls() const { return scope == Scope::kControls || scope == Scope::kPaperControls; }
 };
 
 // Beside the progress on stderr.
@@ -56,10 +72,10 @@ void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& le
   const int longest = std::ranges::max(lengths);
   for (const Method& method : methods) {
     // The other engines have the limit of the judged one, and names that nobody gave them.
-    if (method.kind != Method::Kind::kEngine || !method.network || !method.keys) continue;
+    if (!method.Judged()) continue;
     const ModelInfo& model = method.engine->model();
     if (longest <= model.max_transition_frames) continue;
-    const std::string option = method.name == kServed ? "--model" : "--other " + method.name;
+    const std::string option = &method == &methods.back() ? "--model" : "--other " + method.name;
     throw InvalidArgument("--lengths", std::to_string(longest) + " frames are more than the " +
                                            std::to_string(model.max_transition_frames) + " that " +
                                            option + " (" + model.name + ") takes");
@@ -83,55 +99,15 @@ std::string Summary(const Arguments& arguments, const Contest& contest) {
          " unless a row says otherwise. Engine: " + contest.stepped_by + ".";
 }
 
-// Of a set: those that are judged by themselves, not beside others.
-std::vector<const Method*> Judged(const std::vector<Method>& methods) {
-  std::vector<const Method*> judged;
-  for (const Method& method : methods) {
-    if (method.kind == Method::Kind::kEngine && method.network && method.keys)
-      judged.push_back(&method);
-  }
-  return judged;
-}
-
-int64_t CountFrames(const ClipSet& set, const Contest& contest, bool encode, Scope scope,
-                    const EvalOptions& options) {
-  const std::vector<Method>& methods = contest.methods;
-  int64_t frames = 0;
-  if (scope != Scope::kLiveliness) frames += CountControlFrames(set, methods, options);
-  if (scope != Scope::kControls) {
-    for (const Method* method : Judged(methods))
-      frames += CountLivelyFrames(set, method->engine->model(), options);
-  }
-  if (scope != Scope::kAll) return frames;
-  if (encode) frames += CountEncodedFrames(set, methods, options);
-  return frames + CountTransitionFrames(set, methods, options) +
-         CountLongFrames(set, contest.judged().model(), options);
-}
-
 std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& contest,
-                              const std::optional<MotionEncoder>& encoder, Scope scope,
-                              const EvalOptions& options) {
-  StepEngine& judged = contest.judged();
-  int64_t frames = 0;
-  for (const ClipSet& set : sets)
-    frames += CountFrames(set, contest, encoder.has_value(), scope, options);
+                              const MotionEncoder* encoder, const Arguments& arguments) {
   std::vector<Table> tables;
-  const auto add = [&](std::vector<Table> more) {
-    std::ranges::move(more, std::back_inserter(tables));
-  };
-  ProgressBar progress("evaluating", frames);
+  ProgressBar progress("evaluating", 0);
   for (const ClipSet& set : sets) {
-    if (scope != Scope::kLiveliness)
-      add(EvaluateControls(set, contest.methods, options, &progress));
-    if (scope != Scope::kControls) {
-      for (const Method* method : Judged(contest.methods))
-        add(EvaluateLiveliness(set, *method, options, &progress));
-    }
-    if (scope != Scope::kAll) continue;
-    add(EvaluateTransitions(set, contest.methods, options, &progress));
-    add(EvaluateLongDances(set, judged, options, &progress));
-    if (encoder) add({EvaluateEncoded(set, contest.methods, *encoder, options, &progress)});
-    add({EvaluateStress(set, judged, options)});
+    const Runner runner(&progress, "frames, " + set.name);
+    const Evaluation evaluation{set, contest.methods, arguments.options, runner, encoder};
+    for (const Evaluate evaluate : TablesOf(arguments.scope))
+      std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
   }
   progress.Finish();
   // Every table says it of itself: they get quoted one by one.
@@ -142,51 +118,43 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
 
 void DrawSheets(const Arguments& arguments, const Contest& contest,
                 const std::vector<ClipSet>& sets) {
-  const float temperature = arguments.options.temperature;
   for (const ClipSet& set : sets) {
-    if (arguments.scope == Scope::kLiveliness) {
-      const auto png = [&](const std::string& clip) {
-        return arguments.paths.Picture("pair_" + set.name + "_" + clip);
-      };
-      const std::string answers = DrawPairedSheets(set, contest.methods.back(), temperature, png);
-      std::ofstream(arguments.paths.Picture("pair_" + set.name).replace_extension(".txt"))
-          << answers;
-      continue;
-    }
-    for (const Method& method : contest.methods) {
-      DrawMethodSheet(set, method, contest.judged().model(), temperature,
-                      arguments.paths.Picture("sheet_" + set.name + "_" + method.name));
-    }
+    const auto png = [&](const std::string& clip) {
+      return PictureBeside(arguments.json, "pair_" + set.name + "_" + clip);
+    };
+    const std::string answers =
+        DrawPairedSheets(set, contest.methods.back(), arguments.options.temperature, png);
+    std::ofstream(PictureBeside(arguments.json, "pair_" + set.name).replace_extension(".txt"))
+        << answers;
   }
 }
 
-void Evaluate(Arguments arguments) {
+void EvaluateAll(Arguments arguments) {
   // What can be refused is refused before the long work.
   SetNames(arguments.data);
-  CheckReportPaths(arguments.paths);
-  if (!arguments.paths.markdown.empty() && arguments.paths.json.empty())
-    Warn("--markdown: no plots without --json, beside which they are drawn");
+  if (!arguments.json.empty()) CheckReportPath(arguments.json);
   const Contest contest = MakeContest(arguments.contest);
   const ModelInfo& model = contest.judged().model();
   EvalOptions& options = arguments.options;
-  const bool controls = arguments.scope == Scope::kControls;
-  if (controls && !model.root_path) throw InvalidArgument("--controls", model.name + " takes none");
-  if (!controls) CheckLengths(contest.methods, options.lengths);
+  if (arguments.controls() && !model.root_path)
+    throw InvalidArgument("--controls", model.name + " takes none");
+  if (!arguments.controls()) CheckLengths(contest.methods, options.lengths);
   options.temperature = arguments.temperature >= 0 ? arguments.temperature
                                                    : static_cast<float>(model.default_temperature);
   const auto sets = LoadSets(arguments.data, arguments.splits, arguments.split, model.skeleton);
-  if (!controls) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
+  if (!arguments.controls()) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
   std::optional<MotionEncoder> encoder;
   if (arguments.encode && arguments.scope == Scope::kAll) {
     encoder = MotionEncoder::Train(
         LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton));
   }
-  std::vector<Table> tables = MakeTables(sets, contest, encoder, arguments.scope, options);
-  NameJudged(arguments.contest.name, &tables);
+  const std::vector<Table> tables =
+      MakeTables(sets, contest, encoder ? &*encoder : nullptr, arguments);
   const std::string summary = Summary(arguments, contest);
   std::printf("%s\n", summary.c_str());
   for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());
-  WriteReport(arguments.paths,
+  if (arguments.json.empty()) return;
+  WriteReport(arguments.json,
               {model.name, model.fingerprint, arguments.split, contest.stepped_by, summary,
                options.temperature},
               tables);
@@ -231,15 +199,13 @@ void AddEvalCommand(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::IsMember(
           std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
-  command->add_option("--json", arguments->paths.json,
+  command->add_option("--json", arguments->json,
                       "Also write the figures here, and plots beside it");
   command
       ->add_flag("--sheets", arguments->sheets,
-                 "Also draw ten random transitions of each method beside the JSON; of --liveliness "
-                 "each clip beside the real one, which of the two is which in a text file")
+                 "Also draw each clip beside the dance through its poses, next to the JSON; which "
+                 "of the two is which stands in a text file")
       ->needs("--json");
-  command->add_option("--markdown", arguments->paths.markdown,
-                      "Also write the tables here; they show plots if there is a --json");
   command
       ->add_option("--lengths", options.lengths,
                    "Frames of the transitions, at most as many as every model takes: 150 of the "
@@ -251,7 +217,8 @@ void AddEvalCommand(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
   command
-      ->add_option("--best-of", options.best_of, "Samples a transition at temperature 1; 0: none")
+      ->add_option("--best-of", options.best_of,
+                   "Samples a transition, of which the nearest counts")
       ->take_last()
       ->capture_default_str()
       ->check(CLI::Range(0, 1000));
@@ -270,12 +237,10 @@ void AddEvalCommand(CLI::App& app) {
       ->add_option_function<std::string>(
           "--controls",
           [arguments](const std::string& which) {
-            arguments->scope = Scope::kControls;
-            arguments->options.all_controls = which == "all";
+            arguments->scope = which == "all" ? Scope::kControls : Scope::kPaperControls;
           },
           "all | paper: only the tables of controls, or of those paper C's alone; they have "
-          "lengths "
-          "of their own")
+          "lengths of their own")
       ->check(CLI::IsMember({"all", "paper"}));
   command
       ->add_flag_callback(
@@ -292,7 +257,7 @@ void AddEvalCommand(CLI::App& app) {
       ->add_option("--temperature", arguments->temperature,
                    "From 0 to 2, instead of the model's own")
       ->check(CheckTemperature);
-  command->callback([arguments] { Evaluate(*arguments); });
+  command->callback([arguments] { EvaluateAll(*arguments); });
 }
 
 }  // namespace choreo

@@ -1,12 +1,10 @@
-#include "model/evaluation/liveliness_table.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "model/evaluation/evaluation.h"
 #include "model/evaluation/keyed_dances.h"
 #include "model/evaluation/lively_figures.h"
 #include "model/evaluation/long_figures.h"
-#include "model/evaluation/spectrum_table.h"
 #include "model/evaluation/transition_judge.h"
 #include "model/metrics/critic.h"
 #include "model/metrics/groove.h"
@@ -60,10 +58,10 @@ std::vector<LivelyDances> Measure(const ModelInfo& model, const std::vector<Long
   return all;
 }
 
-KeyedDances DanceKeyed(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
-                       ProgressBar* progress) {
-  const ModelInfo& model = engine.model();
-  const std::vector<LongPlan> plans = PlanKeyedDances(model, set, options.temperature);
+KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
+  const ClipSet& set = evaluation.set;
+  const ModelInfo& model = method.engine->model();
+  const std::vector<LongPlan> plans = PlanKeyedDances(model, set, evaluation.options.temperature);
   KeyedDances dances;
   for (const LongPlan& plan : plans) {
     dances.real.push_back(MeasureLiveliness(model, plan, RealMotionBeside(plan, set)));
@@ -82,7 +80,7 @@ KeyedDances DanceKeyed(const ClipSet& set, StepEngine& engine, const EvalOptions
       all.push_back(std::move(plan));
     }
   }
-  const std::vector<Chain> chains = DanceLong(engine, all, set, progress);
+  const std::vector<Chain> chains = DanceLong(evaluation.runner, *method.engine, all);
   dances.seeds = Measure(model, all, chains, kSeeds + std::size(kSongs));
   dances.songs.assign(dances.seeds.begin() + kSeeds, dances.seeds.end());
   dances.seeds.resize(kSeeds);
@@ -162,14 +160,12 @@ void AddHits(const KeyedDances& dances, double fps, Rows* rows) {
   }
 }
 
-void AddFrechet(const ClipSet& set, const Method& method, const EvalOptions& options,
-                ProgressBar* progress, Rows* rows) {
-  const TransitionJudge judge(set, method.engine->model(), kFrechetFrames, options.windows_per_clip,
-                              progress);
+void AddFrechet(const Evaluation& evaluation, const Method& method, Rows* rows) {
+  const TransitionJudge judge(evaluation, method.engine->model(), kFrechetFrames);
   if (judge.windows().empty()) return;
-  const RealFeatures features = GatherRealFeatures(set, kFrechetFrames);
+  const RealFeatures features = GatherRealFeatures(evaluation.set, kFrechetFrames);
   const Figures real = judge.Run({"real", Method::Kind::kReal}, 0);
-  const Figures danced = judge.Run(method, options.temperature);
+  const Figures danced = judge.Run(method, evaluation.options.temperature);
   const auto add = [&](const std::string& name, const Eigen::MatrixXd& all, auto figure) {
     const double own = CompareFeatures(all, real, figure).distance;
     const double theirs = CompareFeatures(all, danced, figure).distance;
@@ -190,16 +186,16 @@ void AddCritic(const KeyedDances& dances, double fps, Rows* rows) {
             Plain(CriticArea(locked, windows(dances.seeds[0]))), {});
 }
 
-void AddFree(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
-             ProgressBar* progress, Rows* rows) {
+void AddFree(const Evaluation& evaluation, const Method& method, Rows* rows) {
+  const EvalOptions& options = evaluation.options;
   if (options.free_dances == 0) return;
-  const ModelInfo& model = engine.model();
-  const RealRange real = MeasureReal(set, model).range;
+  const ModelInfo& model = method.engine->model();
+  const RealRange real = MeasureReal(evaluation.set, model).range;
   const std::vector<LongPlan> plans =
-      PlanLongDances(model, set, KeyTimes::kNone, options.free_dances, options);
+      PlanLongDances(model, evaluation.set, KeyTimes::kNone, options.free_dances, options);
   std::vector<LongFigures> dances;
   std::vector<float> speeds;
-  for (const Chain& chain : DanceLong(engine, plans, set, progress)) {
+  for (const Chain& chain : DanceLong(evaluation.runner, *method.engine, plans)) {
     dances.push_back(MeasureLong(model.skeleton, model.fps, chain.poses, {}));
     speeds.push_back(static_cast<float>(dances.back().median_speed));
   }
@@ -215,34 +211,22 @@ void AddFree(const ClipSet& set, StepEngine& engine, const EvalOptions& options,
   rows->AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }));
 }
 
-// The judged model's tables are the set's, others' carry a name.
-Table Headed(const std::string& name, const std::string& title, const ClipSet& set,
-             const Method& method) {
-  Table table;
-  table.name = name + set.name;
-  table.title = title + set.name;
-  if (method.name == kServed) return table;
-  table.name += "_" + method.name;
-  table.title += ", " + method.name;
-  return table;
-}
-
-Table LivelinessTable(const ClipSet& set, const Method& method, const KeyedDances& dances,
-                      const EvalOptions& options, ProgressBar* progress) {
-  StepEngine& engine = *method.engine;
+Table LivelinessTable(const Evaluation& evaluation, const Method& method,
+                      const KeyedDances& dances) {
+  const double fps = method.engine->model().fps;
   Rows rows;
   if (!dances.real.empty()) {
     AddMovement(dances, &rows);
     AddDifferences(dances, &rows);
-    AddHits(dances, engine.model().fps, &rows);
-    AddCritic(dances, engine.model().fps, &rows);
+    AddHits(dances, fps, &rows);
+    AddCritic(dances, fps, &rows);
   }
-  AddFrechet(set, method, options, progress, &rows);
-  AddFree(set, engine, options, progress, &rows);
-  Table table = Headed("liveliness_", "Does it live, ", set, method);
+  AddFrechet(evaluation, method, &rows);
+  AddFree(evaluation, method, &rows);
+  Table table = evaluation.NewTable("liveliness", "Does it live", &method);
   table.note = std::to_string(dances.real.size()) + " clips, " + std::to_string(kSeeds) +
                " seeds, the clips' own poses each 2 s as keys and nothing else of them; free: " +
-               std::to_string(options.free_dances) +
+               std::to_string(evaluation.options.free_dances) +
                " dances without keys. The critic is fair where it finds real motion against real "
                "between 0.45 and 0.55.";
   table.label_headings = {"figure"};
@@ -251,79 +235,27 @@ Table LivelinessTable(const ClipSet& set, const Method& method, const KeyedDance
   return table;
 }
 
-Table BandTable(const ClipSet& set, const Method& method, const KeyedDances& dances) {
-  const Table heading = Headed("liveliness_bands_", "How fast in which band, ", set, method);
-  Table table = SpectrumTable(method.engine->model().skeleton, method.engine->model().fps,
-                              dances.real, dances.seeds[0]);
-  table.name = heading.name;
-  table.title = heading.title;
+Table BandTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances) {
+  const ModelInfo& model = method.engine->model();
+  Table table = evaluation.NewTable("liveliness_bands", "How fast in which band", &method);
   table.note =
       "Speed over real motion's by frequency, through the same keys; the pelvis in the world, all "
       "else as seen from it.";
-  return table;
-}
-
-Table DistanceTable(const ClipSet& set, const Method& method, const EvalOptions& options,
-                    ProgressBar* progress) {
-  Table table = Headed("liveliness_l2p_", "How near to the real way, ", set, method);
-  table.note = "L2P over interpolation's, at temperature 0, as served, best of " +
-               std::to_string(options.best_of) + " there.";
-  table.label_headings = {"frames"};
-  table.columns = {{"interpolation cm", 2},
-                   {"T = 0 ÷ interpolation", 3},
-                   {"served ÷ interpolation", 3},
-                   {"best ÷ interpolation", 3},
-                   {"best ÷ T = 0", 3}};
-  for (const int frames : options.lengths) {
-    const TransitionJudge judge(set, method.engine->model(), frames, options.windows_per_clip,
-                                progress);
-    if (judge.windows().empty()) continue;
-    const Figures line = judge.Run({"interpolation", Method::Kind::kInterpolation}, 0);
-    const Figures mean = judge.Run(method, 0);
-    const Figures served = judge.Run(method, options.temperature);
-    Figures best = served;
-    for (int sample = 1; sample < options.best_of; ++sample) {
-      const Figures another = judge.Run(method, options.temperature, static_cast<uint32_t>(sample));
-      for (size_t i = 0; i < best.size(); ++i) best[i].l2p = std::min(best[i].l2p, another[i].l2p);
-    }
-    const auto ratio = [](const Figures& above, const Figures& below) {
-      return Ratio(above, &WindowFigures::l2p, below, &WindowFigures::l2p);
-    };
-    table.rows.push_back({{std::to_string(frames)},
-                          {Mean(line, &WindowFigures::l2p, 100), ratio(mean, line),
-                           ratio(served, line), ratio(best, line), ratio(best, mean)}});
-  }
+  FillBands(model.skeleton, model.fps, dances.real, dances.seeds[0], &table);
   return table;
 }
 
 }  // namespace
 
-std::vector<Table> EvaluateLiveliness(const ClipSet& set, const Method& method,
-                                      const EvalOptions& options, ProgressBar* progress) {
-  const KeyedDances dances = DanceKeyed(set, *method.engine, options, progress);
-  std::vector<Table> tables = {LivelinessTable(set, method, dances, options, progress)};
-  if (!dances.real.empty()) tables.push_back(BandTable(set, method, dances));
-  tables.push_back(DistanceTable(set, method, options, progress));
+std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation) {
+  std::vector<Table> tables;
+  for (const Method& method : evaluation.methods) {
+    if (!method.Judged()) continue;
+    const KeyedDances dances = DanceKeyed(evaluation, method);
+    tables.push_back(LivelinessTable(evaluation, method, dances));
+    if (!dances.real.empty()) tables.push_back(BandTable(evaluation, method, dances));
+  }
   return tables;
-}
-
-int64_t CountLivelyFrames(const ClipSet& set, const ModelInfo& model, const EvalOptions& options) {
-  const auto frames_of = [](const std::vector<LongPlan>& plans) {
-    int64_t frames = 0;
-    for (const LongPlan& plan : plans) frames += plan.chain.frames;
-    return frames;
-  };
-  const auto windows = [&](int frames) {
-    return frames *
-           static_cast<int64_t>(
-               ChooseWindows(set, model.history_frames, frames, options.windows_per_clip).size());
-  };
-  int64_t frames = frames_of(PlanKeyedDances(model, set, 0)) *
-                   (kSeeds + static_cast<int64_t>(std::size(kSongs)));
-  frames += frames_of(PlanLongDances(model, set, KeyTimes::kNone, options.free_dances, options));
-  for (const int length : options.lengths)
-    frames += windows(length) * (1 + std::max(1, options.best_of));
-  return frames + windows(kFrechetFrames);
 }
 
 }  // namespace choreo

@@ -2,9 +2,7 @@
 
 #include <vector>
 
-#include "model/evaluation/chain.h"
 #include "model/evaluation/long_plans.h"
-#include "model/evaluation/table.h"
 #include "model/metrics/joint_track.h"
 
 namespace choreo {
@@ -38,5 +36,12 @@ Cell DistanceCm(const LivelyDances& a, const LivelyDances& b);
 /// Hit rate (ScoreBeats) less what the same dance hits by chance: the mean over these beats moved
 /// by each part of their distance, a frame apart. Percentage points.
 Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps);
+
+/// How fast joints go in each band of SpeedSpectrum, over windows of two seconds, as a share of
+/// real motion's: the root of the danced power over the real one, floor and height together. A row
+/// a joint, left and right as one; the first row is of the root in the world, all others are seen
+/// from it. Name, title and note are left to the caller.
+void FillBands(const Skeleton& skeleton, double fps, const LivelyDances& real,
+               const LivelyDances& danced, Table* table);
 
 }  // namespace choreo

@@ -92,13 +92,11 @@ std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set) {
   return poses;
 }
 
-std::vector<Chain> DanceLong(StepEngine& engine, const std::vector<LongPlan>& plans,
-                             const ClipSet& set, ProgressBar* progress) {
+std::vector<Chain> DanceLong(const Runner& runner, StepEngine& engine,
+                             const std::vector<LongPlan>& plans) {
   std::vector<ChainPlan> chains;
   for (const LongPlan& plan : plans) chains.push_back(plan.chain);
-  return DanceChains(engine, chains, [&](int frames) {
-    if (progress != nullptr) progress->Advance(frames, set.name + ", long dances");
-  });
+  return runner.DanceChains(engine, chains);
 }
 
 }  // namespace choreo

@@ -3,10 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/core/progress.h"
-#include "model/evaluation/chain.h"
-#include "model/evaluation/method.h"
-#include "model/evaluation/windows.h"
+#include "model/evaluation/evaluation.h"
 
 namespace choreo {
 
@@ -38,8 +35,8 @@ EvalOptions Shorter(EvalOptions options, int frames);
 /// The real motion beside a long dance, of which its keys are frames: [chain.frames] poses.
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set);
 
-/// Dances them all; `progress` may be null.
-std::vector<Chain> DanceLong(StepEngine& engine, const std::vector<LongPlan>& plans,
-                             const ClipSet& set, ProgressBar* progress);
+/// Dances them all.
+std::vector<Chain> DanceLong(const Runner& runner, StepEngine& engine,
+                             const std::vector<LongPlan>& plans);
 
 }  // namespace choreo

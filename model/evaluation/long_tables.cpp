@@ -1,10 +1,8 @@
-#include "model/evaluation/long_tables.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "model/evaluation/beat_table.h"
-#include "model/evaluation/influence_table.h"
+#include "model/evaluation/evaluation.h"
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/long_plans.h"
 
@@ -101,10 +99,8 @@ PlotSeries SpeedCurve(const std::string& label, const std::vector<LongFigures>& 
   return curve;
 }
 
-Table LongHeadings(const ClipSet& set) {
-  Table table;
-  table.name = "long_" + set.name;
-  table.title = "Long dances, " + set.name;
+Table LongHeadings(const Evaluation& evaluation) {
+  Table table = evaluation.NewTable("long", "Long dances");
   table.note =
       "Keys are poses of the clips, whose songs end a dance. Frozen: the last fifth is slower than "
       "a quarter of real motion's median; who stands before that and moves again shows in the "
@@ -151,12 +147,13 @@ Table LongHeadings(const ClipSet& set) {
 
 }  // namespace
 
-std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
-                                      const EvalOptions& options, ProgressBar* progress) {
+std::vector<Table> EvaluateLongDances(const Evaluation& evaluation) {
+  const EvalOptions& options = evaluation.options;
   if (options.long_seeds == 0) return {};
-  const ModelInfo& model = engine.model();
+  const ClipSet& set = evaluation.set;
+  const ModelInfo& model = evaluation.model();
   const RealDances real = MeasureReal(set, model);
-  Table table = LongHeadings(set);
+  Table table = LongHeadings(evaluation);
   table.rows.push_back(LongRow("real motion", real.clips, real.range, 0));
   table.plot =
       Plot{.title = "Mean joint speed through long dances, " + set.name,
@@ -167,7 +164,8 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
   for (const KeyTimes times : KindsFor(set)) {
     const std::vector<LongPlan> plans =
         PlanLongDances(model, set, times, options.long_seeds, options);
-    const std::vector<Chain> chains = DanceLong(engine, plans, set, progress);
+    const std::vector<Chain> chains =
+        DanceLong(evaluation.runner, *evaluation.judged().engine, plans);
     const bool keyed = times == KeyTimes::kEachTwoSeconds;
     std::vector<LongFigures> dances, beside;
     double worst_key = 0;
@@ -192,17 +190,7 @@ std::vector<Table> EvaluateLongDances(const ClipSet& set, StepEngine& engine,
       beat_table.Add("real", clip, 0, real.clips[clip].speeds);
     tables.push_back(beat_table.Finish());
   }
-  tables.push_back(EvaluateInfluence(set, engine, options, progress));
   return tables;
-}
-
-int64_t CountLongFrames(const ClipSet& set, const ModelInfo& model, const EvalOptions& options) {
-  if (options.long_seeds == 0) return 0;
-  int64_t frames = CountInfluenceFrames(set, model, options);
-  for (const LongPlan& plan :
-       PlanLongDances(model, set, KeyTimes::kNone, options.long_seeds, options))
-    frames += static_cast<int64_t>(KindsFor(set).size()) * plan.chain.frames;
-  return frames;
 }
 
 }  // namespace choreo

@@ -33,6 +33,13 @@ Eigen::MatrixXd Windows(const Skeleton& skeleton, std::span<const Pose> poses) {
   return windows;
 }
 
+// Mean squared distance of corresponding windows of two dances, over their common length.
+double Apart(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::Index common = std::min(a.cols(), b.cols());
+  if (common == 0) return 0;
+  return (a.leftCols(common) - b.leftCols(common)).colwise().squaredNorm().mean();
+}
+
 }  // namespace
 
 MotionEncoder MotionEncoder::Train(const std::vector<ClipSet>& training) {
@@ -84,6 +91,15 @@ MotionEncoder MotionEncoder::Train(const std::vector<ClipSet>& training) {
 Eigen::MatrixXd MotionEncoder::Encode(const Skeleton& skeleton, std::span<const Pose> poses) const {
   const Eigen::MatrixXd windows = Windows(skeleton, poses);
   return projection_ * (windows.colwise() - mean_);
+}
+
+double MeanApart(const std::vector<Eigen::MatrixXd>& dances) {
+  double sum = 0;
+  int pairs = 0;
+  for (size_t i = 0; i < dances.size(); ++i) {
+    for (size_t k = 0; k < i; ++k, ++pairs) sum += Apart(dances[i], dances[k]);
+  }
+  return pairs > 0 ? sum / pairs : 0;
 }
 
 }  // namespace choreo

@@ -40,4 +40,8 @@ class MotionEncoder {
   double explained_ = 0;
 };
 
+/// Mean over all pairs of dances of the mean squared distance of their corresponding windows, over
+/// their common length. `dances`: codes [codes, windows] each. 0 for fewer than two.
+double MeanApart(const std::vector<Eigen::MatrixXd>& dances);
+
 }  // namespace choreo

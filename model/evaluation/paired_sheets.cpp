@@ -22,7 +22,7 @@ std::string DrawPairedSheets(const ClipSet& set, const Method& method, float tem
     plan.chain.frames = frames;
     plan.chain.keys.erase(plan.chain.keys.lower_bound(frames), plan.chain.keys.end());
   }
-  const std::vector<Chain> chains = DanceLong(*method.engine, plans, set, nullptr);
+  const std::vector<Chain> chains = DanceLong(Runner(), *method.engine, plans);
   ContactSheetOptions sheet;
   sheet.frames = 2 * kPairedSeconds * kPairedFrames;
   sheet.columns = kPairedFrames;

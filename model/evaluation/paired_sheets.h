@@ -4,8 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "model/evaluation/method.h"
-#include "model/evaluation/windows.h"
+#include "model/evaluation/evaluation.h"
 
 namespace choreo {
 

@@ -1,11 +1,10 @@
-#include "model/evaluation/stress_table.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
 #include "model/dance/quality_report.h"
+#include "model/evaluation/evaluation.h"
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/window_figures.h"
 #include "model/motion/kinematics.h"
@@ -72,15 +71,16 @@ struct Danced {
   std::optional<RequiredSpeed> asked;  // none without a key
 };
 
-std::vector<Danced> DanceCase(const Case& one, const ClipSet& set, StepEngine& engine,
-                              float temperature) {
-  const ModelInfo& model = engine.model();
+std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  const ClipSet& set = evaluation.set;
   const std::vector<EvalWindow> windows =
       ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip);
   std::vector<TransitionJob> jobs;
   std::vector<Danced> all;
   for (const EvalWindow& window : windows) {
-    jobs.push_back(JobOf(model, set, window, one.frames, temperature, jobs.size()));
+    jobs.push_back(
+        JobOf(model, set, window, one.frames, evaluation.options.temperature, jobs.size()));
     TransitionRequest& request = jobs.back().request;
     request.target = KeyOf(one, model.skeleton, request);
     all.push_back({{.fps = model.fps, .frames = RealPoses(set, window, one.frames, kFramesBefore)},
@@ -88,7 +88,7 @@ std::vector<Danced> DanceCase(const Case& one, const ClipSet& set, StepEngine& e
                    TransitionRun(model, request).required_speed()});
   }
   if (one.way == Way::kReal) return all;
-  const auto results = DanceTransitions(engine, jobs);
+  const auto results = evaluation.runner.Dance(*evaluation.judged().engine, jobs);
   for (size_t i = 0; i < results.size(); ++i) {
     std::ranges::transform(results[i].frames, all[i].motion.frames.begin() + kFramesBefore,
                            &DanceFrame::pose);
@@ -98,12 +98,10 @@ std::vector<Danced> DanceCase(const Case& one, const ClipSet& set, StepEngine& e
 
 }  // namespace
 
-Table EvaluateStress(const ClipSet& set, StepEngine& engine, const EvalOptions& options) {
-  const ModelInfo& model = engine.model();
-  const RealRange range = MeasureReal(set, model).range;
-  Table table;
-  table.name = "stress_" + set.name;
-  table.title = "Keys that ask for too much or too little, " + set.name;
+std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  const RealRange range = MeasureReal(evaluation.set, model).range;
+  Table table = evaluation.NewTable("stress", "Keys that ask for too much or too little");
   char note[256];
   std::snprintf(note, sizeof(note),
                 "Frozen: slower than a quarter of real motion's median (%.2f m/s). Warned: the "
@@ -115,7 +113,7 @@ Table EvaluateStress(const ClipSet& set, StepEngine& engine, const EvalOptions& 
                    {"warned %", 0},      {"frozen %", 0},       {"speed median m/s", 2},
                    {"acc. max m/s²", 0}, {"worst key mm", 4}};
   for (const Case& one : kCases) {
-    const std::vector<Danced> all = DanceCase(one, set, engine, options.temperature);
+    const std::vector<Danced> all = DanceCase(one, evaluation);
     if (all.empty()) continue;
     const auto count = static_cast<double>(all.size());
     double root = 0, joint = 0, hardest = 0, worst = 0;
@@ -144,7 +142,7 @@ Table EvaluateStress(const ClipSet& set, StepEngine& engine, const EvalOptions& 
           Cell{100 * frozen / count, {}}, Cell{Percentile(speeds, 0.5), {}}, Cell{hardest, {}},
           of_keys(1000 * worst)}});
   }
-  return table;
+  return {table};
 }
 
 }  // namespace choreo

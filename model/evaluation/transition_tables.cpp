@@ -1,15 +1,29 @@
-#include "model/evaluation/transition_tables.h"
-
 #include <algorithm>
+#include <map>
 
-#include "model/evaluation/ratio_tables.h"
 #include "model/evaluation/transition_judge.h"
 
 namespace choreo {
 namespace {
 
-const Method& Served(const std::vector<Method>& methods) {
-  return *std::ranges::find(methods, kServed, &Method::name);
+// All that was measured at one length.
+struct LengthFigures {
+  int frames = 0;
+  std::vector<EvalWindow> windows;
+  std::map<std::string, Figures> methods;
+  Figures line;  // interpolation, whether or not it has a row
+};
+
+Cell RatioToLine(const Figures& figures, const Figures& line) {
+  return Ratio(figures, &WindowFigures::l2p, line, &WindowFigures::l2p);
+}
+
+void AddPoint(Plot* plot, const std::string& label, double x, double y) {
+  auto series = std::ranges::find(plot->series, label, &PlotSeries::label);
+  if (series == plot->series.end())
+    series = plot->series.insert(series, PlotSeries{.label = label, .x = {}, .y = {}});
+  series->x.push_back(x);
+  series->y.push_back(y);
 }
 
 TableRow MethodRow(const std::string& method, const LengthFigures& length,
@@ -29,7 +43,7 @@ TableRow MethodRow(const std::string& method, const LengthFigures& length,
     return Cell{Mean(figures, figure).value, {}};
   };
   return {{std::to_string(length.frames), method},
-          {Mean(figures, &WindowFigures::l2p, 100), RatioToLine(figures, length),
+          {Mean(figures, &WindowFigures::l2p, 100), RatioToLine(figures, length.line),
            mean(&WindowFigures::l2q), Cell{weights > 0 ? npss / weights : NAN, {}},
            Cell{kinetic.distance, {}}, Cell{geometric.distance, {}}, Cell{kinetic.diversity, {}},
            Cell{geometric.diversity, {}}, mean(&WindowFigures::pfc),
@@ -38,11 +52,9 @@ TableRow MethodRow(const std::string& method, const LengthFigures& length,
            Cell{pace.median_jerk(), {}}, Cell{pace.median_speed(), {}}}};
 }
 
-Table TransitionTable(const ClipSet& set, const std::vector<Method>& methods,
-                      const std::vector<LengthFigures>& lengths) {
-  Table table;
-  table.name = "transitions_" + set.name;
-  table.title = "Transitions between real poses, " + set.name;
+Table TransitionTable(const Evaluation& evaluation, const std::vector<LengthFigures>& lengths) {
+  const ClipSet& set = evaluation.set;
+  Table table = evaluation.NewTable("transitions", "Transitions between real poses");
   table.note = std::to_string(set.clips.size()) + " clips;";
   table.label_headings = {"frames", "method"};
   table.columns = {{"L2P cm", 2},
@@ -59,13 +71,17 @@ Table TransitionTable(const ClipSet& set, const std::vector<Method>& methods,
                    {"acc. max m/s²", 0},
                    {"jerk median m/s³", 0},
                    {"speed median m/s", 2}};
-  Plot plot = RatioPlot("L2P over interpolation's, " + set.name);
+  Plot plot{.title = "L2P over interpolation's, " + set.name,
+            .x_label = "frames",
+            .y_label = "L2P / interpolation's",
+            .series = {},
+            .from_zero = true};
   for (const LengthFigures& length : lengths) {
     table.note += " " + std::to_string(length.windows.size()) + " windows of " +
                   std::to_string(length.frames) + " frames;";
     if (length.windows.empty()) continue;
     const RealFeatures real = GatherRealFeatures(set, length.frames);
-    for (const Method& method : methods) {
+    for (const Method& method : evaluation.methods) {
       table.rows.push_back(MethodRow(method.name, length, real));
       // Without keys all are far away, and would press the others together.
       if (method.kind != Method::Kind::kReal && method.keys)
@@ -77,11 +93,8 @@ Table TransitionTable(const ClipSet& set, const std::vector<Method>& methods,
   return table;
 }
 
-Table KeyTable(const ClipSet& set, const std::vector<Method>& methods,
-               const std::vector<LengthFigures>& lengths) {
-  Table table;
-  table.name = "keys_" + set.name;
-  table.title = "How keys are met, " + set.name;
+Table KeyTable(const Evaluation& evaluation, const std::vector<LengthFigures>& lengths) {
+  Table table = evaluation.NewTable("keys", "How keys are met");
   table.note =
       "Raw: without arrival and foot lock; error: of the worst joint. Keys are real motion's own "
       "poses; who is told of no key misses it.";
@@ -92,16 +105,17 @@ Table KeyTable(const ClipSet& set, const std::vector<Method>& methods,
   std::string hardest;
   double worst = 0;
   for (const LengthFigures& length : lengths) {
-    for (const Method& method : methods) {
+    for (const Method& method : evaluation.methods) {
       if (length.windows.empty()) continue;
       const Figures& figures = length.methods.at(method.name);
       std::vector<float> raw;
       for (size_t i = 0; i < figures.size(); ++i) {
         raw.push_back(static_cast<float>(100 * figures[i].raw_key_m));
-        if (method.name != kServed || figures[i].raw_key_m <= worst) continue;
+        if (&method != &evaluation.judged() || figures[i].raw_key_m <= worst) continue;
         worst = figures[i].raw_key_m;
-        hardest = " The judged model's worst raw key: " + set.clips[length.windows[i].clip].name +
-                  ", frame " + std::to_string(length.windows[i].start) + " on.";
+        hardest = " The judged model's worst raw key: " +
+                  evaluation.set.clips[length.windows[i].clip].name + ", frame " +
+                  std::to_string(length.windows[i].start) + " on.";
       }
       table.rows.push_back({{std::to_string(length.frames), method.name},
                             {Mean(figures, &WindowFigures::raw_key_distance, 1e4),
@@ -116,53 +130,59 @@ Table KeyTable(const ClipSet& set, const std::vector<Method>& methods,
   return table;
 }
 
+Table NearnessTable(const Evaluation& evaluation, const Method& method) {
+  const EvalOptions& options = evaluation.options;
+  Table table = evaluation.NewTable("liveliness_l2p", "How near to the real way", &method);
+  table.note = "L2P over interpolation's, at temperature 0, as served, best of " +
+               std::to_string(options.best_of) + " there.";
+  table.label_headings = {"frames"};
+  table.columns = {{"interpolation cm", 2},
+                   {"T = 0 ÷ interpolation", 3},
+                   {"served ÷ interpolation", 3},
+                   {"best ÷ interpolation", 3},
+                   {"best ÷ T = 0", 3}};
+  for (const int frames : options.lengths) {
+    const TransitionJudge judge(evaluation, method.engine->model(), frames);
+    if (judge.windows().empty()) continue;
+    const Figures line = judge.Interpolation();
+    const Figures mean = judge.Run(method, 0);
+    const Figures served = judge.Run(method, options.temperature);
+    Figures best = served;
+    for (int sample = 1; sample < options.best_of; ++sample) {
+      const Figures another = judge.Run(method, options.temperature, static_cast<uint32_t>(sample));
+      for (size_t i = 0; i < best.size(); ++i) best[i].l2p = std::min(best[i].l2p, another[i].l2p);
+    }
+    table.rows.push_back(
+        {{std::to_string(frames)},
+         {Mean(line, &WindowFigures::l2p, 100), RatioToLine(mean, line), RatioToLine(served, line),
+          RatioToLine(best, line), RatioToLine(best, mean)}});
+  }
+  return table;
+}
+
 }  // namespace
 
-std::vector<Table> EvaluateTransitions(const ClipSet& set, const std::vector<Method>& methods,
-                                       const EvalOptions& options, ProgressBar* progress) {
-  const Method& served = Served(methods);
+std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
   std::vector<LengthFigures> lengths;
-  for (const int frames : options.lengths) {
-    const TransitionJudge judge(set, served.engine->model(), frames, options.windows_per_clip,
-                                progress);
-    LengthFigures length;
-    length.frames = frames;
-    length.windows = judge.windows();
-    length.line = judge.Run({"interpolation", Method::Kind::kInterpolation}, options.temperature);
-    for (const Method& method : methods) {
-      Figures figures = judge.Run(method, options.temperature);
+  for (const int frames : evaluation.options.lengths) {
+    const TransitionJudge judge(evaluation, evaluation.model(), frames);
+    LengthFigures length{frames, judge.windows(), {}, judge.Interpolation()};
+    for (const Method& method : evaluation.methods) {
+      Figures figures = judge.Run(method, evaluation.options.temperature);
       if (method.kind == Method::Kind::kEngine)
-        judge.AddRawKeys(method, options.temperature, &figures);
+        judge.AddRawKeys(method, evaluation.options.temperature, &figures);
       length.methods[method.name] = std::move(figures);
-    }
-    for (int sample = 0; sample < options.best_of; ++sample) {
-      const Figures figures = judge.Run(served, 1.0F, static_cast<uint32_t>(sample));
-      if (sample == 0) length.hot = length.best = figures;
-      for (size_t i = 0; i < figures.size(); ++i) {
-        if (figures[i].l2p < length.best[i].l2p) length.best[i] = figures[i];
-      }
     }
     lengths.push_back(std::move(length));
   }
-  std::vector<Table> tables = {TransitionTable(set, methods, lengths),
-                               KeyTable(set, methods, lengths), GenreTable(set, lengths)};
-  if (options.best_of > 0) tables.push_back(SampleTable(set, lengths, options));
-  return tables;
+  return {TransitionTable(evaluation, lengths), KeyTable(evaluation, lengths)};
 }
 
-int64_t CountTransitionFrames(const ClipSet& set, const std::vector<Method>& methods,
-                              const EvalOptions& options) {
-  int64_t passes = options.best_of;
-  for (const Method& method : methods) {
-    if (method.kind == Method::Kind::kEngine) passes += 2;
-  }
-  int64_t frames = 0;
-  const int history = Served(methods).engine->model().history_frames;
-  for (const int length : options.lengths) {
-    frames += length * static_cast<int64_t>(
-                           ChooseWindows(set, history, length, options.windows_per_clip).size());
-  }
-  return frames * passes;
+std::vector<Table> EvaluateNearness(const Evaluation& evaluation) {
+  std::vector<Table> tables;
+  for (const Method& method : evaluation.methods)
+    if (method.Judged()) tables.push_back(NearnessTable(evaluation, method));
+  return tables;
 }
 
 }  // namespace choreo

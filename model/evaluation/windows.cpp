@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 
 namespace choreo {
 namespace {
@@ -26,18 +25,6 @@ bool ClipSet::HasMusic() const {
 std::vector<double> ClipSet::BeatsBetween(size_t clip, int start, int frames) const {
   return clip < beats.size() ? choreo::BeatsBetween(beats[clip], start, frames)
                              : std::vector<double>();
-}
-
-std::string GenreOf(const PreparedClip& clip) {
-  const auto noted = clip.notes.find("genre");
-  if (noted != clip.notes.end()) return noted->second;
-  return clip.name.substr(0, clip.name.rfind('_'));
-}
-
-std::vector<std::string> Genres(const ClipSet& set) {
-  std::set<std::string> names;
-  for (const PreparedClip& clip : set.clips) names.insert(GenreOf(clip));
-  return {names.begin(), names.end()};
 }
 
 std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frames, int per_clip) {

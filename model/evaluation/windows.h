@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/evaluation/batch.h"
+#include "model/dance/transition_batch.h"
 #include "model/training/prepared_clip.h"
 
 namespace choreo {
@@ -23,13 +23,6 @@ struct ClipSet {
 
 /// Those of `beats`, in frames, that lie in [start, start + frames), counted from start.
 std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames);
-
-/// What a clip shows: its note "genre" where preparation left one, else its name up to the last
-/// underscore ("DANCE_W_25" -> "DANCE_W", "salsa_03" -> "salsa").
-std::string GenreOf(const PreparedClip& clip);
-
-/// Genres of a set, sorted, each once.
-std::vector<std::string> Genres(const ClipSet& set);
 
 /// A place where a transition was really danced: frames [start, start + frames) of the clip, with
 /// its history before.

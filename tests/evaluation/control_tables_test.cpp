@@ -1,10 +1,10 @@
-#include "model/evaluation/control_tables.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
+#include "model/evaluation/evaluation.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
@@ -83,6 +83,17 @@ class SwingingEngine : public ControlledEngine {
   std::map<int, double> side_;
 };
 
+std::vector<Table> Evaluate(const ClipSet& set, const std::vector<Method>& methods,
+                            const EvalOptions& options) {
+  const Runner runner;
+  const Evaluation evaluation{set, methods, options, runner};
+  std::vector<Table> tables;
+  for (const auto evaluate :
+       {EvaluateControls, EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths})
+    std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
+  return tables;
+}
+
 class ControlTablesTest : public testing::Test {
  protected:
   double Figure(const std::string& table, const std::vector<std::string>& row,
@@ -106,9 +117,9 @@ class ControlTablesTest : public testing::Test {
                                         {"beside", Method::Kind::kEngine, &beside_},
                                         {"swinging", Method::Kind::kEngine, &swinging_},
                                         {"plain", Method::Kind::kEngine, &plain_},
-                                        {kServed, Method::Kind::kEngine, &line_}};
+                                        {"model", Method::Kind::kEngine, &line_}};
   const EvalOptions options_{.windows_per_clip = 1};
-  const std::vector<Table> tables_ = EvaluateControls(set_, methods_, options_, nullptr);
+  const std::vector<Table> tables_ = Evaluate(set_, methods_, options_);
 };
 
 TEST_F(ControlTablesTest, RealMotionIsTheYardstick) {
@@ -205,31 +216,18 @@ TEST_F(ControlTablesTest, WhoCanNotDanceAsLongHasNoFigure) {
     Brief() { model_.max_transition_frames = 150; }
   } brief;
   const std::vector<Method> methods = {{"brief", Method::Kind::kEngine, &brief},
-                                       {kServed, Method::Kind::kEngine, &line_}};
-  const auto tables = EvaluateControls(set_, methods, options_, nullptr);
+                                       {"model", Method::Kind::kEngine, &line_}};
+  const auto tables = Evaluate(set_, methods, options_);
   const Table& table = *std::ranges::find(tables, "repetition_set", &Table::name);
   const auto row =
       std::ranges::find(table.rows, std::vector<std::string>{"brief"}, &TableRow::labels);
   ASSERT_NE(row, table.rows.end());
   EXPECT_FALSE(std::isnan(row->cells[1].value));
   EXPECT_TRUE(std::isnan(row->cells[2].value));
-  EXPECT_EQ(CountControlFrames(set_, methods, options_),
-            2 * 2 * (10 + 50 + 100 + 150) * 2 + 2 * 2 * (100 + 150) +
-                2 * 2 * (100 + 150 + 200 + 250) + 2 * 90 * 2 * 2 * (2 * 3 + 4));
 }
 
-TEST_F(ControlTablesTest, CountsTheFramesThatItDances) {
-  // Two windows a length; 10 to 150 and 100 to 250 frames by each of eleven ways, 90 frames twice
-  // three times by those with factors and twice by the other two, and on four paths by those with
-  // keys that take a path.
-  const int64_t paper = 2 * (10 + 50 + 100 + 150), repeated = 2 * (100 + 150 + 200 + 250);
-  const int64_t frames = 11 * (paper + repeated) + 2 * 2 * 90 * (9 * 3 + 2) + 2 * 90 * 4 * 8;
-  EXPECT_EQ(CountControlFrames(set_, methods_, options_), frames);
-  EvalOptions less = options_;
-  less.all_controls = false;
-  EXPECT_EQ(CountControlFrames(set_, methods_, less), 11 * paper);
-  EXPECT_TRUE(EvaluateControls(set_, {{kServed, Method::Kind::kEngine, &plain_}}, options_, nullptr)
-                  .empty());
+TEST_F(ControlTablesTest, OfAModelThatTakesNoneThereAreNone) {
+  EXPECT_TRUE(Evaluate(set_, {{"model", Method::Kind::kEngine, &plain_}}, options_).empty());
 }
 
 }  // namespace

@@ -5,12 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "model/evaluation/batch.h"
 #include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
 #include "model/evaluation/interpolation_engine.h"
-#include "model/evaluation/method_sheet.h"
-#include "model/evaluation/transition_tables.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "tests/support/expect_error.h"
@@ -86,14 +83,6 @@ TEST(ChooseWindows, StandInTheMiddlesOfEqualPartsAndLeaveRoomForTheHistory) {
   EXPECT_EQ(ChooseWindows(set, 10, 60, 9).size(), 4U);  // two fit side by side
 }
 
-TEST(GenreOf, IsANoteOrTheNamesFirstPart) {
-  PreparedClip clip;
-  clip.name = "DANCE_W_25";
-  EXPECT_EQ(GenreOf(clip), "DANCE_W");
-  clip.notes["genre"] = "waltz";
-  EXPECT_EQ(GenreOf(clip), "waltz");
-}
-
 class Tables : public testing::Test {
  protected:
   const Table& Find(const std::string& name) const {
@@ -110,14 +99,11 @@ class Tables : public testing::Test {
   std::vector<Method> methods_ = {{"real", Method::Kind::kReal},
                                   {"interpolation", Method::Kind::kInterpolation},
                                   {"music", Method::Kind::kEngine, &engine_, false},
-                                  {kServed, Method::Kind::kEngine, &engine_}};
-  EvalOptions options_{.lengths = {12, 30},
-                       .windows_per_clip = 3,
-                       .best_of = 3,
-                       .temperature = 0.3F,
-                       .long_seeds = 0,
-                       .long_frames = 60};
-  std::vector<Table> tables_ = EvaluateTransitions(set_, methods_, options_, nullptr);
+                                  {"model", Method::Kind::kEngine, &engine_}};
+  EvalOptions options_{.lengths = {12, 30}, .windows_per_clip = 3, .temperature = 0.3F};
+  Runner runner_;
+  Evaluation evaluation_{set_, methods_, options_, runner_};
+  std::vector<Table> tables_ = EvaluateTransitions(evaluation_);
 };
 
 TEST_F(Tables, RealMotionIsTheYardstickAndInterpolationTheUnit) {
@@ -127,7 +113,7 @@ TEST_F(Tables, RealMotionIsTheYardstickAndInterpolationTheUnit) {
   const auto& line = Row("transitions_set", {"30", "interpolation"});
   EXPECT_GT(line[0].value, 0.1);
   EXPECT_DOUBLE_EQ(line[1].value, 1);
-  const auto& model = Row("transitions_set", {"30", kServed});
+  const auto& model = Row("transitions_set", {"30", "model"});
   EXPECT_NEAR(model[1].value, model[0].value / line[0].value, 1e-9);
   ASSERT_TRUE(model[1].interval);
   EXPECT_LE(model[1].interval->low, model[1].value);
@@ -137,7 +123,7 @@ TEST_F(Tables, RealMotionIsTheYardstickAndInterpolationTheUnit) {
 }
 
 TEST_F(Tables, KeysAreMissedRawAndMetAsServed) {
-  const auto& keys = Row("keys_set", {"30", kServed});
+  const auto& keys = Row("keys_set", {"30", "model"});
   EXPECT_GT(keys[0].value, 1e-4);  // the fake model misses by a little
   EXPECT_GT(keys[1].value, 0.01);
   EXPECT_LE(keys[5].value, 1);
@@ -150,45 +136,15 @@ TEST_F(Tables, KeysAreMissedRawAndMetAsServed) {
   EXPECT_GT(free[5].value, 10);
 }
 
-TEST_F(Tables, GenresAddUpAndTheBestSampleIsNoWorseThanOne) {
-  EXPECT_EQ(Find("genres_set").rows.size(), 3U);
-  EXPECT_DOUBLE_EQ(Row("genres_set", {"all"})[1].value,
-                   Row("transitions_set", {"30", kServed})[1].value);
-  EXPECT_FALSE(Row("genres_set", {"walk"})[1].interval);
-  EXPECT_TRUE(Find("genres_set").plot);
-  EXPECT_EQ(Row("samples_set", {"real"})[1].value, 0);
-  for (int length : {0, 1}) {
-    EXPECT_LE(Row("samples_set", {"best of 3, T = 1"})[static_cast<size_t>(length)].value,
-              Row("samples_set", {"one, T = 1"})[static_cast<size_t>(length)].value);
-  }
-}
-
-TEST_F(Tables, AreTheSameAgainAndCountTheirFrames) {
-  const std::vector<Table> again = EvaluateTransitions(set_, methods_, options_, nullptr);
+TEST_F(Tables, AreTheSameAgain) {
+  const std::vector<Table> again = EvaluateTransitions(evaluation_);
   ASSERT_EQ(again.size(), tables_.size());
   for (size_t i = 0; i < again.size(); ++i) EXPECT_EQ(ToJson(again[i]), ToJson(tables_[i]));
-  EXPECT_EQ(CountTransitionFrames(set_, methods_, options_), 6 * (12 + 30) * (2 + 2 + 3));
-}
-
-TEST_F(Tables, MethodsAreDrawn) {
-  const TemporaryFolder folder;
-  for (const Method& method : methods_) {
-    const auto png = folder.path() / (method.name + ".png");
-    DrawMethodSheet(set_, method, engine_.model(), 0.3F, png);
-    EXPECT_GT(std::filesystem::file_size(png), 1000U);
-  }
-}
-
-TEST_F(Tables, OneGenreNeedsNoPlot) {
-  set_.clips[1].name = "walk_b";
-  tables_ = EvaluateTransitions(set_, methods_, options_, nullptr);
-  EXPECT_EQ(Find("genres_set").rows.size(), 1U);
-  EXPECT_FALSE(Find("genres_set").plot);
 }
 
 TEST_F(Tables, ASetThatIsTooShortHasNoRows) {
   options_.lengths = {145};
-  tables_ = EvaluateTransitions(set_, methods_, options_, nullptr);
+  tables_ = EvaluateTransitions(evaluation_);
   EXPECT_TRUE(Find("transitions_set").rows.empty());
 }
 
@@ -212,54 +168,24 @@ TEST(Table, ReadsAsMarkdownAndAsJson) {
   EXPECT_TRUE(json["rows"][0]["s"].is_null());
 }
 
-TEST(NameJudged, RenamesRowsAndCurvesOfTheModelAlone) {
-  std::vector<Table> tables = {{.name = "t",
-                                .title = "Title",
-                                .note = "",
-                                .label_headings = {"frames", "method"},
-                                .columns = {{"m", 2}},
-                                .rows = {{{"10", "real"}, {Cell{0, {}}}},
-                                         {{"10", kServed}, {Cell{1, {}}}},
-                                         {{"10", "model without keys"}, {Cell{2, {}}}},
-                                         {{"10", "model, network alone"}, {Cell{3, {}}}}},
-                                .plot = Plot{.title = "",
-                                             .x_label = "",
-                                             .y_label = "",
-                                             .series = {{.label = kServed, .x = {}, .y = {}}}}}};
-  NameJudged("full", &tables);
-  EXPECT_EQ(tables[0].rows[0].labels[1], "real");
-  EXPECT_EQ(tables[0].rows[1].labels[1], "full");
-  EXPECT_EQ(tables[0].rows[2].labels[1], "model without keys");
-  EXPECT_EQ(tables[0].rows[3].labels[1], "full, network alone");
-  EXPECT_EQ(tables[0].plot->series[0].label, "full");
-}
-
-TEST(ReportPaths, FoldersAreMadeAndWhatCannotBeWrittenIsNamedFirst) {
+TEST(CheckReportPath, MakesFoldersAndNamesWhatCannotBeWrittenFirst) {
   const TemporaryFolder folder;
   const auto there = folder.path() / "not" / "yet" / "figures.json";
-  CheckReportPaths({.json = there, .markdown = {}});
+  CheckReportPath(there);
   EXPECT_TRUE(std::filesystem::is_directory(there.parent_path()));
   EXPECT_TRUE(std::filesystem::is_empty(there.parent_path()));
   std::ofstream(there) << "old";
-  CheckReportPaths({.json = there, .markdown = folder.path() / "tables.md"});
+  CheckReportPath(there);
   EXPECT_EQ(std::filesystem::file_size(there), 3U);  // untouched
-  ExpectError(ErrorCode::kInvalidArgument, "--json",
-              [&] { CheckReportPaths({.json = there / "below_a_file.json", .markdown = {}}); });
-  ExpectError(ErrorCode::kInvalidArgument, "--markdown",
-              [&] { CheckReportPaths({.json = {}, .markdown = folder.path()}); });
-  for (const auto& same : {there, there.parent_path() / "." / ".." / "yet" / there.filename()}) {
-    ExpectError(ErrorCode::kInvalidArgument, "is the same file as --json",
-                [&] { CheckReportPaths({.json = there, .markdown = same}); });
-  }
-  EXPECT_EQ(ReportPaths({.json = there, .markdown = {}}).Picture("sheet_set_a, b/c").filename(),
-            "figures_sheet_set_a__b_c.png");
+  for (const auto& nowhere : {there / "below_a_file.json", folder.path()})
+    ExpectError(ErrorCode::kInvalidArgument, "--json", [&] { CheckReportPath(nowhere); });
+  EXPECT_EQ(PictureBeside(there, "pair_set_a, b/c").filename(), "figures_pair_set_a__b_c.png");
 }
 
 TEST(Contest, RefusesNamesThatAreTakenBeforeItLoadsAnything) {
   for (const auto& [others, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"a=/absent", "a=/absent/too"}, "another row is called 'a'"},
            {{"real=/absent"}, "another row is called 'real'"},
-           {{"model=/absent"}, "another row is called 'model'"},
            {{"full=/absent"}, "another row is called 'full'"},
            {{"a="}, "'a=' is not NAME=CHECKPOINT"},
            {{"/absent"}, "'/absent' is not NAME=CHECKPOINT"}}) {

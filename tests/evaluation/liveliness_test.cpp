@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/evaluation/keyed_dances.h"
-#include "model/evaluation/liveliness_table.h"
 #include "model/evaluation/lively_figures.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/fake_engine.h"
@@ -111,6 +111,15 @@ TEST(HitsOverChance, AreHighOnTheBeatAndLowBesideIt) {
   EXPECT_NEAR(HitsOverChance({Nodding(17, 0)}, 90, 0, 30).value, 0, 5);
 }
 
+std::vector<Table> Evaluate(const ClipSet& set, const std::vector<Method>& methods) {
+  const EvalOptions options = Short();
+  const Runner runner;
+  const Evaluation evaluation{set, methods, options, runner};
+  std::vector<Table> tables = EvaluateLiveliness(evaluation);
+  std::ranges::move(EvaluateNearness(evaluation), std::back_inserter(tables));
+  return tables;
+}
+
 double Value(const Table& table, const std::string& figure, const std::string& column) {
   const auto row = std::ranges::find_if(
       table.rows, [&](const TableRow& one) { return one.labels[0] == figure; });
@@ -121,8 +130,7 @@ double Value(const Table& table, const std::string& figure, const std::string& c
 
 TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
   InterpolationEngine line(FakeEngine(1).model());
-  const auto tables =
-      EvaluateLiveliness(Clips(780), {kServed, Method::Kind::kEngine, &line}, Short(), nullptr);
+  const auto tables = Evaluate(Clips(780), {{"model", Method::Kind::kEngine, &line}});
   const auto figure = [&](const std::string& name, const std::string& column) {
     const double value = Value(tables[0], name, column);
     EXPECT_TRUE(std::isfinite(value)) << name << ", " << column;
@@ -148,10 +156,14 @@ TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
 TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
   FakeEngine engine(4);
   const ClipSet set = Clips(700);
-  const Method method{"other", Method::Kind::kEngine, &engine};
-  const auto tables = EvaluateLiveliness(set, method, Short(), nullptr);
-  const auto again = EvaluateLiveliness(set, method, Short(), nullptr);
-  ASSERT_EQ(tables.size(), 3U);
+  InterpolationEngine line(engine.model());
+  // Who is not the judged one has a name in its tables; who is no network has none.
+  const std::vector<Method> methods = {{"other", Method::Kind::kEngine, &engine},
+                                       {"line", Method::Kind::kEngine, &line, true, false},
+                                       {"model", Method::Kind::kEngine, &engine}};
+  const auto tables = Evaluate(set, methods);
+  const auto again = Evaluate(set, methods);
+  ASSERT_EQ(tables.size(), 6U);
   for (size_t i = 0; i < tables.size(); ++i) EXPECT_EQ(ToJson(tables[i]), ToJson(again[i]));
   EXPECT_EQ(tables[0].name, "liveliness_set_other");
   EXPECT_GT(Value(tables[0], "seeds differ cm", "danced"), 0);
@@ -161,14 +173,15 @@ TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
     EXPECT_TRUE(std::isfinite(row.cells[2].value)) << row.labels[0];
   }
   EXPECT_EQ(tables[1].name, "liveliness_bands_set_other");
+  EXPECT_EQ(tables[2].name, "liveliness_set");
+  EXPECT_EQ(ToJson(tables[2])["rows"], ToJson(tables[0])["rows"]);
   EXPECT_EQ(tables[1].rows[0].labels[0], "pelvis");
   for (const TableRow& row : tables.back().rows) EXPECT_LE(row.cells[3].value, row.cells[2].value);
 }
 
 TEST(Liveliness, ClipsThatAreTooShortLeaveRowsOut) {
   FakeEngine engine(4);
-  const auto tables =
-      EvaluateLiveliness(Clips(400), {kServed, Method::Kind::kEngine, &engine}, Short(), nullptr);
+  const auto tables = Evaluate(Clips(400), {{"model", Method::Kind::kEngine, &engine}});
   EXPECT_TRUE(std::isnan(Value(tables[0], "median speed cm/s", "danced")));
   EXPECT_TRUE(std::isfinite(Value(tables[0], "free: frozen %", "danced")));
 }

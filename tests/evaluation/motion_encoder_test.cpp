@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "model/evaluation/encoder_table.h"
+#include "model/evaluation/evaluation.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
@@ -80,16 +80,17 @@ TEST(EvaluateEncoded, RealMotionIsNearestAndSeedsVaryOnlyWithNoise) {
   FakeEngine engine(16);
   const std::vector<Method> methods = {{"real", Method::Kind::kReal},
                                        {"free", Method::Kind::kEngine, &engine, false},
-                                       {kServed, Method::Kind::kEngine, &engine}};
+                                       {"model", Method::Kind::kEngine, &engine}};
   EvalOptions options{.temperature = 0.5F, .long_frames = 120};
-  const Table table = EvaluateEncoded(set, methods, encoder, options, nullptr);
+  const Runner runner;
+  const Evaluation evaluation{set, methods, options, runner, &encoder};
+  const Table table = EvaluateEncoded(evaluation).front();
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_LT(table.rows[0].cells[0].value, table.rows[1].cells[0].value);
   EXPECT_GT(table.rows[1].cells[1].value, 0);
   EXPECT_GT(table.rows[2].cells[2].value, table.rows[2].cells[1].value);
-  EXPECT_EQ(CountEncodedFrames(set, methods, options), 2 * 8 * 15 * 120);
   options.temperature = 0;
-  EXPECT_EQ(EvaluateEncoded(set, methods, encoder, options, nullptr).rows[2].cells[1].value, 0);
+  EXPECT_EQ(EvaluateEncoded(evaluation).front().rows[2].cells[1].value, 0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "model/evaluation/chain.h"
+#include "model/evaluation/runner.h"
 
 #include <algorithm>
 
@@ -33,8 +33,14 @@ TransitionJob NextJob(const ModelInfo& model, const ChainPlan& plan, const Chain
 
 }  // namespace
 
-std::vector<Chain> DanceChains(StepEngine& engine, std::span<const ChainPlan> plans,
-                               const std::function<void(int)>& danced) {
+std::vector<TransitionResult> Runner::Dance(StepEngine& engine,
+                                            std::span<const TransitionJob> jobs) const {
+  return DanceTransitions(engine, jobs, [this](int frames) {
+    if (progress_ != nullptr) progress_->Advance(frames, what_);
+  });
+}
+
+std::vector<Chain> Runner::DanceChains(StepEngine& engine, std::span<const ChainPlan> plans) const {
   std::vector<Chain> chains(plans.size());
   while (true) {
     std::vector<TransitionJob> jobs;
@@ -45,7 +51,7 @@ std::vector<Chain> DanceChains(StepEngine& engine, std::span<const ChainPlan> pl
       whose.push_back(i);
     }
     if (jobs.empty()) return chains;
-    const auto results = DanceTransitions(engine, jobs, danced);
+    const auto results = Dance(engine, jobs);
     for (size_t i = 0; i < results.size(); ++i) {
       Chain& chain = chains[whose[i]];
       for (const DanceFrame& frame : results[i].frames) chain.poses.push_back(frame.pose);

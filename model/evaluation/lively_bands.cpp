@@ -1,9 +1,8 @@
-#include "model/evaluation/spectrum_table.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "model/evaluation/lively_figures.h"
 #include "model/metrics/speed_spectrum.h"
 
 namespace choreo {
@@ -34,15 +33,14 @@ std::string WithoutSide(const std::string& joint) {
 
 }  // namespace
 
-Table SpectrumTable(const Skeleton& skeleton, double fps, const LivelyDances& real,
-                    const LivelyDances& danced) {
-  Table table;
-  table.label_headings = {"joint"};
+void FillBands(const Skeleton& skeleton, double fps, const LivelyDances& real,
+               const LivelyDances& danced, Table* table) {
+  table->label_headings = {"joint"};
   for (int band = 0; band < kBands; ++band) {
     char heading[64];
     std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[static_cast<size_t>(band)],
                   kBandEdges[static_cast<size_t>(band) + 1]);
-    table.columns.push_back({heading, 2});
+    table->columns.push_back({heading, 2});
   }
   const Eigen::MatrixXd theirs = MeanPower(real, fps), ours = MeanPower(danced, fps);
   std::vector<std::string> names;
@@ -59,9 +57,8 @@ Table SpectrumTable(const Skeleton& skeleton, double fps, const LivelyDances& re
     TableRow row{{name}, {}};
     for (int band = 0; band < kBands; ++band)
       row.cells.push_back({below[band] > 0 ? std::sqrt(above[band] / below[band]) : NAN, {}});
-    table.rows.push_back(std::move(row));
+    table->rows.push_back(std::move(row));
   }
-  return table;
 }
 
 }  // namespace choreo

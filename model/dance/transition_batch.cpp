@@ -1,4 +1,4 @@
-#include "model/evaluation/batch.h"
+#include "model/dance/transition_batch.h"
 
 #include "model/core/error.h"
 

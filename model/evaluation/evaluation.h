@@ -1,0 +1,155 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/evaluation/runner.h"
+#include "model/evaluation/table.h"
+#include "model/evaluation/windows.h"
+
+namespace choreo {
+
+class MotionEncoder;
+
+/// A row of a table: who makes the transitions.
+struct Method {
+  enum class Kind {
+    kReal,           ///< what was really danced
+    kInterpolation,  ///< lerp and slerp between last pose and key, as they are
+    kEngine,         ///< an engine, through model/dance as the server has it
+  };
+  std::string name;
+  Kind kind = Kind::kEngine;
+  StepEngine* engine = nullptr;  ///< of kEngine; not owned
+  bool keys = true;              ///< kEngine: false for a dance to the music alone
+  bool network = true;           ///< kEngine: false for one that nobody trained
+  bool finished = true;          ///< kEngine: as served, with arrival and foot lock
+
+  /// A network that gets tables of its own, beside its rows.
+  bool Judged() const { return kind == Kind::kEngine && network && keys; }
+  /// Whether it can dance that many frames at all.
+  bool Lasts(int frames) const {
+    return kind != Kind::kEngine || frames <= engine->model().max_transition_frames;
+  }
+  bool TakesPath() const { return kind != Kind::kEngine || engine->model().root_path; }
+  bool TakesVelocityFactors() const {
+    return kind == Kind::kEngine && engine->model().velocity_factors;
+  }
+  /// Takes from a request what this method is not told, and what it does without.
+  void Restrict(TransitionRequest* request) const {
+    if (!keys) request->target.reset();
+    if (finished) return;
+    request->arrival.frames = 0;
+    request->foot_lock = false;
+  }
+};
+
+/// What one evaluation does alike in all its rows.
+struct EvalOptions {
+  std::vector<int> lengths = {10, 30, 60, 90};  ///< frames of the transitions
+  int windows_per_clip = 8;
+  int best_of = 10;  ///< samples a window, of which the nearest counts
+  float temperature = 0;
+  int long_seeds = 50;     ///< long dances of each kind; 0: none
+  int long_frames = 1800;  ///< 60 s
+  int free_dances = 20;    ///< without keys, of the table of liveliness; 0: none
+};
+
+/// One set, and who dances beside it. Nothing is owned.
+struct Evaluation {
+  const ClipSet& set;
+  const std::vector<Method>& methods;  ///< the judged one, an engine, is last
+  const EvalOptions& options;
+  const Runner& runner;
+  const MotionEncoder* encoder = nullptr;  ///< of EvaluateEncoded
+
+  const Method& judged() const { return methods.back(); }
+  const ModelInfo& model() const { return judged().engine->model(); }
+
+  /// An empty table of this set; one of a method's own is called after it, but for the judged one.
+  Table NewTable(const std::string& name, const std::string& title,
+                 const Method* of = nullptr) const {
+    const bool named = of != nullptr && of != &judged();
+    Table table;
+    table.name = name + "_" + set.name + (named ? "_" + of->name : "");
+    table.title = title + ", " + set.name + (named ? ", " + of->name : "");
+    return table;
+  }
+};
+
+// Each of these plans jobs, has the runner dance them, and returns tables of what came of it: none
+// where there is nothing to say of this set or model. All are deterministic.
+
+/// Transitions between real poses (paper F, Table 2 and the key columns of Table 1). Methods have
+/// one temperature, the same windows, music, seeds and post-processing.
+///   transitions_SET  every method: distances to the real dance and the field's metrics
+///   keys_SET         every method: how far it misses keys, raw and as served
+std::vector<Table> EvaluateTransitions(const Evaluation& evaluation);
+
+/// liveliness_l2p_SET of every judged method: L2P over interpolation's at temperature 0, at the
+/// served one, and of the best of EvalOptions::best_of samples there.
+std::vector<Table> EvaluateNearness(const Evaluation& evaluation);
+
+/// Whether a dance lives, beside real motion, of every judged method:
+///   liveliness_SET      a figure a row. Through the clips' own poses each 2 s (keyed_dances.h)
+///                       and no other word of the clip: lively_figures.h, how far seeds and songs
+///                       part, hits on regular beats that it was told of, Frechet distances at
+///                       60 frames (window_figures.h), the critic (metrics/critic.h). Without keys:
+///                       long_figures.h.
+///   liveliness_bands_SET  how fast joints go in each band of frequency
+/// Everything is danced as it is served: engine, arrival, foot lock, closed loop. Figures named
+/// "÷ real" are the sum over dances over the same of the clips; intervals over clips. No rows of
+/// keyed dances where no clip has 20 s.
+std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation);
+
+/// Long dances of the judged method beside the clips:
+///   long_SET       with keys each 2 s and without: drift, freezing, explosion, limbs, keys
+///   beats_SET      kinematic beats on music beats, against the same dances scored on the set's
+///                  other songs (chance); keys at equal intervals and on beats (paper F, Table 4).
+///                  Sets with music alone
+std::vector<Table> EvaluateLongDances(const Evaluation& evaluation);
+
+/// encoder_SET: FID, variability and diversity of paper F's Table 1 (Sections 4.5.2 and 4.5.4), in
+/// the codes of Evaluation::encoder, of dances of 10 s beside the clips of a set. A code's unit is
+/// the standard deviation of that code over the training windows, so all three are in its square,
+/// and add up over the 32 codes: two windows drawn at random from training motion are 64 apart.
+///   FID          Frechet distance of the dances' windows to real motion's
+///   variability  MeanApart of 15 dances with one input and different seeds, mean over inputs
+///   diversity    MeanApart of dances of different inputs
+/// Real motion is cut into blocks of 5 s, even and odd: the even ones are what all rows are
+/// compared with, the odd ones are its own row.
+std::vector<Table> EvaluateEncoded(const Evaluation& evaluation);
+
+/// stress_SET: paper F, Section 5.2, where its model failed. Onto a lying pose in 30 frames and
+/// fewer, and onto a key that is almost the pose that the dancer has. Says whether the stream would
+/// warn that the interval is too short (RequiredSpeed::TooFast), whether the dancer freezes in
+/// between, and how hard the way is; beside real motion of such lengths, and the model where no key
+/// is asked.
+std::vector<Table> EvaluateStress(const Evaluation& evaluation);
+
+/// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4);
+/// of models that take them, as all that follow. Methods that take none stand beside it without.
+///   lrp_SET, avf_SET, art_SET  its Tables 2-4 at 10, 50, 100 and 150 frames: real motion,
+///                              interpolation along the path, each network alone and as served
+///                              (arrival, foot lock), and without keys
+///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET, tremor_SET  of the same dances
+std::vector<Table> EvaluateControls(const Evaluation& evaluation);
+
+/// How the speed of each part follows its velocity factors, on the real path between real poses:
+///   multipliers_SET  the real dance's factors times 0.5, 1 and 1.5, over that dance's speeds
+///   constant_SET     the model's first reference times 0.5, 1 and 1.5 in every frame, over that
+///                    reference
+/// Means over windows and frames. Who takes no factors has one row in each.
+std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation);
+
+/// repetition_SET, at 100 to 250 frames: how much of a dance repeats itself, how much of its ending
+/// holds still.
+std::vector<Table> EvaluateRepetition(const Evaluation& evaluation);
+
+/// drawn_SET: root paths that nobody danced, between real poses: straight on at constant speed, on
+/// the spot (the key is moved there), and a bow; beside the real ones. No velocity factors are
+/// asked for. Of the ways with keys that take a path: how much feet skate, how well key and path
+/// are met.
+std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation);
+
+}  // namespace choreo

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/core/progress.h"
+#include "model/dance/transition_batch.h"
+
+namespace choreo {
+
+/// A long dance to be danced: a chain of transitions, as a stream has them.
+struct ChainPlan {
+  int frames = 0;
+  std::vector<Pose> history;
+  std::map<int, Pose> keys;  ///< by frame of the dance, each below `frames`
+  /// [audio_features, history frames + frames], or no columns: dances without music.
+  Eigen::MatrixXf audio;
+  std::vector<double> beats;  ///< of the music, in frames of the dance
+  uint64_t seed = 0;
+  float temperature = 0;
+};
+
+struct Chain {
+  std::vector<Pose> poses;     ///< [frames]
+  std::map<int, double> keys;  ///< final error at each key, m
+};
+
+/// Dances what tables ask for, all jobs of a call together, and says how far it is. Not
+/// thread-safe.
+class Runner {
+ public:
+  /// `progress` may be null, and else outlives the runner; it is told frames and `what`.
+  explicit Runner(ProgressBar* progress = nullptr, std::string what = "")
+      : progress_(progress), what_(std::move(what)) {}
+
+  /// DanceTransitions.
+  std::vector<TransitionResult> Dance(StepEngine& engine,
+                                      std::span<const TransitionJob> jobs) const;
+
+  /// Of each plan a transition at a time: to the next key, or, where none follows,
+  /// kFreeTransitionFrames without target. Chain i does not depend on the others. Throws
+  /// Error(kInternal) as soon as a model gives a value that is not finite.
+  std::vector<Chain> DanceChains(StepEngine& engine, std::span<const ChainPlan> plans) const;
+
+ private:
+  ProgressBar* progress_;
+  std::string what_;
+};
+
+}  // namespace choreo
