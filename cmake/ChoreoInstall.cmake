@@ -9,7 +9,9 @@ install(TARGETS choreo_client choreo_motion choreo_proto EXPORT choreoTargets
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo)
 install(FILES client/choreo_client.h client/edit.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/client)
 install(FILES model/core/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/core)
-install(DIRECTORY model/motion DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model FILES_MATCHING PATTERN "*.h")
+# What these two headers include, and the pose at rest, from which key poses are made.
+install(FILES model/motion/kinematics.h model/motion/motion.h model/motion/skeleton.h model/motion/velocity_factors.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion)
 install(DIRECTORY proto/choreo DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo/proto FILES_MATCHING PATTERN "*.proto")
 install(DIRECTORY model/checkpoints DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo COMPONENT programs)
 install(EXPORT choreoTargets NAMESPACE choreo:: DESTINATION ${package_dir})

@@ -3,10 +3,10 @@
 #include "client/cli/commands.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "model/fit/retarget.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/contacts.h"
 #include "model/motion/resample.h"
-#include "model/motion/retarget.h"
 
 namespace choreo::cli {
 namespace {

@@ -9,12 +9,12 @@
 
 #include "client/cli/json_fields.h"
 #include "client/cli/key_joints.h"
+#include "model/fit/retarget.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
-#include "model/motion/retarget.h"
 
 namespace choreo::cli {
 namespace {

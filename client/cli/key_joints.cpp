@@ -8,9 +8,9 @@
 #include "client/cli/json_fields.h"
 #include "client/cli/pose_library.h"
 #include "model/core/error.h"
+#include "model/fit/retarget.h"
 #include "model/motion/canonical.h"
 #include "model/motion/joint_angles.h"
-#include "model/motion/retarget.h"
 
 namespace choreo::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include "client/cli/pose_file.h"
 #include "client/cli/pose_sources.h"
 #include "model/core/error.h"
-#include "model/motion/retarget.h"
+#include "model/fit/retarget.h"
 
 namespace choreo::cli {
 namespace {

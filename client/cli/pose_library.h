@@ -26,7 +26,7 @@ const std::vector<std::string>& PoseTags();
 const std::vector<LibraryPose>& PoseLibrary();
 
 /// Those that the keys of a dance are drawn from, all that stand or travel, as this skeleton takes
-/// them (motion/retarget.h). Throws Error(kInvalidArgument) that asks for --keyframes where it has
+/// them (fit/retarget.h). Throws Error(kInvalidArgument) that asks for --keyframes where it has
 /// no joints that they could be retargeted to.
 std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton);
 

@@ -15,7 +15,7 @@ struct PoseRecipe {
   /// "left_elbow=90", "left_shoulder=10,0,-45": joints in degrees (motion/joint_angles.h).
   std::vector<std::string> set;
   std::optional<double> height_m;  ///< of the body's lowest point above the floor; none: as it is
-  /// "right_hand=0.3,1.6,0.2": joints drawn to places, metres (motion/inverse_kinematics.h). Of
+  /// "right_hand=0.3,1.6,0.2": joints drawn to places, metres (fit/inverse_kinematics.h). Of
   /// joints of the feet the height is the sole's: 0 is the floor.
   std::vector<std::string> reach;
   bool mirror = false;  ///< left becomes right

@@ -2,7 +2,7 @@
 
 #include "client/cli/key_file.h"
 #include "client/cli/pose_library.h"
-#include "model/motion/retarget.h"
+#include "model/fit/retarget.h"
 
 namespace choreo::cli {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/fit/position_clip.h"
 #include "model/motion/motion.h"
-#include "model/motion/position_clip.h"
 #include "model/motion/skeleton.h"
 
 /// Biovision hierarchy files, as written by any tool: channels in any order, position channels at

@@ -20,7 +20,7 @@ void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const
 /// The first animation of a file. Nodes that have our joints' names, parents and rest offsets (2
 /// mm) are taken as they are, whatever frames their bones have at rest: those of `wanted`, if any,
 /// of SMPL's skeleton, or of the file's own (own_skeleton.h). Other skeletons are fitted to SMPL's
-/// by their joints' names (motion/fit_sources.h: Mixamo's and others). Meshes do not matter. At the
+/// by their joints' names (fit/sources.h: Mixamo's and others). Meshes do not matter. At the
 /// rate of extras.fps, else of the channel with most keys; 30 where that is below 20, because few
 /// keys are poses to pass rather than frames.
 ///

@@ -1,11 +1,11 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "model/fit/bvh_source.h"
+#include "model/fit/fit_clip.h"
 #include "model/formats/gltf.h"
 #include "model/formats/gltf_scene.h"
 #include "model/formats/own_skeleton.h"
-#include "model/motion/fit.h"
-#include "model/motion/fit_sources.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/fit/bvh_source.h"
+#include "model/fit/fit_clip.h"
+#include "model/fit/retarget.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
 #include "model/formats/gltf.h"
 #include "model/formats/npz.h"
-#include "model/motion/fit.h"
-#include "model/motion/fit_sources.h"
 #include "model/motion/pose_limits.h"
-#include "model/motion/retarget.h"
 
 namespace choreo {
 namespace {

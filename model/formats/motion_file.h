@@ -24,13 +24,13 @@ void RequireMotionFile(const std::filesystem::path& path);
 
 /// A motion from a file, and the skeleton that it is of: SMPL's, or the one that an npz holds
 /// (skeleton_npz.h) or that a BVH or glTF has (own_skeleton.h); any other BVH or glTF is fitted to
-/// SMPL's (motion/fit.h): sized by its legs, turned into rotations, put on the floor. At the file's
-/// own rate. Throws Error(kInvalidArgument) whose field begins with the path for other extensions,
-/// files without frames, values beyond motion/pose_limits.h and what the formats refuse;
-/// Error(kNotFound) where the file cannot be opened.
+/// SMPL's (fit/fit_clip.h): sized by its legs, turned into rotations, put on the floor. At the
+/// file's own rate. Throws Error(kInvalidArgument) whose field begins with the path for other
+/// extensions, files without frames, values beyond motion/pose_limits.h and what the formats
+/// refuse; Error(kNotFound) where the file cannot be opened.
 SkeletonMotion ReadMotion(const std::filesystem::path& path);
 
-/// What becomes of a motion of other bones: it is retargeted (motion/retarget.h), or refused with
+/// What becomes of a motion of other bones: it is retargeted (fit/retarget.h), or refused with
 /// Error(kInvalidArgument) naming both skeletons.
 enum class OtherSkeleton : uint8_t { kRetarget, kRefuse };
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "model/core/rounded.h"
-#include "model/motion/fit.h"
+#include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {

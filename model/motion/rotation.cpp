@@ -4,18 +4,9 @@
 #include <numbers>
 
 #include "model/core/error.h"
+#include "model/motion/cross_matrix.h"
 
 namespace choreo {
-namespace {
-
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
-  Eigen::Matrix3d k;
-  k << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return k;
-}
-
-}  // namespace
-
 Eigen::Matrix3d ExpMap(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   const Eigen::Matrix3d k = CrossMatrix(w);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/motion/position_clip.h"
+#include "model/fit/position_clip.h"
 
 namespace choreo {
 

@@ -1,7 +1,8 @@
 #include "model/training/bvh_recording.h"
 
+#include "model/fit/bone_normaliser.h"
+#include "model/fit/bvh_source.h"
 #include "model/formats/bvh.h"
-#include "model/motion/fit.h"
 
 namespace choreo {
 

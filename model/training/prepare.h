@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "model/motion/fit_sources.h"
+#include "model/fit/position_clip.h"
+#include "model/fit/sources.h"
 #include "model/motion/motion.h"
-#include "model/motion/position_clip.h"
 #include "model/motion/skeleton.h"
 #include "model/training/beat_grid.h"
 
@@ -28,7 +28,7 @@ struct PrepareOptions {
   /// (1.0125 for waltz and rumba).
   std::vector<std::pair<std::string, double>> time_scales;
   /// tang2018 alone: rotations are fitted to a skeleton made from the recordings themselves
-  /// (motion/tang2018_skeleton.h) instead of SMPL's.
+  /// (fit/tang2018_skeleton.h) instead of SMPL's.
   bool native_skeleton = false;
   std::string terms = "not stated";  ///< kept with every clip
   int jobs = 2;

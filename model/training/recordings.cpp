@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "model/core/error.h"
+#include "model/fit/tang2018_skeleton.h"
 #include "model/formats/amass_npz.h"
-#include "model/motion/tang2018_skeleton.h"
 #include "model/training/aist_recordings.h"
 #include "model/training/bvh_recording.h"
 #include "model/training/lafan1_recordings.h"

@@ -10,7 +10,7 @@
 
 #include "client/cli/pose_source.h"
 #include "model/body/ground.h"
-#include "model/motion/fit.h"
+#include "model/motion/floor_clearance.h"
 #include "model/motion/joint_angles.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/pose_faults.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/core/npy.h"
-#include "model/motion/position_clip.h"
+#include "model/fit/position_clip.h"
 
 namespace choreo {
 

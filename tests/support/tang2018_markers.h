@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "model/motion/fit_sources.h"
+#include "model/fit/position_clip.h"
+#include "model/fit/sources.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
-#include "model/motion/position_clip.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {

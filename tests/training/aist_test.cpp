@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "model/audio/feature_stream.h"
+#include "model/fit/fit_clip.h"
 #include "model/formats/amass_npz.h"
-#include "model/motion/fit.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/clip_split.h"

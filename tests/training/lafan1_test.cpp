@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "model/fit/fit_clip.h"
 #include "model/formats/bvh.h"
-#include "model/motion/fit.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/training/prepared_clip.h"

@@ -8,6 +8,7 @@
 
 #include "model/core/error.h"
 #include "model/engine/dense_controls.h"
+#include "model/fit/position_fitter.h"
 #include "model/motion/resample.h"
 
 namespace choreo {

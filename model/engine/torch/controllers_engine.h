@@ -8,7 +8,6 @@
 #include "model/engine/step_engine.h"
 #include "model/motion/contacts.h"
 #include "model/motion/facing_pose.h"
-#include "model/motion/fit.h"
 
 namespace choreo {
 

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/fit/position_clip.h"
+#include "model/fit/sources.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// The source's size, measured once per subject.
+struct SourceSize {
+  double scale = 1;             ///< our leg length over the source's: multiplies the root's travel
+  double height_scale = 1;      ///< the same at one moment: multiplies the root's height
+  std::vector<double> lengths;  ///< [landmarks] source metres from the parent landmark (median)
+};
+
+/// Turns source positions into the places where our landmarks belong. Immutable after construction.
+class BoneNormaliser {
+ public:
+  /// Throws Error(kInvalidArgument) for a landmark whose joints `joint_names` or the skeleton lack.
+  BoneNormaliser(const Skeleton& skeleton, const SourceMapping& mapping,
+                 const std::vector<std::string>& joint_names);
+
+  /// Median landmark distances of a clip, and the scale from the legs' lengths (hip, knee, ankle;
+  /// from all bones where a mapping has no knees).
+  SourceSize Measure(const PositionClip& clip) const;
+
+  /// Our leg length over the source's in one frame. Recordings are sometimes cut together from
+  /// takes whose hips stand at different places in the body (tang2018: thighs of 46 and of 54 cm in
+  /// one clip): the root's height then needs a scale that changes in time.
+  double HeightScale(const Eigen::Matrix3Xd& source) const;
+
+  /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. Does not
+  /// allocate where `targets` has that size.
+  void Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
+             Eigen::Matrix3Xd& targets) const;
+
+  int landmarks() const { return static_cast<int>(marks_.size()); }
+
+ private:
+  struct Mark {
+    std::vector<std::pair<int, double>> source;  ///< joint, weight
+    int parent;
+    bool rigid;
+    bool leg;            ///< counts for the scale
+    double rest_length;  ///< ours, from the parent
+  };
+  static Eigen::Vector3d SourcePoint(const Mark& mark, const Eigen::Matrix3Xd& source);
+
+  std::vector<Mark> marks_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/fit/position_clip.h"
+#include "model/fit/position_fitter.h"
+#include "model/fit/sources.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// Joint positions → rotations of our skeleton. Two steps: the source is bone-normalised (its
+/// directions, our lengths), then each frame's rotations are the damped least-squares solution that
+/// puts our landmarks there, started from the frame before.
+namespace choreo {
+
+struct FitReport {
+  double mean_error_m = 0;  ///< over frames and landmarks, against the bone-normalised source
+  double p95_error_m = 0;
+  double max_error_m = 0;
+  std::vector<std::string> landmark_names;
+  std::vector<double> landmark_error_m;  ///< [landmarks] mean
+  double scale = 1;                      ///< SourceSize::scale
+  double ground_shift_m = 0;             ///< what was added to the heights, on average
+};
+
+struct FitResult {
+  Motion motion;  ///< at the clip's fps
+  FitReport report;
+};
+
+/// Brings the body down to the floor at least every few seconds. What is taken off changes slowly,
+/// so that jumps stay. Returns the mean of what was added to the heights, metres.
+double Ground(const Skeleton& skeleton, Motion& motion);
+
+/// A whole clip: measure, normalise, fit forwards, refine once with both neighbours known (zero
+/// phase), and ground. About 0.5 ms a frame.
+FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
+                  const FitOptions& options = {});
+
+}  // namespace choreo

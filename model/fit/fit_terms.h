@@ -1,0 +1,113 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/fit/landmarks.h"
+#include "model/fit/position_fitter.h"
+#include "model/motion/kinematics.h"
+
+/// The terms of one frame's least-squares problem: each has its residual, what that costs, and how
+/// it changes, in one place. Unknown are the root's position and a turn of each joint in its
+/// parent's frame: 3 + 3 joints.
+namespace choreo {
+
+/// What a frame is tied to in time; either may be null.
+struct FitNeighbours {
+  const Pose* before = nullptr;
+  const Pose* after = nullptr;
+};
+
+/// Where a pose's joints and landmarks stand.
+struct FitPlaces {
+  JointPlacement joints;
+  Eigen::Matrix3Xd marks;  ///< [3, landmarks]
+};
+
+/// Residuals and their Jacobian, three rows each: [rows, 3 + 3 joints].
+struct FitRows {
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residual;
+};
+
+/// Landmarks on their targets. Skeleton and marks outlive it.
+class LandmarkTerm {
+ public:
+  LandmarkTerm(const Skeleton& skeleton, const LandmarkSet& marks, double accuracy_m)
+      : skeleton_(skeleton), marks_(marks), accuracy_m_(accuracy_m) {}
+
+  void AddCost(const FitPlaces& places, const Eigen::Matrix3Xd& targets, double* cost) const;
+  /// Fills the first rows, a landmark after the other; the Jacobian comes as zeros.
+  void Linearise(const FitPlaces& places, const Eigen::Matrix3Xd& targets, FitRows* rows) const;
+
+ private:
+  static Eigen::Vector3d Missed(int mark, const FitPlaces& places,
+                                const Eigen::Matrix3Xd& targets) {
+    return places.marks.col(mark) - targets.col(mark);
+  }
+
+  const Skeleton& skeleton_;
+  const LandmarkSet& marks_;
+  double accuracy_m_;
+};
+
+/// A bent limb's plane tells where its hinge axis points, which fixes the twist of the bone above.
+struct HingePlane {
+  int upper_joint;
+  int upper_mark, hinge_mark, end_mark;
+  Eigen::Vector3d axis;    ///< in the upper joint's frame
+  Eigen::Vector3d normal;  ///< of this frame's targets, unit length
+  double weight;           ///< of this frame: 0 for a straight limb
+};
+
+/// Hinge axes across the planes of bent limbs. Skeleton and marks outlive it.
+class HingePlaneTerm {
+ public:
+  HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& marks, double plane_rad);
+
+  const std::vector<HingePlane>& planes() const { return planes_; }
+  int rows() const { return 3 * static_cast<int>(planes_.size()); }
+
+  /// Takes the planes from a frame's targets.
+  void Aim(const Eigen::Matrix3Xd& targets);
+  void AddCost(const FitPlaces& places, double* cost) const;
+  /// Fills the last rows; the Jacobian comes as zeros.
+  void Linearise(const FitPlaces& places, FitRows* rows) const;
+
+ private:
+  static Eigen::Vector3d Axis(const HingePlane& plane, const FitPlaces& places) {
+    return places.joints.rotations[plane.upper_joint] * plane.axis;
+  }
+
+  const Skeleton& skeleton_;
+  double plane_rad_;
+  std::vector<HingePlane> planes_;
+};
+
+/// Each joint by itself: near its rest rotation, weakly, and knees and elbows on their hinge; no
+/// hinge beyond straight; little change from the neighbours in time.
+class JointTerm {
+ public:
+  JointTerm(const Skeleton& skeleton, const FitOptions& options, double fps);
+
+  void AddCost(const Pose& pose, const FitNeighbours& neighbours, double* cost) const;
+  /// Adds to the normal equations, [3 + 3 joints] each way.
+  void Linearise(const Pose& pose, const FitNeighbours& neighbours, Eigen::MatrixXd* normal,
+                 Eigen::VectorXd* gradient) const;
+
+ private:
+  struct Prior {
+    Eigen::Matrix3d information;  ///< of log(R) around rest, inverse square radians
+    Eigen::Vector3d hinge_axis;   ///< zero where the joint is no hinge
+
+    bool hinge() const { return !hinge_axis.isZero(); }
+    Eigen::Vector3d Turn(const Eigen::Vector3d& w) const;
+    double Beyond(const Eigen::Vector3d& turn) const;
+  };
+
+  std::vector<Prior> priors_;
+  double change_information_;
+  double limit_rad_;
+};
+
+}  // namespace choreo

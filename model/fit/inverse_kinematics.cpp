@@ -1,0 +1,120 @@
+#include "model/fit/inverse_kinematics.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "model/core/error.h"
+#include "model/fit/fit_problem.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kAccuracy = 0.0005;  // metres, of targets
+constexpr int kIterations = 200;
+// How firmly joints that are no targets keep their places, beside a target: feet stand, a foot that
+// is moved stays as it is turned, the trunk and the other limbs' ends give way by centimetres.
+constexpr double kFirm = 3;
+constexpr double kAlong = 0.05;
+constexpr double kLoose = 0.01;
+
+/// Where the solver is to have a joint, and how much that weighs.
+struct Pin {
+  Eigen::Vector3d position;
+  double weight;
+};
+
+// Only the pose itself says what is near: being far from rest costs next to nothing.
+FitOptions Options() {
+  FitOptions options;
+  options.rest_rad = 6;
+  options.stiff_rad = 3;
+  options.twist_rad = 3;
+  options.foot_turn_rad = 1;
+  options.hinge_side_rad = 0.08;
+  options.change_rad = 0.3;
+  return options;
+}
+
+// By joint: the targets, and what stays.
+std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
+                          std::span<const JointTarget> targets) {
+  std::map<int, Pin> pins = {{0, {now.col(0), kLoose}}};
+  for (const char* name :
+       {"spine3", "head", "left_wrist", "right_wrist", "left_hand", "right_hand"}) {
+    if (const int joint = skeleton.Find(name); joint >= 0) pins[joint] = {now.col(joint), kLoose};
+  }
+  const auto& feet = skeleton.feet;
+  for (const int foot : feet) {
+    if (foot >= 0) pins[foot] = {now.col(foot), kFirm};
+  }
+  for (const JointTarget& target : targets) {
+    const Eigen::Vector3d way = target.position - now.col(target.joint);
+    const auto parent = [&](int of) { return skeleton.parents[static_cast<size_t>(of)]; };
+    // What hangs on a target, or a target on it, goes along.
+    for (auto pin = pins.begin(); pin != pins.end();) {
+      const int joint = pin->first;
+      const bool along = parent(joint) == target.joint || parent(target.joint) == joint;
+      if (along) pin->second = {now.col(joint) + way, kAlong};
+      const bool foot = std::ranges::find(feet, joint) != feet.end();
+      pin = along && !foot ? pins.erase(pin) : std::next(pin);
+    }
+  }
+  for (const JointTarget& target : targets) pins[target.joint] = {target.position, 1};
+  return pins;
+}
+
+SourceMapping Landmarks(const Skeleton& skeleton, const std::map<int, Pin>& pins) {
+  SourceMapping mapping{.name = "pins", .landmarks = {}, .accuracy_m = kAccuracy, .feet = {}};
+  for (const auto& [joint, pin] : pins) {
+    const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];
+    mapping.landmarks.push_back({.name = name,
+                                 .source = {{name, 1}},
+                                 .ours = {{.joint = name}},
+                                 .parent = mapping.landmarks.empty() ? -1 : 0,
+                                 .weight = pin.weight});
+  }
+  return mapping;
+}
+
+void Check(const Skeleton& skeleton, std::span<const JointTarget> targets) {
+  for (size_t i = 0; i < targets.size(); ++i) {
+    const std::string field = "targets[" + std::to_string(i) + "]";
+    const int joint = targets[i].joint;
+    if (joint < 0 || joint >= skeleton.joints()) {
+      throw InvalidArgument(field + ".joint", std::to_string(joint) + ", must be 0 to " +
+                                                  std::to_string(skeleton.joints() - 1));
+    }
+    if (!targets[i].position.allFinite())
+      throw InvalidArgument(field + ".position", "is not finite");
+    for (size_t before = 0; before < i; ++before) {
+      if (targets[before].joint != joint) continue;
+      throw InvalidArgument(field + ".joint", skeleton.joint_names[static_cast<size_t>(joint)] +
+                                                  " has a target already");
+    }
+  }
+}
+
+}  // namespace
+
+DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
+                     std::span<const JointTarget> targets) {
+  Check(skeleton, targets);
+  const Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+  DrawnPose drawn{pose, {}};
+  if (targets.empty()) return drawn;
+  const std::map<int, Pin> pins = PinsOf(skeleton, now, targets);
+  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(pins.size()));
+  Eigen::Index mark = 0;
+  for (const auto& [joint, pin] : pins) places.col(mark++) = pin.position;
+  FitProblem problem(skeleton, Landmarks(skeleton, pins), Options(), 30);
+  problem.Solve(places, {.before = &pose}, kIterations, drawn.pose);
+  MakeContinuous(drawn.pose, pose);
+  const Eigen::Matrix3Xd ended = JointPositions(skeleton, drawn.pose);
+  for (const JointTarget& target : targets)
+    drawn.missed_m.push_back((ended.col(target.joint) - target.position).norm());
+  return drawn;
+}
+
+}  // namespace choreo

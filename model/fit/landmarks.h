@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "model/fit/sources.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// The landmarks of a mapping, resolved on our skeleton. Immutable after construction.
+class LandmarkSet {
+ public:
+  struct Point {
+    int joint;
+    double weight;
+    Eigen::Vector3d offset;
+  };
+  struct Mark {
+    std::vector<Point> points;
+    int parent;
+    double weight;
+    int joint;  ///< the joint in whose place it stands, -1 where it stands in none
+  };
+
+  /// Throws Error(kInvalidArgument) for a joint that the skeleton lacks, a parent that does not
+  /// stand before its child, weights that do not sum to 1, or no landmark at all.
+  LandmarkSet(const Skeleton& skeleton, const SourceMapping& mapping);
+
+  int size() const { return static_cast<int>(marks_.size()); }
+  const Mark& operator[](int index) const { return marks_[index]; }
+
+  static Eigen::Vector3d Position(const Point& point, const JointPlacement& placement) {
+    return placement.positions.col(point.joint) + placement.rotations[point.joint] * point.offset;
+  }
+  /// [3, landmarks]
+  void Positions(const JointPlacement& placement, Eigen::Matrix3Xd& positions) const;
+  Eigen::Matrix3Xd Positions(const JointPlacement& placement) const;
+
+  /// The landmark that stands in a joint's place, or -1.
+  int AtJoint(int joint) const;
+
+ private:
+  std::vector<Mark> marks_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/fit/sources.h"
+
+namespace choreo {
+
+/// Builds a mapping landmark by landmark, parents first.
+class MappingBuilder {
+ public:
+  MappingBuilder(std::string name, double accuracy_m) {
+    mapping_.name = std::move(name);
+    mapping_.accuracy_m = accuracy_m;
+  }
+
+  /// `parent` is a landmark's name, empty for the first one.
+  void Add(const std::string& name, const std::string& parent, JointBlend source,
+           std::vector<OurPoint> ours, double weight = 1, bool rigid = true) {
+    int index = -1;
+    for (size_t i = 0; i < mapping_.landmarks.size(); ++i) {
+      if (mapping_.landmarks[i].name == parent) index = static_cast<int>(i);
+    }
+    mapping_.landmarks.push_back({.name = name,
+                                  .source = std::move(source),
+                                  .ours = std::move(ours),
+                                  .parent = index,
+                                  .rigid = rigid,
+                                  .weight = weight});
+  }
+
+  /// A joint that both skeletons have.
+  void AddJoint(const std::string& ours, const std::string& parent, const std::string& source,
+                double weight = 1) {
+    Add(ours, parent, {{source, 1.0}}, {{.joint = ours}}, weight);
+  }
+
+  void AddFoot(const std::string& source_joint) { mapping_.feet.push_back(source_joint); }
+
+  SourceMapping Take() { return std::move(mapping_); }
+
+  /// A point beside one of our joints.
+  static OurPoint At(const std::string& joint, double x, double y, double z) {
+    return {.joint = joint, .offset = {x, y, z}};
+  }
+  /// The middle of two of our joints.
+  static std::vector<OurPoint> Between(const std::string& a, const std::string& b) {
+    return {{.joint = a, .weight = 0.5}, {.joint = b, .weight = 0.5}};
+  }
+
+ private:
+  SourceMapping mapping_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+/// Joint positions of a recorded dancer over time, and the corrections that raw recordings need
+/// before rotations are fitted to them. Right-handed, Y up, metres, seconds. All functions are
+/// pure; a clip without frames is refused with Error(kInvalidArgument).
+namespace choreo {
+
+struct PositionClip {
+  double fps = 30;
+  std::vector<std::string> joint_names;  ///< [K]
+  std::vector<Eigen::Matrix3Xd> frames;  ///< each [3, K]
+};
+
+/// Throws Error(kInvalidArgument) naming the first frame that has another number of joints or a
+/// value that is not finite.
+void ValidateClip(const PositionClip& clip);
+
+/// Clip index of a joint name, or -1.
+int FindJoint(const PositionClip& clip, const std::string& joint_name);
+
+/// Low-pass of second order run forwards and backwards (zero phase, fourth order in all,
+/// Butterworth poles), each coordinate by itself, the ends extended by odd reflection. A cutoff at
+/// or above 0.49 fps leaves the clip as it is.
+PositionClip LowPass(const PositionClip& clip, double cutoff_hz);
+
+/// Positions at another frame rate by Catmull-Rom interpolation. `time_scale` stretches time first:
+/// the moment t of the source stands at t x time_scale in the result (tang2018 waltz and
+/// rumba: 1.0125).
+PositionClip ResamplePositions(const PositionClip& clip, double fps, double time_scale = 1.0);
+
+/// Replaces isolated outliers: where a joint moves faster than `speed_limit` (m/s) for at most
+/// `max_frames` frames, its positions are interpolated between the good frames around. Returns the
+/// number of joint samples replaced in `replaced` if it is given.
+PositionClip RemoveSpikes(const PositionClip& clip, double speed_limit = 14.0, int max_frames = 6,
+                          int* replaced = nullptr);
+
+}  // namespace choreo

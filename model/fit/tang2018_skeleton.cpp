@@ -1,0 +1,195 @@
+#include "model/fit/tang2018_skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/fit/mapping_builder.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kWaistLean = 19 * std::numbers::pi / 180;
+
+/// Mean over clips of the median distance of two points, each the middle of some joints.
+class Lengths {
+ public:
+  explicit Lengths(std::span<const PositionClip> clips) : clips_(clips) {
+    if (clips.empty()) throw InvalidArgument("clips", "0 recordings, at least 1 is needed");
+    for (const PositionClip& clip : clips) {
+      ValidateClip(clip);
+      if (clip.joint_names != Tang2018JointNames()) {
+        throw InvalidArgument("clips", "the joints are not those of tang2018");
+      }
+    }
+  }
+
+  double Between(const std::vector<std::string>& a, const std::vector<std::string>& b) const {
+    double sum = 0;
+    for (const PositionClip& clip : clips_) {
+      std::vector<double> distances;
+      for (const Eigen::Matrix3Xd& frame : clip.frames) {
+        distances.push_back((Middle(clip, frame, a) - Middle(clip, frame, b)).norm());
+      }
+      const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+      std::nth_element(distances.begin(), median, distances.end());
+      sum += *median;
+    }
+    const double length = sum / static_cast<double>(clips_.size());
+    if (!(length > 0.005 && length < 1)) {
+      throw InvalidArgument("clips", "from " + a[0] + " to " + b[0] + " it is " +
+                                         std::to_string(length) + " m, no length of a body");
+    }
+    return length;
+  }
+  double Between(const std::string& a, const std::string& b) const {
+    return Between(std::vector{a}, std::vector{b});
+  }
+  /// Of a bone that both sides have.
+  double OfBothSides(const std::string& a, const std::string& b) const {
+    return 0.5 * (Between("left_" + a, "left_" + b) + Between("right_" + a, "right_" + b));
+  }
+
+ private:
+  static Eigen::Vector3d Middle(const PositionClip& clip, const Eigen::Matrix3Xd& frame,
+                                const std::vector<std::string>& names) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const std::string& name : names) sum += frame.col(FindJoint(clip, name));
+    return sum / static_cast<double>(names.size());
+  }
+
+  std::span<const PositionClip> clips_;
+};
+
+/// Where the tip of a triangle stands over its base: how far along it from the first end, and how
+/// far off it, given the tip's distances from both ends. A tip out of reach lies on the base.
+struct Tip {
+  double along, off;
+};
+Tip TipOver(double base, double from_first, double from_second) {
+  const double along =
+      (from_first * from_first + base * base - from_second * from_second) / (2 * base);
+  return {along, std::sqrt(std::max(0.0, from_first * from_first - along * along))};
+}
+
+class SkeletonBuilder {
+ public:
+  SkeletonBuilder() { skeleton_.name = "tang2018"; }
+
+  void Add(const std::string& name, const std::string& parent, const Eigen::Vector3d& offset) {
+    skeleton_.parents.push_back(skeleton_.Find(parent));
+    skeleton_.joint_names.push_back(name);
+    skeleton_.offsets.conservativeResize(3, skeleton_.joints());
+    skeleton_.offsets.rightCols<1>() = offset;
+  }
+
+  Skeleton Take() {
+    skeleton_.AssignRoles();
+    skeleton_.StandOnFloor();
+    skeleton_.Validate();
+    skeleton_.RequireRoles();
+    return std::move(skeleton_);
+  }
+
+ private:
+  Skeleton skeleton_;
+};
+
+void AddLeg(const Lengths& lengths, const std::string& side, const Eigen::Vector3d& hip,
+            SkeletonBuilder& builder) {
+  builder.Add(side + "hip", "waist", hip);
+  builder.Add(side + "knee", side + "hip", {0, -lengths.OfBothSides("hip", "knee"), 0});
+  builder.Add(side + "ankle", side + "knee", {0, -lengths.OfBothSides("knee", "ankle"), 0});
+  // The ankle above a flat sole.
+  const double sole = lengths.OfBothSides("heel", "toes");
+  const Tip ankle =
+      TipOver(sole, lengths.OfBothSides("heel", "ankle"), lengths.OfBothSides("toes", "ankle"));
+  builder.Add(side + "heel", side + "ankle", {0, -ankle.off, -ankle.along});
+  builder.Add(side + "toes", side + "ankle", {0, -ankle.off, sole - ankle.along});
+}
+
+void AddArm(const Lengths& lengths, const std::string& side, double out,
+            const Eigen::Vector3d& shoulder, SkeletonBuilder& builder) {
+  const auto between = [&](const char* a, const char* b) {
+    return lengths.Between(side + a, side + b);
+  };
+  builder.Add(side + "shoulder", "chest", shoulder);
+  builder.Add(side + "elbow", side + "shoulder",
+              {out * lengths.OfBothSides("shoulder", "elbow"), 0, 0});
+  const double wrist = between("elbow", "wrist");
+  builder.Add(side + "wrist", side + "elbow", {out * wrist, 0, 0});
+  builder.Add(side + "hand", side + "wrist", {out * between("wrist", "hand"), 0, 0});
+  // Palms look down, so that thumbs point forward.
+  const Tip thumb = TipOver(wrist, between("elbow", "thumb"), between("wrist", "thumb"));
+  builder.Add(side + "thumb", side + "wrist", {out * (thumb.along - wrist), 0, thumb.off});
+}
+
+}  // namespace
+
+NativeTang2018 MeasureTang2018(std::span<const PositionClip> clips) {
+  const Lengths lengths(clips);
+  const std::vector<std::string> waist = {"waist"}, hips = {"left_hip", "right_hip"},
+                                 shoulders = {"left_shoulder", "right_shoulder"},
+                                 temples = {"left_temple", "right_temple"};
+  const double belly = lengths.Between(waist, hips);
+  const double half_hips = 0.5 * lengths.Between("left_hip", "right_hip");
+  const double half_shoulders = 0.5 * lengths.Between("left_shoulder", "right_shoulder");
+  const double half_head = 0.5 * lengths.Between("left_temple", "right_temple");
+  const double half_neck = 0.5 * lengths.Between(shoulders, temples);
+  // The chest's joint stands above the hips, and so do the shoulders, as far from the waist as
+  // recorded.
+  const double depth = belly * std::sin(kWaistLean);
+  const double reach = lengths.Between(waist, shoulders);
+  const double trunk = std::sqrt(std::max(0.0, reach * reach - depth * depth));
+
+  NativeTang2018 native;
+  SkeletonBuilder builder;
+  builder.Add("waist", "", Eigen::Vector3d::Zero());
+  for (const double out : {1.0, -1.0}) {
+    AddLeg(lengths, out > 0 ? "left_" : "right_",
+           {out * half_hips, -belly * std::cos(kWaistLean), -depth}, builder);
+  }
+  builder.Add("chest", "waist", {0, 0, -depth});
+  builder.Add("head", "chest", {0, trunk + half_neck, 0});
+  for (const double out : {1.0, -1.0}) {
+    AddArm(lengths, out > 0 ? "left_" : "right_", out, {out * half_shoulders, trunk, 0}, builder);
+  }
+  native.skeleton = builder.Take();
+
+  MappingBuilder mapping("tang2018", 0.015);
+  mapping.Add("hips", "", {{"left_hip", 0.5}, {"right_hip", 0.5}},
+              MappingBuilder::Between("left_hip", "right_hip"));
+  mapping.AddJoint("left_hip", "hips", "left_hip");
+  mapping.AddJoint("right_hip", "hips", "right_hip");
+  mapping.AddJoint("waist", "hips", "waist");
+  mapping.Add("shoulders", "waist", {{"left_shoulder", 0.5}, {"right_shoulder", 0.5}},
+              MappingBuilder::Between("left_shoulder", "right_shoulder"), 1, false);
+  mapping.Add("temples", "shoulders", {{"left_temple", 0.5}, {"right_temple", 0.5}},
+              {MappingBuilder::At("head", 0, half_neck, 0)});
+  for (const double out : {1.0, -1.0}) {
+    const std::string side = out > 0 ? "left_" : "right_";
+    mapping.Add(side + "temple", "temples", {{side + "temple", 1.0}},
+                {MappingBuilder::At("head", out * half_head, half_neck, 0)}, 0.5);
+    const auto bone = [&](const char* joint, const std::string& parent, double weight) {
+      mapping.AddJoint(side + joint, parent, side + joint, weight);
+    };
+    bone("shoulder", "shoulders", 1);
+    bone("elbow", side + "shoulder", 1);
+    bone("wrist", side + "elbow", 1);
+    bone("hand", side + "wrist", 0.7);
+    bone("thumb", side + "wrist", 0.3);
+    bone("knee", side + "hip", 1);
+    bone("ankle", side + "knee", 1);
+    bone("heel", side + "ankle", 0.5);
+    bone("toes", side + "ankle", 1);
+    mapping.AddFoot(side + "toes");
+    mapping.AddFoot(side + "heel");
+  }
+  native.mapping = mapping.Take();
+  return native;
+}
+
+}  // namespace choreo

@@ -1,0 +1,315 @@
+#include "model/fit/position_fitter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <random>
+
+#include "model/core/error.h"
+#include "model/fit/fit_clip.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+#include "tests/motion/motion_fixtures.h"
+
+namespace choreo {
+namespace {
+
+const Skeleton& Smpl() { return Skeleton::Smpl24(); }
+
+PositionClip Positions(const Skeleton& skeleton, const Motion& motion) {
+  PositionClip clip;
+  clip.fps = motion.fps;
+  clip.joint_names = skeleton.joint_names;
+  for (const Pose& pose : motion.frames) clip.frames.push_back(JointPositions(skeleton, pose));
+  return clip;
+}
+
+double MeanJointError(const Motion& a, const Motion& b) {
+  double sum = 0;
+  for (size_t frame = 0; frame < a.frames.size(); ++frame) {
+    const Eigen::Matrix3Xd difference =
+        JointPositions(Smpl(), a.frames[frame]) - JointPositions(Smpl(), b.frames[frame]);
+    sum += difference.colwise().norm().mean();
+  }
+  return sum / static_cast<double>(a.frames.size());
+}
+
+// The largest turn of a joint from one frame to the next. Of rotations, not of their vectors: near
+// a whole turn those move fast.
+double LargestStep(const Motion& motion) {
+  double largest = 0;
+  for (size_t frame = 1; frame < motion.frames.size(); ++frame) {
+    for (int joint = 0; joint < Smpl().joints(); ++joint) {
+      largest = std::max(largest, RotationDifference(motion.frames[frame - 1].rotations.col(joint),
+                                                     motion.frames[frame].rotations.col(joint))
+                                      .norm());
+    }
+  }
+  return largest;
+}
+
+// How far a knee or elbow bends about its hinge, radians; negative is backwards.
+double LeastBend(const Motion& motion) {
+  double least = 10;
+  for (const Pose& pose : motion.frames) {
+    for (const double bend :
+         {pose.rotations(0, Smpl().left_knee), pose.rotations(0, Smpl().right_knee),
+          -pose.rotations(1, Smpl().left_elbow), pose.rotations(1, Smpl().right_elbow)}) {
+      least = std::min(least, bend);
+    }
+  }
+  return least;
+}
+
+const FitOptions kAsRecorded = {.ground = false};
+
+class FitRoundTrip : public testing::TestWithParam<int> {};
+
+TEST_P(FitRoundTrip, FindsRotationsThatPutEveryJointWithinAMillimetre) {
+  const Motion motion = fixtures::SmoothMotion(Smpl(), GetParam(), 240);
+  const FitResult result =
+      FitClip(Positions(Smpl(), motion), IdentitySource(Smpl()), Smpl(), kAsRecorded);
+  ASSERT_EQ(result.motion.frames.size(), motion.frames.size());
+  EXPECT_LT(result.report.mean_error_m, 0.001);
+  EXPECT_NEAR(result.report.scale, 1, 1e-9);
+  EXPECT_LT(MeanJointError(result.motion, motion), 0.001);
+  EXPECT_LT(LargestStep(result.motion), 2 * LargestStep(motion));
+  EXPECT_GT(LeastBend(result.motion), -0.05);
+}
+
+TEST_P(FitRoundTrip, WorksCausallyFrameByFrame) {
+  const Motion motion = fixtures::SmoothMotion(Smpl(), GetParam(), 240);
+  const SourceMapping mapping = IdentitySource(Smpl());
+  PositionFitter fitter(Smpl(), mapping);
+  Motion fitted;
+  for (const Pose& pose : motion.frames)
+    fitted.frames.push_back(fitter.Next(JointPositions(Smpl(), pose)));
+  EXPECT_LT(MeanJointError(fitted, motion), 0.001);
+  EXPECT_LT(LargestStep(fitted), 2 * LargestStep(motion));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, FitRoundTrip, testing::Range(1, 6));
+
+// Steps that would not help are refused; a frame must not be given up for that, or it repeats the
+// one before it. Of targets that no body reaches, many first steps are.
+TEST(Fit, NeverRepeatsAFrameThatMoved) {
+  FitOptions hasty;
+  hasty.iterations = 1;
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()), hasty);
+  const Motion motion = fixtures::SmoothMotion(Smpl(), 9, 120);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.1);
+  fitter.Reset(motion.frames[0]);
+  Pose last = motion.frames[0];
+  for (size_t frame = 1; frame < motion.frames.size(); ++frame) {
+    const Pose& pose =
+        fitter.Next(JointPositions(Smpl(), motion.frames[frame]).unaryExpr([&](double x) {
+          return x + noise(random);
+        }));
+    EXPECT_GT((pose.root_position - last.root_position).norm(), 1e-6) << "frame " << frame;
+    last = pose;
+  }
+}
+
+// An elbow that is bent far and turned as well goes through half a turn, where the vector that
+// stands for it turns round.
+TEST(Fit, FollowsAnElbowPastHalfATurn) {
+  const int elbow = Smpl().left_elbow;
+  const Eigen::Vector3d hinge(0, -1, 0), side(0, 0, 1);
+  const auto folded = [&](int frame) {
+    Pose pose = RestPose(Smpl());
+    const double u = frame / 30.0;
+    pose.rotations.col(elbow) = (2.2 + 0.4 * u) * hinge + (1.2 + 1.0 * u) * side;
+    return pose;
+  };
+  ASSERT_LT(folded(0).rotations.col(elbow).norm(), std::numbers::pi);
+  ASSERT_GT(folded(30).rotations.col(elbow).norm(), std::numbers::pi);
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  fitter.Reset(folded(0));
+  Pose last = folded(0);
+  for (int frame = 1; frame <= 30; ++frame) {
+    const Pose& pose = fitter.Next(JointPositions(Smpl(), folded(frame)));
+    const double turn =
+        RotationDifference(last.rotations.col(elbow), pose.rotations.col(elbow)).norm();
+    EXPECT_GT(turn, 1e-4) << frame;
+    EXPECT_LT(turn, 0.3) << frame;
+    last = pose;
+  }
+}
+
+TEST(Fit, TurnsWhatTargetsLeaveOpenTheWayThatIsGiven) {
+  const Pose rest = RestPose(Smpl());
+  const int wrist = 20, hand = 22;
+  const Eigen::Vector3d forearm = Smpl().offsets.col(hand).normalized();
+  Pose turned = rest;
+  turned.rotations.col(wrist) = 0.6 * forearm;  // moves no joint
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  fitter.Reset(rest);
+  const Eigen::Matrix3Xd targets = JointPositions(Smpl(), rest);
+  const Pose pose = fitter.Next(targets, &turned);
+  EXPECT_NEAR(pose.rotations.col(wrist).dot(forearm), 0.3, 0.05);
+  EXPECT_LT((JointPositions(Smpl(), pose) - targets).colwise().norm().maxCoeff(), 0.003);
+  fitter.Reset(rest);
+  EXPECT_NEAR(fitter.Next(targets).rotations.col(wrist).dot(forearm), 0, 0.01);
+}
+
+TEST(Fit, DoesNotDependOnWhereTheSceneStands) {
+  const Motion motion = fixtures::SmoothMotion(Smpl(), 7, 30);
+  const PositionClip clip = Positions(Smpl(), motion);
+  PositionClip moved = clip;
+  const Eigen::Matrix3d turn = HeadingRotation(2.0);
+  for (Eigen::Matrix3Xd& frame : moved.frames)
+    frame = (turn * frame).colwise() + Eigen::Vector3d(3, 0, -5);
+  const Motion a = FitClip(clip, IdentitySource(Smpl()), Smpl()).motion;
+  const Motion b = FitClip(moved, IdentitySource(Smpl()), Smpl()).motion;
+  for (size_t frame = 0; frame < a.frames.size(); ++frame) {
+    EXPECT_LT(
+        (turn * ExpMap(a.frames[frame].rotations.col(0)) - ExpMap(b.frames[frame].rotations.col(0)))
+            .norm(),
+        1e-4);
+    EXPECT_LT((a.frames[frame].rotations.rightCols(23) - b.frames[frame].rotations.rightCols(23))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-4);
+  }
+}
+
+TEST(Fit, AcceptsASubjectOfAnotherSize) {
+  const Motion motion = fixtures::SmoothMotion(Smpl(), 8, 60);
+  PositionClip clip = Positions(Smpl(), motion);
+  for (Eigen::Matrix3Xd& frame : clip.frames) frame *= 100;  // centimetres
+  const FitResult result = FitClip(clip, IdentitySource(Smpl()), Smpl(), kAsRecorded);
+  EXPECT_NEAR(result.report.scale, 0.01, 1e-9);
+  EXPECT_LT(MeanJointError(result.motion, motion), 0.001);
+}
+
+TEST(Fit, KneesAndElbowsNeverBendBackwards) {
+  // Limbs that straighten, and knees and elbows that the source bends the wrong way by up to 12
+  // degrees, as noisy recordings do.
+  Motion motion = fixtures::SmoothMotion(Smpl(), 9, 200);
+  double wrong = 0;
+  for (size_t frame = 0; frame < motion.frames.size(); ++frame) {
+    const double bend = 0.4 + 0.6 * std::sin(0.1 * static_cast<double>(frame));
+    Pose& pose = motion.frames[frame];
+    pose.rotations.col(Smpl().left_knee) = Eigen::Vector3d(bend, 0, 0);
+    pose.rotations.col(Smpl().right_knee) = Eigen::Vector3d(1 - bend, 0, 0);
+    pose.rotations.col(Smpl().left_elbow) = Eigen::Vector3d(0, -bend, 0);
+    pose.rotations.col(Smpl().right_elbow) = Eigen::Vector3d(0, 1 - bend, 0);
+    wrong = std::min(wrong, bend);
+  }
+  ASSERT_LT(wrong, -0.19);
+  SourceMapping mapping = IdentitySource(Smpl());
+  mapping.accuracy_m = 0.01;
+  const FitResult result = FitClip(Positions(Smpl(), motion), mapping, Smpl());
+  EXPECT_GT(LeastBend(result.motion), -0.05);
+  EXPECT_LT(result.report.mean_error_m, 0.02);
+}
+
+TEST(Fit, StartsFromAnyPose) {
+  // No frame before: each frame is a first one, and bent limbs must come out right from positions
+  // alone.
+  const Motion motion = fixtures::SmoothMotion(Smpl(), 10, 300);
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  for (size_t frame = 0; frame < motion.frames.size(); frame += 15) {
+    fitter.Reset();
+    const Eigen::Matrix3Xd positions = JointPositions(Smpl(), motion.frames[frame]);
+    const Pose& pose = fitter.Next(positions);
+    EXPECT_LT((JointPositions(Smpl(), pose) - positions).colwise().norm().mean(), 0.002) << frame;
+    EXPECT_LT((fitter.landmarks() - JointPositions(Smpl(), pose)).norm(), 1e-9);
+  }
+}
+
+TEST(Fit, FindsItsWayBackAfterAJump) {
+  const Motion motion = fixtures::SmoothMotion(Smpl(), 11, 300);
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  fitter.Next(JointPositions(Smpl(), motion.frames[0]));
+  const Eigen::Matrix3Xd far = JointPositions(Smpl(), motion.frames[299]);
+  fitter.Next(far);
+  fitter.Next(far);
+  EXPECT_LT((JointPositions(Smpl(), fitter.Next(far)) - far).colwise().norm().mean(), 0.003);
+}
+
+// Hips and shoulders a whole turn apart stand where they would without it, so no distance tells.
+TEST(Fit, UnwindsATrunk) {
+  const Pose rest = RestPose(Smpl());
+  Pose wound = rest;
+  for (const char* joint : {"spine1", "spine2", "spine3"}) {
+    wound.rotations(1, Smpl().Find(joint)) = 2 * std::numbers::pi / 3;
+  }
+  const Eigen::Matrix3Xd targets = JointPositions(Smpl(), rest);
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  fitter.Reset(wound);
+  const Pose& pose = fitter.Next(targets);
+  for (const char* joint : {"spine1", "spine2", "spine3"}) {
+    EXPECT_LT(pose.rotations.col(Smpl().Find(joint)).norm(), 0.1) << joint;
+  }
+  EXPECT_LT((JointPositions(Smpl(), pose) - targets).colwise().norm().maxCoeff(), 0.001);
+}
+
+TEST(Fit, GivesTheSameBitsAgain) {
+  const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 12, 30));
+  const Motion a = FitClip(clip, IdentitySource(Smpl()), Smpl()).motion;
+  const Motion b = FitClip(clip, IdentitySource(Smpl()), Smpl()).motion;
+  for (size_t frame = 0; frame < a.frames.size(); ++frame) {
+    EXPECT_EQ(a.frames[frame].rotations, b.frames[frame].rotations);
+    EXPECT_EQ(a.frames[frame].root_position, b.frames[frame].root_position);
+  }
+}
+
+TEST(Fit, StandsTheDancerOnTheFloor) {
+  Motion motion = fixtures::SmoothMotion(Smpl(), 13, 5);
+  motion.frames.assign(30, RestPose(Smpl()));
+  for (Pose& pose : motion.frames) pose.root_position.y() += 0.4;
+  const FitResult result = FitClip(Positions(Smpl(), motion), IdentitySource(Smpl()), Smpl());
+  EXPECT_NEAR(result.report.ground_shift_m, -0.4, 0.002);
+  EXPECT_NEAR(result.motion.frames[7].root_position.y(), Smpl().pelvis_height, 0.002);
+}
+
+TEST(Fit, GroundsDriftButNotJumps) {
+  Motion motion;
+  motion.frames.assign(600, RestPose(Smpl()));
+  for (int frame = 0; frame < 600; ++frame) {
+    const bool jumps = frame >= 300 && frame < 315;
+    motion.frames[frame].root_position.y() += 0.2 + 0.01 * frame / 30.0 + (jumps ? 0.4 : 0.0);
+  }
+  const Motion grounded = FitClip(Positions(Smpl(), motion), IdentitySource(Smpl()), Smpl()).motion;
+  for (int frame = 60; frame < 540; ++frame) {
+    const bool jumps = frame >= 300 && frame < 315;
+    EXPECT_NEAR(grounded.frames[frame].root_position.y(),
+                Smpl().pelvis_height + (jumps ? 0.4 : 0.0), 0.02)
+        << frame;
+  }
+}
+
+TEST(Fit, ReportsWhatItDid) {
+  const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 14, 20));
+  const FitReport report = FitClip(clip, IdentitySource(Smpl()), Smpl()).report;
+  ASSERT_EQ(report.landmark_names.size(), 24U);
+  ASSERT_EQ(report.landmark_error_m.size(), 24U);
+  double sum = 0;
+  for (const double error : report.landmark_error_m) sum += error;
+  EXPECT_NEAR(sum / 24, report.mean_error_m, 1e-9);
+  EXPECT_LE(report.mean_error_m, report.p95_error_m);
+  EXPECT_LE(report.p95_error_m, report.max_error_m);
+  EXPECT_GT(report.max_error_m, 0);
+}
+
+TEST(Fit, NamesWhatIsMissing) {
+  PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 15, 3));
+  clip.joint_names[5] = "nobody";
+  try {
+    FitClip(clip, IdentitySource(Smpl()), Smpl());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("right_knee"), std::string::npos);
+  }
+  clip.frames[1](0, 0) = std::nan("");
+  EXPECT_THROW(FitClip(clip, IdentitySource(Smpl()), Smpl()), Error);
+  EXPECT_THROW(FitClip(PositionClip{}, IdentitySource(Smpl()), Smpl()), Error);
+  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
+  EXPECT_THROW(fitter.Next(Eigen::Matrix3Xd::Zero(3, 23)), Error);
+}
+
+}  // namespace
+}  // namespace choreo
