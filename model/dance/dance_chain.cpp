@@ -5,110 +5,11 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/dance_chain_job.h"
 #include "model/dance/playback_clock.h"
 #include "model/dance/warning.h"
 
 namespace choreo {
-
-/// One transition of the chain.
-class DanceChain::Job : public StepJob {
- public:
-  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, const TransitionRequest& request,
-      std::vector<DanceWarning> warnings)
-      : chain_(std::move(chain)),
-        segment_(segment),
-        request_(request),
-        run_(std::in_place, chain_->model_, request_),
-        start_time_(chain_->start_time_),
-        warnings_(std::move(warnings)),
-        row_(static_cast<size_t>(chain_->model_.audio_features)) {}
-
-  const TransitionSpec& spec() const override { return run_->spec(); }
-
-  bool NextInput(StepInput* input) override {
-    std::lock_guard lock(chain_->mutex_);
-    if (!HasInput()) return false;
-    if (chain_->audio_) {
-      chain_->audio_->CopyRow(segment_.from + run_->done(), row_);
-      input->audio_row = row_;
-    }
-    input->previous = run_->previous();
-    return true;
-  }
-
-  bool Ready() const override {
-    std::lock_guard lock(chain_->mutex_);
-    return HasInput();
-  }
-
-  void OnRestart() override {
-    std::lock_guard lock(chain_->mutex_);
-    run_.emplace(chain_->model_, request_);
-  }
-
-  bool OnFrame(const StepOutput& raw) override {
-    bool more = false;
-    {
-      std::lock_guard lock(chain_->mutex_);
-      const DanceFrame frame = run_->Take(raw);
-      if (run_->done() <= danced_) return true;  // told before a restart
-      danced_ = run_->done();
-      chain_->Emit(segment_, *run_, frame, warnings_);
-      more = !chain_->CurrentIsDanced();
-    }
-    chain_->mailbox_.Deliver();
-    return more;
-  }
-
-  void OnDone(const Error* failure) noexcept override {
-    try {
-      {
-        std::lock_guard lock(chain_->mutex_);
-        chain_->job_ = nullptr;
-        if (failure != nullptr && !retired_) {
-          chain_->Fail(*failure);
-        } else {
-          chain_->beats_.Cut(chain_->next_frame_);
-          chain_->timeline_.Finish();
-          if (danced_ > 0) chain_->PostContinuation();
-          chain_->Advance(/*inherits=*/true);
-        }
-      }
-      chain_->mailbox_.Deliver();
-    } catch (...) {
-      chain_->GiveUp();
-    }
-  }
-
-  double NextDeadline() const override {
-    const int64_t frame = segment_.from + danced_ - chain_->first_frame_;
-    return start_time_ + chain_->Seconds(frame);
-  }
-
-  bool Cancelled() const override { return retired_ || chain_->cancelled_; }
-
-  /// The dance, or the transition, turned out to end before the next frame: it ends in good order.
-  void Retire() { retired_ = true; }
-
- private:
-  // With the chain's mutex held.
-  bool HasInput() const {
-    if (chain_->paused_) return false;
-    const int64_t frame = segment_.from + run_->done();
-    return frame < chain_->timeline_.Current()->stop && chain_->timeline_.Certain(frame) &&
-           (!chain_->audio_ || chain_->audio_->ready() > frame);
-  }
-
-  const std::shared_ptr<DanceChain> chain_;
-  const Segment segment_;
-  const TransitionRequest request_;
-  std::optional<TransitionRun> run_;  // changed with the chain's mutex held
-  std::atomic<int> danced_ = 0;       // frames that were told; more than run_ has after a restart
-  const double start_time_;
-  std::vector<DanceWarning> warnings_;  // of its controls; told with the first frame
-  std::vector<float> row_;
-  std::atomic<bool> retired_ = false;
-};
 
 DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
                        std::shared_ptr<DanceSink> sink)
@@ -132,15 +33,11 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
                                   : std::nullopt),
       beats_(model_.fps, config.music_beats,
              config.continuation ? config.continuation->last_beat : std::nullopt, audio()) {
-  const std::vector<Pose>& given =
-      config.continuation ? config.continuation->poses : config.history;
-  if (given.empty()) return;
-  history_ = FillHistory(model_, given);
+  if (!config.Before().empty()) history_ = FillHistory(model_, config.Before());
 }
 
 void DanceChain::Begin() {
-  if (config_.continuation && config_.continuation->fingerprint != model_.fingerprint)
-    Post(InexactResume(*config_.continuation, model_));
+  if (config_.ResumesInexactly(model_)) Post(InexactResume(*config_.continuation, model_));
   Change([](Timeline&) {});  // the config may have granted frames
 }
 
@@ -273,8 +170,7 @@ void DanceChain::Start(const Segment& segment) {
   request.first_frame = segment.from;
   request.beats = beats_.Around(segment.from, segment.to);
   request.style = config_.style;
-  request.temperature =
-      config_.temperature.value_or(static_cast<float>(model_.default_temperature));
+  request.temperature = config_.TemperatureOn(model_);
   try {
     if (audio_) {
       request.has_audio = true;
@@ -285,8 +181,8 @@ void DanceChain::Start(const Segment& segment) {
     TransitionControls asked = controls_.For(request.first_frame, request.frames, request.history,
                                              request.target, segment.key ? segment.key->id : "");
     request.controls = std::move(asked.controls);
-    auto job =
-        std::make_shared<Job>(shared_from_this(), segment, request, std::move(asked.warnings));
+    auto job = std::make_shared<Job>(shared_from_this(), segment, std::move(request),
+                                     std::move(asked.warnings));
     job_ = job.get();
     scheduler_.Submit(std::move(job));
   } catch (const Error& error) {

@@ -11,22 +11,24 @@
 
 namespace choreo {
 
-void DanceConfig::Validate(const ModelInfo& model) const {
-  if (temperature) ValidateTemperature(*temperature, "config.temperature");
-  ValidateStyle(model, style, "config.style");
-  ValidateOutputFps(output_fps, "config.output_fps");
+void DanceStart::ValidateStart(const ModelInfo& model, const std::string& path) const {
+  if (temperature) ValidateTemperature(*temperature, path + "temperature");
+  ValidateStyle(model, style, path + "style");
+  ValidateOutputFps(output_fps, path + "output_fps");
   if (history.size() > static_cast<size_t>(model.history_frames)) {
-    throw InvalidArgument("config.history", std::to_string(history.size()) +
+    throw InvalidArgument(path + "history", std::to_string(history.size()) +
                                                 " poses, the limit is " +
                                                 std::to_string(model.history_frames));
   }
-  ValidateHistory(model.skeleton, history, "config.history");
-  if (continuation) {
-    if (!history.empty()) {
-      throw InvalidArgument("config.history", "and a continuation exclude each other");
-    }
-    ValidateContinuation(model, *continuation, allow_inexact_resume, "config.continuation");
-  }
+  ValidateHistory(model.skeleton, history, path + "history");
+  if (!continuation) return;
+  if (!history.empty())
+    throw InvalidArgument(path + "history", "and a continuation exclude each other");
+  ValidateContinuation(model, *continuation, allow_inexact_resume, path + "continuation");
+}
+
+void DanceConfig::Validate(const ModelInfo& model) const {
+  ValidateStart(model, "config.");
   const int64_t first = FirstFrame();
   if (end_frame && (*end_frame <= 0 || *end_frame < first || *end_frame > kMaxDanceFrames)) {
     throw InvalidArgument("config.end_frame", std::to_string(*end_frame) + " is not in [" +

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "model/dance/transition.h"
@@ -9,22 +10,41 @@
 
 namespace choreo {
 
-/// What a dance starts from. Everything else arrives as messages.
-struct DanceConfig {
+/// What a dance and a single transition have in common: how they are danced, and from where.
+struct DanceStart {
   uint64_t seed = 0;
-  /// Which of the seed's dances. Candidate 0 is that of chained single transitions.
-  uint32_t candidate = 0;
   std::optional<float> temperature;  ///< 0..2; none: the model's default
   std::string style;                 ///< one of the model's, or empty: any
   double output_fps = 30;            ///< 1..120; the model's own rate passes through untouched
-  /// Up to tau poses before frame 0 (world, model rate, oldest first). None: the neutral stance
-  /// where a root path begins at frame 0, or else at the origin; or the first key's pose if that
-  /// stands on frame 0. Excludes `continuation`.
+  /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
+  /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
+  /// if that stands on it. Excludes `continuation`.
   std::vector<Pose> history;
   std::optional<Continuation> continuation;  ///< start at its frame
   /// Go on from a continuation of another fingerprint, with a warning, instead of
   /// Error(kFailedPrecondition).
   bool allow_inexact_resume = false;
+  /// Seconds, ascending: the dance is timed to them. None: to what a dance hears of the music.
+  std::vector<double> music_beats;
+
+  /// The poses before the first frame, wherever they are told.
+  const std::vector<Pose>& Before() const { return continuation ? continuation->poses : history; }
+  float TemperatureOn(const ModelInfo& model) const {
+    return temperature.value_or(static_cast<float>(model.default_temperature));
+  }
+  bool ResumesInexactly(const ModelInfo& model) const {
+    return continuation && continuation->fingerprint != model.fingerprint;
+  }
+
+  /// Throws Error(kInvalidArgument) with paths that begin with `path` ("config.", ""), and
+  /// Error(kFailedPrecondition) for a continuation of another fingerprint.
+  void ValidateStart(const ModelInfo& model, const std::string& path) const;
+};
+
+/// What a stream starts from. Everything else arrives as messages.
+struct DanceConfig : DanceStart {
+  /// Which of the seed's dances. Candidate 0 is that of chained single transitions.
+  uint32_t candidate = 0;
   /// The dance is frames [first, end_frame), model rate, absolute. Without it a dance with music
   /// ends with the music or the last key, whichever is later, one without music at the last key.
   std::optional<int64_t> end_frame;
@@ -39,15 +59,12 @@ struct DanceConfig {
   std::optional<Audio> audio;  ///< none: the model dances without music
   /// As DanceStream::GenerateUntil, before all messages: keys then grant nothing.
   std::optional<int64_t> generate_until;
-  /// Seconds, ascending: the dance is timed to them. None: to what it hears of the music.
-  std::vector<double> music_beats;
 
   /// Where the dance starts: 0, or the continuation's frame.
   int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }
 
-  /// Throws Error(kInvalidArgument) with paths below "config"; Error(kFailedPrecondition) for a
-  /// continuation of another fingerprint; Error(kOutOfRange) for audio that begins too late;
-  /// Error(kUnimplemented) for music that the model can't hear.
+  /// Throws as ValidateStart; Error(kOutOfRange) for audio that begins too late;
+  /// Error(kUnimplemented) for music that the model can't hear. Paths are below "config".
   void Validate(const ModelInfo& model) const;
 };
 

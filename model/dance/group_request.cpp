@@ -15,25 +15,12 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     throw InvalidArgument("candidates", std::to_string(candidates) + " is not in [1, " +
                                             std::to_string(kMaxCandidates) + "]");
   }
-  if (temperature) ValidateTemperature(*temperature, "temperature");
-  ValidateStyle(model, style, "style");
-  ValidateOutputFps(output_fps, "output_fps");
   const int longest = std::min(kMaxTransitionFrames, model.max_transition_frames);
   if (frames < 1 || frames > longest) {
     throw InvalidArgument(
         "frames", std::to_string(frames) + " is not in [1, " + std::to_string(longest) + "]");
   }
-  if (history.size() > static_cast<size_t>(model.history_frames)) {
-    throw InvalidArgument("history", std::to_string(history.size()) + " poses, the limit is " +
-                                         std::to_string(model.history_frames));
-  }
-  ValidateHistory(model.skeleton, history, "history");
-  if (continuation) {
-    if (!history.empty()) {
-      throw InvalidArgument("history", "and a continuation exclude each other");
-    }
-    ValidateContinuation(model, *continuation, allow_inexact_resume, "continuation");
-  }
+  ValidateStart(model, "");
   const int64_t first = FirstFrame();
   if (first < 0 || first > kMaxDanceFrames) {
     throw InvalidArgument("first_frame", std::to_string(first) + " is not in [0, " +

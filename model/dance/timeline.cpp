@@ -19,6 +19,11 @@ double FiniteSeconds(double seconds, const std::string& field) {
 
 }  // namespace
 
+int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest) {
+  if (next_key && *next_key + 1 - from <= longest) return *next_key + 1;
+  return from + std::clamp(longest / 2, 1, kFreeTransitionFrames);
+}
+
 bool Key::operator==(const Key& other) const {
   return id == other.id && frame == other.frame && pose.root_position == other.pose.root_position &&
          pose.rotations == other.pose.rotations && mask.root_position == other.mask.root_position &&
@@ -27,9 +32,6 @@ bool Key::operator==(const Key& other) const {
 
 Timeline::Timeline(Options options) : options_(options), planned_to_(options.first_frame) {
   options_.max_transition_frames = std::min(options_.max_transition_frames, kMaxTransitionFrames);
-  // Half the longest at most, so that what is left before a key after a cut is never shorter than
-  // that.
-  free_frames_ = std::clamp(options_.max_transition_frames / 2, 1, kFreeTransitionFrames);
   if (options_.granted) GenerateUntil(*options_.granted);
 }
 
@@ -190,10 +192,18 @@ void Timeline::SetAudioEnd(int64_t frame) { audio_end_ = frame; }
 
 Segment Timeline::From(int64_t frame) const {
   const auto ahead = keys_.lower_bound(frame);
-  const bool is_near =
-      ahead != keys_.end() && ahead->first + 1 - frame <= options_.max_transition_frames;
-  const int64_t to = is_near ? ahead->first + 1 : frame + free_frames_;
-  return {frame, to, is_near ? std::optional(ahead->second) : std::nullopt, to};
+  const auto next = ahead == keys_.end() ? std::nullopt : std::optional(ahead->first);
+  const int64_t to = TransitionEnd(frame, next, options_.max_transition_frames);
+  const bool is_reached = next && *next + 1 == to;
+  return {frame, to, is_reached ? std::optional(ahead->second) : std::nullopt, to};
+}
+
+void Timeline::PlanTo(int64_t frame) {
+  const std::optional<int64_t> end = End();
+  while (planned_to_ < frame && !(end && planned_to_ >= *end)) {
+    planned_.push_back(From(planned_to_));
+    planned_to_ = planned_.back().to;
+  }
 }
 
 // The last planned transition may reach over the frontier.
@@ -209,20 +219,12 @@ void Timeline::Grant(int64_t frame) {
   if (frame <= frontier_) return;
   CutIfChanged();
   frontier_ = frame;
-  const std::optional<int64_t> end = End();
-  while (planned_to_ < frontier_ && !(end && planned_to_ >= *end)) {
-    planned_.push_back(From(planned_to_));
-    planned_to_ = planned_.back().to;
-  }
+  PlanTo(frontier_);
 }
 
 const Segment* Timeline::Current() {
-  const std::optional<int64_t> end = End();
   // When all is granted nothing can change any more, so when to plan no longer matters.
-  if (planned_.empty() && complete_ && !(end && planned_to_ >= *end)) {
-    planned_.push_back(From(planned_to_));
-    planned_to_ = planned_.back().to;
-  }
+  if (planned_.empty() && complete_) PlanTo(planned_to_ + 1);
   return planned_.empty() ? nullptr : &planned_.front();
 }
 

@@ -14,7 +14,7 @@
 /// Keys on the grid of the model's frames, and how they cut a dance into transitions.
 namespace choreo {
 
-/// Limits of the API (DESIGN section 7) that the timeline enforces.
+/// Limits of the API that the timeline enforces.
 inline constexpr int kMaxKeys = 1000;  ///< accepted in one stream, removed ones included
 inline constexpr int kMaxTransitionFrames = 1800;    ///< one transition; one minute at 30 fps
 inline constexpr int64_t kMaxDanceFrames = 108'000;  ///< absolute; one hour at 30 fps
@@ -62,6 +62,11 @@ struct Segment {
   std::optional<Key> key;
   int64_t stop = to;
 };
+
+/// Where the transition that begins at `from` ends, before the next key or none: behind that key,
+/// or, where none stands ahead within `longest` frames, after some kFreeTransitionFrames. Half the
+/// longest at most, so that what is left before a key after a cut is never shorter than that.
+int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 
 /// The keys of one dance, the frozen frontier, and the plan that follows from them.
 ///
@@ -159,9 +164,9 @@ class Timeline {
   void Grant(int64_t frame);
   void CutIfChanged();
   Segment From(int64_t frame) const;
+  void PlanTo(int64_t frame);
 
   Options options_;
-  int free_frames_;
   std::map<int64_t, Key> keys_;  // by frame; danced ones included
   std::unordered_map<std::string, int64_t> frame_of_;
   std::unordered_map<std::string, int64_t> rejected_;  // ids that only ever came late, and where

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "model/core/error.h"
 #include "model/dance/timeline.h"
@@ -218,33 +217,6 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
     }
   }
   return speed;
-}
-
-std::vector<DanceFrame> RunTransition(StepEngine& engine, const TransitionRequest& request,
-                                      const Eigen::MatrixXf& audio_rows,
-                                      std::optional<ArrivalResult>* arrival) {
-  TransitionRun run(engine.model(), request);
-  if (request.has_audio &&
-      (audio_rows.rows() != engine.model().audio_features || audio_rows.cols() < request.frames)) {
-    throw InvalidArgument("audio_rows", "is not [audio_features, frames]");
-  }
-  const auto release = [&engine](const int* slot) { engine.Release(*slot); };
-  const int slot = engine.Admit(run.spec());
-  const std::unique_ptr<const int, decltype(release)> guard(&slot, release);
-
-  std::vector<DanceFrame> frames;
-  frames.reserve(static_cast<size_t>(request.frames));
-  StepOutput output;
-  for (int frame = 0; frame < request.frames; ++frame) {
-    StepInput input{slot, run.previous(), {}};
-    if (request.has_audio) {
-      input.audio_row = {audio_rows.col(frame).data(), static_cast<size_t>(audio_rows.rows())};
-    }
-    engine.Step({&input, 1}, {&output, 1});
-    frames.push_back(run.Take(output));
-  }
-  if (arrival != nullptr) *arrival = run.arrival();
-  return frames;
 }
 
 }  // namespace choreo

@@ -152,13 +152,6 @@ void MoveOn(const Pose& newest, std::vector<Pose>* history);
 /// them.
 Pose RoundToFloat(const Pose& pose);
 
-/// Runs one transition on an engine by itself, in the calling thread (training, evaluation).
-/// `audio_rows` is [audio_features, frames]; unread without audio. The engine must have a free
-/// slot.
-std::vector<DanceFrame> RunTransition(StepEngine& engine, const TransitionRequest& request,
-                                      const Eigen::MatrixXf& audio_rows,
-                                      std::optional<ArrivalResult>* arrival = nullptr);
-
 /// Of the music's beats, in seconds, ascending, those of frames [first_frame, first_frame +
 /// frames), one before and one behind, as TransitionRequest::beats: in frames from the first.
 std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,

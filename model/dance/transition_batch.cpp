@@ -6,7 +6,7 @@ namespace choreo {
 namespace {
 
 struct Active {
-  size_t job;
+  size_t index;
   TransitionRun run;
   int slot;
 };
@@ -14,28 +14,30 @@ struct Active {
 }  // namespace
 
 std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
-                                               std::span<const TransitionJob> jobs,
+                                               std::span<const TransitionInput> transitions,
                                                const std::function<void(int)>& danced) {
-  std::vector<TransitionResult> results(jobs.size());
+  std::vector<TransitionResult> results(transitions.size());
   std::vector<Active> active;
   size_t next = 0;
   try {
-    while (next < jobs.size() || !active.empty()) {
-      while (next < jobs.size() && engine.free_slots() > 0) {
-        const TransitionJob& job = jobs[next];
-        if (job.request.has_audio && job.audio_rows.cols() < job.request.frames)
-          throw InvalidArgument("audio_rows", "are fewer than the frames");
-        TransitionRun run(engine.model(), job.request);
+    while (next < transitions.size() || !active.empty()) {
+      while (next < transitions.size() && engine.free_slots() > 0) {
+        const TransitionInput& given = transitions[next];
+        if (given.request.has_audio && (given.audio_rows.rows() != engine.model().audio_features ||
+                                        given.audio_rows.cols() < given.request.frames)) {
+          throw InvalidArgument("audio_rows", "is not [audio_features, frames]");
+        }
+        TransitionRun run(engine.model(), given.request);
         const int slot = engine.Admit(run.spec());
         active.push_back({next++, std::move(run), slot});
       }
       std::vector<StepInput> inputs;
       for (const Active& one : active) {
         StepInput input{one.slot, one.run.previous(), {}};
-        const TransitionJob& job = jobs[one.job];
-        if (job.request.has_audio) {
-          input.audio_row = {job.audio_rows.col(one.run.done()).data(),
-                             static_cast<size_t>(job.audio_rows.rows())};
+        const TransitionInput& given = transitions[one.index];
+        if (given.request.has_audio) {
+          input.audio_row = {given.audio_rows.col(one.run.done()).data(),
+                             static_cast<size_t>(given.audio_rows.rows())};
         }
         inputs.push_back(input);
       }
@@ -44,7 +46,7 @@ std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
       std::vector<Active> going_on;
       for (size_t i = 0; i < active.size(); ++i) {
         Active& one = active[i];
-        TransitionResult& result = results[one.job];
+        TransitionResult& result = results[one.index];
         result.frames.push_back(one.run.Take(outputs[i]));
         if (one.run.done() < one.run.frames()) {
           going_on.push_back(std::move(one));

@@ -10,8 +10,8 @@
 
 namespace choreo {
 
-/// One transition to dance.
-struct TransitionJob {
+/// One transition to dance, and what it hears.
+struct TransitionInput {
   TransitionRequest request;
   Eigen::MatrixXf audio_rows;  ///< [audio_features, frames]; unread without audio
 };
@@ -24,10 +24,11 @@ struct TransitionResult {
 };
 
 /// Dances many transitions as the server does, all slots of the engine together, which costs a
-/// fraction of one after the other and gives the same bits. Results have the order of the jobs.
-/// `danced` is told how many frames each step made.
+/// fraction of one after the other and gives the same bits. Results come in the same order.
+/// `danced` is told how many frames each step made. Throws Error(kInvalidArgument) for a request or
+/// rows of the wrong shape; then every slot is free again.
 std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
-                                               std::span<const TransitionJob> jobs,
+                                               std::span<const TransitionInput> transitions,
                                                const std::function<void(int)>& danced = {});
 
 }  // namespace choreo

@@ -13,6 +13,7 @@
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
 #include "model/dance/playback_clock.h"
+#include "model/dance/scheduled_transition.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 
@@ -74,51 +75,40 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   std::vector<CandidateReport> reports_;
 };
 
-class TransitionGroup::Impl::Job : public StepJob {
+class TransitionGroup::Impl::Job : public ScheduledTransition {
  public:
   Job(std::shared_ptr<Impl> group, int candidate, const TransitionRequest& request)
-      : group_(std::move(group)),
+      : ScheduledTransition(group->model_, request, group->audio_ ? &*group->audio_ : nullptr),
+        group_(std::move(group)),
         candidate_(candidate),
-        request_(request),
-        run_(std::in_place, group_->model_, request_),
         history_(FillHistory(group_->model_, request.history)),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
                 history_.back()),
-        row_(static_cast<size_t>(group_->model_.audio_features)),
         start_time_(PlaybackClock()) {}
-
-  const TransitionSpec& spec() const override { return run_->spec(); }
 
   bool NextInput(StepInput* input) override {
     if (!Ready()) return false;
-    if (group_->audio_) {
-      group_->audio_->CopyRow(group_->first_frame_ + run_->done(), row_);
-      input->audio_row = row_;
-    }
-    input->previous = run_->previous();
+    FillInput(input);
     return true;
   }
 
   bool Ready() const override { return !group_->paused_; }
 
-  void OnRestart() override { run_.emplace(group_->model_, request_); }
-
   bool OnFrame(const StepOutput& raw) override {
-    const DanceFrame frame = run_->Take(raw);
-    if (run_->done() <= danced_) return true;  // told before a restart
-    danced_ = run_->done();
-    meter_.Add(frame);
-    MoveOn(frame.pose, &history_);
-    if (run_->arrival()) meter_.AddKey(group_->request_.target_id, *run_->arrival());
-    OutputFrames frames = output_.Push(frame);
+    const std::optional<DanceFrame> frame = TakeNew(raw);
+    if (!frame) return true;
+    meter_.Add(*frame);
+    MoveOn(frame->pose, &history_);
+    if (run().arrival()) meter_.AddKey(group_->request_.target_id, *run().arrival());
+    OutputFrames frames = output_.Push(*frame);
     if (!frames.poses.empty()) {
       group_->mailbox_.Post([candidate = candidate_, frames = std::move(frames)](GroupSink& sink) {
         sink.OnFrames(candidate, frames.first_frame, frames.poses, frames.contacts);
       });
       group_->mailbox_.Deliver();
     }
-    return run_->done() < run_->frames();
+    return run().done() < run().frames();
   }
 
   void OnDone(const Error* failure) noexcept override {
@@ -138,15 +128,13 @@ class TransitionGroup::Impl::Job : public StepJob {
     }
   }
 
-  double NextDeadline() const override { return start_time_ + danced_ / group_->model_.fps; }
+  double NextDeadline() const override { return start_time_ + danced() / group_->model_.fps; }
 
   bool Cancelled() const override { return group_->cancelled_; }
 
-  const TransitionRun& run() const { return *run_; }
-
  private:
   Continuation GoesOn() const {
-    Continuation end{group_->first_frame_ + run_->done(), history_, group_->model_.fingerprint};
+    Continuation end{NextFrame(), history_, group_->model_.fingerprint};
     if (group_->request_.has_audio())
       end.audio_from_sample =
           LatestFirstSample(end.frame, group_->request_.sample_rate, group_->model_);
@@ -163,13 +151,9 @@ class TransitionGroup::Impl::Job : public StepJob {
 
   const std::shared_ptr<Impl> group_;
   const int candidate_;
-  const TransitionRequest request_;
-  std::optional<TransitionRun> run_;
-  std::atomic<int> danced_ = 0;  // frames that were told; more than run_ has after a restart
   std::vector<Pose> history_;
   QualityMeter meter_;
   OutputRate output_;
-  std::vector<float> row_;
   const double start_time_;
 };
 
@@ -216,13 +200,12 @@ void TransitionGroup::Impl::Begin() {
   transition.first_frame = first_frame_;
   transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, transition.frames);
   transition.style = request_.style;
-  transition.temperature =
-      request_.temperature.value_or(static_cast<float>(model_.default_temperature));
+  transition.temperature = request_.TemperatureOn(model_);
 
   controls_.Set(request_.controls, first_frame_, "controls");
   const Pose stance =
       controls_.Stance(first_frame_, transition.frames == 1 ? transition.target : std::nullopt);
-  const std::vector<Pose>& given = request_.History();
+  const std::vector<Pose>& given = request_.Before();
   transition.history =
       FillHistory(model_, given.empty() ? std::span(&stance, 1) : std::span(given));
   TransitionControls asked = controls_.For(first_frame_, transition.frames, transition.history,
@@ -239,7 +222,7 @@ void TransitionGroup::Impl::Begin() {
     transition.candidate = static_cast<uint32_t>(candidate);
     jobs.push_back(std::make_shared<Job>(shared_from_this(), candidate, transition));
   }
-  if (request_.continuation && request_.continuation->fingerprint != model_.fingerprint) {
+  if (request_.ResumesInexactly(model_)) {
     mailbox_.Post([warning = InexactResume(*request_.continuation, model_)](GroupSink& sink) {
       sink.OnWarning(warning);
     });

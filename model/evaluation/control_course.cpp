@@ -65,11 +65,11 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
   }
 }
 
-TransitionJob ControlCourse::JobFor(size_t window) const {
-  TransitionJob job = JobOf(model_, evaluation_.set, chosen_[window], frames_,
-                            static_cast<float>(model_.default_temperature), window);
-  job.request.target->pose = windows_[window].key;
-  return job;
+TransitionInput ControlCourse::InputFor(size_t window) const {
+  TransitionInput input = InputOf(model_, evaluation_.set, chosen_[window], frames_,
+                                  static_cast<float>(model_.default_temperature), window);
+  input.request.target->pose = windows_[window].key;
+  return input;
 }
 
 void ControlCourse::Redraw(const Draw& draw) {
@@ -78,7 +78,7 @@ void ControlCourse::Redraw(const Draw& draw) {
     asked.root_path = draw(&windows_[i]);
     ControlTrack track(model_);
     track.Set(asked, 0, "path");
-    const TransitionRequest request = JobFor(i).request;
+    const TransitionRequest request = InputFor(i).request;
     windows_[i].path =
         track.For(0, frames_, request.history, request.target, "key").controls.root_path;
     windows_[i].factors.resize(kBodyParts, 0);
@@ -110,16 +110,16 @@ Dances ControlCourse::Dance(const Method& way, double scale) const {
       dances.push_back(way.kind == Method::Kind::kReal ? window.real : Interpolated(window));
     return dances;
   }
-  std::vector<TransitionJob> jobs;
+  std::vector<TransitionInput> inputs;
   for (size_t i = 0; i < windows_.size(); ++i) {
-    TransitionJob job = JobFor(i);
-    if (way.TakesPath()) job.request.controls.root_path = windows_[i].path;
+    TransitionInput input = InputFor(i);
+    if (way.TakesPath()) input.request.controls.root_path = windows_[i].path;
     if (way.TakesVelocityFactors())
-      job.request.controls.velocity_factors = (scale * windows_[i].factors).cast<float>();
-    way.Restrict(&job.request);
-    jobs.push_back(std::move(job));
+      input.request.controls.velocity_factors = (scale * windows_[i].factors).cast<float>();
+    way.Restrict(&input.request);
+    inputs.push_back(std::move(input));
   }
-  for (const TransitionResult& result : evaluation_.runner.Dance(*way.engine, jobs)) {
+  for (const TransitionResult& result : evaluation_.runner.Dance(*way.engine, inputs)) {
     std::vector<Pose> poses;
     for (const DanceFrame& frame : result.frames) poses.push_back(frame.pose);
     dances.push_back(std::move(poses));

@@ -66,7 +66,7 @@ class ControlCourse {
   }
 
  private:
-  TransitionJob JobFor(size_t window) const;
+  TransitionInput InputFor(size_t window) const;
   std::vector<Pose> Interpolated(const ControlledWindow& window) const;
 
   const Evaluation& evaluation_;

@@ -15,12 +15,14 @@ constexpr int kFrames = 300;  // of each dance, at most
 // Inputs one after another, the samples of each together.
 std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) {
   const KeyTimes times = method.keys ? KeyTimes::kEachTwoSeconds : KeyTimes::kNone;
+  EvalOptions brief = evaluation.options;
+  brief.long_frames = std::min(brief.long_frames, kFrames);
   std::vector<LongPlan> plans;
-  for (const LongPlan& input : PlanLongDances(method.engine->model(), evaluation.set, times,
-                                              kInputs, Shorter(evaluation.options, kFrames))) {
+  for (const LongPlan& input :
+       PlanLongDances(method.engine->model(), evaluation.set, times, kInputs, brief)) {
     for (int sample = 0; sample < kSamples; ++sample) {
       plans.push_back(input);
-      plans.back().chain.seed += static_cast<uint64_t>(1000 * sample);
+      plans.back().seed += static_cast<uint64_t>(1000 * sample);
     }
   }
   return plans;
@@ -39,10 +41,10 @@ Eigen::MatrixXd Join(const std::vector<Eigen::MatrixXd>& parts) {
 }
 
 TableRow RowOf(const Method& method, const std::vector<LongPlan>& plans,
-               const std::vector<Chain>& chains, const MotionEncoder& encoder,
+               const std::vector<LongDance>& chains, const MotionEncoder& encoder,
                const Eigen::MatrixXd& reference) {
   std::vector<Eigen::MatrixXd> codes;
-  for (const Chain& chain : chains)
+  for (const LongDance& chain : chains)
     codes.push_back(encoder.Encode(method.engine->model().skeleton, chain.poses));
   double variability = 0;
   std::vector<Eigen::MatrixXd> firsts;
@@ -91,7 +93,7 @@ std::vector<Table> EvaluateEncoded(const Evaluation& evaluation) {
     }
     if (method.kind != Method::Kind::kEngine) continue;
     const std::vector<LongPlan> plans = Plans(evaluation, method);
-    const std::vector<Chain> danced = DanceLong(evaluation.runner, *method.engine, plans);
+    const std::vector<LongDance> danced = evaluation.runner.DanceLong(*method.engine, plans);
     table.rows.push_back(RowOf(method, plans, danced, encoder, reference));
   }
   return {table};

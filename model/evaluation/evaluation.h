@@ -77,8 +77,8 @@ struct Evaluation {
   }
 };
 
-// Each of these plans jobs, has the runner dance them, and returns tables of what came of it: none
-// where there is nothing to say of this set or model. All are deterministic.
+// Each of these plans inputs, has the runner dance them, and returns tables of what came of it:
+// none where there is nothing to say of this set or model. All are deterministic.
 
 /// Transitions between real poses (paper F, Table 2 and the key columns of Table 1). Methods have
 /// one temperature, the same windows, music, seeds and post-processing.

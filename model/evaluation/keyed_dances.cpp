@@ -24,19 +24,13 @@ std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set
     LongPlan plan;
     plan.clip = clip;
     plan.start = model.history_frames + (usable - spans * kSpan) / 2;
-    plan.chain.frames = spans * kSpan;
-    plan.chain.temperature = temperature;
+    plan.frames = spans * kSpan;
+    plan.temperature = temperature;
     const auto first = poses.begin() + plan.start;
-    plan.chain.history.assign(first - model.history_frames, first);
-    for (int key = kSpan - 1; key < plan.chain.frames; key += kSpan)
-      plan.chain.keys[key] = first[key];
+    plan.history.assign(first - model.history_frames, first);
+    for (int key = kSpan - 1; key < plan.frames; key += kSpan) plan.keys[key] = first[key];
     plans.push_back(std::move(plan));
   }
-  return plans;
-}
-
-std::vector<LongPlan> WithSeed(std::vector<LongPlan> plans, uint64_t seed) {
-  for (LongPlan& plan : plans) plan.chain.seed = seed;
   return plans;
 }
 
@@ -60,9 +54,9 @@ std::vector<double> ShuffledBeats(double bpm, uint64_t seed, double fps, int fra
 std::vector<Pose> RealThroughFootLock(const ModelInfo& model, const LongPlan& plan,
                                       const ClipSet& set) {
   const std::vector<Pose> real = RealMotionBeside(plan, set);
-  std::vector<Pose> emitted = plan.chain.history;
+  std::vector<Pose> emitted = plan.history;
   int from = 0;
-  for (const auto& [key, pose] : plan.chain.keys) {
+  for (const auto& [key, pose] : plan.keys) {
     const int frames = key + 1 - from;
     if (FootLock::Fits(model.skeleton, model.fps, frames)) {
       FootLock lock(model.skeleton, model.fps, frames, emitted, Target{pose, {}});
@@ -71,7 +65,7 @@ std::vector<Pose> RealThroughFootLock(const ModelInfo& model, const LongPlan& pl
     }
     for (; from <= key; ++from) emitted.push_back(real[static_cast<size_t>(from)]);
   }
-  emitted.erase(emitted.begin(), emitted.begin() + std::ssize(plan.chain.history));
+  emitted.erase(emitted.begin(), emitted.begin() + std::ssize(plan.history));
   return emitted;
 }
 

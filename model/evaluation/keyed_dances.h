@@ -12,9 +12,6 @@ namespace choreo {
 std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set,
                                       float temperature);
 
-/// The same dances with another seed.
-std::vector<LongPlan> WithSeed(std::vector<LongPlan> plans, uint64_t seed);
-
 /// Beats of one tempo, in frames, from before a dance of `frames` to behind it; `phase`: where the
 /// first stands after frame 0, as a part of their distance.
 std::vector<double> RegularBeats(double bpm, double phase, double fps, int frames);

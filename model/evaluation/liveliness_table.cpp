@@ -49,7 +49,7 @@ class Rows {
 };
 
 std::vector<LivelyDances> Measure(const ModelInfo& model, const std::vector<LongPlan>& plans,
-                                  const std::vector<Chain>& chains, size_t repeats) {
+                                  const std::vector<LongDance>& chains, size_t repeats) {
   std::vector<LivelyDances> all(repeats);
   for (size_t i = 0; i < chains.size(); ++i) {
     const size_t repeat = i / (chains.size() / repeats);
@@ -70,17 +70,19 @@ KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
   if (plans.empty()) return dances;
   // All together: the fuller the batch, the cheaper.
   std::vector<LongPlan> all;
-  for (uint64_t seed = 0; seed < kSeeds; ++seed)
-    std::ranges::copy(WithSeed(plans, seed), std::back_inserter(all));
+  for (uint64_t seed = 0; seed < kSeeds; ++seed) {
+    all.insert(all.end(), plans.begin(), plans.end());
+    for (size_t i = all.size() - plans.size(); i < all.size(); ++i) all[i].seed = seed;
+  }
   for (const Song& song : kSongs) {
     for (LongPlan plan : plans) {
-      const int frames = plan.chain.frames;
-      plan.chain.beats = song.shuffled ? ShuffledBeats(song.bpm, plan.clip, model.fps, frames)
-                                       : RegularBeats(song.bpm, song.phase, model.fps, frames);
+      const int frames = plan.frames;
+      plan.beats = song.shuffled ? ShuffledBeats(song.bpm, plan.clip, model.fps, frames)
+                                 : RegularBeats(song.bpm, song.phase, model.fps, frames);
       all.push_back(std::move(plan));
     }
   }
-  const std::vector<Chain> chains = DanceLong(evaluation.runner, *method.engine, all);
+  const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.engine, all);
   dances.seeds = Measure(model, all, chains, kSeeds + std::size(kSongs));
   dances.songs.assign(dances.seeds.begin() + kSeeds, dances.seeds.end());
   dances.seeds.resize(kSeeds);
@@ -195,7 +197,7 @@ void AddFree(const Evaluation& evaluation, const Method& method, Rows* rows) {
       PlanLongDances(model, evaluation.set, KeyTimes::kNone, options.free_dances, options);
   std::vector<LongFigures> dances;
   std::vector<float> speeds;
-  for (const Chain& chain : DanceLong(evaluation.runner, *method.engine, plans)) {
+  for (const LongDance& chain : evaluation.runner.DanceLong(*method.engine, plans)) {
     dances.push_back(MeasureLong(model.skeleton, model.fps, chain.poses, {}));
     speeds.push_back(static_cast<float>(dances.back().median_speed));
   }

@@ -16,13 +16,13 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
                                 const std::vector<Pose>& poses) {
   LivelyFigures figures;
   figures.clip = plan.clip;
-  std::vector<Pose> whole = {plan.chain.history.back()};
+  std::vector<Pose> whole = {plan.history.back()};
   whole.insert(whole.end(), poses.begin(), poses.end());
   figures.track = TrackJoints(model.skeleton, whole);
   figures.speeds = MeanSpeeds(figures.track, model.fps);
   figures.median_speed = Percentile(figures.speeds, 0.5);
   std::vector<int> keys;
-  for (const auto& [frame, pose] : plan.chain.keys) keys.push_back(frame + 1);
+  for (const auto& [frame, pose] : plan.keys) keys.push_back(frame + 1);
   const LimbTravel travel = MeasureLimbTravel(model.skeleton, figures.track, keys);
   figures.limb_path = travel.path;
   figures.limb_chord = travel.chord;

@@ -65,38 +65,25 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
     const int spare = std::max(0, length - history - (music ? options.long_frames : 1));
     const int places = (count + clips - 1) / clips;
     plan.start = history + (places > 1 ? spare * (i / clips) / (places - 1) : 0);
-    ChainPlan& chain = plan.chain;
-    chain.frames = music ? std::min(options.long_frames, length - plan.start) : options.long_frames;
+    plan.frames = music ? std::min(options.long_frames, length - plan.start) : options.long_frames;
     const auto first = clip.motion.frames.begin() + plan.start;
-    chain.history.assign(first - history, first);
-    if (music) chain.audio = clip.audio.middleCols(plan.start - history, history + chain.frames);
-    chain.beats = set.BeatsBetween(plan.clip, plan.start, chain.frames);
-    for (const int frame : KeyFrames(times, chain.frames, chain.beats))
-      chain.keys[frame] = WalkedPose(clip, plan.start + frame);
-    chain.seed = static_cast<uint64_t>(i);
-    chain.temperature = options.temperature;
+    plan.history.assign(first - history, first);
+    if (music) plan.audio = clip.audio.middleCols(plan.start - history, history + plan.frames);
+    plan.beats = set.BeatsBetween(plan.clip, plan.start, plan.frames);
+    for (const int frame : KeyFrames(times, plan.frames, plan.beats))
+      plan.keys[frame] = WalkedPose(clip, plan.start + frame);
+    plan.seed = static_cast<uint64_t>(i);
+    plan.temperature = options.temperature;
     plans.push_back(std::move(plan));
   }
   return plans;
 }
 
-EvalOptions Shorter(EvalOptions options, int frames) {
-  options.long_frames = std::min(options.long_frames, frames);
-  return options;
-}
-
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set) {
   std::vector<Pose> poses;
-  for (int frame = 0; frame < plan.chain.frames; ++frame)
+  for (int frame = 0; frame < plan.frames; ++frame)
     poses.push_back(WalkedPose(set.clips[plan.clip], plan.start + frame));
   return poses;
-}
-
-std::vector<Chain> DanceLong(const Runner& runner, StepEngine& engine,
-                             const std::vector<LongPlan>& plans) {
-  std::vector<ChainPlan> chains;
-  for (const LongPlan& plan : plans) chains.push_back(plan.chain);
-  return runner.DanceChains(engine, chains);
 }
 
 }  // namespace choreo

@@ -16,27 +16,13 @@ enum class KeyTimes {
 };
 std::string NameOf(KeyTimes times);
 
-/// A long dance to be danced beside a clip: its frame f goes with the clip's frame start + f.
-struct LongPlan {
-  size_t clip = 0;
-  int start = 0;
-  ChainPlan chain;
-};
-
 /// `count` dances of EvalOptions::long_frames, spread evenly over the clips of a set and the places
 /// within each. Beside music a dance ends with it; else a clip that is shorter than the dance
 /// offers its keys forwards, backwards, forwards.
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
                                      int count, const EvalOptions& options);
 
-/// The same with long dances of at most `frames`.
-EvalOptions Shorter(EvalOptions options, int frames);
-
 /// The real motion beside a long dance, of which its keys are frames: [chain.frames] poses.
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set);
-
-/// Dances them all.
-std::vector<Chain> DanceLong(const Runner& runner, StepEngine& engine,
-                             const std::vector<LongPlan>& plans);
 
 }  // namespace choreo

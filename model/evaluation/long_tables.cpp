@@ -15,7 +15,7 @@ std::vector<KeyTimes> KindsFor(const ClipSet& set) {
   return kinds;
 }
 
-std::vector<int> KeyFramesOf(const ChainPlan& plan) {
+std::vector<int> KeyFramesOf(const LongPlan& plan) {
   std::vector<int> frames;
   for (const auto& [frame, pose] : plan.keys) frames.push_back(frame);
   return frames;
@@ -164,14 +164,14 @@ std::vector<Table> EvaluateLongDances(const Evaluation& evaluation) {
   for (const KeyTimes times : KindsFor(set)) {
     const std::vector<LongPlan> plans =
         PlanLongDances(model, set, times, options.long_seeds, options);
-    const std::vector<Chain> chains =
-        DanceLong(evaluation.runner, *evaluation.judged().engine, plans);
+    const std::vector<LongDance> chains =
+        evaluation.runner.DanceLong(*evaluation.judged().engine, plans);
     const bool keyed = times == KeyTimes::kEachTwoSeconds;
     std::vector<LongFigures> dances, beside;
     double worst_key = 0;
     for (size_t i = 0; i < chains.size(); ++i) {
       const auto measure = [&](const std::vector<Pose>& poses) {
-        return MeasureLong(model.skeleton, model.fps, poses, KeyFramesOf(plans[i].chain));
+        return MeasureLong(model.skeleton, model.fps, poses, KeyFramesOf(plans[i]));
       };
       for (const auto& [frame, error] : chains[i].keys) worst_key = std::max(worst_key, error);
       if (keyed || times == KeyTimes::kNone) dances.push_back(measure(chains[i].poses));

@@ -19,10 +19,10 @@ std::string DrawPairedSheets(const ClipSet& set, const Method& method, float tem
   std::vector<LongPlan> plans = PlanKeyedDances(model, set, temperature);
   const auto frames = static_cast<int>(std::lround(kPairedSeconds * model.fps));
   for (LongPlan& plan : plans) {
-    plan.chain.frames = frames;
-    plan.chain.keys.erase(plan.chain.keys.lower_bound(frames), plan.chain.keys.end());
+    plan.frames = frames;
+    plan.keys.erase(plan.keys.lower_bound(frames), plan.keys.end());
   }
-  const std::vector<Chain> chains = DanceLong(Runner(), *method.engine, plans);
+  const std::vector<LongDance> chains = Runner().DanceLong(*method.engine, plans);
   ContactSheetOptions sheet;
   sheet.frames = 2 * kPairedSeconds * kPairedFrames;
   sheet.columns = kPairedFrames;

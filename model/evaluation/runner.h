@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -11,8 +12,11 @@
 
 namespace choreo {
 
-/// A long dance to be danced: a chain of transitions, as a stream has them.
-struct ChainPlan {
+/// A long dance to be danced beside a clip, a chain of transitions as a stream has them: its frame
+/// f goes with the clip's frame start + f.
+struct LongPlan {
+  size_t clip = 0;  ///< within its set
+  int start = 0;
   int frames = 0;
   std::vector<Pose> history;
   std::map<int, Pose> keys;  ///< by frame of the dance, each below `frames`
@@ -23,12 +27,12 @@ struct ChainPlan {
   float temperature = 0;
 };
 
-struct Chain {
+struct LongDance {
   std::vector<Pose> poses;     ///< [frames]
   std::map<int, double> keys;  ///< final error at each key, m
 };
 
-/// Dances what tables ask for, all jobs of a call together, and says how far it is. Not
+/// Dances what tables ask for, all of a call together, and says how far it is. Not
 /// thread-safe.
 class Runner {
  public:
@@ -38,12 +42,11 @@ class Runner {
 
   /// DanceTransitions.
   std::vector<TransitionResult> Dance(StepEngine& engine,
-                                      std::span<const TransitionJob> jobs) const;
+                                      std::span<const TransitionInput> inputs) const;
 
-  /// Of each plan a transition at a time: to the next key, or, where none follows,
-  /// kFreeTransitionFrames without target. Chain i does not depend on the others. Throws
-  /// Error(kInternal) as soon as a model gives a value that is not finite.
-  std::vector<Chain> DanceChains(StepEngine& engine, std::span<const ChainPlan> plans) const;
+  /// Of each plan a transition at a time (TransitionEnd). No dance depends on
+  /// the others. Throws Error(kInternal) as soon as a model gives a value that is not finite.
+  std::vector<LongDance> DanceLong(StepEngine& engine, std::span<const LongPlan> plans) const;
 
  private:
   ProgressBar* progress_;

@@ -76,19 +76,19 @@ std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
   const ClipSet& set = evaluation.set;
   const std::vector<EvalWindow> windows =
       ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip);
-  std::vector<TransitionJob> jobs;
+  std::vector<TransitionInput> inputs;
   std::vector<Danced> all;
   for (const EvalWindow& window : windows) {
-    jobs.push_back(
-        JobOf(model, set, window, one.frames, evaluation.options.temperature, jobs.size()));
-    TransitionRequest& request = jobs.back().request;
+    inputs.push_back(
+        InputOf(model, set, window, one.frames, evaluation.options.temperature, inputs.size()));
+    TransitionRequest& request = inputs.back().request;
     request.target = KeyOf(one, model.skeleton, request);
     all.push_back({{.fps = model.fps, .frames = RealPoses(set, window, one.frames, kFramesBefore)},
                    request.target,
                    TransitionRun(model, request).required_speed()});
   }
   if (one.way == Way::kReal) return all;
-  const auto results = evaluation.runner.Dance(*evaluation.judged().engine, jobs);
+  const auto results = evaluation.runner.Dance(*evaluation.judged().engine, inputs);
   for (size_t i = 0; i < results.size(); ++i) {
     std::ranges::transform(results[i].frames, all[i].motion.frames.begin() + kFramesBefore,
                            &DanceFrame::pose);

@@ -49,13 +49,13 @@ void TransitionJudge::AddRawKeys(Method method, float temperature, Figures* figu
 
 std::vector<TransitionResult> TransitionJudge::Dance(const Method& method, float temperature,
                                                      uint32_t candidate) const {
-  std::vector<TransitionJob> jobs;
+  std::vector<TransitionInput> inputs;
   for (size_t i = 0; i < windows_.size(); ++i) {
-    jobs.push_back(JobOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));
-    jobs.back().request.candidate = candidate;
-    method.Restrict(&jobs.back().request);
+    inputs.push_back(InputOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));
+    inputs.back().request.candidate = candidate;
+    method.Restrict(&inputs.back().request);
   }
-  return evaluation_.runner.Dance(*method.engine, jobs);
+  return evaluation_.runner.Dance(*method.engine, inputs);
 }
 
 }  // namespace choreo

@@ -41,26 +41,26 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
   return windows;
 }
 
-TransitionJob JobOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
-                    int frames, float temperature, size_t number) {
+TransitionInput InputOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
+                        int frames, float temperature, size_t number) {
   const PreparedClip& clip = set.clips[window.clip];
   const auto first = clip.motion.frames.begin() + window.start;
-  TransitionJob job;
-  job.request.frames = frames;
-  job.request.history.assign(first - model.history_frames, first);
-  job.request.target = WorldTarget{first[frames - 1], {}};
-  job.request.temperature = temperature;
-  job.request.seed = number;
-  job.request.beats =
+  TransitionInput input;
+  input.request.frames = frames;
+  input.request.history.assign(first - model.history_frames, first);
+  input.request.target = WorldTarget{first[frames - 1], {}};
+  input.request.temperature = temperature;
+  input.request.seed = number;
+  input.request.beats =
       set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
-  for (double& beat : job.request.beats) beat -= kBeatMargin;
+  for (double& beat : input.request.beats) beat -= kBeatMargin;
   if (clip.audio.cols() > 0 && model.audio_features > 0) {
-    job.request.has_audio = true;
-    job.request.audio_history =
+    input.request.has_audio = true;
+    input.request.audio_history =
         clip.audio.middleCols(window.start - model.history_frames, model.history_frames);
-    job.audio_rows = clip.audio.middleCols(window.start, frames);
+    input.audio_rows = clip.audio.middleCols(window.start, frames);
   }
-  return job;
+  return input;
 }
 
 std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
+#include "model/dance/transition_batch.h"
 #include "tests/dance/poses.h"
 #include "tests/support/fake_engine.h"
 
@@ -65,8 +66,8 @@ TEST(Transition, TheSpecStandsInTheCanonicalFrame) {
 TEST(Transition, FramesAreFloatsAndHitTheKey) {
   FakeEngine engine;
   const TransitionRequest request = RandomRequest(3);
-  std::optional<ArrivalResult> arrival;
-  const std::vector<DanceFrame> frames = RunTransition(engine, request, {}, &arrival);
+  const TransitionInput input{request, {}};
+  const auto [frames, arrival, speed] = DanceTransitions(engine, {&input, 1}).front();
   ASSERT_EQ(frames.size(), 30u);
   EXPECT_EQ(engine.free_slots(), engine.slots());
   for (const DanceFrame& frame : frames) {
@@ -83,8 +84,8 @@ TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   TransitionRequest request = RandomRequest(4);
   request.arrival.frames = 0;
   request.temperature = 1;
-  std::optional<ArrivalResult> arrival;
-  const std::vector<DanceFrame> frames = RunTransition(engine, request, {}, &arrival);
+  const TransitionInput input{request, {}};
+  const auto [frames, arrival, speed] = DanceTransitions(engine, {&input, 1}).front();
   ASSERT_TRUE(arrival);
   const PoseError error =
       ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.target->pose);

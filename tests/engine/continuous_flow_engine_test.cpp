@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "model/dance/transition.h"
+#include "model/dance/transition_batch.h"
 #include "model/engine/engines.h"
 #include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
@@ -127,15 +127,15 @@ TEST_F(ContinuousFlowEngineTest, DancesWithoutAKeyWithAPathAndFromHeldHistory) {
 }
 
 TEST_F(ContinuousFlowEngineTest, AServedTransitionArrivesExactly) {
-  TransitionRequest request;
+  TransitionInput input;
+  TransitionRequest& request = input.request;
   request.frames = 30;
   request.seed = 4;
   request.temperature = 0.7F;
   WorldTarget target{RestPose(Skeleton::Smpl24()), {}};
   target.pose.rotations(2, 16) = 1.0;
   request.target = target;
-  std::optional<ArrivalResult> arrival;
-  RunTransition(*engine_, request, {}, &arrival);
+  const auto arrival = DanceTransitions(*engine_, {&input, 1}).front().arrival;
   ASSERT_TRUE(arrival);
   EXPECT_LT(arrival->final_error_m, 1e-3);
   EXPECT_LT(arrival->final_error_deg, 0.1);

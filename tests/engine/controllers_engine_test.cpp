@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "model/controllers/random_controllers.h"
-#include "model/dance/transition.h"
+#include "model/dance/transition_batch.h"
 #include "model/engine/engines.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
@@ -111,14 +111,14 @@ TEST_F(ControllersEngineTest, FollowsItsPathAndReachesItsKey) {
 }
 
 TEST_F(ControllersEngineTest, DancesOnTheServedPipeline) {
-  TransitionRequest request;
+  TransitionInput input;
+  TransitionRequest& request = input.request;
   request.frames = 30;
   Pose there = RestPose(engine_->model().skeleton);
   there.root_position += Eigen::Vector3d(0.4, 0, 0.6);
   there.rotations(2, 16) = 0.8;
   request.target = WorldTarget{there, {}};
-  std::optional<ArrivalResult> arrival;
-  const auto frames = RunTransition(*engine_, request, {}, &arrival);
+  const auto [frames, arrival, speed] = DanceTransitions(*engine_, {&input, 1}).front();
   ASSERT_EQ(frames.size(), 30U);
   ASSERT_TRUE(arrival);
   EXPECT_LT(arrival->final_error_m, 0.001);

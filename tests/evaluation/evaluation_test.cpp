@@ -27,46 +27,45 @@ ClipSet TwoClips() {
 
 TEST(DanceTransitions, GivesTheBitsOfOneAfterTheOther) {
   const ClipSet set = TwoClips();
-  FakeEngine engine(3);  // fewer slots than jobs
-  std::vector<TransitionJob> jobs;
+  FakeEngine engine(3);  // fewer slots than inputs
+  std::vector<TransitionInput> inputs;
   for (const int frames : {30, 12}) {
     for (const EvalWindow& window : ChooseWindows(set, 10, frames, 3))
-      jobs.push_back(JobOf(engine.model(), set, window, frames, 0.5F, jobs.size()));
+      inputs.push_back(InputOf(engine.model(), set, window, frames, 0.5F, inputs.size()));
   }
   int64_t counted = 0;
-  const auto results = DanceTransitions(engine, jobs, [&](int frames) { counted += frames; });
-  ASSERT_EQ(results.size(), jobs.size());
+  const auto results = DanceTransitions(engine, inputs, [&](int frames) { counted += frames; });
+  ASSERT_EQ(results.size(), inputs.size());
   EXPECT_EQ(engine.free_slots(), 3);
   EXPECT_EQ(counted, 6 * 30 + 6 * 12);
-  for (size_t i = 0; i < jobs.size(); ++i) {
-    std::optional<ArrivalResult> arrival;
-    const auto alone = RunTransition(engine, jobs[i].request, jobs[i].audio_rows, &arrival);
-    ASSERT_EQ(results[i].frames.size(), alone.size());
-    EXPECT_EQ(results[i].arrival->raw_error_m, arrival->raw_error_m);
-    for (size_t t = 0; t < alone.size(); ++t)
-      ASSERT_EQ(results[i].frames[t].pose.rotations, alone[t].pose.rotations);
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    const TransitionResult alone = DanceTransitions(engine, {&inputs[i], 1}).front();
+    ASSERT_EQ(results[i].frames.size(), alone.frames.size());
+    EXPECT_EQ(results[i].arrival->raw_error_m, alone.arrival->raw_error_m);
+    for (size_t t = 0; t < alone.frames.size(); ++t)
+      ASSERT_EQ(results[i].frames[t].pose.rotations, alone.frames[t].pose.rotations);
   }
 }
 
 TEST(DanceTransitions, FreesItsSlotsWhenAJobIsWrong) {
   const ClipSet set = TwoClips();
   FakeEngine engine(4);
-  std::vector<TransitionJob> jobs;
+  std::vector<TransitionInput> inputs;
   for (const EvalWindow& window : ChooseWindows(set, 10, 20, 2))
-    jobs.push_back(JobOf(engine.model(), set, window, 20, 0.5F, 0));
-  jobs[1].audio_rows.conservativeResize(Eigen::NoChange, 5);
-  ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { DanceTransitions(engine, jobs); });
+    inputs.push_back(InputOf(engine.model(), set, window, 20, 0.5F, 0));
+  inputs[1].audio_rows.conservativeResize(Eigen::NoChange, 5);
+  ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { DanceTransitions(engine, inputs); });
   EXPECT_EQ(engine.free_slots(), 4);
 }
 
 TEST(InterpolationEngine, WalksTheLineOntoTheKey) {
   const ClipSet set = TwoClips();
   InterpolationEngine engine(FakeEngine(1).model(), 2);
-  TransitionJob job = JobOf(engine.model(), set, {0, 40}, 20, 0.5F, 0);
-  job.request.arrival.frames = 0;
-  job.request.foot_lock = false;
-  const auto result = DanceTransitions(engine, {&job, 1}).front();
-  const Pose half = InterpolatePoses(job.request.history.back(), job.request.target->pose, 0.5);
+  TransitionInput input = InputOf(engine.model(), set, {0, 40}, 20, 0.5F, 0);
+  input.request.arrival.frames = 0;
+  input.request.foot_lock = false;
+  const auto result = DanceTransitions(engine, {&input, 1}).front();
+  const Pose half = InterpolatePoses(input.request.history.back(), input.request.target->pose, 0.5);
   EXPECT_LT(ComparePoses(engine.model().skeleton, result.frames[9].pose, half).position_m, 1e-5);
   EXPECT_LT(result.arrival->raw_error_m, 1e-5);
 }

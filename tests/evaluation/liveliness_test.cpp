@@ -44,17 +44,17 @@ TEST(KeyedDances, TakeTheWholeClipUpToAMinuteFromItsMiddle) {
   ASSERT_EQ(plans.size(), 2U);  // ten seconds are too few
   for (const LongPlan& plan : plans) {
     EXPECT_EQ(plan.start, 10 + 25);
-    EXPECT_EQ(plan.chain.frames, 720);
-    EXPECT_EQ(plan.chain.keys.size(), 12U);
-    EXPECT_EQ(plan.chain.keys.rbegin()->first, 719);
-    EXPECT_EQ(plan.chain.history.size(), 10U);
-    EXPECT_EQ(plan.chain.audio.cols(), 0);
-    EXPECT_TRUE(plan.chain.beats.empty());
+    EXPECT_EQ(plan.frames, 720);
+    EXPECT_EQ(plan.keys.size(), 12U);
+    EXPECT_EQ(plan.keys.rbegin()->first, 719);
+    EXPECT_EQ(plan.history.size(), 10U);
+    EXPECT_EQ(plan.audio.cols(), 0);
+    EXPECT_TRUE(plan.beats.empty());
     const std::vector<Pose> beside = RealMotionBeside(plan, set);
-    for (const auto& [frame, pose] : plan.chain.keys)
+    for (const auto& [frame, pose] : plan.keys)
       EXPECT_EQ(beside[static_cast<size_t>(frame)].rotations, pose.rotations);
   }
-  EXPECT_EQ(PlanKeyedDances(model, Clips(2500), 0)[0].chain.frames, 1800);
+  EXPECT_EQ(PlanKeyedDances(model, Clips(2500), 0)[0].frames, 1800);
 }
 
 TEST(KeyedDances, BeatsAreRegularOrAsManyShuffled) {
@@ -85,7 +85,7 @@ TEST(KeyedDances, RealMotionThroughTheFootLockKeepsItsKeysAndSkatesLess) {
   const LongPlan plan = PlanKeyedDances(model, set, 0)[0];
   const std::vector<Pose> locked = RealThroughFootLock(model, plan, set);
   ASSERT_EQ(locked.size(), 720U);
-  for (const auto& [frame, pose] : plan.chain.keys)
+  for (const auto& [frame, pose] : plan.keys)
     EXPECT_LT(ComparePoses(Body(), locked[static_cast<size_t>(frame)], pose).position_m, 1e-3);
   EXPECT_LT(MeasureLiveliness(model, plan, locked).skate_ratio,
             0.5 * MeasureLiveliness(model, plan, RealMotionBeside(plan, set)).skate_ratio);

@@ -33,25 +33,23 @@ EvalOptions Short() {
   return options;
 }
 
-TEST(DanceChains, ReachTheirKeysAndGoOnAlone) {
+TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
   const ClipSet set = Clips(false);
   FakeEngine engine(3);
   const auto plans = PlanLongDances(engine.model(), set, KeyTimes::kEachTwoSeconds, 4, Short());
   ASSERT_EQ(plans.size(), 4U);
-  std::vector<ChainPlan> chains;
-  for (const LongPlan& plan : plans) chains.push_back(plan.chain);
-  const auto danced = Runner().DanceChains(engine, chains);
-  for (size_t i = 0; i < chains.size(); ++i) {
+  const auto danced = Runner().DanceLong(engine, plans);
+  for (size_t i = 0; i < plans.size(); ++i) {
     ASSERT_EQ(danced[i].poses.size(), 300U);
     EXPECT_EQ(danced[i].keys.size(), 5U);
     for (const auto& [frame, error] : danced[i].keys) {
       EXPECT_LE(error, 1e-3);
-      EXPECT_LT(ComparePoses(Body(), danced[i].poses[static_cast<size_t>(frame)],
-                             chains[i].keys.at(frame))
-                    .position_m,
-                1e-3);
+      EXPECT_LT(
+          ComparePoses(Body(), danced[i].poses[static_cast<size_t>(frame)], plans[i].keys.at(frame))
+              .position_m,
+          1e-3);
     }
-    const Chain alone = Runner().DanceChains(engine, {&chains[i], 1}).front();
+    const LongDance alone = Runner().DanceLong(engine, {&plans[i], 1}).front();
     for (size_t t = 0; t < 300; ++t)
       ASSERT_EQ(alone.poses[t].rotations, danced[i].poses[t].rotations);
   }
@@ -62,8 +60,8 @@ TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
   for (const LongPlan& plan :
        PlanLongDances(FakeEngine(1).model(), set, KeyTimes::kNone, 2, Short())) {
     EXPECT_EQ(plan.start, 10);
-    EXPECT_EQ(plan.chain.frames, static_cast<int>(set.clips[plan.clip].motion.frames.size()) - 10);
-    EXPECT_EQ(plan.chain.audio.cols(), plan.chain.frames + 10);
+    EXPECT_EQ(plan.frames, static_cast<int>(set.clips[plan.clip].motion.frames.size()) - 10);
+    EXPECT_EQ(plan.audio.cols(), plan.frames + 10);
   }
 }
 
@@ -73,7 +71,7 @@ TEST(PlanLongDances, KeysAreOfTheRealMotionBesideADance) {
        PlanLongDances(FakeEngine(1).model(), set, KeyTimes::kEachTwoSeconds, 4, Short())) {
     const std::vector<Pose> beside = RealMotionBeside(plan, set);
     ASSERT_EQ(beside.size(), 300U);
-    for (const auto& [frame, pose] : plan.chain.keys)
+    for (const auto& [frame, pose] : plan.keys)
       EXPECT_EQ(beside[static_cast<size_t>(frame)].root_position, pose.root_position);
     // Where the clip is over it is walked back: no step is longer than the clip's own.
     for (size_t t = 1; t < beside.size(); ++t)
@@ -89,10 +87,10 @@ TEST(PlanLongDances, KeysOnBeatsStandOnTheBeatNearestToTheEqualOnes) {
   const ModelInfo model = FakeEngine(1).model();
   const auto equal = PlanLongDances(model, set, KeyTimes::kEqual, 2, Short());
   const auto on = PlanLongDances(model, set, KeyTimes::kOnBeats, 2, Short());
-  ASSERT_EQ(equal[1].chain.keys.size(), 2U);
-  EXPECT_TRUE(equal[1].chain.keys.contains(99));
-  ASSERT_EQ(on[1].chain.keys.size(), 2U);
-  for (const auto& [frame, pose] : on[1].chain.keys) {
+  ASSERT_EQ(equal[1].keys.size(), 2U);
+  EXPECT_TRUE(equal[1].keys.contains(99));
+  ASSERT_EQ(on[1].keys.size(), 2U);
+  for (const auto& [frame, pose] : on[1].keys) {
     EXPECT_EQ((frame + on[1].start) % 24, 0);
     EXPECT_EQ(pose.root_position,
               set.clips[1].motion.frames[static_cast<size_t>(frame + on[1].start)].root_position);
