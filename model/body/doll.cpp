@@ -162,13 +162,13 @@ std::vector<DollPart> MakeDoll(const Skeleton& skeleton) {
   return AddParts(skeleton, doll) ? doll : Capsules(skeleton);
 }
 
-std::vector<BodyPart> PlaceDoll(const std::vector<DollPart>& doll,
-                                const JointPlacement& placement) {
+std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
+                                  const JointPlacement& placement) {
   const auto place = [&](const DollBall& ball) -> Eigen::Vector3f {
     return (placement.positions.col(ball.joint) + placement.rotations[ball.joint] * ball.offset)
         .cast<float>();
   };
-  std::vector<BodyPart> parts;
+  std::vector<PlacedPart> parts;
   parts.reserve(doll.size());
   for (const DollPart& part : doll) {
     parts.push_back({{place(part.a), place(part.b), static_cast<float>(part.a.radius),
@@ -178,11 +178,11 @@ std::vector<BodyPart> PlaceDoll(const std::vector<DollPart>& doll,
   return parts;
 }
 
-std::vector<BodyPart> BuildFigure(const Skeleton& skeleton, const Pose& pose) {
+std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose) {
   return PlaceDoll(MakeDoll(skeleton), ForwardKinematics(skeleton, pose));
 }
 
-Eigen::Vector3f SkinNormal(const std::vector<BodyPart>& parts, size_t index,
+Eigen::Vector3f SkinNormal(const std::vector<PlacedPart>& parts, size_t index,
                            const Eigen::Vector3f& point, const Eigen::Vector3f& own) {
   Eigen::Vector3f sum = own;
   for (size_t i = 0; i < parts.size(); ++i) {

@@ -38,21 +38,23 @@ struct DollPart {
 /// bone instead, as thick as its joints' roles say.
 std::vector<DollPart> MakeDoll(const Skeleton& skeleton);
 
-struct BodyPart {
+/// A part of the doll where a pose has it.
+struct PlacedPart {
   RoundedCone shape;  ///< in the world
   Colour colour;
 };
 
 /// Where the doll's parts are when its joints are there, in the doll's order.
-std::vector<BodyPart> PlaceDoll(const std::vector<DollPart>& doll, const JointPlacement& placement);
+std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
+                                  const JointPlacement& placement);
 
 /// The doll of a skeleton in a pose. Throws Error(kInvalidArgument) if the pose's joint count is
 /// not the skeleton's.
-std::vector<BodyPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
+std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
 
 /// Parts of one colour are one piece of skin: the normal of the part `index` at `point` on its
 /// surface, which alone would be `own`, blended with those of the parts that it meets there.
-Eigen::Vector3f SkinNormal(const std::vector<BodyPart>& parts, size_t index,
+Eigen::Vector3f SkinNormal(const std::vector<PlacedPart>& parts, size_t index,
                            const Eigen::Vector3f& point, const Eigen::Vector3f& own);
 
 }  // namespace choreo

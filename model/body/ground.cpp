@@ -8,7 +8,7 @@
 namespace choreo {
 namespace {
 
-double LowestPoint(const std::vector<BodyPart>& body) {
+double LowestPoint(const std::vector<PlacedPart>& body) {
   float lowest = std::numeric_limits<float>::infinity();
   for (const auto& [shape, colour] : body)
     lowest = std::min({lowest, shape.a.y() - shape.radius_a, shape.b.y() - shape.radius_b});

@@ -97,7 +97,7 @@ void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int join
 
 std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
   const std::vector<DollPart> doll = MakeDoll(skeleton);
-  const std::vector<BodyPart> parts =
+  const std::vector<PlacedPart> parts =
       PlaceDoll(doll, ForwardKinematics(skeleton, RestPose(skeleton)));
   std::vector<SkinPatch> patches;
   for (size_t i = 0; i < parts.size(); ++i) {

@@ -23,7 +23,8 @@ constexpr double kCorner = 8;
 constexpr Colour kPaper = Colour::Hex(0xffffff);
 constexpr Colour kInk = Colour::Hex(0x2b2b2b);
 constexpr Colour kFaint = Colour::Hex(0x85807a);
-constexpr Colour kKey = Colour::Hex(0xd99a00);
+const FrameStyle kPlain,
+    kKeyPose = {.background = Colour::Hex(0xfff6dd), .floor = Colour::Hex(0xf3e4b8)};
 
 void CheckWithin(const char* field, int value, int low, int high) {
   if (value < low || value > high) {
@@ -76,7 +77,7 @@ struct Header {
       facts = text;
     }
     legend = {{kLeftColour, "left"}, {kRightColour, "right"}};
-    if (!options.key_frames.empty()) legend.push_back({kKey, "key pose"});
+    if (!options.key_frames.empty()) legend.push_back({kKeyColour, "key pose"});
   }
 
   double Width(const Canvas& canvas) const {
@@ -128,7 +129,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
   if (shown.key) {
     RoundedRectangle(canvas, x + 1.5, y + 1.5, picture.width - 3, picture.height - 3,
                      kCorner - 1.5);
-    canvas.SetColour(kKey);
+    canvas.SetColour(kKeyColour);
     cairo_set_line_width(cr, 3);
     cairo_stroke(cr);
   }
@@ -146,7 +147,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
   const double width = canvas.TextWidth("key", kFont - 1, true) + 12;
   if (!shown.key || badge + width > right) return;
   RoundedRectangle(canvas, badge, text_y - 9, width, 18, 6);
-  canvas.SetColour(kKey);
+  canvas.SetColour(kKeyColour);
   cairo_fill(cr);
   canvas.SetColour(kPaper);
   canvas.Text("key", badge + 6, text_y, kFont - 1, Align::kLeft, true);
@@ -219,7 +220,7 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
   for (size_t i = 0; i < shown.size(); ++i) {
     const Pose& pose = motion.frames[shown[i].frame];
     DrawFrame(skeleton, pose, StandingView(poses[i], azimuth, extent),
-              KeyStyle(shown[i].key ? 1 : 0), picture);
+              shown[i].key ? kKeyPose : kPlain, picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     const int64_t since = options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0;
     const std::string caption =

@@ -17,7 +17,7 @@ double FitExtent(const Skeleton& skeleton, const std::vector<FramedPose>& poses,
   const std::vector<DollPart> doll = MakeDoll(skeleton);
   double top = 1.8, side = 0.5;
   for (const FramedPose& framed : poses) {
-    for (const BodyPart& part : PlaceDoll(doll, ForwardKinematics(skeleton, *framed.pose))) {
+    for (const PlacedPart& part : PlaceDoll(doll, ForwardKinematics(skeleton, *framed.pose))) {
       for (const auto& [ball, radius] : {std::pair(part.shape.a, part.shape.radius_a),
                                          std::pair(part.shape.b, part.shape.radius_b)}) {
         top = std::max(top, double{ball.y()} + radius);

@@ -42,7 +42,7 @@ float SmoothStep(float from, float to, float value) {
 
 class Renderer {
  public:
-  Renderer(const std::vector<BodyPart>& figure, const View& view, const FrameStyle& style,
+  Renderer(const std::vector<PlacedPart>& figure, const View& view, const FrameStyle& style,
            const Picture& picture)
       : figure_(figure),
         parts_(Bound(figure)),
@@ -56,7 +56,7 @@ class Renderer {
         grid_(static_cast<float>(style.grid_m)),
         background_(Linear(style.background)),
         floor_(Linear(style.floor)) {
-    for (const BodyPart& part : figure) colours_.push_back(Linear(part.colour));
+    for (const PlacedPart& part : figure) colours_.push_back(Linear(part.colour));
     Enclose(picture);
   }
 
@@ -74,9 +74,9 @@ class Renderer {
   }
 
  private:
-  static std::vector<BoundedCone> Bound(const std::vector<BodyPart>& figure) {
+  static std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
     std::vector<BoundedCone> parts;
-    for (const BodyPart& part : figure) parts.emplace_back(part.shape);
+    for (const PlacedPart& part : figure) parts.emplace_back(part.shape);
     return parts;
   }
 
@@ -233,7 +233,7 @@ class Renderer {
     return (1 - fade) * shade * floor_ + fade * background_;
   }
 
-  const std::vector<BodyPart>& figure_;
+  const std::vector<PlacedPart>& figure_;
   std::vector<BoundedCone> parts_;
   std::vector<Vector3f> colours_;
   Camera camera_;
@@ -253,13 +253,6 @@ class Renderer {
 
 }  // namespace
 
-FrameStyle KeyStyle(double amount) {
-  FrameStyle style;
-  style.background = Mix(style.background, Colour::Hex(0xfff6dd), amount);
-  style.floor = Mix(style.floor, Colour::Hex(0xf3e4b8), amount);
-  return style;
-}
-
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture) {
   if (style.samples < 1 || style.samples > 8) {
@@ -268,7 +261,7 @@ void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
   if (!pose.root_position.allFinite() || !pose.rotations.allFinite()) {
     throw InvalidArgument("pose", "holds values that are not finite");
   }
-  const std::vector<BodyPart> figure = BuildFigure(skeleton, pose);
+  const std::vector<PlacedPart> figure = BuildFigure(skeleton, pose);
   Renderer(figure, view, style, picture).Render(picture);
 }
 

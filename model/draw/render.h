@@ -16,8 +16,8 @@ struct FrameStyle {
   int samples = 3;      ///< rays a pixel along each side of the body, 1 to 8
 };
 
-/// The plain style with the colours of a key pose mixed in: all of them at amount = 1.
-FrameStyle KeyStyle(double amount);
+/// What frames a key pose.
+inline constexpr Colour kKeyColour = Colour::Hex(0xd99a00);
 
 /// Draws one pose, lit from the left above the camera, with its shadow on the floor y = 0, into a
 /// picture whose width and height are set (1 to 32767); `picture.rgb` is resized. The same input

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kCameraLag = 0.6;  // seconds: what the camera follows is blurred by so much
 constexpr double kKeyGlow = 0.15;   // seconds
+constexpr int kFrameShare = 90;     // of the picture's height a key's frame is this part wide
 constexpr int kSamples = 2;         // what the encoder keeps of more does not show
 
 // Where the root is over the floor, low-passed by a Gaussian, which looks ahead as far as back.
@@ -53,6 +54,24 @@ double Glow(double seconds, const std::vector<double>& keys) {
   return glow;
 }
 
+// The picture itself stays as it is: a key is no change of light.
+void DrawKeyFrame(double amount, Picture* picture) {
+  const int border = std::max(1, picture->height / kFrameShare);
+  const double key[] = {kKeyColour.r, kKeyColour.g, kKeyColour.b};
+  for (int y = 0; y < picture->height; ++y) {
+    const bool whole = y < border || y >= picture->height - border;
+    for (int x = 0; x < picture->width; ++x) {
+      if (!whole && x == border) x = std::max(x, picture->width - border);
+      const auto pixel = 3 * (static_cast<size_t>(y) * static_cast<size_t>(picture->width) +
+                              static_cast<size_t>(x));
+      for (size_t i = 0; i < 3; ++i) {
+        uint8_t& value = picture->rgb[pixel + i];
+        value = static_cast<uint8_t>(std::lround(value + amount * (255 * key[i] - value)));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<View> VideoViews(const Skeleton& skeleton, const Motion& motion, double aspect) {
@@ -79,10 +98,9 @@ void DrawVideo(const Skeleton& skeleton, const Motion& source, const VideoOption
       VideoViews(skeleton, motion, static_cast<double>(format.width) / format.height);
   const auto draw = [&](size_t frame) {
     Picture picture{.width = format.width, .height = format.height, .rgb = {}};
-    const double seconds = static_cast<double>(frame) / format.fps;
-    FrameStyle style = KeyStyle(Glow(seconds, options.keys));
-    style.samples = kSamples;
-    DrawFrame(skeleton, motion.frames[frame], views[frame], style, picture);
+    DrawFrame(skeleton, motion.frames[frame], views[frame], {.samples = kSamples}, picture);
+    const double glow = Glow(static_cast<double>(frame) / format.fps, options.keys);
+    if (glow > 0.01) DrawKeyFrame(glow, &picture);
     return picture;
   };
   // A few frames are drawn ahead, and written in order.

@@ -14,7 +14,7 @@ namespace choreo {
 
 struct VideoOptions {
   VideoFormat format;
-  /// Moments of key poses, seconds from the motion's first frame: the floor lights up.
+  /// Moments of key poses, seconds from the motion's first frame: a frame shows for a moment.
   std::vector<double> keys;
   /// Called after each frame with the number of frames there will be; may be empty.
   std::function<void(int64_t frames)> on_frame;

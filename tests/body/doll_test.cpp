@@ -14,13 +14,13 @@ TEST(Doll, EveryLeftLimbHasARightOneOfItsSize) {
   const Skeleton skeleton = fixtures::SymmetricSmpl();
   const Eigen::Vector3f mirror(-1, 1, 1);
   int left = 0, right = 0;
-  const std::vector<BodyPart> parts = BuildFigure(skeleton, RestPose(skeleton));
-  for (const BodyPart& part : parts) {
+  const std::vector<PlacedPart> parts = BuildFigure(skeleton, RestPose(skeleton));
+  for (const PlacedPart& part : parts) {
     right += part.colour == kRightColour;
     if (!(part.colour == kLeftColour)) continue;
     ++left;
     EXPECT_GT(part.shape.a.x(), 0);
-    EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const BodyPart& other) {
+    EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const PlacedPart& other) {
       return other.colour == kRightColour && other.shape.radius_a == part.shape.radius_a &&
              (other.shape.a.cwiseProduct(mirror) - part.shape.a).norm() < 1e-6 &&
              (other.shape.b.cwiseProduct(mirror) - part.shape.b).norm() < 1e-6;
@@ -32,7 +32,7 @@ TEST(Doll, EveryLeftLimbHasARightOneOfItsSize) {
 
 TEST(Doll, StandsOnTheFloorAtRest) {
   float lowest = 1, highest = 0;
-  for (const BodyPart& part : BuildFigure(kSmpl, RestPose(kSmpl))) {
+  for (const PlacedPart& part : BuildFigure(kSmpl, RestPose(kSmpl))) {
     lowest = std::min(
         {lowest, part.shape.a.y() - part.shape.radius_a, part.shape.b.y() - part.shape.radius_b});
     highest = std::max(
@@ -44,11 +44,11 @@ TEST(Doll, StandsOnTheFloorAtRest) {
 
 TEST(Doll, ABodyThatIsNotSmplsHasATrunkAndAHead) {
   const Skeleton& native = testing_support::Native().skeleton;
-  const std::vector<BodyPart> parts = BuildFigure(native, RestPose(native));
+  const std::vector<PlacedPart> parts = BuildFigure(native, RestPose(native));
   // A capsule a bone, one across the hips, one across the shoulders, and the head.
   EXPECT_GT(std::ssize(parts), native.joints() - 1 + 2);
   double top = 0, thickest = 0, thinnest = 1;
-  for (const BodyPart& part : parts) {
+  for (const PlacedPart& part : parts) {
     top = std::max<double>(top, part.shape.b.y() + part.shape.radius_b);
     thickest = std::max<double>(thickest, part.shape.radius_a);
     thinnest = std::min<double>(thinnest, part.shape.radius_a);
@@ -71,7 +71,7 @@ TEST(Doll, MovesRigidlyWithItsJoints) {
   const Pose pose = fixtures::RandomPose(kSmpl, generator, 1.5);
   const std::vector<DollPart> doll = MakeDoll(kSmpl);
   const JointPlacement placement = ForwardKinematics(kSmpl, pose);
-  const std::vector<BodyPart> parts = PlaceDoll(doll, placement);
+  const std::vector<PlacedPart> parts = PlaceDoll(doll, placement);
   ASSERT_EQ(parts.size(), doll.size());
   for (size_t i = 0; i < parts.size(); ++i) {
     const DollBall& ball = doll[i].b;

@@ -16,9 +16,9 @@ using Eigen::Vector3f;
 const Skeleton& kSmpl = Skeleton::Smpl24();
 
 // How far a point is from the nearest part's surface; below zero inside.
-float Distance(const std::vector<BodyPart>& parts, const Colour& colour, const Vector3f& point) {
+float Distance(const std::vector<PlacedPart>& parts, const Colour& colour, const Vector3f& point) {
   float nearest = 10;
-  for (const BodyPart& part : parts) {
+  for (const PlacedPart& part : parts) {
     if (!(part.colour == colour)) continue;
     const RoundedCone& cone = part.shape;
     // The distance from a hull of two balls is the least over the balls between them.
@@ -33,7 +33,7 @@ float Distance(const std::vector<BodyPart>& parts, const Colour& colour, const V
 }
 
 TEST(Skin, AtRestIsTheDoll) {
-  const std::vector<BodyPart> parts = BuildFigure(kSmpl, RestPose(kSmpl));
+  const std::vector<PlacedPart> parts = BuildFigure(kSmpl, RestPose(kSmpl));
   const std::vector<SkinPatch> skin = MakeSkin(kSmpl);
   EXPECT_EQ(skin.size(), 5u);  // left, right, trunk, skin, hair
   for (const SkinPatch& patch : skin) {
@@ -80,7 +80,7 @@ TEST(Skin, StaysOnTheDollWhenTheBodyBends) {
     for (const char* joint : {"spine1", "spine2", "spine3", "neck", "left_collar", "right_collar"})
       pose.rotations.col(kSmpl.Find(joint)) *= 0.3;
     const JointPlacement now = ForwardKinematics(kSmpl, pose);
-    const std::vector<BodyPart> parts = BuildFigure(kSmpl, pose);
+    const std::vector<PlacedPart> parts = BuildFigure(kSmpl, pose);
     for (const SkinPatch& patch : skin) {
       const bool limb = patch.colour == kLeftColour || patch.colour == kRightColour;
       for (size_t v = 0; v < patch.positions.size(); v += 11) {

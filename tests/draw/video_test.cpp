@@ -154,6 +154,29 @@ TEST(Video, TheSameDanceGivesTheSameBytes) {
   EXPECT_EQ(first, bytes("b.mp4"));
 }
 
+TEST(Video, AKeyShowsAtTheEdgeAlone) {
+  if (!HaveFfmpeg()) GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
+  const TemporaryFolder folder;
+  // The mean brightness of one frame's inner half, and of its upper edge.
+  const auto brightness = [&](const std::vector<double>& keys) {
+    VideoOptions options = Small();
+    options.keys = keys;
+    DrawVideo(kSmpl, Cheer(8, 8), options, folder / "a.mp4");
+    const std::string frames = Decode(folder / "a.mp4", "-map 0:v -f rawvideo -pix_fmt gray");
+    const auto mean = [&](int top, int bottom, int left, int right) {
+      double sum = 0;
+      for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x)
+          sum += static_cast<uint8_t>(frames[static_cast<size_t>((4 * 64 + y) * 96 + x)]);
+      return sum / ((bottom - top) * (right - left));
+    };
+    return std::pair(mean(16, 48, 24, 72), mean(0, 1, 0, 96));
+  };
+  const auto plain = brightness({}), key = brightness({4 / 30.0});
+  EXPECT_NEAR(key.first, plain.first, 1);
+  EXPECT_LT(key.second, plain.second - 30);
+}
+
 TEST(Video, FailsWithFfmpegsOwnWordsAndLeavesNothing) {
   if (!HaveFfmpeg()) GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   const TemporaryFolder folder;
