@@ -30,13 +30,13 @@ std::vector<Evaluate> TablesOf(Scope scope) {
     case Scope::kControls:
       return {EvaluateControls, EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths};
     case Scope::kLiveliness:
-      return {EvaluateLiveliness, EvaluateNearness};
+      return {EvaluateLiveliness, EvaluateStyles, EvaluateNearness};
     case Scope::kAll:
       break;
   }
-  return {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition,  EvaluateDrawnPaths,
-          EvaluateLiveliness, EvaluateNearness,    EvaluateTransitions, EvaluateLongDances,
-          EvaluateEncoded,    EvaluateStress};
+  return {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths,
+          EvaluateLiveliness, EvaluateStyles,      EvaluateNearness,   EvaluateTransitions,
+          EvaluateLongDances, EvaluateEncoded,     EvaluateStress};
 }
 
 struct Arguments {
@@ -100,12 +100,15 @@ std::string Summary(const Arguments& arguments, const Contest& contest) {
 }
 
 std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& contest,
-                              const MotionEncoder* encoder, const Arguments& arguments) {
+                              const MotionEncoder* encoder, const std::vector<ClipSet>& training,
+                              const Arguments& arguments) {
   std::vector<Table> tables;
   ProgressBar progress("evaluating", 0);
-  for (const ClipSet& set : sets) {
+  for (size_t i = 0; i < sets.size(); ++i) {
+    const ClipSet& set = sets[i];
     const Runner runner(&progress, "frames, " + set.name);
-    const Evaluation evaluation{set, contest.methods, arguments.options, runner, encoder};
+    const Evaluation evaluation{set,    contest.methods, arguments.options,
+                                runner, encoder,         training.empty() ? nullptr : &training[i]};
     for (const Evaluate evaluate : TablesOf(arguments.scope))
       std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
   }
@@ -143,13 +146,13 @@ void EvaluateAll(Arguments arguments) {
                                                    : static_cast<float>(model.default_temperature);
   const auto sets = LoadSets(arguments.data, arguments.splits, arguments.split, model.skeleton);
   if (!arguments.controls()) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
+  std::vector<ClipSet> training;
+  if (!arguments.controls())
+    training = LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton);
   std::optional<MotionEncoder> encoder;
-  if (arguments.encode && arguments.scope == Scope::kAll) {
-    encoder = MotionEncoder::Train(
-        LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton));
-  }
+  if (arguments.encode && arguments.scope == Scope::kAll) encoder = MotionEncoder::Train(training);
   const std::vector<Table> tables =
-      MakeTables(sets, contest, encoder ? &*encoder : nullptr, arguments);
+      MakeTables(sets, contest, encoder ? &*encoder : nullptr, training, arguments);
   const std::string summary = Summary(arguments, contest);
   std::printf("%s\n", summary.c_str());
   for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());

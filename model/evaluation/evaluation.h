@@ -62,6 +62,7 @@ struct Evaluation {
   const EvalOptions& options;
   const Runner& runner;
   const MotionEncoder* encoder = nullptr;  ///< of EvaluateEncoded
+  const ClipSet* training = nullptr;       ///< of EvaluateStyles: the set's clips that train
 
   const Method& judged() const { return methods.back(); }
   const ModelInfo& model() const { return judged().engine->model(); }
@@ -101,6 +102,10 @@ std::vector<Table> EvaluateNearness(const Evaluation& evaluation);
 /// "÷ real" are the sum over dances over the same of the clips; intervals over clips. No rows of
 /// keyed dances where no clip has 20 s.
 std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation);
+
+/// liveliness_styles_SET: how often a classifier that learnt the styles of the set's training clips
+/// (metrics/style_classifier.h) tells the style that dances without keys were asked for.
+std::vector<Table> EvaluateStyles(const Evaluation& evaluation);
 
 /// Long dances of the judged method beside the clips:
 ///   long_SET       with keys each 2 s and without: drift, freezing, explosion, limbs, keys

@@ -24,6 +24,7 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
   request.seed = plan.seed;
   request.first_frame = at;
   request.temperature = plan.temperature;
+  request.style = plan.style;
   if (plan.audio.cols() > 0) {
     request.has_audio = true;
     request.audio_history = plan.audio.middleCols(at, model.history_frames);

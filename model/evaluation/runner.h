@@ -25,6 +25,7 @@ struct LongPlan {
   std::vector<double> beats;  ///< of the music, in frames of the dance
   uint64_t seed = 0;
   float temperature = 0;
+  std::string style = {};  ///< as TransitionRequest has it
 };
 
 struct LongDance {

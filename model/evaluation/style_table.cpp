@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+
+#include "model/evaluation/evaluation.h"
+#include "model/evaluation/lively_figures.h"
+#include "model/evaluation/long_plans.h"
+#include "model/metrics/style_classifier.h"
+#include "model/training/style.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kSeconds = 20;
+
+// Index of a clip's style among `styles`, or -1.
+int StyleIn(const std::vector<std::string>& styles, const PreparedClip& clip) {
+  const auto found = std::ranges::find(styles, StyleOf(clip.name));
+  return found == styles.end() ? -1 : static_cast<int>(found - styles.begin());
+}
+
+}  // namespace
+
+std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  if (evaluation.training == nullptr || model.styles.empty()) return {};
+  std::vector<std::string> styles;  // that are both asked for and danced in the recordings
+  for (const std::string& style : model.styles) {
+    if (std::ranges::any_of(evaluation.training->clips,
+                            [&](const auto& clip) { return StyleOf(clip.name) == style; }))
+      styles.push_back(style);
+  }
+  if (styles.size() < 2) return {};
+  CriticWindows seen;
+  for (const PreparedClip& clip : evaluation.training->clips) {
+    const int style = StyleIn(styles, clip);
+    if (style < 0) continue;
+    seen.Add(TrackJoints(model.skeleton, clip.motion.frames), model.fps,
+             static_cast<size_t>(style));
+  }
+  const StyleClassifier classifier(seen, static_cast<int>(styles.size()));
+  const auto recognised = [&](std::span<const Pose> poses, int style) {
+    CriticWindows windows;
+    windows.Add(TrackJoints(model.skeleton, poses), model.fps, 0);
+    const auto right = std::ranges::count_if(
+        windows.features, [&](const auto& one) { return classifier.Classify(one) == style; });
+    return 100.0 * static_cast<double>(right) / static_cast<double>(windows.features.size());
+  };
+
+  std::vector<ClipFigure> real, danced;
+  std::vector<LongPlan> plans;
+  std::vector<int> asked;
+  const int history = model.history_frames, frames = kSeconds * static_cast<int>(model.fps);
+  for (size_t i = 0; i < evaluation.set.clips.size(); ++i) {
+    const PreparedClip& clip = evaluation.set.clips[i];
+    const auto& poses = clip.motion.frames;
+    if (const int style = StyleIn(styles, clip); style >= 0 && poses.size() > 2 * model.fps)
+      real.push_back({i, recognised(poses, style)});
+    if (std::ssize(poses) < history) continue;
+    for (size_t style = 0; style < styles.size(); ++style) {
+      LongPlan plan{.clip = i, .frames = frames, .seed = style};
+      plan.history.assign(poses.begin(), poses.begin() + history);
+      plan.temperature = evaluation.options.temperature;
+      plan.style = styles[style];
+      plans.push_back(std::move(plan));
+      asked.push_back(static_cast<int>(style));
+    }
+  }
+  const std::vector<LongDance> dances =
+      evaluation.runner.DanceLong(*evaluation.judged().engine, plans);
+  for (size_t i = 0; i < dances.size(); ++i)
+    danced.push_back({plans[i].clip, recognised(dances[i].poses, asked[i])});
+  Table table = evaluation.NewTable("liveliness_styles", "Is an asked style recognised");
+  table.note =
+      "Seconds that a classifier, which has seen the training clips, takes for the style that was "
+      "asked for, of " +
+      std::to_string(styles.size()) + "; no keys, " + std::to_string(kSeconds) + " s a dance.";
+  table.label_headings = {"figure"};
+  table.columns = {{"real motion", 1}, {"danced", 1}, {"chance", 1}};
+  table.rows = {
+      {{"right %"}, {Mean(real), Mean(danced), {100.0 / static_cast<double>(styles.size()), {}}}}};
+  return {table};
+}
+
+}  // namespace choreo
