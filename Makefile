@@ -46,7 +46,8 @@ format:  ## Format all sources in place
 	@scripts/install_packages.sh lint
 	@clang-format -i $(SOURCES)
 
-lint: build  ## Check formatting, and run clang-tidy over our sources
-	@scripts/install_packages.sh lint
+lint: build  ## Check formatting and the API's conventions, and run clang-tidy over our sources
+	@scripts/install_packages.sh lint test
+	@tests/proto/buf_test.sh lint
 	@clang-format --dry-run -Werror $(SOURCES)
 	@git ls-files '*.cpp' | xargs -P $(JOBS) -n 4 clang-tidy --quiet -p $(BUILD)
