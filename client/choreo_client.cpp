@@ -18,6 +18,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
   for (;;) {
     grpc::ClientContext context;
     if (patience.deadline()) context.set_deadline(*patience.deadline());
+    replicas->Prepare(&context);
     const Replicas::Server server = replicas->current();
     const grpc::Status status = call(server, &context);
     if (status.ok()) return;

@@ -28,11 +28,19 @@ namespace choreo::client {
 /// How to reach the servers, and how patiently.
 struct Options {
   /// HOST:PORT or unix:PATH. Several are replicas: when one fails, or is of another fingerprint
-  /// than the dance, the next is asked.
+  /// than the dance, the next is asked. Calls take turns at the addresses of one name, and pass
+  /// those whose health says that they do not serve.
   std::vector<std::string> addresses = {"127.0.0.1:50051"};
   bool tls = false;
   /// PEM file of the authority to trust, where `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};
+  /// PEM files of a certificate and its key, where `tls` and the server wants to see one.
+  std::filesystem::path client_certificate = {}, client_key = {};
+  /// Whose certificate the server must have, where `tls`; empty: the one of its address.
+  std::string server_name = {};
+  /// File of the token that the server wants: sent with each call, and read again for each, so
+  /// that it can be renewed. Needs `tls`, unless all addresses are of this machine.
+  std::filesystem::path token_file = {};
   double connect_timeout_s = 5;  ///< for one attempt at one address
   /// A server of which nothing is heard for so long during a call, not even the answer to a ping,
   /// is taken for lost, seconds; at least 2, or 0: never. Dances may pause longer.

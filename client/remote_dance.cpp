@@ -11,10 +11,11 @@ constexpr size_t kMusicChunkBytes = size_t{128} * 1024;
 
 }  // namespace
 
-Attempt::Attempt(Replicas::Server server, const v1::StreamDanceRequest& first,
+Attempt::Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
                  std::optional<Patience::Clock::time_point> deadline, Journal* journal,
                  std::mutex* mutex)
-    : server_(std::move(server)), journal_(journal), mutex_(mutex) {
+    : server_(replicas.current()), journal_(journal), mutex_(mutex) {
+  replicas.Prepare(&context_);
   if (deadline) context_.set_deadline(*deadline);
   stream_ = server_.stub->StreamDance(&context_);
   sender_ = std::thread([this, first] { SendLoop(first); });
@@ -92,8 +93,7 @@ void RemoteDance::Impl::Connect() {
   if (config_.has_audio_format() && bytes_per_sample_ > 0) {
     first.mutable_config()->mutable_audio_format()->set_first_sample(journal_.first_sample());
   }
-  attempt_ = std::make_unique<Attempt>(replicas_->current(), first, patience_.deadline(), &journal_,
-                                       &mutex_);
+  attempt_ = std::make_unique<Attempt>(*replicas_, first, patience_.deadline(), &journal_, &mutex_);
 }
 
 std::optional<Message> RemoteDance::Impl::Next() {

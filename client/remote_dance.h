@@ -19,7 +19,7 @@ namespace choreo::client {
 /// appending.
 class Attempt {
  public:
-  Attempt(Replicas::Server server, const v1::StreamDanceRequest& first,
+  Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
           std::optional<Patience::Clock::time_point> deadline, Journal* journal, std::mutex* mutex);
   ~Attempt();  ///< ends the call
   Attempt(const Attempt&) = delete;

@@ -5,6 +5,7 @@
 #include <grpcpp/support/channel_arguments.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -16,17 +17,43 @@ namespace {
 constexpr double kLongestBackoff = 2;  // seconds
 constexpr double kLeastSilence = 2;    // seconds; servers take no pings that come much faster
 
+/// Calls take turns at all addresses of a name, but for those that say that they do not serve.
+constexpr const char* kServiceConfig = R"({
+  "loadBalancingConfig": [{"round_robin": {}}],
+  "healthCheckConfig": {"serviceName": "choreo.v1.Choreography"}
+})";
+
+std::string ReadFile(const char* field, const std::filesystem::path& path) {
+  if (path.empty()) return "";
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InvalidArgument(field, "cannot read " + path.string());
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
-  if (!options.tls) return grpc::InsecureChannelCredentials();
-  grpc::SslCredentialsOptions ssl;
-  if (!options.ca_certificate.empty()) {
-    std::ifstream file(options.ca_certificate, std::ios::binary);
-    if (!file) {
-      throw InvalidArgument("ca_certificate", "cannot read " + options.ca_certificate.string());
-    }
-    ssl.pem_root_certs.assign(std::istreambuf_iterator<char>(file), {});
+  if (options.client_certificate.empty() != options.client_key.empty()) {
+    throw InvalidArgument(options.client_key.empty() ? "client_key" : "client_certificate",
+                          "missing; a certificate and its key go together");
   }
-  return grpc::SslCredentials(ssl);
+  if (!options.tls) return grpc::InsecureChannelCredentials();
+  return grpc::SslCredentials(
+      {.pem_root_certs = ReadFile("ca_certificate", options.ca_certificate),
+       .pem_private_key = ReadFile("client_key", options.client_key),
+       .pem_cert_chain = ReadFile("client_certificate", options.client_certificate)});
+}
+
+/// Nobody else hears what is said to it.
+bool IsOfThisMachine(const std::string& address) {
+  return address.starts_with("127.") || address.starts_with("localhost:") ||
+         address.starts_with("[::1]:") || address.starts_with("unix:");
+}
+
+void CheckToken(const Options& options) {
+  if (options.token_file.empty() || options.tls) return;
+  for (const std::string& address : options.addresses) {
+    if (IsOfThisMachine(address)) continue;
+    throw InvalidArgument("token_file", "a token goes to " + address + " over TLS alone");
+  }
 }
 
 void CheckNotNegative(const char* field, double value) {
@@ -52,7 +79,9 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   }
 
   const auto credentials = Credentials(options_);
+  CheckToken(options_);
   grpc::ChannelArguments arguments;
+  if (!options_.server_name.empty()) arguments.SetSslTargetNameOverride(options_.server_name);
   arguments.SetMaxReceiveMessageSize(-1);
   // gRPC's name for the time that one attempt to connect may take.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS,
@@ -66,12 +95,33 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, half);
     arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number
   }
+  // Who asks for health wants an answer from those, too, that do not serve.
+  grpc::ChannelArguments balanced = arguments;
+  balanced.SetServiceConfigJSON(kServiceConfig);
   for (const std::string& address : options_.addresses) {
     if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
-    const auto channel = grpc::CreateCustomChannel(address, credentials, arguments);
     servers_.push_back(
-        {address, v1::Choreography::NewStub(channel), grpc::health::v1::Health::NewStub(channel)});
+        {address,
+         v1::Choreography::NewStub(grpc::CreateCustomChannel(address, credentials, balanced)),
+         grpc::health::v1::Health::NewStub(
+             grpc::CreateCustomChannel(address, credentials, arguments))});
   }
+}
+
+void Replicas::Prepare(grpc::ClientContext* context) const {
+  if (options_.token_file.empty()) return;
+  std::string token = ReadFile("token_file", options_.token_file);
+  while (!token.empty() && std::isspace(static_cast<unsigned char>(token.back()))) {
+    token.pop_back();
+  }
+  // gRPC ends the process over a header of other characters.
+  const bool visible =
+      std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+  if (token.empty() || !visible) {
+    throw InvalidArgument("token_file",
+                          options_.token_file.string() + " is no line of visible ASCII characters");
+  }
+  context->AddMetadata("authorization", "Bearer " + token);
 }
 
 Replicas::Server Replicas::current() const {

@@ -29,6 +29,9 @@ class Replicas {
   explicit Replicas(Options options);
 
   const Options& options() const { return options_; }
+  /// What each call carries: the token. Throws Error(kNotFound) or Error(kInvalidArgument), field
+  /// "token_file".
+  void Prepare(grpc::ClientContext* context) const;
   Server current() const;
   /// This one failed: go on to the next, unless another caller went on already. False where there
   /// is no other.

@@ -22,6 +22,8 @@ ErrorCode ToCode(grpc::StatusCode code) {
       return ErrorCode::kUnimplemented;
     case grpc::StatusCode::UNAVAILABLE:
       return ErrorCode::kUnavailable;
+    case grpc::StatusCode::UNAUTHENTICATED:
+      return ErrorCode::kFailedPrecondition;  // that its client has a token
     case grpc::StatusCode::CANCELLED:
       return ErrorCode::kCancelled;
     case grpc::StatusCode::DEADLINE_EXCEEDED:

@@ -18,6 +18,11 @@ std::string Seconds(std::chrono::milliseconds limit) {
 
 }  // namespace
 
+Error HandedOn() {
+  return {ErrorCode::kUnavailable, "",
+          "the server is going away; another one can go on from the last continuation"};
+}
+
 void CallRegistry::Enter(const std::shared_ptr<Call>& call, const std::string& peer) {
   const std::lock_guard lock(mutex_);
   if (!admitting_) throw Error(ErrorCode::kUnavailable, "", kGoingAway);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -44,6 +45,9 @@ struct CallLimits {
   std::chrono::milliseconds unread{60'000};  ///< an answer was not taken
 };
 
+/// With what a call ends that another server can go on with.
+Error HandedOn();
+
 /// The calls in progress: how many there may be, how long each may stand still, and how they end
 /// when the server drains. A call enters when it begins and is admitted with its first message: who
 /// says nothing takes nobody's place. Thread-safe.
@@ -65,6 +69,9 @@ class CallRegistry {
 
   /// Calls that were not admitted end, too.
   void StopAdmitting();
+  /// Streams end with their next continuation, as HandedOn.
+  void EndAtTransitions() { ends_at_transitions_ = true; }
+  bool ends_at_transitions() const { return ends_at_transitions_; }
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
@@ -88,6 +95,7 @@ class CallRegistry {
   std::vector<std::shared_ptr<Call>> Calls(bool admitted) const;
 
   const CallLimits limits_;
+  std::atomic<bool> ends_at_transitions_ = false;
   mutable std::mutex mutex_;  // guards all below
   mutable std::condition_variable left_;
   std::map<const Call*, Entry> calls_;

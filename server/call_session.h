@@ -8,10 +8,12 @@
 #include <mutex>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "choreo/v1/choreography.pb.h"
 #include "model/dance/dance_stream.h"
+#include "server/caller.h"
 #include "server/outbox.h"
 #include "server/serving.h"
 #include "server/status.h"
@@ -28,11 +30,11 @@ class CallSession : public Call {
  public:
   using Wire = typename Outbox<Response>::Wire;
 
-  CallSession(Serving& serving, Wire* wire, std::string method, std::string peer)
+  CallSession(Serving& serving, Wire* wire, std::string method, Caller caller)
       : serving_(serving),
         outbox_(wire, serving.outbox_bytes, [this](bool paused) { SetPaused(paused); }),
         method_(std::move(method)),
-        peer_(std::move(peer)) {}
+        caller_(std::move(caller)) {}
 
   Outbox<Response>& outbox() { return outbox_; }
 
@@ -50,13 +52,20 @@ class CallSession : public Call {
     CancelDance();
   }
 
+  /// Before all else: finds out who it is that calls; false where the call ends for it.
+  bool Authenticate(std::string_view authorization) {
+    const grpc::Status status = serving_.tokens.FindHolder(authorization, &caller_.holder);
+    if (!status.ok()) outbox_.Close(status);
+    return status.ok();
+  }
+
   /// Counts the call as one in progress; with its first message. Throws as CallRegistry::Admit.
   void Admit() {
     if (std::exchange(admitted_, true)) return;
     serving_.calls.Admit(this);
   }
 
-  /// The reactor is done: frees the dance, which holds this session in turn, and logs the call.
+  /// The reactor is done: frees the dance, which holds this session in turn, and counts the call.
   void Release() noexcept {
     CancelDance();
     {
@@ -65,10 +74,13 @@ class CallSession : public Call {
     }
     try {
       const grpc::Status status = outbox_.status();
-      spdlog::info("{} {}: {} frames in {:.3f} s, status {}{}", method_, peer_, frames_, Elapsed(),
-                   static_cast<int>(status.error_code()),
-                   status.ok() ? std::string() : " (" + status.error_message() + ')');
-    } catch (const std::bad_alloc&) {  // a line of the log is nothing to die for
+      serving_.tally.Count({.method = method_,
+                            .caller = caller_,
+                            .status = status,
+                            .seconds = Elapsed(),
+                            .frames = frames_,
+                            .first_frame_s = first_frame_s_});
+    } catch (const std::bad_alloc&) {  // one call less in log and metrics is nothing to die for
     }
   }
 
@@ -100,7 +112,7 @@ class CallSession : public Call {
     } catch (const Error& error) {
       Fail(error);
     } catch (const std::exception& error) {
-      spdlog::error("{} {}: {}", method_, peer_, error.what());
+      spdlog::error("{} {}: {}", method_, caller_.peer, error.what());
       Fail(Error(ErrorCode::kInternal, "", error.what()));
     }
   }
@@ -179,7 +191,7 @@ class CallSession : public Call {
 
   Outbox<Response> outbox_;
   const std::string method_;
-  const std::string peer_;
+  Caller caller_;  // written before the call has entered
   const Clock::time_point start_ = Clock::now();
   bool admitted_ = false;  // of the sender of messages
 
@@ -188,7 +200,7 @@ class CallSession : public Call {
   bool ended_ = false;
 
   std::atomic<int64_t> frames_ = 0;
-  double first_frame_s_ = 0;
+  std::atomic<double> first_frame_s_ = 0;
 };
 
 }  // namespace choreo

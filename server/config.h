@@ -30,7 +30,13 @@ struct ServerConfig {
   std::string kernels;        ///< of the packed engine; empty: the fastest of this machine
   std::filesystem::path tls_certificate;  ///< PEM chain; empty: no TLS
   std::filesystem::path tls_key;          ///< PEM; goes with tls_certificate
+  std::filesystem::path tls_client_ca;    ///< PEM; empty: clients need no certificate
+  std::filesystem::path tokens;           ///< who may call (Tokens); empty: everybody
+  bool insecure = false;                  ///< no TLS beyond this machine is what is wanted
+  bool reflection = true;                 ///< clients may ask what the API is
   std::string log_level = "info";         ///< trace, debug, info, warning, error, critical, off
+  std::string log_format = "text";        ///< text, json
+  std::string metrics;                    ///< HOST:PORT or PORT for Prometheus; empty: nowhere
 
   // What clients may take, and for how long they may do nothing.
   int max_streams_of_peer = 0;        ///< calls of one address; 0: seven eighths of max_streams
@@ -44,6 +50,8 @@ struct ServerConfig {
   /// Slots of a model on each device. If not set, two for each call: half of them are for dances
   /// alone (Scheduler), so whoever is admitted also dances.
   int Slots() const { return slots > 0 ? slots : 2 * max_streams; }
+  /// HOST:PORT of `metrics`; a port alone is of this machine.
+  std::string MetricsAddress() const;
   int MaxStreamsOfPeer() const {
     return max_streams_of_peer > 0 ? max_streams_of_peer : max_streams - max_streams / 8;
   }

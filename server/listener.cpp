@@ -31,6 +31,34 @@ Error CannotListen(const std::string& address, const char* why) {
   return {ErrorCode::kUnavailable, "--listen", '"' + address + "\" cannot be listened on: " + why};
 }
 
+struct Addresses {
+  std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> first{nullptr, freeaddrinfo};
+  int error = 0;  // of getaddrinfo, where there is none
+};
+
+Addresses Resolve(const std::string& address) {
+  const size_t colon = address.rfind(':');
+  std::string host = address.substr(0, colon);
+  const std::string port = address.substr(colon + 1);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  addrinfo hints{};
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  Addresses addresses;
+  addresses.error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
+  addresses.first.reset(found);
+  return addresses;
+}
+
+bool IsLoopback(const sockaddr& address) {
+  if (address.sa_family == AF_INET6) {
+    return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
+  }
+  const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
+  return address.sa_family == AF_INET && ntohl(v4.sin_addr.s_addr) >> 24 == 127;
+}
+
 /// Connections get descriptors below this. A new one is the lowest that is free, so it tells how
 /// many there are.
 int DescriptorsForConnections() {
@@ -66,20 +94,10 @@ int Listen(const addrinfo& at) {
 }  // namespace
 
 Listener::Listener(const std::string& address) {
-  const size_t colon = address.rfind(':');
-  std::string host = address.substr(0, colon);
-  std::string port = address.substr(colon + 1);
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  addrinfo hints{};
-  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); error != 0) {
-    throw CannotListen(address, gai_strerror(error));
-  }
-  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, freeaddrinfo);
+  const Addresses found = Resolve(address);
+  if (!found.first) throw CannotListen(address, gai_strerror(found.error));
   int why = 0;
-  for (const addrinfo* at = found; at != nullptr; at = at->ai_next) {
+  for (const addrinfo* at = found.first.get(); at != nullptr; at = at->ai_next) {
     // All addresses of a host have one port, even where the first was free to choose it.
     if (port_ != 0 && at->ai_addr->sa_family == AF_INET6) {
       reinterpret_cast<sockaddr_in6*>(at->ai_addr)->sin6_port = htons(static_cast<uint16_t>(port_));
@@ -156,6 +174,14 @@ void Listener::Pause() {
   ++refused_;
   pollfd stop{.fd = stop_, .events = POLLIN, .revents = 0};
   poll(&stop, 1, kPauseMs);
+}
+
+bool IsLocal(const std::string& address) {
+  const Addresses found = Resolve(address);
+  for (const addrinfo* at = found.first.get(); at != nullptr; at = at->ai_next) {
+    if (!IsLoopback(*at->ai_addr)) return false;
+  }
+  return true;
 }
 
 void RaiseDescriptorLimit() {

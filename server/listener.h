@@ -46,6 +46,10 @@ class Listener {
   std::chrono::steady_clock::time_point next_report_;
 };
 
+/// Whether HOST:PORT can be reached from this machine alone. So is a host without an
+/// address, at which nobody can listen.
+bool IsLocal(const std::string& address);
+
 /// Lets the process have as many descriptors as it may ask for.
 void RaiseDescriptorLimit();
 

@@ -1,6 +1,5 @@
 #include <pthread.h>
 #include <signal.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -11,8 +10,10 @@
 #include "model/core/threads.h"
 #include "model/engine/devices.h"
 #include "model/engine/engines.h"
+#include "model/engine/warm_up.h"
 #include "server/config.h"
 #include "server/listener.h"
+#include "server/log.h"
 #include "server/server.h"
 
 namespace choreo {
@@ -46,6 +47,7 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
   for (const auto& path : checkpoints) {
     models.push_back(
         MakeEngines(path, workers, slots, ParseEngineKind(config.engine), config.kernels));
+    for (const auto& engine : models.back()) WarmUp(*engine);
     const StepEngine& engine = *models.back().front();
     spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...) of {} slots",
                  path.string(), engine.model().name, engine.model().fingerprint, workers.size(),
@@ -83,8 +85,7 @@ void Run(const ServerConfig& config) {
 int main(int argc, char** argv) {
   const choreo::CommandLine command_line = choreo::ParseCommandLine(argc, argv);
   if (!command_line.config) return command_line.exit_code;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("choreod"));
-  spdlog::set_level(spdlog::level::from_str(command_line.config->log_level));
+  choreo::StartLog(command_line.config->log_level, command_line.config->log_format == "json");
   try {
     choreo::Run(*command_line.config);
     return 0;

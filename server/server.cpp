@@ -3,13 +3,13 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/impl/server_builder_option.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -17,8 +17,10 @@
 #include "model/core/error.h"
 #include "server/connection_limits.h"
 #include "server/listener.h"
+#include "server/metrics.h"
 #include "server/service.h"
 #include "server/serving.h"
+#include "server/tls.h"
 #include "server/watch.h"
 
 namespace choreo {
@@ -30,11 +32,16 @@ using std::chrono::milliseconds;
 constexpr int kKeepaliveMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
 constexpr int kClientPingMs = 500;  // clients may ping this often, to notice a silent network
+/// Of the time to drain: streams that are still there in it end at their next transition, where
+/// others take them over without dancing anything twice.
+constexpr double kMovingShare = 0.25;
 /// What calls that were told to end get to do so.
 constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
 /// How often limits and engines are looked at.
 constexpr milliseconds kWatchInterval{100};
+/// How soon a token that is struck out is refused.
+constexpr milliseconds kTokenInterval{500};
 /// An engine that has failed this often in a row is broken.
 constexpr int kBroken = 3;
 /// After the last call of a server that drains: how long those who come are still refused in words.
@@ -42,12 +49,6 @@ constexpr int kBroken = 3;
 /// as CANCELLED, which tells nobody to go elsewhere. So the shutdown itself is short then.
 constexpr milliseconds kNotice{1'000};
 constexpr milliseconds kShutdownTimeAfterNotice{50};
-
-std::string ReadFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be read");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 milliseconds Milliseconds(double seconds) {
   return milliseconds(static_cast<int64_t>(seconds * 1e3));
@@ -62,13 +63,16 @@ CallLimits LimitsOf(const ServerConfig& config) {
           .unread = Milliseconds(config.unread_seconds)};
 }
 
-std::shared_ptr<grpc::ServerCredentials> Credentials(const ServerConfig& config) {
-  if (config.tls_certificate.empty()) return grpc::InsecureServerCredentials();
-  grpc::SslServerCredentialsOptions options;
-  options.pem_key_cert_pairs.push_back(
-      {ReadFile(config.tls_key), ReadFile(config.tls_certificate)});
-  return grpc::SslServerCredentials(options);
-}
+/// Takes gRPC's reflection from one server: linked in, it is in all.
+class WithoutReflection final : public grpc::ServerBuilderOption {
+ public:
+  void UpdateArguments(grpc::ChannelArguments* /*arguments*/) override {}
+  void UpdatePlugins(std::vector<std::unique_ptr<grpc::ServerBuilderPlugin>>* plugins) override {
+    std::erase_if(*plugins, [](const auto& plugin) {
+      return dynamic_cast<grpc::reflection::ProtoServerReflectionPlugin*>(plugin.get()) != nullptr;
+    });
+  }
+};
 
 std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engines> models,
                                                        const ServerConfig& config) {
@@ -93,18 +97,17 @@ std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engin
 
 struct Server::Impl {
   Impl(const ServerConfig& config, std::vector<Engines> models)
-      : serving(MakeSchedulers(std::move(models), config), LimitsOf(config),
+      : serving(MakeSchedulers(std::move(models), config), LimitsOf(config), config.tokens,
                 static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving, config.max_sleep_seconds),
         listener(config.listen) {
-    // Both plug into every server that is built from here on in this process.
-    grpc::EnableDefaultHealthCheckService(true);
-    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+    grpc::EnableDefaultHealthCheckService(true);  // of every server in this process
     grpc::ServerBuilder builder;
+    if (!config.reflection) builder.SetOption(std::make_unique<WithoutReflection>());
     acceptor = builder.experimental().AddExternalConnectionAcceptor(
         grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
-        Credentials(config));
+        MakeCredentials(config));
     LimitConnections(config, &builder);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
@@ -123,6 +126,10 @@ struct Server::Impl {
       serving.calls.EndIdle();
       UpdateHealth();
     });
+    if (serving.tokens.needed()) {
+      token_watch.emplace(kTokenInterval, [this] { serving.tokens.Refresh(); });
+    }
+    if (!config.metrics.empty()) metrics.emplace(config.MetricsAddress(), serving);
     listener.Start([this](int listening, int connection) {
       grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
       parameters.listener_fd = listening;
@@ -131,26 +138,32 @@ struct Server::Impl {
     });
   }
 
-  // SERVING unless it drains or an engine is broken.
+  // SERVING unless it drains or an engine is broken; of each model, and of all together.
   void UpdateHealth() {
     const std::lock_guard lock(health_mutex);
-    bool serves = !drained;
+    const std::string name = v1::Choreography::service_full_name();
+    bool all = !drained;
     for (const auto& scheduler : serving.models) {
       const int failures = scheduler->stats().failures;
-      if (failures < kBroken) continue;
-      serves = false;
-      if (healthy) {
+      const bool works = failures < kBroken;
+      all &= works;
+      if (TellHealth(name + '/' + scheduler->model().name, works && !drained) && !works) {
         spdlog::error(
-            "model \"{}\": its engine has failed {} times in a row; health says "
-            "NOT_SERVING",
+            "model \"{}\": its engine has failed {} times in a row; health says NOT_SERVING",
             scheduler->model().name, failures);
       }
     }
-    if (serves == healthy) return;
-    healthy = serves;
-    auto* health = server->GetHealthCheckService();
-    health->SetServingStatus(serves);
-    health->SetServingStatus(v1::Choreography::service_full_name(), serves);
+    TellHealth("", all);
+    TellHealth(name, all);
+  }
+
+  // Whether that is new.
+  bool TellHealth(const std::string& name, bool serves) {
+    const auto before = health.find(name);
+    if (before != health.end() && before->second == serves) return false;
+    server->GetHealthCheckService()->SetServingStatus(name, serves);
+    health[name] = serves;
+    return true;
   }
 
   Serving serving;
@@ -160,8 +173,11 @@ struct Server::Impl {
   Listener listener;
   std::atomic<bool> drained = false;
   std::mutex health_mutex;
-  bool healthy = false;        // as health tells it. Lock: health_mutex
-  std::optional<Watch> watch;  // last: it uses all of the above
+  std::map<std::string, bool> health;  // as it was told, by name. Lock: health_mutex
+  // Last: they use all of the above.
+  std::optional<Watch> watch;
+  std::optional<Watch> token_watch;
+  std::optional<MetricsEndpoint> metrics;
 };
 
 Server::Server(const ServerConfig& config, std::vector<Engines> models)
@@ -170,6 +186,8 @@ Server::Server(const ServerConfig& config, std::vector<Engines> models)
 Server::~Server() { Drain(0); }
 
 int Server::port() const { return impl_->listener.port(); }
+
+int Server::metrics_port() const { return impl_->metrics ? impl_->metrics->port() : 0; }
 
 int Server::transitions() const {
   int count = 0;
@@ -187,12 +205,17 @@ void Server::Drain(double seconds) {
   CallRegistry& calls = impl_->serving.calls;
   impl_->UpdateHealth();
   calls.StopAdmitting();
-  if (!calls.WaitUntilEmpty(Milliseconds(seconds))) {
+  const double moving = kMovingShare * seconds;
+  const auto wait = [&](double time) { return calls.WaitUntilEmpty(Milliseconds(time)); };
+  bool empty = wait(seconds - moving);
+  if (!empty) {
+    calls.EndAtTransitions();
+    empty = wait(moving);
+  }
+  if (!empty) {
     spdlog::warn("{} calls were still in progress after {} s; they end as UNAVAILABLE",
                  calls.count(), seconds);
-    calls.AbortAll(Error(ErrorCode::kUnavailable, "",
-                         "the server is going away; another one can go on from the last "
-                         "continuation"));
+    calls.AbortAll(HandedOn());
     calls.WaitUntilEmpty(kAbortTime);
   }
   const milliseconds notice = std::min(kNotice, Milliseconds(seconds));

@@ -17,9 +17,9 @@ class Server {
   using Engines = std::vector<std::unique_ptr<StepEngine>>;
 
   /// Listens when it returns. Of `config` only what concerns serving is read: listen, max_waiting,
-  /// max_streams, io_threads, outbox_kib, max_file_music_mib, max_network_mib, TLS, and what clients
-  /// may take. Throws Error(kInvalidArgument) for engines that do not go together,
-  /// Error(kUnavailable) naming an address that cannot be listened on.
+  /// max_streams, io_threads, outbox_kib, max_file_music_mib, max_network_mib, TLS, tokens,
+  /// reflection, metrics, and what clients may take. Throws Error(kInvalidArgument) for engines
+  /// that do not go together, Error(kUnavailable) naming an address that cannot be listened on.
   Server(const ServerConfig& config, std::vector<Engines> models);
   ~Server();  ///< Drain(0)
   Server(const Server&) = delete;
@@ -27,6 +27,8 @@ class Server {
 
   /// The port that was chosen.
   int port() const;
+  /// Where Prometheus finds figures; 0 without.
+  int metrics_port() const;
   /// Transitions that hold a slot, wait for one, or have lost theirs while they slept, over all
   /// models.
   int transitions() const;
@@ -34,8 +36,9 @@ class Server {
   int calls() const;
 
   /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on; those in progress may
-  /// go on for `seconds`, then end as UNAVAILABLE. Those who come up to a second after the last one
-  /// are still told so (0 seconds: nobody is). When it returns the server is shut down. Idempotent.
+  /// go on for `seconds`, then end as UNAVAILABLE; streams at a transition, if one comes in the
+  /// last quarter. Those who come up to a second after the last one are still told so (0 seconds:
+  /// nobody is). When it returns the server is shut down. Idempotent.
   void Drain(double seconds);
 
  private:

@@ -1,6 +1,7 @@
 #include "server/service.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "model/audio/format.h"
 #include "model/dance/timeline.h"
@@ -40,6 +41,22 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* ChoreographyService
 grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
     grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* /*request*/,
     v1::GetServerInfoResponse* response) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  Caller caller = CallerOf(*context);
+  const grpc::Status status =
+      serving_.tokens.FindHolder(HeaderOf(*context, "authorization"), &caller.holder);
+  if (status.ok()) Describe(response);
+  serving_.tally.Count({.method = "GetServerInfo",
+                        .caller = caller,
+                        .status = status,
+                        .seconds = std::chrono::duration<double>(Clock::now() - begin).count()});
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  reactor->Finish(status);
+  return reactor;
+}
+
+void ChoreographyService::Describe(v1::GetServerInfoResponse* response) const {
   response->set_version(CHOREO_VERSION);
   v1::Limits* limits = response->mutable_limits();
   limits->set_max_message_bytes(kMaxMessageBytes);
@@ -68,9 +85,6 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
   }
   response->set_slots(slots);
   response->set_active_streams(serving_.calls.count());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(grpc::Status::OK);
-  return reactor;
 }
 
 }  // namespace choreo

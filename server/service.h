@@ -24,6 +24,8 @@ class ChoreographyService final
                                           v1::GetServerInfoResponse* response) override;
 
  private:
+  void Describe(v1::GetServerInfoResponse* response) const;
+
   Serving& serving_;
   const double max_sleep_s_;
 };

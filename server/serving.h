@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,16 +10,20 @@
 #include "model/engine/scheduler.h"
 #include "server/call_registry.h"
 #include "server/music_file.h"
+#include "server/tally.h"
 #include "server/task_pool.h"
+#include "server/tokens.h"
 
 namespace choreo {
 
 /// What the calls of one server share. Thread-safe after construction; outlives every call.
 struct Serving {
   Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, const CallLimits& limits,
-          size_t outbox_limit, int64_t file_music_bytes, int io_threads)
+          std::filesystem::path tokens_file, size_t outbox_limit, int64_t file_music_bytes,
+          int io_threads)
       : models(std::move(schedulers)),
         calls(limits),
+        tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
         decoding(io_threads),
@@ -37,6 +42,8 @@ struct Serving {
 
   const std::vector<std::unique_ptr<Scheduler>> models;  ///< one each; never empty
   CallRegistry calls;
+  Tokens tokens;
+  Tally tally;
   const size_t outbox_bytes;
   MusicBudget file_music;
   // Last: their threads use all of the above.

@@ -9,6 +9,7 @@
 
 #include "model/core/error.h"
 #include "server/call_session.h"
+#include "server/caller.h"
 #include "server/read_message.h"
 
 namespace choreo {
@@ -44,12 +45,14 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
  protected:
   SessionReactor(Serving& serving, grpc::CallbackServerContext* context)
       : serving_(serving),
-        session_(std::make_shared<Session>(serving, this, context->peer())),
+        session_(std::make_shared<Session>(serving, this, CallerOf(*context))),
         context_(context) {}
 
-  /// Tells the service of the call and runs `begin`; a service that is full fails the call.
+  /// Tells the service of the call and runs `begin`; a client without a token, and a service that
+  /// is full, fail the call.
   template <class Begin>
   void Enter(Begin begin) {
+    if (!session_->Authenticate(HeaderOf(*context_, "authorization"))) return;
     try {
       serving_.calls.Enter(session_, context_->peer());
       begin();

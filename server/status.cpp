@@ -1,5 +1,6 @@
 #include "server/status.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -67,11 +68,9 @@ std::string OneShortLine(std::string_view text) {
   return line.substr(0, head) + "..." + line.substr(tail);
 }
 
-}  // namespace
-
-grpc::Status ToStatus(const Error& error, double retry_after) {
-  const Mapping mapping = Map(error.code());
-  const std::string message = OneShortLine(error.what()), field = OneShortLine(error.field());
+grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::string_view of_field,
+                        double retry_after) {
+  const std::string message = OneShortLine(text), field = OneShortLine(of_field);
   google::rpc::Status status;
   status.set_code(mapping.code);
   status.set_message(message);
@@ -97,6 +96,41 @@ grpc::Status ToStatus(const Error& error, double retry_after) {
     status.add_details()->PackFrom(retry);
   }
   return {mapping.code, message, status.SerializeAsString()};
+}
+
+}  // namespace
+
+grpc::Status ToStatus(const Error& error, double retry_after) {
+  return MakeStatus(Map(error.code()), error.what(), error.field(), retry_after);
+}
+
+grpc::Status Unauthenticated(const std::string& message) {
+  return MakeStatus({grpc::StatusCode::UNAUTHENTICATED, "TOKEN_NEEDED", false}, message, "", 0);
+}
+
+const char* NameOf(grpc::StatusCode code) {
+  // In the order of their numbers.
+  static constexpr std::array kNames = {
+      "OK",
+      "CANCELLED",
+      "UNKNOWN",
+      "INVALID_ARGUMENT",
+      "DEADLINE_EXCEEDED",
+      "NOT_FOUND",
+      "ALREADY_EXISTS",
+      "PERMISSION_DENIED",
+      "RESOURCE_EXHAUSTED",
+      "FAILED_PRECONDITION",
+      "ABORTED",
+      "OUT_OF_RANGE",
+      "UNIMPLEMENTED",
+      "INTERNAL",
+      "UNAVAILABLE",
+      "DATA_LOSS",
+      "UNAUTHENTICATED",
+  };
+  const auto number = static_cast<size_t>(code);
+  return number < kNames.size() ? kNames[number] : "UNKNOWN";
 }
 
 }  // namespace choreo

@@ -2,6 +2,8 @@
 
 #include <grpcpp/support/status.h>
 
+#include <string>
+
 #include "model/core/error.h"
 
 namespace choreo {
@@ -10,5 +12,11 @@ namespace choreo {
 /// ErrorInfo always; BadRequest where the error names a field; RetryInfo, `retry_after` seconds,
 /// where trying again helps.
 grpc::Status ToStatus(const Error& error, double retry_after = 1);
+
+/// Who calls is not known. ErrorInfo goes with it.
+grpc::Status Unauthenticated(const std::string& message);
+
+/// As people know it: "RESOURCE_EXHAUSTED".
+const char* NameOf(grpc::StatusCode code);
 
 }  // namespace choreo

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
@@ -32,8 +33,8 @@ class DanceSession final : public CallSession<Response, DanceStream>,
                            public DanceSink,
                            public std::enable_shared_from_this<DanceSession> {
  public:
-  DanceSession(Serving& serving, Wire* wire, std::string peer)
-      : CallSession(serving, wire, "StreamDance", std::move(peer)), file_(serving.file_music) {}
+  DanceSession(Serving& serving, Wire* wire, Caller caller)
+      : CallSession(serving, wire, "StreamDance", std::move(caller)), file_(serving.file_music) {}
 
   /// False where the call fails for it.
   bool Read(const grpc::ByteBuffer& bytes, Request* request) {
@@ -77,6 +78,9 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   }
 
   void OnEvent(const DanceEvent& event) override {
+    if (const auto* key = std::get_if<KeyReached>(&event)) {
+      serving_.tally.key_error_m.Add(key->arrival.raw_error_m);
+    }
     Response response;
     FromEvent(event, scheduler_->model().fps, response.mutable_event());
     outbox().Send(std::move(response));
@@ -87,6 +91,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     FromContinuation(continuation, scheduler_->model(), seed_, audio_ ? &*audio_ : nullptr,
                      response.mutable_continuation());
     outbox().Send(std::move(response));
+    if (serving_.calls.ends_at_transitions()) Fail(HandedOn());
   }
 
   void OnSummary(const QualityReport& report) override {

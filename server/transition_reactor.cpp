@@ -25,8 +25,8 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
                                 public GroupSink,
                                 public std::enable_shared_from_this<TransitionSession> {
  public:
-  TransitionSession(Serving& serving, Wire* wire, std::string peer)
-      : CallSession(serving, wire, "GenerateTransition", std::move(peer)) {}
+  TransitionSession(Serving& serving, Wire* wire, Caller caller)
+      : CallSession(serving, wire, "GenerateTransition", std::move(caller)) {}
 
   /// Takes long: reads and digests the music, that of a file among its like. The call lasts at
   /// least as long as `hold`, so there are never more files waiting than calls.
@@ -82,6 +82,9 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
       FromContinuation(report.continuation, *model_, seed_, audio_ ? &*audio_ : nullptr,
                        candidate->mutable_continuation());
       frames += report.quality.frames;
+      for (const KeyReport& key : report.quality.keys) {
+        serving_.tally.key_error_m.Add(key.arrival.raw_error_m);
+      }
     }
     FillTiming(static_cast<double>(frames) / model_->fps, summary->mutable_timing());
     outbox().Send(std::move(response));

@@ -1,22 +1,29 @@
 #pragma once
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
 
 namespace choreo {
 
-/// A thread that does something every now and then, from construction to destruction. What it does
-/// must not throw.
+/// A thread that does something every now and then, from construction to destruction. What it
+/// throws (memory may be out for a moment) is logged, and it is done again the next time.
 class Watch {
  public:
   Watch(std::chrono::milliseconds interval, std::function<void()> action)
       : thread_([this, interval, action = std::move(action)](const std::stop_token& stop) {
           std::unique_lock lock(mutex_);
           while (!wake_.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
-            action();
+            try {
+              action();
+            } catch (const std::exception& error) {
+              spdlog::error("a look at calls and engines failed: {}", error.what());
+            }
           }
         }) {}
 

@@ -20,9 +20,25 @@ void ServerOptions::AddTo(CLI::App& command) {
               "stand in for each other. Without it, one is started on this machine for as long as "
               "it is needed.")
       ->envname("CHOREO_SERVER");
-  command.add_flag("--tls", tls, "Encrypt the connection.");
-  command.add_option("--ca", ca_certificate,
-                     "PEM file of the authority to trust, with --tls; default: the system's.");
+  command.add_flag("--tls", tls, "Encrypt the connection.")->envname("CHOREO_TLS");
+  command
+      .add_option("--ca", ca_certificate,
+                  "PEM file of the authority to trust, with --tls; default: the system's.")
+      ->envname("CHOREO_CA");
+  command
+      .add_option("--client-cert", client_certificate,
+                  "PEM file of a certificate to show to the server, with --tls.")
+      ->envname("CHOREO_CLIENT_CERT");
+  command.add_option("--client-key", client_key, "PEM file with the private key of --client-cert.")
+      ->envname("CHOREO_CLIENT_KEY");
+  command
+      .add_option("--server-name", server_name,
+                  "Whose certificate the server must have, with --tls; default: its address's.")
+      ->envname("CHOREO_SERVER_NAME");
+  command
+      .add_option("--token-file", token_file,
+                  "File of the token that the server wants; sent over TLS, or to this machine.")
+      ->envname("CHOREO_TOKEN_FILE");
   command.add_option("--deadline", deadline_s, "Give up after this many seconds; 0: never.")
       ->check(TimeInSeconds())
       ->capture_default_str();
@@ -33,6 +49,10 @@ client::Options ServerOptions::ForClient() const {
   if (!addresses.empty()) options.addresses = addresses;
   options.tls = tls;
   options.ca_certificate = ca_certificate;
+  options.client_certificate = client_certificate;
+  options.client_key = client_key;
+  options.server_name = server_name;
+  options.token_file = token_file;
   options.deadline_s = deadline_s;
   options.allow_inexact_resume = allow_inexact_resume;
   return options;
@@ -43,6 +63,9 @@ Connection::Connection(const ServerOptions& options) {
   if (options.addresses.empty()) {
     own_ = std::make_unique<LocalServer>();
     client_options.addresses = {own_->address()};
+    // These are for others' servers, and may come from the environment.
+    client_options.tls = false;
+    client_options.token_file.clear();
   }
   client_options.before_retry = [own = own_.get()] {
     Interruption::Check();

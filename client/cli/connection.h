@@ -14,7 +14,7 @@ namespace choreo::cli {
 struct ServerOptions {
   std::vector<std::string> addresses;
   bool tls = false;
-  std::string ca_certificate;
+  std::string ca_certificate, client_certificate, client_key, server_name, token_file;
   double deadline_s = 0;
   bool allow_inexact_resume = false;
 

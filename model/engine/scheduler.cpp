@@ -114,9 +114,17 @@ Scheduler::Stats Scheduler::stats() const {
     stats.slots += worker->slots;
     impl_->FoldLoad(worker.get(), now);
     stats.load += worker->load / static_cast<double>(impl_->workers.size());
+    stats.asleep += worker->asleep.load(std::memory_order_relaxed);
     stats.failures = std::max(stats.failures, worker->failures.load(std::memory_order_relaxed));
   }
   return stats;
+}
+
+Scheduler::Histograms Scheduler::histograms() const {
+  return {.batch = impl_->batch_sizes.snapshot(),
+          .step_s = impl_->step_seconds.snapshot(),
+          .admission_s = impl_->admission_seconds.snapshot(),
+          .lateness_s = impl_->lateness_seconds.snapshot()};
 }
 
 }  // namespace choreo

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/histogram.h"
 #include "model/engine/step_engine.h"
 
 namespace choreo {
@@ -79,6 +80,7 @@ class Scheduler {
   };
   struct Stats {
     int active = 0;   ///< jobs that hold a slot
+    int asleep = 0;   ///< of those, jobs that can make no frame now
     int waiting = 0;  ///< jobs that wait for one
     int parked = 0;   ///< jobs that lost theirs while they slept, and sleep on
     int slots = 0;    ///< of all engines
@@ -89,6 +91,15 @@ class Scheduler {
     double load = 0;
     /// How often an engine has failed in a row, be it a step or an admission; the largest of all.
     int failures = 0;
+  };
+  /// What it did so far, one value a step, an admission, or a frame.
+  struct Histograms {
+    Histogram::Snapshot batch;        ///< frames of a step
+    Histogram::Snapshot step_s;       ///< seconds of a step
+    Histogram::Snapshot admission_s;  ///< seconds of an admission
+    /// Seconds that a frame of a dance came after it was due, or after it could be made where that
+    /// was later; 0 where it came in time.
+    Histogram::Snapshot lateness_s;
   };
 
   /// Throws Error(kInvalidArgument) for options out of range, for no engines, and for engines whose
@@ -122,6 +133,7 @@ class Scheduler {
   const ModelInfo& model() const;
   std::vector<std::string> devices() const;
   Stats stats() const;
+  Histograms histograms() const;
 
  private:
   struct Impl;

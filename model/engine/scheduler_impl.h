@@ -39,6 +39,7 @@ struct Scheduler::Impl {
     bool asleep = false;           ///< NextInput said no, and no Wake has come since
     bool restarts = false;         ///< it was parked, and is to begin anew
     Clock::time_point moved_at{};  ///< when it was admitted or last made a frame
+    Clock::time_point awake_at{};  ///< since when it is not asleep
   };
 
   /// One engine and the thread that alone touches it.
@@ -54,6 +55,7 @@ struct Scheduler::Impl {
     double load = 0;            ///< as Stats::load, at `load_at`. Lock: mutex
     Clock::time_point load_at = Clock::now();  ///< Lock: mutex
     std::atomic<int> failures = 0;             ///< of the engine, in a row
+    std::atomic<int> asleep = 0;               ///< of `active`, as last gathered
 
     // Of the worker's thread alone. Capacities are reserved at the start: a round allocates
     // nothing.
@@ -91,6 +93,10 @@ struct Scheduler::Impl {
 
   std::atomic<uint64_t> frames = 0;
   std::atomic<uint64_t> steps = 0;
+  Histogram batch_sizes{{1, 2, 4, 8, 16, 32, 64, 128, 256}};
+  Histogram step_seconds{Histogram::Seconds()};
+  Histogram admission_seconds{Histogram::Seconds()};
+  Histogram lateness_seconds{Histogram::Seconds()};
 
   static thread_local Worker* current;  ///< the worker whose thread this is
 
@@ -132,6 +138,8 @@ struct Scheduler::Impl {
   static double DeadlineOf(const StepJob& job);
   /// Whether a dance's listener waits for the job's next frame. Nobody does for those of groups.
   static bool IsDue(const Entry& entry, Clock::time_point now);
+  /// Stats of the frame that was made at `now`, before its job takes it.
+  void CountLateness(const Entry& entry, Clock::time_point now);
 };
 
 }  // namespace choreo

@@ -22,6 +22,15 @@ bool Scheduler::Impl::IsDue(const Entry& entry, Clock::time_point now) {
          DeadlineOf(*entry.job) <= std::chrono::duration<double>(now.time_since_epoch()).count();
 }
 
+void Scheduler::Impl::CountLateness(const Entry& entry, Clock::time_point now) {
+  if (entry.of_group) return;
+  const auto seconds = [](Clock::time_point time) {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+  };
+  const double due = std::max(DeadlineOf(*entry.job), seconds(entry.awake_at));
+  lateness_seconds.Add(std::max(0.0, seconds(now) - due));
+}
+
 Scheduler::Impl::Worker* Scheduler::Impl::MostFreeWorker() {
   const auto free = [](const auto& worker) { return worker->slots - worker->taken; };
   const auto most =

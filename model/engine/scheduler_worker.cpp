@@ -52,7 +52,9 @@ bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
     worker->inbox.clear();
     bool any_awake = false;
     for (Entry* entry : worker->active) {
-      if (std::exchange(entry->woken, false)) entry->asleep = false;
+      if (std::exchange(entry->woken, false) && std::exchange(entry->asleep, false)) {
+        entry->awake_at = Clock::now();
+      }
       any_awake |= !entry->asleep;
     }
     *stopped = phase == Phase::kStopped;
@@ -138,6 +140,8 @@ void Scheduler::Impl::GatherBatch(Worker* worker) {
     worker->inputs.push_back(input);
     worker->batch.push_back(entry);
   }
+  const auto asleep = std::ranges::count_if(worker->active, &Entry::asleep);
+  worker->asleep.store(static_cast<int>(asleep), std::memory_order_relaxed);
 }
 
 void Scheduler::Impl::StepBatch(Worker* worker) {
@@ -157,11 +161,14 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
   const auto due = std::ranges::count_if(worker->batch,
                                          [end](const Entry* entry) { return IsDue(*entry, end); });
   worker->due_time += (end - begin) * (static_cast<double>(due) / static_cast<double>(size));
+  step_seconds.Add(std::chrono::duration<double>(end - begin).count());
+  batch_sizes.Add(static_cast<double>(size));
   steps.fetch_add(1, std::memory_order_relaxed);
   frames.fetch_add(size, std::memory_order_relaxed);
   for (size_t i = 0; i < size; ++i) {
     Entry* entry = worker->batch[i];
     entry->moved_at = end;
+    CountLateness(*entry, end);
     try {
       if (!entry->job->OnFrame(worker->outputs[i])) Leave(worker, entry, nullptr);
     } catch (...) {
@@ -182,8 +189,10 @@ bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
     const Clock::time_point begin = Clock::now();
     entry->slot = AdmitToEngine(worker, spec);
     entry->moved_at = Clock::now();
+    admission_seconds.Add(std::chrono::duration<double>(entry->moved_at - begin).count());
     if (IsDue(*entry, entry->moved_at)) worker->due_time += entry->moved_at - begin;
     entry->asleep = false;
+    entry->awake_at = begin;
     worker->active.push_back(entry);
     return true;
   } catch (...) {

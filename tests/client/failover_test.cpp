@@ -130,6 +130,38 @@ TEST(FailoverTest, TriesElsewhereWhatAReplicaBreaksAt) {
             10U);
 }
 
+// A name with several addresses, as a headless service has.
+TEST(FailoverTest, TakesTurnsAtTheAddressesOfAName) {
+  TestServer one;
+  TestServer other;
+  const Client client(Replicas({"ipv4:" + one.address() + ',' + other.address()}));
+  EXPECT_TRUE(client.IsServing());
+  std::vector<std::unique_ptr<RemoteDance>> dances;
+  // Connections come one after the other: at first there may be only one.
+  for (int i = 0; i < 1000 && (one.calls() == 0 || other.calls() == 0); ++i) {
+    dances.push_back(client.StartDance({.frames = 30}));
+    ASSERT_TRUE(dances.back()->Next());
+    if (dances.size() > 20) dances.erase(dances.begin());
+  }
+  EXPECT_GT(one.calls(), 0);
+  EXPECT_GT(other.calls(), 0);
+}
+
+TEST(FailoverTest, PassesAnAddressThatDrains) {
+  TestServer leaving;
+  TestServer staying;
+  const auto dance = Client(Replicas({leaving.address()})).StartDance({.frames = 30});
+  ASSERT_TRUE(dance->Next());  // it keeps the server from leaving
+  Options options = Replicas({"ipv4:" + leaving.address() + ',' + staying.address()});
+  const Client client(options);
+  std::jthread drain([&] { leaving.Drain(300); });
+  while (Client(Replicas({leaving.address()})).IsServing()) std::this_thread::yield();
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(client.Dance({.frames = 20}, {}, {}).motion.frames.size(), 20U);
+  }
+  dance->Cancel();
+}
+
 // Its packets are lost, and nobody says so: it is left for the next one within seconds.
 TEST(FailoverTest, LeavesASilentNetwork) {
   TestServer cut;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -35,10 +36,11 @@ class TestServer {
   explicit TestServer(const std::string& fingerprint = "fake-1",
                       const std::string& listen = "127.0.0.1:0")
       : TestServer(std::make_unique<NamedFakeEngine>(fingerprint), listen) {}
-  explicit TestServer(std::unique_ptr<StepEngine> engine,
-                      const std::string& listen = "127.0.0.1:0") {
+  explicit TestServer(std::unique_ptr<StepEngine> engine, const std::string& listen = "127.0.0.1:0",
+                      const std::function<void(ServerConfig&)>& change = {}) {
     ServerConfig config;
     config.listen = listen;
+    if (change) change(config);
     std::vector<Server::Engines> models(1);
     models[0].push_back(std::move(engine));
     server_ = std::make_unique<Server>(config, std::move(models));

@@ -2,7 +2,7 @@
 # Runs a command with $CHOREO_SERVER naming a choreod of its own, which ends with it.
 #   with_server.sh CHOREOD COMMAND...
 set -euo pipefail
-exec 3< <(exec "$1")
+exec 3< <(exec "$1" --listen 127.0.0.1:0)
 server=$!
 trap 'kill "$server"; wait "$server" || true' EXIT
 read -r line <&3 # "choreod listens on HOST:PORT"

@@ -99,16 +99,44 @@ TEST_P(BadServerConfigTest, IsNamed) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadServerConfigTest,
-    testing::Values(BadSetting{"--listen", "nowhere"}, BadSetting{"--listen", "host:"},
-                    BadSetting{"--listen", "127.0.0.1:65536"},
-                    BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
-                    BadSetting{"--max-file-music-mib", "127"},
-                    BadSetting{"--max-network-mib", "63"}, BadSetting{"--slots", "-1"},
-                    BadSetting{"--slots", "many"}, BadSetting{"--max-streams", "-1"},
-                    BadSetting{"--engine", "fast"}, BadSetting{"--device", "gpu"},
-                    BadSetting{"--log-level", "loud"},
-                    BadSetting{"--checkpoint", "/nonexistent.safetensors"},
-                    BadSetting{"--drain-seconds", "-3"}, BadSetting{"--frobnicate", "1"}));
+    testing::Values(
+        BadSetting{"--listen", "nowhere"}, BadSetting{"--listen", "host:"},
+        BadSetting{"--listen", "127.0.0.1:65536"}, BadSetting{"--listen", "0.0.0.0:0"},
+        BadSetting{"--listen", "[::]:0"}, BadSetting{"--tokens", "/nonexistent"},
+        BadSetting{"--log-format", "xml"}, BadSetting{"--tls-client-ca", "/nonexistent"},
+        BadSetting{"--metrics", "65536"}, BadSetting{"--metrics", "here:"},
+        BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
+        BadSetting{"--max-file-music-mib", "127"}, BadSetting{"--max-network-mib", "63"},
+        BadSetting{"--slots", "-1"}, BadSetting{"--slots", "many"},
+        BadSetting{"--max-streams", "-1"}, BadSetting{"--engine", "fast"},
+        BadSetting{"--device", "gpu"}, BadSetting{"--log-level", "loud"},
+        BadSetting{"--checkpoint", "/nonexistent.safetensors"}, BadSetting{"--drain-seconds", "-3"},
+        BadSetting{"--max-connection-seconds", "2073601"}, BadSetting{"--frobnicate", "1"}));
+
+// Beyond this machine: only with TLS, or when told so.
+TEST(ServerConfigTest, PlaintextBeyondThisMachineIsAskedFor) {
+  for (const char* everywhere : {"0.0.0.0:0", "[::]:0", "203.0.113.1:1"}) {
+    testing::internal::CaptureStderr();
+    EXPECT_FALSE(Parse({"--listen", everywhere}).config);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("--insecure"), std::string::npos);
+    EXPECT_TRUE(Parse({"--listen", everywhere, "--insecure"}).config);
+  }
+  for (const char* here : {"localhost:0", "[::1]:0", "127.8.8.8:0"}) {
+    EXPECT_TRUE(Parse({"--listen", here}).config) << here;
+  }
+}
+
+TEST(ServerConfigTest, FlagsAreSwitchedByTheEnvironmentToo) {
+  ::setenv("CHOREO_INSECURE", "true", 1);
+  ::setenv("CHOREO_REFLECTION", "false", 1);
+  const CommandLine line = Parse({"--listen", "0.0.0.0:0"});
+  ::unsetenv("CHOREO_INSECURE");
+  ::unsetenv("CHOREO_REFLECTION");
+  ASSERT_TRUE(line.config);
+  EXPECT_FALSE(line.config->reflection);
+  EXPECT_FALSE(Parse({"--no-reflection"}).config->reflection);
+  EXPECT_TRUE(Parse({}).config->reflection);
+}
 
 TEST(ServerConfigTest, ACertificateNeedsItsKey) {
   ServerConfig config;

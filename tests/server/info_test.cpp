@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "tests/server/fixture.h"
+#include "tests/server/raw_call.h"
 
 namespace choreo {
 namespace {
@@ -182,6 +183,37 @@ TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
   EXPECT_TRUE(Generate(request).status.ok());
   ExpectEventually([&] { return health() == serving; }, "and of its recovery");
   server.reset();  // it looks at `fails`
+}
+
+TEST_F(InfoTest, HealthTellsOfEachModel) {
+  std::atomic<bool> fails = true;
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  std::vector<Server::Engines> models(2);
+  models[0].push_back(std::make_unique<ProbedEngine>(1, "sound", probe));
+  models[1].push_back(std::make_unique<FailingEngine>(&fails));
+  Connect(std::make_unique<Server>(config, std::move(models)));
+  const auto health = [this](const std::string& model) {
+    const std::string name = v1::Choreography::service_full_name() + ("/" + model);
+    return CallRaw(channel, "/grpc.health.v1.Health/Check", WireField(1, name), false);
+  };
+  const std::string serving("\x08\x01", 2), not_serving("\x08\x02", 2);
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.mutable_config()->set_model("fake");
+  request.set_frames(5);
+  EXPECT_EQ(health("fake"), serving);
+  for (int i = 0; i < 3; ++i) Generate(request);
+  ExpectEventually([&] { return health("fake") == not_serving; }, "health tells of it");
+  EXPECT_EQ(health("sound"), serving);
+  server.reset();  // it looks at `fails`
+}
+
+TEST_F(InfoTest, ReflectionCanBeSwitchedOff) {
+  Start(1, [](ServerConfig& config) { config.reflection = false; });
+  const grpc::Status status =
+      RawCall(channel, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", "");
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNIMPLEMENTED);
 }
 
 TEST_F(InfoTest, ReflectionListsTheService) {

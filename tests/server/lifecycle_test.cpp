@@ -220,6 +220,27 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   ExpectEventually([this] { return server->calls() == 0; }, "all calls are over");
 }
 
+// Another server takes over with nothing to dance twice.
+TEST_F(LifecycleTest, AStreamThatHasToLeaveEndsAtATransition) {
+  Start();
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  config.set_frames(18'000);
+  client.Send(config);
+  client.SendGenerateUntil(30);
+  ASSERT_TRUE(client.ReadFrames(30));
+  const std::jthread drain([this] { server->Drain(4.0); });
+  for (int64_t granted = 60; client.SendGenerateUntil(granted); granted += 30) {
+    if (!client.ReadFrames(granted)) break;
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  const Answer& answer = client.Finish();
+  EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_THAT(answer.status.error_message(), testing::HasSubstr("the last continuation"));
+  ASSERT_FALSE(answer.continuations.empty());
+  EXPECT_EQ(answer.continuations.back().frame(), answer.Join().count);
+}
+
 // The connection was there before, and nobody looked at it when the server went.
 TEST_F(LifecycleTest, WhoComesLateIsNotCancelled) {
   for (int round = 0; round < 3; ++round) {

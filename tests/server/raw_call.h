@@ -9,13 +9,15 @@
 
 namespace choreo {
 
-/// Calls a method of the service with one message of any bytes; how the call ends.
+/// Calls a method, of the service where no other is named, with one message of any bytes; how the
+/// call ends.
 inline grpc::Status RawCall(const std::shared_ptr<grpc::Channel>& channel,
                             const std::string& method, const std::string& bytes) {
   grpc::GenericStub stub(channel);
   grpc::ClientContext context;
   grpc::CompletionQueue queue;
-  const auto call = stub.PrepareCall(&context, "/choreo.v1.Choreography/" + method, &queue);
+  const std::string path = method.starts_with('/') ? method : "/choreo.v1.Choreography/" + method;
+  const auto call = stub.PrepareCall(&context, path, &queue);
   const auto done = [&queue] {
     void* tag = nullptr;
     bool ok = false;

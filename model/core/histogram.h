@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace choreo {
+
+/// Counts of values between bounds, filled by some threads while others look. Lock-free.
+class Histogram {
+ public:
+  struct Snapshot {
+    std::vector<double> bounds;    ///< ascending; a value on one counts below it
+    std::vector<uint64_t> counts;  ///< one more than bounds: the last is above all of them
+    double sum = 0;                ///< of the values
+  };
+
+  explicit Histogram(std::vector<double> bounds)
+      : bounds_(std::move(bounds)), counts_(bounds_.size() + 1) {}
+
+  void Add(double value) noexcept {
+    const auto at = std::ranges::lower_bound(bounds_, value) - bounds_.begin();
+    counts_[static_cast<size_t>(at)].fetch_add(1, std::memory_order_relaxed);
+    sum_.fetch_add(value, std::memory_order_relaxed);
+  }
+
+  Snapshot snapshot() const {
+    Snapshot now{.bounds = bounds_, .counts = {}, .sum = sum_.load(std::memory_order_relaxed)};
+    for (const auto& count : counts_) now.counts.push_back(count.load(std::memory_order_relaxed));
+    return now;
+  }
+
+  /// 0.1 ms to 5 s.
+  static std::vector<double> Seconds() {
+    return {1e-4, 2.5e-4, 5e-4, 1e-3, 2.5e-3, 5e-3, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5};
+  }
+
+ private:
+  const std::vector<double> bounds_;
+  std::vector<std::atomic<uint64_t>> counts_;
+  std::atomic<double> sum_ = 0;
+};
+
+}  // namespace choreo

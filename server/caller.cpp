@@ -1,0 +1,47 @@
+#include "server/caller.h"
+
+#include <algorithm>
+
+namespace choreo {
+namespace {
+
+// "00-TRACE-SPAN-FLAGS" (W3C Trace Context); later versions may have more behind it.
+constexpr size_t kTraceDigits = 32, kSpanDigits = 16;
+constexpr size_t kTraceAt = 3, kSpanAt = kTraceAt + kTraceDigits + 1;
+constexpr size_t kLength = kSpanAt + kSpanDigits + 3;
+
+bool IsId(std::string_view digits) {
+  const bool hex = std::all_of(digits.begin(), digits.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+  });
+  return hex && digits.find_first_not_of('0') != std::string_view::npos;
+}
+
+bool IsTraceparent(std::string_view text) {
+  const bool shaped = text.size() >= kLength && text[2] == '-' && text[kSpanAt - 1] == '-' &&
+                      text[kSpanAt + kSpanDigits] == '-' &&
+                      (text.size() == kLength || text[kLength] == '-');
+  return shaped && !text.starts_with("ff") && IsId(text.substr(kTraceAt, kTraceDigits)) &&
+         IsId(text.substr(kSpanAt, kSpanDigits));
+}
+
+}  // namespace
+
+std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char* name) {
+  const auto& headers = context.client_metadata();
+  if (headers.count(name) != 1) return {};
+  const grpc::string_ref value = headers.find(name)->second;
+  return {value.data(), value.size()};
+}
+
+Caller CallerOf(const grpc::CallbackServerContext& context) {
+  Caller caller;
+  caller.peer = context.peer();
+  if (const auto parent = HeaderOf(context, "traceparent"); IsTraceparent(parent)) {
+    caller.trace_id = parent.substr(kTraceAt, kTraceDigits);
+    caller.span_id = parent.substr(kSpanAt, kSpanDigits);
+  }
+  return caller;
+}
+
+}  // namespace choreo

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <grpcpp/server_context.h>
+
+#include <string>
+#include <string_view>
+
+namespace choreo {
+
+/// Who calls, as the log tells of it.
+struct Caller {
+  std::string peer;    ///< as gRPC has it: an address and a port
+  std::string holder;  ///< of the token that was sent; empty without
+  /// Of the W3C traceparent that was sent, in hexadecimal digits: what joins this call with what
+  /// its client does. Empty without a valid one.
+  std::string trace_id, span_id;
+};
+
+/// Everything but the holder.
+Caller CallerOf(const grpc::CallbackServerContext& context);
+
+/// The value of a header of the call; empty where it is not there exactly once.
+std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char* name);
+
+}  // namespace choreo

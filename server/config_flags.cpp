@@ -1,0 +1,173 @@
+#include "server/config_flags.h"
+
+#include <CLI/CLI.hpp>
+
+namespace choreo {
+namespace {
+
+void AddOptions(CLI::App& app, ServerConfig& config) {
+  app.add_option("--listen", config.listen,
+                 "HOST:PORT to listen on. Port 0 picks a free one, which is printed. The default "
+                 "serves this machine alone; [::]:50051 serves all, with TLS or --insecure.")
+      ->envname("CHOREO_LISTEN")
+      ->capture_default_str();
+  app.add_option("--checkpoint", config.checkpoints,
+                 "Model to serve, a .safetensors file; give several for several models, the "
+                 "default first. Without it, the models that ship.")
+      ->envname("CHOREO_CHECKPOINT");
+  app.add_option("--device", config.device,
+                 "Where to compute: auto (a GPU if this build and machine have one), cpu, or "
+                 "cuda:N[,N...].")
+      ->envname("CHOREO_DEVICE")
+      ->capture_default_str();
+  app.add_option(
+         "--engine", config.engine,
+         "What steps paper F's flow: torch (LibTorch, on any device), packed (our own kernels, on "
+         "the CPU), packed-bf16 (the same with products of bfloat16, on CPUs with AVX512-BF16), or "
+         "auto, the fastest of them here. Replicas that take over each other's dances must agree.")
+      ->envname("CHOREO_ENGINE")
+      ->capture_default_str();
+  app.add_option("--slots", config.slots,
+                 "Transitions in progress at once, for each model and device; those of "
+                 "GenerateTransition get half of them. 0: two for each of --max-streams.")
+      ->envname("CHOREO_SLOTS")
+      ->capture_default_str();
+  app.add_option("--max-waiting", config.max_waiting,
+                 "Transitions of GenerateTransition that may wait for a slot, for each model.")
+      ->envname("CHOREO_MAX_WAITING")
+      ->capture_default_str();
+  app.add_option("--max-streams", config.max_streams,
+                 "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED).")
+      ->envname("CHOREO_MAX_STREAMS")
+      ->capture_default_str();
+  app.add_option("--workers", config.workers,
+                 "Workers of the CPU, which share the slots. 0: one for every usable core.")
+      ->envname("CHOREO_WORKERS")
+      ->capture_default_str();
+  app.add_option("--threads", config.threads,
+                 "Threads of one matrix product. 1 is the fastest for small models; replicas that "
+                 "take over each other's dances must agree.")
+      ->envname("CHOREO_THREADS")
+      ->capture_default_str();
+  app.add_option("--io-threads", config.io_threads,
+                 "Threads that decode files, and as many that digest long pieces of music.")
+      ->envname("CHOREO_IO_THREADS")
+      ->capture_default_str();
+  app.add_option("--drain-seconds", config.drain_seconds,
+                 "After SIGTERM or SIGINT: how long streams may go on before they end as "
+                 "UNAVAILABLE. New ones are refused at once, and health says NOT_SERVING.")
+      ->envname("CHOREO_DRAIN_SECONDS")
+      ->capture_default_str();
+  app.add_option("--outbox-kib", config.outbox_kib,
+                 "Answers that may wait for a slow client before its dance pauses, KiB.")
+      ->envname("CHOREO_OUTBOX_KIB")
+      ->capture_default_str();
+  app.add_option(
+         "--max-file-music-mib", config.max_file_music_mib,
+         "Music files that are still coming, over all calls, MiB of memory. Calls that would "
+         "go beyond are refused (RESOURCE_EXHAUSTED).")
+      ->envname("CHOREO_MAX_FILE_MUSIC_MIB")
+      ->capture_default_str();
+  app.add_option("--max-network-mib", config.max_network_mib,
+                 "Memory for what clients are sending and have not finished, over all connections, "
+                 "MiB. Beyond it gRPC takes less at a time, then ends calls.")
+      ->envname("CHOREO_MAX_NETWORK_MIB")
+      ->capture_default_str();
+  app.add_option(
+         "--kernels", config.kernels,
+         "Instructions of the packed engine: portable, avx2, avx512 or avx512_bf16. Without "
+         "it, the fastest here. Replicas on different CPUs take over each other's dances "
+         "where all have the slowest one's.")
+      ->envname("CHOREO_KERNELS");
+  app.set_config("--config", "", "Read settings from this TOML or INI file, as in: slots = 32");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+}
+
+// What clients may take, and for how long they may do nothing.
+void AddLimits(CLI::App& app, ServerConfig& config) {
+  app.add_option("--max-streams-of-peer", config.max_streams_of_peer,
+                 "Calls in progress at once from one address. 0: seven eighths of --max-streams.")
+      ->envname("CHOREO_MAX_STREAMS_OF_PEER")
+      ->capture_default_str();
+  app.add_option("--first-message-seconds", config.first_message_seconds,
+                 "A call whose first message does not come within these is DEADLINE_EXCEEDED.")
+      ->envname("CHOREO_FIRST_MESSAGE_SECONDS")
+      ->capture_default_str();
+  app.add_option("--idle-seconds", config.idle_seconds,
+                 "So is one of which nothing comes and to which nothing goes for these.")
+      ->envname("CHOREO_IDLE_SECONDS")
+      ->capture_default_str();
+  app.add_option("--unread-seconds", config.unread_seconds,
+                 "A call whose client does not take an answer within these is reset.")
+      ->envname("CHOREO_UNREAD_SECONDS")
+      ->capture_default_str();
+  app.add_option(
+         "--max-sleep-seconds", config.max_sleep_seconds,
+         "A dance that waits for its music or for its client keeps its slot for these, once "
+         "others wait for one. It goes on later, and is the same.")
+      ->envname("CHOREO_MAX_SLEEP_SECONDS")
+      ->capture_default_str();
+  app.add_option(
+         "--max-load", config.max_load,
+         "Share of a model's time that goes to frames which are due: beyond it new calls are "
+         "refused (RESOURCE_EXHAUSTED). Above 1: none are.")
+      ->envname("CHOREO_MAX_LOAD")
+      ->capture_default_str();
+  app.add_option("--max-connection-seconds", config.max_connection_seconds,
+                 "A connection of this age takes no new calls, so that clients spread over "
+                 "replicas anew; its calls go on. 0: none is too old.")
+      ->envname("CHOREO_MAX_CONNECTION_SECONDS")
+      ->capture_default_str();
+}
+
+// Who is let in, and who can read what is said.
+void AddSecurity(CLI::App& app, ServerConfig& config) {
+  app.add_option("--tls-cert", config.tls_certificate,
+                 "PEM file with the certificate chain. Without it, connections are not encrypted.")
+      ->envname("CHOREO_TLS_CERT");
+  app.add_option("--tls-key", config.tls_key, "PEM file with the private key of --tls-cert.")
+      ->envname("CHOREO_TLS_KEY");
+  app.add_option("--tls-client-ca", config.tls_client_ca,
+                 "PEM file of authorities: clients must have a certificate of one of them.")
+      ->envname("CHOREO_TLS_CLIENT_CA");
+  app.add_option("--tokens", config.tokens,
+                 "File of lines \"SHA256 NAME\": who calls must send the token of one of them as "
+                 "\"authorization: Bearer TOKEN\". It is read again when it changes. Health needs "
+                 "none.")
+      ->envname("CHOREO_TOKENS");
+  app.add_flag("--insecure", config.insecure,
+               "Listen beyond this machine without TLS, where everybody on the way can read and "
+               "change what is said: for networks that others secure.")
+      ->envname("CHOREO_INSECURE");
+  app.add_flag("--reflection,!--no-reflection", config.reflection,
+               "Tell clients what the API is (gRPC's reflection). On by default.")
+      ->envname("CHOREO_REFLECTION");
+}
+
+// How others see what it does.
+void AddObservability(CLI::App& app, ServerConfig& config) {
+  app.add_option("--log-level", config.log_level,
+                 "trace, debug, info, warning, error, critical or off. The log goes to stderr.")
+      ->envname("CHOREO_LOG_LEVEL")
+      ->capture_default_str();
+  app.add_option("--log-format", config.log_format,
+                 "text, or json: one object a line. Each call leaves one line at level info.")
+      ->envname("CHOREO_LOG_FORMAT")
+      ->capture_default_str();
+  app.add_option(
+         "--metrics", config.metrics,
+         "HOST:PORT at which Prometheus finds figures, http://HOST:PORT/metrics; a PORT alone "
+         "is of this machine. They are not encrypted. Without it, there are none.")
+      ->envname("CHOREO_METRICS");
+}
+
+}  // namespace
+
+void AddFlags(CLI::App& app, ServerConfig& config) {
+  AddOptions(app, config);
+  AddLimits(app, config);
+  AddSecurity(app, config);
+  AddObservability(app, config);
+}
+
+}  // namespace choreo

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "server/config.h"
+
+namespace CLI {
+class App;
+}
+
+namespace choreo {
+
+/// Gives `app` every flag of choreod; each fills its setting of `config`, and has an environment
+/// variable: CHOREO_ and its name.
+void AddFlags(CLI::App& app, ServerConfig& config);
+
+}  // namespace choreo

@@ -1,0 +1,100 @@
+#include "server/log.h"
+
+#include <grpc/support/log.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "server/status.h"
+
+namespace choreo {
+namespace {
+
+/// Of lines whose text is JSON's members already.
+constexpr std::string_view kMembers = "members";
+
+bool log_is_json = false;  // written before there are threads
+
+std::string Quoted(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// The flag %* of the pattern: what is left of the object.
+class Members final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
+              spdlog::memory_buf_t& line) override {
+    const std::string_view text(message.payload.data(), message.payload.size());
+    const std::string_view name(message.logger_name.data(), message.logger_name.size());
+    const std::string members =
+        name == kMembers ? std::string(text) : "\"message\":" + Quoted(text);
+    line.append(members.data(), members.data() + members.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<Members>();
+  }
+};
+
+/// gRPC has a log of its own, of which errors alone come unless GRPC_VERBOSITY says otherwise.
+void TakeGrpcsLine(gpr_log_func_args* line) {
+  const auto level = line->severity == GPR_LOG_SEVERITY_ERROR  ? spdlog::level::err
+                     : line->severity == GPR_LOG_SEVERITY_INFO ? spdlog::level::info
+                                                               : spdlog::level::debug;
+  spdlog::log(level, "gRPC: {}", line->message);
+}
+
+std::string ObjectOf(const CallRecord& call) {
+  nlohmann::json object = {{"message", "call"},        {"method", call.method},
+                           {"peer", call.caller.peer}, {"status", NameOf(call.status.error_code())},
+                           {"seconds", call.seconds},  {"frames", call.frames}};
+  const auto add = [&object](const char* name, const std::string& value) {
+    if (!value.empty()) object[name] = value;
+  };
+  add("error", call.status.error_message());
+  add("holder", call.caller.holder);
+  add("trace_id", call.caller.trace_id);
+  add("span_id", call.caller.span_id);
+  if (call.frames > 0) object["first_frame_seconds"] = call.first_frame_s;
+  return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string TextOf(const CallRecord& call) {
+  std::string text = std::string(call.method) + ' ' + call.caller.peer;
+  if (!call.caller.holder.empty()) text += " (" + call.caller.holder + ')';
+  if (!call.caller.trace_id.empty()) text += " trace " + call.caller.trace_id;
+  text += fmt::format(": {} in {:.3f} s", NameOf(call.status.error_code()), call.seconds);
+  if (call.frames > 0) {
+    text += fmt::format(", {} frames, the first after {:.3f} s", call.frames, call.first_frame_s);
+  }
+  if (!call.status.ok()) text += ": " + call.status.error_message();
+  return text;
+}
+
+}  // namespace
+
+void StartLog(const std::string& level, bool json) {
+  log_is_json = json;
+  spdlog::drop_all();
+  const auto logger = spdlog::stderr_color_mt("choreod");
+  if (json) {
+    auto formatter = std::make_unique<spdlog::pattern_formatter>(spdlog::pattern_time_type::utc);
+    formatter->add_flag<Members>('*').set_pattern(
+        R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%*})");
+    logger->set_formatter(std::move(formatter));
+    spdlog::register_logger(logger->clone(std::string(kMembers)));
+  }
+  spdlog::set_default_logger(logger);
+  spdlog::set_level(spdlog::level::from_str(level));
+  gpr_set_log_function(TakeGrpcsLine);
+}
+
+void LogCall(const CallRecord& call) {
+  if (!log_is_json) return spdlog::info("{}", TextOf(call));
+  const std::string object = ObjectOf(call);
+  spdlog::get(std::string(kMembers))->info("{}", object.substr(1, object.size() - 2));
+}
+
+}  // namespace choreo

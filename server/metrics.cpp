@@ -1,0 +1,191 @@
+#include "server/metrics.h"
+
+#include <prometheus/client_metric.h>
+#include <prometheus/collectable.h>
+#include <prometheus/exposer.h>
+#include <prometheus/metric_family.h>
+#include <prometheus/metric_type.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <vector>
+
+#include "model/core/error.h"
+#include "server/status.h"
+
+namespace choreo {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<ClientMetric::Label>;
+
+/// One thread answers: there is one Prometheus, maybe two.
+constexpr size_t kThreads = 1;
+
+/// The families of one look, in order.
+class Families {
+ public:
+  /// Begins a family, which the next calls of Add belong to.
+  void Begin(const char* name, const char* help, MetricType type) {
+    families_.push_back(
+        {.name = std::string("choreo_") + name, .help = help, .type = type, .metric = {}});
+  }
+  void Add(double value, Labels labels = {}) {
+    ClientMetric& metric = Append(std::move(labels));
+    (families_.back().type == MetricType::Counter ? metric.counter.value : metric.gauge.value) =
+        value;
+  }
+  void Add(const Histogram::Snapshot& values, Labels labels = {}) {
+    auto& histogram = Append(std::move(labels)).histogram;
+    for (size_t i = 0; i < values.counts.size(); ++i) {
+      histogram.sample_count += values.counts[i];
+      const double bound = i < values.bounds.size() ? values.bounds[i] : INFINITY;
+      histogram.bucket.push_back({histogram.sample_count, bound});
+    }
+    histogram.sample_sum = values.sum;
+  }
+  std::vector<MetricFamily> Take() { return std::move(families_); }
+
+ private:
+  ClientMetric& Append(Labels labels) {
+    ClientMetric& metric = families_.back().metric.emplace_back();
+    metric.label = std::move(labels);
+    return metric;
+  }
+
+  std::vector<MetricFamily> families_;
+};
+
+class Figures final : public prometheus::Collectable {
+ public:
+  explicit Figures(const Serving& serving) : serving_(serving) {}
+
+  std::vector<MetricFamily> Collect() const override {
+    Families out;
+    AddCalls(out);
+    AddModels(out);
+    AddHistograms(out);
+    return out.Take();
+  }
+
+ private:
+  void AddCalls(Families& out) const {
+    out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
+    for (const auto& [key, count] : serving_.tally.calls()) {
+      out.Add(static_cast<double>(count), {{"method", key.first}, {"status", NameOf(key.second)}});
+    }
+    const CallRegistry& calls = serving_.calls;
+    out.Begin("streams", "Calls in progress.", MetricType::Gauge);
+    out.Add(calls.count());
+    out.Begin("streams_limit", "Calls that may be in progress.", MetricType::Gauge);
+    out.Add(calls.limits().calls);
+    double load = 0;
+    for (const auto& model : serving_.models) load = std::max(load, model->stats().load);
+    out.Begin("utilisation",
+              "The larger of streams / limit and of a model's load / --max-load; 1 refuses calls.",
+              MetricType::Gauge);
+    out.Add(std::max(load / calls.limits().load,
+                     static_cast<double>(calls.count()) / calls.limits().calls));
+    out.Begin("sent_frames_total", "Frames that calls got which are over.", MetricType::Counter);
+    out.Add(static_cast<double>(serving_.tally.frames));
+    out.Begin("first_frame_seconds", "From a call's begin to its first frame.",
+              MetricType::Histogram);
+    out.Add(serving_.tally.first_frame_s.snapshot());
+    out.Begin("key_error_metres", "How far the model's own frames were off their keys.",
+              MetricType::Histogram);
+    out.Add(serving_.tally.key_error_m.snapshot());
+  }
+
+  void AddModels(Families& out) const {
+    out.Begin("model_info", "1 for each model and device.", MetricType::Gauge);
+    for (const auto& model : serving_.models) {
+      std::vector<std::string> devices = model->devices();
+      std::ranges::sort(devices);
+      devices.erase(std::ranges::unique(devices).begin(), devices.end());
+      for (const std::string& device : devices) {
+        out.Add(1, {{"model", model->model().name},
+                    {"fingerprint", model->model().fingerprint},
+                    {"device", device},
+                    {"version", CHOREO_VERSION}});
+      }
+    }
+    struct Figure {
+      const char* name;
+      const char* help;
+      MetricType type;
+      double (*of)(const Scheduler::Stats&);
+    };
+    using Stats = Scheduler::Stats;
+    static constexpr Figure kFigures[] = {
+        {"slots", "Transitions that may be in progress.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.slots); }},
+        {"slots_used", "Of those, the taken.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.active); }},
+        {"slots_asleep", "Of the taken, those that wait for music, grants or their reader.",
+         MetricType::Gauge, [](const Stats& stats) { return double(stats.asleep); }},
+        {"transitions_waiting", "Transitions that wait for a slot.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.waiting); }},
+        {"transitions_parked", "Transitions that slept for so long that they lost theirs.",
+         MetricType::Gauge, [](const Stats& stats) { return double(stats.parked); }},
+        {"load", "Share of the engines' time that goes to frames which are due.", MetricType::Gauge,
+         [](const Stats& stats) { return stats.load; }},
+        {"engine_failures", "How often an engine has failed in a row.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.failures); }},
+        {"frames_total", "Frames made.", MetricType::Counter,
+         [](const Stats& stats) { return double(stats.frames); }},
+    };
+    for (const Figure& figure : kFigures) {
+      out.Begin(figure.name, figure.help, figure.type);
+      for (const auto& model : serving_.models) {
+        out.Add(figure.of(model->stats()), {{"model", model->model().name}});
+      }
+    }
+  }
+
+  void AddHistograms(Families& out) const {
+    using Histograms = Scheduler::Histograms;
+    struct Figure {
+      const char* name;
+      const char* help;
+      Histogram::Snapshot Histograms::*of;
+    };
+    static constexpr Figure kFigures[] = {
+        {"batch_frames", "Frames of a step.", &Histograms::batch},
+        {"step_seconds", "Time of a step.", &Histograms::step_s},
+        {"admission_seconds", "Time of a transition's admission.", &Histograms::admission_s},
+        {"lateness_seconds", "How late frames of dances were made, 0 for those in time.",
+         &Histograms::lateness_s},
+    };
+    for (const Figure& figure : kFigures) {
+      out.Begin(figure.name, figure.help, MetricType::Histogram);
+      for (const auto& model : serving_.models) {
+        out.Add(model->histograms().*figure.of, {{"model", model->model().name}});
+      }
+    }
+  }
+
+  const Serving& serving_;
+};
+
+}  // namespace
+
+struct MetricsEndpoint::Impl {
+  std::shared_ptr<Figures> figures;
+  prometheus::Exposer exposer;
+};
+
+MetricsEndpoint::MetricsEndpoint(const std::string& address, const Serving& serving) try
+    : impl_(new Impl{std::make_shared<Figures>(serving), prometheus::Exposer(address, kThreads)}) {
+  impl_->exposer.RegisterCollectable(impl_->figures);
+} catch (const std::exception&) {
+  throw Error(ErrorCode::kUnavailable, "--metrics", '"' + address + "\" cannot be listened on");
+}
+
+MetricsEndpoint::~MetricsEndpoint() = default;
+
+int MetricsEndpoint::port() const { return impl_->exposer.GetListeningPorts().front(); }
+
+}  // namespace choreo

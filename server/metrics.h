@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "server/serving.h"
+
+namespace choreo {
+
+/// Figures for Prometheus: http://ADDRESS/metrics, from construction to destruction. They are
+/// gathered when somebody looks. Thread-safe.
+class MetricsEndpoint {
+ public:
+  /// HOST:PORT; port 0 takes a free one. `serving` outlives it. Throws Error(kUnavailable,
+  /// "--metrics").
+  MetricsEndpoint(const std::string& address, const Serving& serving);
+  ~MetricsEndpoint();
+
+  int port() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "model/core/histogram.h"
+#include "server/log.h"
+
+namespace choreo {
+
+/// What all calls so far amount to. Thread-safe.
+class Tally {
+ public:
+  /// By method and status.
+  using Calls = std::map<std::pair<std::string, grpc::StatusCode>, uint64_t>;
+
+  /// A call is over: counts it, and logs it.
+  void Count(const CallRecord& call) {
+    LogCall(call);
+    frames += static_cast<uint64_t>(call.frames);
+    if (call.frames > 0) first_frame_s.Add(call.first_frame_s);
+    const std::lock_guard lock(mutex_);
+    ++calls_[{std::string(call.method), call.status.error_code()}];
+  }
+  Calls calls() const {
+    const std::lock_guard lock(mutex_);
+    return calls_;
+  }
+
+  std::atomic<uint64_t> frames = 0;  ///< that calls got which are over
+  Histogram first_frame_s{Histogram::Seconds()};
+  /// How far the model's own frames were off their keys, metres, before arrival steered them there.
+  Histogram key_error_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};
+
+ private:
+  mutable std::mutex mutex_;
+  Calls calls_;  // lock: mutex_
+};
+
+}  // namespace choreo

@@ -1,0 +1,228 @@
+#include <gmock/gmock.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "client/choreo_client.h"
+#include "tests/client/run_choreo.h"
+#include "tests/client/test_server.h"
+#include "tests/support/certificates.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+/// Who is let in, and who can read what is said.
+namespace choreo::client {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+void Eventually(const std::function<bool()>& condition, const std::string& what) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!condition()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end) << "never came about: " << what;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+bool Serves(const Options& options) {
+  try {
+    return Client(options).GetServerInfo().slots > 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+class SecurityTest : public testing::Test {
+ protected:
+  std::unique_ptr<TestServer> Start(const std::function<void(ServerConfig&)>& change) {
+    return std::make_unique<TestServer>(std::make_unique<FakeEngine>(), "127.0.0.1:0", change);
+  }
+  static void Serve(const Certificate& own, ServerConfig& config) {
+    config.tls_certificate = own.certificate;
+    config.tls_key = own.key;
+  }
+  static Options Trusting(const TestServer& server, const Authority& authority) {
+    return {.addresses = {server.address()},
+            .tls = true,
+            .ca_certificate = authority.certificate(),
+            .retry_s = 0};
+  }
+
+  TemporaryFolder folder_;
+  const Authority authority_{folder_.path(), "authority"};
+  const Authority stranger_{folder_.path(), "stranger"};
+};
+
+using TlsTest = SecurityTest;
+
+TEST_F(TlsTest, WhoTrustsItDancesAndNobodyElse) {
+  const Certificate own = authority_.Issue("own");
+  const auto server = Start([&](ServerConfig& config) { Serve(own, config); });
+  const Options trusting = Trusting(*server, authority_);
+  const DanceResult danced = Client(trusting).Dance({.seed = 1, .frames = 40}, {}, {});
+  EXPECT_EQ(danced.motion.frames.size(), 40U);
+  EXPECT_FALSE(Serves(Trusting(*server, stranger_)));
+  EXPECT_FALSE(Serves({.addresses = {server->address()}, .retry_s = 0}));  // plaintext
+  Options of_another_name = trusting;
+  of_another_name.server_name = "example.test";
+  EXPECT_FALSE(Serves(of_another_name));
+  EXPECT_TRUE(Serves(trusting));
+  const Outcome health = Choreo("health --server " + server->address() + " --tls --ca " +
+                                authority_.certificate().string());
+  EXPECT_EQ(health.code, 0) << health.said;
+}
+
+TEST_F(TlsTest, OldVersionsAreRefused) {
+  const Certificate own = authority_.Issue("own");
+  const auto server = Start([&](ServerConfig& config) { Serve(own, config); });
+  const auto shake_hands = [&](const std::string& version) {
+    return Shell("openssl s_client -connect " + server->address() + " -alpn h2 -" + version +
+                 " -cipher 'ALL:@SECLEVEL=0' </dev/null")
+        .said;
+  };
+  EXPECT_THAT(shake_hands("tls1_2"), HasSubstr("BEGIN CERTIFICATE"));
+  EXPECT_THAT(shake_hands("tls1_1"), Not(HasSubstr("BEGIN CERTIFICATE")));
+  EXPECT_THAT(shake_hands("tls1"), Not(HasSubstr("BEGIN CERTIFICATE")));
+}
+
+TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
+  const Certificate own = authority_.Issue("own");
+  const auto server = Start([&](ServerConfig& config) { Serve(own, config); });
+  const Client before(Trusting(*server, authority_));
+  const auto dance = before.StartDance({.frames = 100});
+  ASSERT_TRUE(dance->Next());
+  // For a moment the two do not go together, as where files are copied one by one.
+  const Certificate renewed = stranger_.Issue("renewed");
+  std::filesystem::copy(renewed.key, own.key, std::filesystem::copy_options::overwrite_existing);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1'500));
+  std::filesystem::copy(renewed.certificate, own.certificate,
+                        std::filesystem::copy_options::overwrite_existing);
+  Eventually([&] { return Serves(Trusting(*server, stranger_)); }, "the new one is shown");
+  // The dance goes on over the connection that it has.
+  dance->CompleteKeys();
+  while (dance->Next()) {
+  }
+}
+
+TEST_F(TlsTest, ClientsShowACertificateWhereOneIsWanted) {
+  const Certificate own = authority_.Issue("own");
+  const auto server = Start([&](ServerConfig& config) {
+    Serve(own, config);
+    config.tls_client_ca = authority_.certificate();
+  });
+  const auto serves = [&](const Certificate& shown) {
+    Options options = Trusting(*server, authority_);
+    options.client_certificate = shown.certificate;
+    options.client_key = shown.key;
+    return Serves(options);
+  };
+  EXPECT_FALSE(serves({}));
+  EXPECT_FALSE(serves(stranger_.Issue("intruder")));
+  EXPECT_TRUE(serves(authority_.Issue("guest")));
+}
+
+TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {
+  const Certificate own = authority_.Issue("own"), other = authority_.Issue("other");
+  ExpectError(ErrorCode::kInvalidArgument, "--tls-key", [&] {
+    Start([&](ServerConfig& config) { Serve({own.certificate, other.key}, config); });
+  });
+  ExpectError(ErrorCode::kInvalidArgument, "--tls-cert", [&] {
+    Start([&](ServerConfig& config) { Serve({own.key, own.key}, config); });
+  });
+  ExpectError(ErrorCode::kInvalidArgument, "client_key",
+              [&] { Client({.tls = true, .client_certificate = own.certificate}); });
+}
+
+class TokensTest : public SecurityTest {
+ protected:
+  void Write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  // What stands in the server's file.
+  std::string LineOf(const std::string& token, const std::string& holder) {
+    Write("plain", token);
+    const std::string hash = Shell("sha256sum " + (folder_ / "plain").string()).said.substr(0, 64);
+    return hash + "  " + holder + '\n';
+  }
+  Options With(const TestServer& server, const std::string& token) {
+    Options options{.addresses = {server.address()}, .retry_s = 0};
+    if (token.empty()) return options;
+    Write("token", token + '\n');
+    options.token_file = folder_ / "token";
+    return options;
+  }
+};
+
+TEST_F(TokensTest, WhoHasOneIsServedUntilItIsStruckOut) {
+  const std::filesystem::path file = folder_ / "tokens";
+  Write("tokens", "# who may call\n\n" + LineOf("correct-horse", "alice") + LineOf("b", "bob"));
+  const auto server = Start([&](ServerConfig& config) { config.tokens = file; });
+  EXPECT_EQ(Client(With(*server, "correct-horse")).Dance({.frames = 20}, {}, {}).report.frames, 20);
+  EXPECT_TRUE(Serves(With(*server, "b")));
+
+  for (const std::string wrong : {"", "correct-hors", "correct-horsf", "alice"}) {
+    const Client client(With(*server, wrong));
+    for (const std::function<void()>& call : std::vector<std::function<void()>>{
+             [&] { client.GetServerInfo(); },
+             [&] { client.Dance({.frames = 20}, {}, {}); },
+             [&] { client.GenerateTransition({.frames = 5}); },
+         }) {
+      ExpectError(ErrorCode::kFailedPrecondition, "authorization: Bearer TOKEN", call);
+    }
+  }
+  EXPECT_TRUE(Client(With(*server, "")).IsServing());  // probes have none
+
+  Write("tokens", LineOf("b", "bob"));
+  Eventually([&] { return !Serves(With(*server, "correct-horse")); }, "alice is struck out");
+  EXPECT_TRUE(Serves(With(*server, "b")));
+  // What is no such file changes nothing.
+  Write("tokens", "correct-horse alice\n");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1'200));
+  EXPECT_TRUE(Serves(With(*server, "b")));
+  EXPECT_FALSE(Serves(With(*server, "correct-horse")));
+}
+
+TEST_F(TokensTest, NoneIsLogged) {
+  const auto before = spdlog::default_logger();
+  std::ostringstream log;
+  auto logger = std::make_shared<spdlog::logger>(
+      "log", std::make_shared<spdlog::sinks::ostream_sink_mt>(log));
+  logger->set_level(spdlog::level::trace);
+  spdlog::set_default_logger(logger);
+  Write("tokens", LineOf("correct-horse", "alice"));
+  auto server = Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; });
+  EXPECT_TRUE(Serves(With(*server, "correct-horse")));
+  EXPECT_FALSE(Serves(With(*server, "wrong-horse")));
+  Write("tokens", "correct-horse alice\n");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1'200));
+  server.reset();
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(log.str(), HasSubstr("(alice)"));
+  EXPECT_THAT(log.str(), HasSubstr("tokens line 1"));
+  EXPECT_THAT(log.str(), Not(HasSubstr("horse")));
+}
+
+TEST_F(TokensTest, AreSentOverTlsOrToThisMachineAlone) {
+  Write("token", "correct-horse");
+  ExpectError(ErrorCode::kInvalidArgument, "over TLS alone", [&] {
+    Client({.addresses = {"127.0.0.1:1", "example.test:1"}, .token_file = folder_ / "token"});
+  });
+}
+
+TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {
+  Write("tokens", LineOf("a", "alice") + "0123 bob\n");
+  ExpectError(ErrorCode::kInvalidArgument, "tokens line 2",
+              [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
+  const auto server = Start({});
+  Options options = With(*server, "two words");
+  ExpectError(ErrorCode::kInvalidArgument, "visible ASCII",
+              [&] { Client(options).GetServerInfo(); });
+  options.token_file = "/absent";
+  ExpectError(ErrorCode::kInvalidArgument, "/absent", [&] { Client(options).GetServerInfo(); });
+}
+
+}  // namespace
+}  // namespace choreo::client

@@ -1,0 +1,167 @@
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "server/log.h"
+#include "tests/server/fixture.h"
+
+/// What others see of a server: figures for Prometheus, and the lines of its log.
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+class MetricsTest : public ServerTest {
+ protected:
+  // All that http://127.0.0.1:PORT/metrics says.
+  std::string Metrics() const {
+    const int fd = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<uint16_t>(server->metrics_port()));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
+    EXPECT_EQ(send(fd, request.data(), request.size(), 0), std::ssize(request));
+    std::string said;
+    char bytes[4096];
+    for (ssize_t count = 1; count > 0;) {
+      count = recv(fd, bytes, sizeof bytes, 0);
+      if (count > 0) said.append(bytes, static_cast<size_t>(count));
+    }
+    close(fd);
+    return said;
+  }
+  // -1 where it is not there.
+  double Figure(const std::string& name) const {
+    const std::string all = Metrics();
+    const size_t at = all.find('\n' + name + ' ');
+    return at == std::string::npos ? -1 : std::stod(all.substr(at + name.size() + 2));
+  }
+};
+
+TEST_F(MetricsTest, TellWhatWasDone) {
+  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  DanceClient client(stub());
+  client.Send(Config());
+  client.SendKeyframe(Key("a", 20));
+  ASSERT_TRUE(client.Finish().status.ok());
+  DanceClient bad(stub());
+  EXPECT_FALSE(bad.Finish().status.ok());
+  ExpectIdle();
+  const std::string of_fake = R"({model="fake"})";
+  EXPECT_EQ(Figure(R"(choreo_calls_total{method="StreamDance",status="OK"})"), 1);
+  EXPECT_EQ(Figure(R"(choreo_calls_total{method="StreamDance",status="INVALID_ARGUMENT"})"), 1);
+  EXPECT_EQ(Figure("choreo_sent_frames_total"), 21);
+  EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 21);
+  EXPECT_EQ(Figure("choreo_key_error_metres_count"), 1);
+  EXPECT_EQ(Figure("choreo_first_frame_seconds_count"), 1);
+  EXPECT_EQ(Figure("choreo_batch_frames_count" + of_fake), 21);
+  EXPECT_EQ(Figure("choreo_step_seconds_count" + of_fake), 21);
+  EXPECT_EQ(Figure("choreo_lateness_seconds_count" + of_fake), 21);
+  EXPECT_EQ(Figure("choreo_admission_seconds_count" + of_fake), 1);
+  EXPECT_EQ(Figure("choreo_slots" + of_fake), 16);
+  EXPECT_THAT(Metrics(), HasSubstr(R"(choreo_lateness_seconds_bucket{model="fake",le="+Inf"} 21)"));
+  EXPECT_THAT(Metrics(), HasSubstr(R"(device="fake:0")"));
+}
+
+TEST_F(MetricsTest, TellWhatGoesOn) {
+  Start(16, [](ServerConfig& config) {
+    config.metrics = "0";
+    config.max_streams = 4;
+  });
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  *config.mutable_audio_format() = MusicFormat();
+  client.Send(config);
+  client.SendKeyframesComplete();
+  client.SendAudio(Music(1), 0);
+  ASSERT_TRUE(client.ReadFrames(10));
+  const std::string of_fake = R"({model="fake"})";
+  ExpectEventually([&] { return Figure("choreo_slots_asleep" + of_fake) == 1; },
+                   "it waits for its music");
+  EXPECT_EQ(Figure("choreo_slots_used" + of_fake), 1);
+  EXPECT_EQ(Figure("choreo_streams"), 1);
+  EXPECT_EQ(Figure("choreo_utilisation"), 0.25);
+  client.Cancel();
+}
+
+TEST_F(MetricsTest, AnAddressThatIsTakenIsNamed) {
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
+  const std::string taken = std::to_string(server->metrics_port());
+  try {
+    Start(1, [&](ServerConfig& config) { config.metrics = taken; });
+    FAIL() << "two serve metrics at one port";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.field(), "--metrics");
+    EXPECT_THAT(error.what(), HasSubstr("127.0.0.1:" + taken));
+  }
+}
+
+class LogTest : public ServerTest {
+ protected:
+  // A call with this traceparent; the lines that it leaves.
+  std::vector<std::string> LinesOfCall(bool json, const std::string& traceparent) {
+    const auto before = spdlog::default_logger();
+    testing::internal::CaptureStderr();
+    StartLog("info", json);
+    Start();
+    grpc::ClientContext context;
+    context.AddMetadata("traceparent", traceparent);
+    v1::GetServerInfoResponse info;
+    EXPECT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
+    v1::GenerateTransitionRequest request;
+    *request.mutable_config() = Config();
+    request.mutable_config()->set_model("\"\n");
+    EXPECT_FALSE(Generate(request).status.ok());
+    server.reset();
+    std::istringstream said(testing::internal::GetCapturedStderr());
+    StartLog("info", false);
+    spdlog::set_default_logger(before);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(said, line);) lines.push_back(line);
+    return lines;
+  }
+  static constexpr const char* kTraceparent =
+      "00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01";
+};
+
+TEST_F(LogTest, ACallLeavesOneLineThatNamesItsTrace) {
+  const auto lines = LinesOfCall(false, kTraceparent);
+  EXPECT_THAT(lines, testing::Contains(HasSubstr("GetServerInfo ipv4:127.0.0.1")).Times(1));
+  EXPECT_THAT(lines, testing::Contains(HasSubstr("trace 4bf92f3577b34da6a3ce929d0e0e4736: OK")));
+  EXPECT_THAT(lines, testing::Contains(HasSubstr("NOT_FOUND")).Times(1));
+}
+
+TEST_F(LogTest, AsJsonEachLineIsAnObject) {
+  std::vector<nlohmann::json> calls;
+  for (const std::string& line : LinesOfCall(true, kTraceparent)) {
+    const auto object = nlohmann::json::parse(line);
+    EXPECT_TRUE(object.contains("time") && object.contains("level")) << line;
+    if (object.at("message") == "call") calls.push_back(object);
+  }
+  ASSERT_EQ(calls.size(), 2U);
+  EXPECT_EQ(calls[0].at("method"), "GetServerInfo");
+  EXPECT_EQ(calls[0].at("trace_id"), "4bf92f3577b34da6a3ce929d0e0e4736");
+  EXPECT_EQ(calls[0].at("span_id"), "00f067aa0ba902b7");
+  EXPECT_EQ(calls[1].at("status"), "NOT_FOUND");
+  EXPECT_FALSE(calls[1].contains("trace_id"));
+}
+
+TEST_F(LogTest, WhatIsNoTraceparentIsLeftOut) {
+  for (const char* bad : {"00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7",
+                          "00-4BF92F3577B34DA6A3CE929D0E0E4736-00f067aa0ba902b7-01",
+                          "00-00000000000000000000000000000000-00f067aa0ba902b7-01",
+                          "ff-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01", "x"}) {
+    EXPECT_THAT(LinesOfCall(false, bad), testing::Not(testing::Contains(HasSubstr("trace"))))
+        << bad;
+  }
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <atomic>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "tests/server/fixture.h"
+#include "tests/support/setting.h"
+
+/// Four times the dances that an engine has time for. CHOREO_FAULT_SECONDS makes it longer.
+namespace choreo {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kFrameTime{2};  // of the engine, for each frame
+constexpr int kHolds = 16;             // real-time dances that it has time for
+constexpr milliseconds kGrant{100};
+constexpr int64_t kFramesOfGrant = 3;
+constexpr int kGrantsOfDance = 40;
+
+/// Takes so long for each frame, whatever the machine is.
+class CostlyEngine final : public FakeEngine {
+ public:
+  CostlyEngine() : FakeEngine(256) {}
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    std::this_thread::sleep_for(kFrameTime * in.size());
+    FakeEngine::Step(in, out);
+  }
+};
+
+class OverloadTest : public ServerTest {
+ protected:
+  struct Seen {
+    std::vector<double> lateness;  // seconds, of each grant
+    int admitted = 0, refused = 0;
+  };
+
+  // A dance in real time; false where it was refused, as it should be.
+  bool DanceInTime(Seen* seen, milliseconds* come_back) {
+    DanceClient client(stub());
+    v1::DanceConfig config = Config();
+    config.set_frames(kGrantsOfDance * kFramesOfGrant);
+    client.Send(config);
+    std::vector<double> lateness;
+    Clock::time_point due = Clock::now();
+    for (int64_t granted = kFramesOfGrant; granted <= config.frames(); granted += kFramesOfGrant) {
+      std::this_thread::sleep_until(due);
+      client.SendGenerateUntil(granted);
+      if (!client.ReadFrames(granted)) break;
+      lateness.push_back(std::chrono::duration<double>(Clock::now() - due).count());
+      due += kGrant;
+    }
+    const Answer& answer = client.Finish();
+    const std::lock_guard lock(mutex_);
+    if (answer.status.ok()) {
+      ++seen->admitted;
+      seen->lateness.insert(seen->lateness.end(), lateness.begin(), lateness.end());
+      return true;
+    }
+    EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED)
+        << answer.status.error_message();
+    EXPECT_TRUE(answer.frames.empty()) << "it was admitted";
+    const Details details = DetailsOf(answer.status);
+    EXPECT_TRUE(details.retry_info);
+    *come_back = std::chrono::seconds(details.retry_info->retry_delay().seconds());
+    ++seen->refused;
+    return false;
+  }
+
+ private:
+  std::mutex mutex_;  // of Seen
+};
+
+TEST_F(OverloadTest, WhoIsAdmittedDancesAndTheOthersAreToldWhenToComeBack) {
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  // What it holds, as docs/operations.md says.
+  config.max_streams = config.max_streams_of_peer = kHolds * 3 / 4;
+  std::vector<Server::Engines> models(1);
+  models[0].push_back(std::make_unique<CostlyEngine>());
+  Connect(std::make_unique<Server>(config, std::move(models)));
+  const int seconds = Setting("CHOREO_FAULT_SECONDS", 8);
+  Seen seen;
+  {
+    const auto end = Clock::now() + std::chrono::seconds(seconds);
+    std::vector<std::jthread> clients;
+    for (int i = 0; i < 4 * kHolds; ++i) {
+      clients.emplace_back([&] {
+        milliseconds come_back{0};
+        while (Clock::now() < end) {
+          if (DanceInTime(&seen, &come_back)) continue;
+          std::this_thread::sleep_until(std::min(end, Clock::now() + come_back));
+        }
+      });
+      std::this_thread::sleep_for(milliseconds(50));
+    }
+  }
+  EXPECT_GT(seen.admitted, 0);
+  EXPECT_GT(seen.refused, 0);
+  const auto over = Clock::now();
+  Seen after;
+  milliseconds unused{0};
+  ExpectEventually([&] { return DanceInTime(&after, &unused); }, "it recovers");
+  const double recovery = std::chrono::duration<double>(Clock::now() - over).count() -
+                          kGrantsOfDance * std::chrono::duration<double>(kGrant).count();
+  std::ranges::sort(seen.lateness);
+  const auto quantile = [&](double share) {
+    return 1e3 * seen.lateness[static_cast<size_t>(share *
+                                                   static_cast<double>(seen.lateness.size() - 1))];
+  };
+  std::cout << "4 times the load for " << seconds << " s: " << seen.admitted
+            << " dances admitted, frames p50 " << quantile(0.5) << " ms and p99 " << quantile(0.99)
+            << " ms behind their grants; " << seen.refused
+            << " refused with a time to come back; after " << std::max(0.0, recovery)
+            << " s somebody new is admitted\n";
+}
+
+}  // namespace
+}  // namespace choreo

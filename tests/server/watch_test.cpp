@@ -1,0 +1,22 @@
+#include "server/watch.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <new>
+
+#include "tests/server/fixture.h"
+
+namespace choreo {
+namespace {
+
+TEST(WatchTest, GoesOnWhereMemoryWasOut) {
+  std::atomic<int> looks = 0;
+  const Watch watch(std::chrono::milliseconds(1), [&] {
+    if (++looks < 3) throw std::bad_alloc();
+  });
+  ExpectEventually([&] { return looks > 5; }, "it looks again");
+}
+
+}  // namespace
+}  // namespace choreo

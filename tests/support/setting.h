@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdlib>
+
+namespace choreo {
+
+/// A number from the environment, by which a short test becomes a long one (scripts/faults.sh).
+inline int Setting(const char* name, int otherwise) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? otherwise : std::atoi(value);
+}
+
+}  // namespace choreo
