@@ -55,6 +55,8 @@ expect "it has no compiler" inside "$container" -- sh -c '! command -v g++ cc ni
 expect "all shared libraries are there" inside "$container" -- \
   sh -c '! ldd /usr/local/bin/choreod /usr/local/bin/choreo | grep "not found"'
 
+expect "it does not listen to everybody without TLS" inside "$container" -- sh -c '! choreod 2>/dev/null'
+
 # As the image says: its user, its environment, its entry point; but on a port of ours.
 entry=$(build inspect --format '{{index .Docker.Config.Entrypoint 0}}' "$container")
 port=$((20000 + RANDOM % 20000))
