@@ -47,6 +47,9 @@ echo "== The studio in a browser"
 scripts/install_packages.sh browser
 tests/studio/browser/run.sh "$build"
 
+echo "== Faults that are injected for longer"
+scripts/faults.sh "$build"
+
 echo "== The container builds and dances"
 "$root/scripts/verify_container.sh" "$build"
 

@@ -128,7 +128,7 @@ TEST_P(CleanupTest, AllComesBack) {
   Call(Kind::kStream, End::kSuccess);  // gRPC sets things up at its first call
   ExpectIdle();
   const int64_t threads = CountIn("/proc/self/task"), descriptors = CountIn("/proc/self/fd");
-  const int rounds = Setting("CHOREO_FAULT_ROUNDS", 10);
+  const int rounds = Setting("CHOREO_FAULT_ROUNDS", 20);
   for (int round = 0; round < rounds; ++round) {
     Call(kind, end);
     if (HasFatalFailure()) return;
@@ -136,7 +136,7 @@ TEST_P(CleanupTest, AllComesBack) {
   }
   ExpectIdle();
   // gRPC keeps some threads and a connection or two for a while.
-  constexpr int64_t kSpare = 5;
+  constexpr int64_t kSpare = 10;
   ExpectEventually([&] { return CountIn("/proc/self/fd") < descriptors + kSpare; },
                    "descriptors come back");
   ExpectEventually([&] { return CountIn("/proc/self/task") < threads + kSpare; },

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# The faults of docs/reliability.md that take too long for `make test`; each prints its figure.
+#   scripts/faults.sh BUILD_DIRECTORY
+set -euo pipefail
+bin=$1/bin
+
+echo "== Three replicas, 60 dances in real time, one server lost every 2 s, for a minute"
+CHOREO_FAULT_STREAMS=60 CHOREO_FAULT_SECONDS=60 "$bin/client_test" --gtest_brief=1 --gtest_filter='ReplicaFaultTest.*'
+
+echo "== However a call ends, all that it had comes back: 200 calls of each kind"
+CHOREO_FAULT_ROUNDS=200 "$bin/server_test" --gtest_brief=1 --gtest_filter='Calls/CleanupTest.*'
+
+echo "== Four times the load, for a minute; hostile clients"
+CHOREO_FAULT_SECONDS=60 "$bin/server_test" --gtest_brief=1 --gtest_filter='OverloadTest.*:HostileTest.*'
