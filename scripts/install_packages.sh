@@ -19,7 +19,7 @@ build=(
 # To run what was compiled elsewhere. Debian's LibTorch has only a slow BLAS of its own: libopenblas0-pthread takes its place.
 run=(
   libtorch1.13 libopenblas0-pthread libgrpc++1.51 libprotobuf32
-  libasound2 liblo7 libspdlog1.10 libprometheus-cpp-pull1.0 libssl3 libsndfile1 libzip4 libxxhash0 libcairo2 libtinygltf2d
+  libasound2 liblo7 libspdlog1.10 libprometheus-cpp-core1.0 libssl3 libsndfile1 libzip4 libxxhash0 libcairo2 libtinygltf2d
 )
 # Free songs to dance to.
 demo=(fretsonfire-songs-sectoid)

@@ -1,17 +1,21 @@
 #include "server/metrics.h"
 
+#include <poll.h>
 #include <prometheus/client_metric.h>
 #include <prometheus/collectable.h>
-#include <prometheus/exposer.h>
 #include <prometheus/metric_family.h>
 #include <prometheus/metric_type.h>
+#include <prometheus/text_serializer.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <string_view>
 #include <vector>
 
 #include "model/core/error.h"
+#include "server/listener.h"
 #include "server/status.h"
 
 namespace choreo {
@@ -22,8 +26,11 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
-/// One thread answers: there is one Prometheus, maybe two.
-constexpr size_t kThreads = 1;
+/// Those who ask are answered one after the other: there is one Prometheus, maybe two. (The
+/// library's own HTTP server cannot run beside LibTorch: its threads' stacks are smaller than what
+/// LibTorch wants of each thread.)
+constexpr int kPatienceMs = 1'000;
+constexpr size_t kMostRequestBytes = 8 << 10;
 
 /// The families of one look, in order.
 class Families {
@@ -170,22 +177,63 @@ class Figures final : public prometheus::Collectable {
   const Serving& serving_;
 };
 
+/// What somebody asks over HTTP; empty where it does not come in time, or is too long.
+std::string ReadRequest(int connection) {
+  std::string request;
+  while (request.find("\r\n\r\n") == std::string::npos) {
+    pollfd waited{.fd = connection, .events = POLLIN, .revents = 0};
+    char bytes[1024];
+    if (request.size() > kMostRequestBytes || poll(&waited, 1, kPatienceMs) != 1) return "";
+    const ssize_t count = recv(connection, bytes, sizeof bytes, 0);
+    if (count <= 0) return "";
+    request.append(bytes, static_cast<size_t>(count));
+  }
+  return request;
+}
+
+void SendAll(int connection, std::string_view bytes) {
+  while (!bytes.empty()) {
+    pollfd waited{.fd = connection, .events = POLLOUT, .revents = 0};
+    if (poll(&waited, 1, kPatienceMs) != 1) return;
+    const ssize_t count = send(connection, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (count <= 0) return;
+    bytes.remove_prefix(static_cast<size_t>(count));
+  }
+}
+
 }  // namespace
 
 struct MetricsEndpoint::Impl {
-  std::shared_ptr<Figures> figures;
-  prometheus::Exposer exposer;
+  Impl(const std::string& address, const Serving& serving) : figures(serving), listener(address) {
+    listener.Start([this](int /*listening*/, int connection) {
+      Answer(connection);
+      close(connection);
+    });
+  }
+
+  void Answer(int connection) const {
+    const std::string request = ReadRequest(connection);
+    if (request.empty()) return;
+    const bool known = request.starts_with("GET /metrics ");
+    const std::string body =
+        known ? prometheus::TextSerializer().Serialize(figures.Collect()) : "see /metrics\n";
+    SendAll(connection, std::string("HTTP/1.1 ") + (known ? "200 OK" : "404 Not Found") +
+                            "\r\nContent-Type: text/plain; version=0.0.4\r\nContent-Length: " +
+                            std::to_string(body.size()) + "\r\nConnection: close\r\n\r\n" + body);
+  }
+
+  const Figures figures;
+  Listener listener;  // last: its thread uses the figures
 };
 
 MetricsEndpoint::MetricsEndpoint(const std::string& address, const Serving& serving) try
-    : impl_(new Impl{std::make_shared<Figures>(serving), prometheus::Exposer(address, kThreads)}) {
-  impl_->exposer.RegisterCollectable(impl_->figures);
-} catch (const std::exception&) {
-  throw Error(ErrorCode::kUnavailable, "--metrics", '"' + address + "\" cannot be listened on");
+    : impl_(std::make_unique<Impl>(address, serving)) {
+} catch (const Error& error) {
+  throw Error(error.code(), "--metrics", '"' + address + "\" cannot be listened on");
 }
 
 MetricsEndpoint::~MetricsEndpoint() = default;
 
-int MetricsEndpoint::port() const { return impl_->exposer.GetListeningPorts().front(); }
+int MetricsEndpoint::port() const { return impl_->listener.port(); }
 
 }  // namespace choreo

@@ -4,11 +4,15 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "client/cli/local_server.h"
+#include "server/listener.h"
 #include "server/log.h"
 #include "tests/server/fixture.h"
+#include "tests/support/sanitizers.h"
 
 /// What others see of a server: figures for Prometheus, and the lines of its log.
 namespace choreo {
@@ -18,12 +22,14 @@ using testing::HasSubstr;
 
 class MetricsTest : public ServerTest {
  protected:
+  std::string Metrics() const { return MetricsAt(server->metrics_port()); }
+
   // All that http://127.0.0.1:PORT/metrics says.
-  std::string Metrics() const {
+  static std::string MetricsAt(int port) {
     const int fd = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<uint16_t>(server->metrics_port()));
+    address.sin_port = htons(static_cast<uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
@@ -101,6 +107,16 @@ TEST_F(MetricsTest, AnAddressThatIsTakenIsNamed) {
     EXPECT_EQ(error.field(), "--metrics");
     EXPECT_THAT(error.what(), HasSubstr("127.0.0.1:" + taken));
   }
+}
+
+// With LibTorch, which asks more of every thread.
+TEST_F(MetricsTest, ComeFromTheProgramToo) {
+  if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
+  const int port = Listener("127.0.0.1:0").port();  // free, most likely still in a moment
+  ::setenv("CHOREO_METRICS", std::to_string(port).c_str(), 1);
+  const cli::LocalServer program(CHOREOD_PROGRAM);
+  ::unsetenv("CHOREO_METRICS");
+  EXPECT_THAT(MetricsAt(port), HasSubstr("choreo_slots{model=\"default\"}"));
 }
 
 class LogTest : public ServerTest {
