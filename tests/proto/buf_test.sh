@@ -5,7 +5,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 "$here/../support/npm_ci.sh" "$here/buf"
-buf=$here/buf/node_modules/.bin/buf
+buf=$(echo "$here"/buf/node_modules/@bufbuild/buf-linux-*/bin/buf)
 cd "$here/../../proto"
 case $1 in
   lint) "$buf" lint ;;
