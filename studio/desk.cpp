@@ -9,8 +9,9 @@
 #include "client/convert.h"
 #include "client/edit.h"
 #include "model/formats/motion_file.h"
-#include "studio/convert.h"
+#include "studio/from_page.h"
 #include "studio/scratch_folder.h"
+#include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {

@@ -7,8 +7,8 @@
 #include "client/convert.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
-#include "studio/convert.h"
 #include "studio/scratch_folder.h"
+#include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {

@@ -6,18 +6,8 @@
 #include "client/edit.h"
 #include "studio/studio.pb.h"
 
-/// Between the page's messages, which are those of choreo.v1, and the client library's structs: the
-/// other way round than client/convert.h. What the page says is checked; a value that cannot be
-/// used throws Error(kInvalidArgument) naming its field.
+/// What the page is told: the client library's structs as messages of choreo.v1.
 namespace choreo::studio {
-
-client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
-client::Controls FromProto(const v1::Controls& controls);
-/// Without music, which is this program's, and without a model, which is the server's first.
-client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);
-client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
-                                    const Skeleton& skeleton);
-client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton);
 
 v1::Skeleton ToProto(const Skeleton& skeleton);
 v1::ModelInfo ToProto(const client::ModelDescription& model);

@@ -1,0 +1,165 @@
+#include "studio/from_page.h"
+
+#include <algorithm>
+
+#include "client/convert.h"
+#include "model/motion/pose_limits.h"
+
+namespace choreo::studio {
+namespace {
+
+constexpr double kWholeTurn = 2 * M_PI;
+
+void RequireCount(const std::string& field, int count, int wanted) {
+  if (count == wanted) return;
+  throw InvalidArgument(field,
+                        std::to_string(count) + " numbers, must be " + std::to_string(wanted));
+}
+
+Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field,
+            double max_rotation) {
+  if (pose.encoding() > v1::ROTATION_ENCODING_AXIS_ANGLE)
+    throw InvalidArgument(field + ".encoding", "must be axis-angle");
+  RequireCount(field + ".rotations", pose.rotations_size(), 3 * skeleton.joints());
+  Pose out;
+  const v1::Vector3& root = pose.root_position();
+  out.root_position = {root.x(), root.y(), root.z()};
+  out.rotations = Eigen::Map<const Eigen::Matrix3Xf>(pose.rotations().data(), 3, skeleton.joints())
+                      .cast<double>();
+  CheckPoseLimits(out, max_rotation, "the limit", field);
+  return out;
+}
+
+PoseMask ToMask(const v1::JointMask* joints, bool root_position, const Skeleton& skeleton,
+                const std::string& field) {
+  PoseMask mask;
+  mask.root_position = root_position;
+  if (!joints) return mask;
+  mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
+  for (const int joint : joints->joints()) {
+    if (joint < 0 || joint >= skeleton.joints()) {
+      throw InvalidArgument(field, "joint " + std::to_string(joint) + ", must be 0 to " +
+                                       std::to_string(skeleton.joints() - 1));
+    }
+    mask.joints[static_cast<size_t>(joint)] = true;
+  }
+  return mask;
+}
+
+}  // namespace
+
+client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
+  client::KeyPose out;
+  out.id = key.id();
+  switch (key.when_case()) {
+    case v1::Keyframe::kFrame:
+      out.frame = key.frame();
+      break;
+    case v1::Keyframe::kTime:
+      out.time_s = key.time();
+      break;
+    default:
+      throw InvalidArgument("keyframe.when", "must be a frame or a time");
+  }
+  out.pose = ToPose(key.pose(), skeleton, "keyframe.pose", kWholeTurn);
+  out.mask = ToMask(key.has_mask() ? &key.mask() : nullptr, key.pose().has_root_position(),
+                    skeleton, "keyframe.mask.joints");
+  return out;
+}
+
+client::Controls FromProto(const v1::Controls& controls) {
+  client::Controls out;
+  if (controls.has_root_path()) {
+    const v1::RootPath& path = controls.root_path();
+    client::Controls::RootPath& added = out.root_path.emplace();
+    added.frames.assign(path.frames().begin(), path.frames().end());
+    RequireCount("root_path.points", path.points_size(), 2 * path.frames_size());
+    for (int i = 0; i < path.points_size(); i += 2)
+      added.points.emplace_back(path.points(i), path.points(i + 1));
+    added.heights.assign(path.heights().begin(), path.heights().end());
+  }
+  if (controls.has_velocity_factors()) {
+    const v1::VelocityFactors& velocity = controls.velocity_factors();
+    client::Controls::VelocityFactors& added = out.velocity_factors.emplace();
+    added.frames.assign(velocity.frames().begin(), velocity.frames().end());
+    added.factors.assign(velocity.factors().begin(), velocity.factors().end());
+    added.speeds.assign(velocity.speeds().begin(), velocity.speeds().end());
+    added.reference = velocity.reference();
+    for (const int part : velocity.parts()) {
+      if (part < v1::BODY_PART_TRUNK || part > v1::BODY_PART_RIGHT_LEG)
+        throw InvalidArgument("velocity_factors.parts", std::to_string(part) + " is no part");
+      added.parts.emplace_back(kBodyPartNames[static_cast<size_t>(part - v1::BODY_PART_TRUNK)]);
+    }
+  }
+  return out;
+}
+
+client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton) {
+  client::DanceConfig out;
+  const auto refuse = [](const char* field) {
+    throw InvalidArgument(field, "must be absent: the studio sees to it");
+  };
+  if (!config.model().empty()) refuse("config.model");
+  if (config.has_audio_format()) refuse("config.audio_format");
+  if (config.music_beats_size() > 0) refuse("config.music_beats");
+  if (config.frame_rate() != 0) refuse("config.frame_rate");
+  if (config.has_seed()) out.seed = config.seed();
+  if (config.has_temperature()) out.temperature = config.temperature();
+  if (config.has_frames()) out.frames = config.frames();
+  for (int i = 0; i < config.history().poses_size(); ++i) {
+    out.history.push_back(ToPose(config.history().poses(i), skeleton,
+                                 "config.history.poses[" + std::to_string(i) + "]",
+                                 kMaxWoundRotation));
+  }
+  out.first_frame = config.history().first_frame();
+  if (config.has_continuation()) out.continuation = client::FromProto(config.continuation());
+  // A file's rotations may have gone round more than once; what is sent takes the shortest way.
+  const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, skeleton.joints())};
+  for (Pose& pose : out.history) MakeContinuous(pose, unturned);
+  return out;
+}
+
+client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
+                                    const Skeleton& skeleton) {
+  client::TransitionRequest out;
+  out.config = FromProto(request.config(), skeleton);
+  out.config.controls = FromProto(request.controls());
+  out.frames = request.frames();
+  if (request.has_audio()) throw InvalidArgument("audio", "must be absent: the studio sees to it");
+  const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, skeleton.joints())};
+  if (request.has_target()) {
+    out.target = ToPose(request.target(), skeleton, "target", kMaxWoundRotation);
+    MakeContinuous(*out.target, unturned);
+    out.target_mask = ToMask(request.has_target_mask() ? &request.target_mask() : nullptr,
+                             request.target().has_root_position(), skeleton, "target_mask.joints");
+  }
+  out.target_id = request.target_id();
+  for (int i = 0; i < request.after_size(); ++i) {
+    out.after.push_back(
+        ToPose(request.after(i), skeleton, "after[" + std::to_string(i) + "]", kMaxWoundRotation));
+    MakeContinuous(out.after.back(), unturned);
+  }
+  out.candidates = static_cast<int>(std::max(1U, request.candidates()));
+  return out;
+}
+
+client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton) {
+  const v1::Frames& frames = clip.frames();
+  const int count = frames.count();
+  if (count < 1) throw InvalidArgument("clip.frames", "there are none");
+  RequireCount("clip.frames.root_positions", frames.root_positions_size(), 3 * count);
+  RequireCount("clip.frames.rotations", frames.rotations_size(), 3 * count * skeleton.joints());
+  if (!(clip.frame_rate() >= 1 && clip.frame_rate() <= 1000))
+    throw InvalidArgument("clip.frame_rate", "must be 1 to 1000");
+  v1::Frames whole = frames;
+  const bool touches = frames.contacts_size() > 0;
+  if (!touches) whole.mutable_contacts()->Resize(4 * count, 0);
+  client::FrameBlock block = client::FromProto(whole, skeleton.joints());
+  client::FinishedDance out;
+  out.motion = {.fps = clip.frame_rate(), .frames = std::move(block.poses)};
+  if (touches) out.contacts = std::move(block.contacts);
+  CheckMotionLimits(out.motion);
+  return out;
+}
+
+}  // namespace choreo::studio
