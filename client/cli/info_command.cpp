@@ -16,6 +16,7 @@ struct InfoOptions {
   ServerOptions server;
   bool json = false;
   bool poses = false;
+  bool cards = false;
 };
 
 /// {"name": "median", "trunk": 0.012, ...}: metres a frame.
@@ -125,8 +126,8 @@ void PrintStyles(const client::ModelDescription& model) {
   std::printf("\n");
 }
 
-void PrintServer(const client::ServerDescription& server, bool as_json) {
-  if (as_json) {
+void PrintServer(const client::ServerDescription& server, const InfoOptions& options) {
+  if (options.json) {
     nlohmann::ordered_json json;
     json["version"] = server.version;
     json["devices"] = server.devices;
@@ -157,7 +158,7 @@ void PrintServer(const client::ServerDescription& server, bool as_json) {
         model.fingerprint.c_str(), model.licence.c_str());
     PrintControls(model);
     PrintStyles(model);
-    PrintCard(model.card);
+    if (options.cards) PrintCard(model.card);
   }
 }
 
@@ -167,7 +168,7 @@ void Run(const InfoOptions& options) {
       std::printf("%-14s %s\n", pose.id.c_str(), pose.description.c_str());
     return;
   }
-  PrintServer(Connection(options.server).server(), options.json);
+  PrintServer(Connection(options.server).server(), options);
 }
 
 }  // namespace
@@ -177,6 +178,8 @@ void AddInfoCommand(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("info", "Show a server's models, licences, limits and devices.");
   command->add_flag("--json", options->json, "Print everything as JSON, the model cards included.");
+  command->add_flag("--cards", options->cards,
+                    "Print the models' cards too: how each was trained, on what, and how well.");
   command->add_flag("--poses", options->poses, "List the key poses that ship instead.");
   options->server.AddTo(*command);
   command->callback([options] { Run(*options); });

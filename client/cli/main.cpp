@@ -4,6 +4,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
+#include "client/cli/misspelling.h"
 #include "model/core/error.h"
 
 namespace {
@@ -19,8 +20,10 @@ int main(int argc, char** argv) {
                    "choreo"};
   program.set_version_flag("--version", CHOREO_VERSION);
   program.require_subcommand(1);
-  program.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("choreo: ") + error.what() + "; see --help\n";
+  program.failure_message([&program](const CLI::App*, const CLI::Error& error) {
+    const std::string misspelling = choreo::cli::DescribeMisspelling(program);
+    return "choreo: " +
+           (misspelling.empty() ? error.what() + std::string("; see --help") : misspelling) + "\n";
   });
   choreo::cli::AddDanceCommand(program);
   choreo::cli::AddLiveCommand(program);

@@ -117,7 +117,7 @@ TEST_F(ShippedControlsTest, TheCommandTellsSpeeds) {
 }
 
 TEST_F(ShippedControlsTest, InfoTellsWhatItsTrainingWentOnFrom) {
-  const Outcome outcome = Choreo("info --server " + server_->address());
+  const Outcome outcome = Choreo("info --cards --server " + server_->address());
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, testing::HasSubstr("went on from"));
 }
