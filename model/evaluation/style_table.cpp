@@ -57,7 +57,10 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
       real.push_back({i, recognised(poses, style)});
     if (std::ssize(poses) < history) continue;
     for (size_t style = 0; style < styles.size(); ++style) {
-      LongPlan plan{.clip = i, .frames = frames, .seed = style};
+      LongPlan plan;
+      plan.clip = i;
+      plan.frames = frames;
+      plan.seed = style;
       plan.history.assign(poses.begin(), poses.begin() + history);
       plan.temperature = evaluation.options.temperature;
       plan.style = styles[style];
