@@ -11,15 +11,15 @@ export CMAKE_CXX_COMPILER_LAUNCHER ?= $(shell command -v ccache)
 
 SOURCES = $(shell git ls-files '*.cpp' '*.h')
 
-.PHONY: help demo studio test build packages bench verify format lint
+.PHONY: help demo studio test programs build packages bench verify format lint
 
 help:  ## Show this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-9s %s\n", $$1, $$2}'
 
-demo: build  ## Install, build, serve, and dance 24 s to a real song; results in out/demo/
+demo: programs  ## Install, build, serve, and dance 24 s to a real song; results in out/demo/
 	@scripts/demo.sh $(BUILD)/bin out/demo
 
-studio: build  ## Install, build, and open the studio in a browser: SONG=file begins with that song
+studio: programs  ## Install, build, and open the studio in a browser: SONG=file begins with that song
 	@$(BUILD)/bin/choreo studio $(if $(SONG),"$(SONG)")
 
 test: build  ## Install, build and run every test (a few minutes)
@@ -27,8 +27,11 @@ test: build  ## Install, build and run every test (a few minutes)
 	@# All that tests need is there now: what still can't be had is a failure.
 	@CHOREO_SKIP_CODE=1 scripts/run_tests.sh $(BUILD)
 
-build: packages  ## Install what is missing and compile everything (PRESET=release|debug|asan|tsan)
+programs: packages  ## Install what is missing and compile choreod and choreo
 	@cmake --preset $(PRESET) $(if $(wildcard $(BUILD)/build.ninja),>/dev/null,)
+	@cmake --build $(BUILD) -j $(JOBS) --target choreod choreo
+
+build: programs  ## The same, and everything else: choreo-lab, tests, benchmarks (PRESET=release|debug|asan|tsan)
 	@cmake --build $(BUILD) -j $(JOBS)
 
 packages:  ## Install the Debian packages that are missing
