@@ -1,5 +1,6 @@
 #include "client/replicas.h"
 
+#include <arpa/inet.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
@@ -35,17 +36,27 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
     throw InvalidArgument(options.client_key.empty() ? "client_key" : "client_certificate",
                           "missing; a certificate and its key go together");
   }
-  if (!options.tls) return grpc::InsecureChannelCredentials();
+  if (!options.tls) {
+    for (const auto& [field, value] : {std::pair{"ca_certificate", options.ca_certificate.string()},
+                                       {"client_certificate", options.client_certificate.string()},
+                                       {"server_name", options.server_name}}) {
+      if (!value.empty()) throw InvalidArgument(field, "\"" + value + "\" needs TLS, which is off");
+    }
+    return grpc::InsecureChannelCredentials();
+  }
   return grpc::SslCredentials(
       {.pem_root_certs = ReadFile("ca_certificate", options.ca_certificate),
        .pem_private_key = ReadFile("client_key", options.client_key),
        .pem_cert_chain = ReadFile("client_certificate", options.client_certificate)});
 }
 
-/// Nobody else hears what is said to it.
+/// Nobody else hears what is said to it. A name that only begins like an address is a name.
 bool IsOfThisMachine(const std::string& address) {
-  return address.starts_with("127.") || address.starts_with("localhost:") ||
-         address.starts_with("[::1]:") || address.starts_with("unix:");
+  if (address.starts_with("unix:")) return true;
+  const std::string host = address.substr(0, address.rfind(':'));
+  in_addr four;
+  if (inet_pton(AF_INET, host.c_str(), &four) == 1) return ntohl(four.s_addr) >> 24 == 127;
+  return host == "localhost" || host == "[::1]";
 }
 
 void CheckToken(const Options& options) {

@@ -20,11 +20,14 @@ namespace choreo {
 namespace {
 
 /// Stops these from ending the process: from here on they wait for sigwait. Threads inherit it.
+// Also lets a log whose reader is gone be a log that nobody reads.
 sigset_t BlockStopSignals() {
+  signal(SIGPIPE, SIG_IGN);
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }

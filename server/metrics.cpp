@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -177,13 +178,28 @@ class Figures final : public prometheus::Collectable {
   const Serving& serving_;
 };
 
+/// Of all that one connection sends, or takes: who drips holds up nobody, and no stop, for longer.
+class Deadline {
+ public:
+  int left_ms() const {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        until_ - std::chrono::steady_clock::now());
+    return std::max(0, static_cast<int>(left.count()));
+  }
+
+ private:
+  const std::chrono::steady_clock::time_point until_ =
+      std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
+};
+
 /// What somebody asks over HTTP; empty where it does not come in time, or is too long.
 std::string ReadRequest(int connection) {
+  const Deadline deadline;
   std::string request;
   while (request.find("\r\n\r\n") == std::string::npos) {
     pollfd waited{.fd = connection, .events = POLLIN, .revents = 0};
     char bytes[1024];
-    if (request.size() > kMostRequestBytes || poll(&waited, 1, kPatienceMs) != 1) return "";
+    if (request.size() > kMostRequestBytes || poll(&waited, 1, deadline.left_ms()) != 1) return "";
     const ssize_t count = recv(connection, bytes, sizeof bytes, 0);
     if (count <= 0) return "";
     request.append(bytes, static_cast<size_t>(count));
@@ -192,9 +208,10 @@ std::string ReadRequest(int connection) {
 }
 
 void SendAll(int connection, std::string_view bytes) {
+  const Deadline deadline;
   while (!bytes.empty()) {
     pollfd waited{.fd = connection, .events = POLLOUT, .revents = 0};
-    if (poll(&waited, 1, kPatienceMs) != 1) return;
+    if (poll(&waited, 1, deadline.left_ms()) != 1) return;
     const ssize_t count = send(connection, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (count <= 0) return;
     bytes.remove_prefix(static_cast<size_t>(count));

@@ -74,6 +74,7 @@ grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* hol
   if (authorization.empty()) return SendToken("a token is needed");
   if (!authorization.starts_with(kScheme)) return SendToken("that is no bearer token");
   authorization.remove_prefix(kScheme.size());
+  if (authorization.empty()) return SendToken("that token is empty");
   Hash hash;
   SHA256(reinterpret_cast<const unsigned char*>(authorization.data()), authorization.size(),
          hash.data());

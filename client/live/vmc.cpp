@@ -3,6 +3,7 @@
 #include <lo/lo.h>
 
 #include <Eigen/Geometry>
+#include <charconv>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -77,6 +78,12 @@ lo_address Resolve(const std::string& address) {
   const size_t colon = address.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == address.size())
     throw InvalidArgument("--vmc", "\"" + address + "\" is not HOST:PORT");
+  const std::string port = address.substr(colon + 1);
+  int number = 0;
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (error != std::errc() || end != port.data() + port.size() || number < 1 || number > 65535)
+    throw InvalidArgument("--vmc", "\"" + address + "\" has the port " + port +
+                                       ", which is no whole number from 1 to 65535");
   std::string host = address.substr(0, colon);
   if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
   return lo_address_new(host.c_str(), address.c_str() + colon + 1);

@@ -240,8 +240,8 @@ class FlowMatchingRun : public TrainingRun {
                   "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
                       " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. "
                       "Feet slide without the foot lock. What the data lacks (lying, acrobatics, "
-                      "props, partners) it can't do.");
-    if (!base_.is_null()) card["from"] = base_;
+                      "props, partners) it can't do.",
+                  base_);
     Safetensors weights;
     ExportTensors(*average_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,9 +11,10 @@
 namespace choreo {
 
 /// What a checkpoint says of itself: data and their terms, the command, figures on validation
-/// clips, `limits`. `hash` is that of the training clips.
+/// clips, `limits`, and `from`, what it went on from ({"hash", "card"}), whose terms bind it, too.
+/// `hash` is that of the training clips.
 nlohmann::json ModelCard(const TrainOptions& options, const std::vector<PreparedClip>& clips,
                          const std::string& hash, const NamedFigures& figures,
-                         const std::string& limits);
+                         const std::string& limits, const nlohmann::json& from = {});
 
 }  // namespace choreo

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "client/choreo_client.h"
+#include "server/tokens.h"
 #include "tests/client/run_choreo.h"
 #include "tests/client/test_server.h"
 #include "tests/support/certificates.h"
@@ -210,6 +211,23 @@ TEST_F(TokensTest, AreSentOverTlsOrToThisMachineAlone) {
   ExpectError(ErrorCode::kInvalidArgument, "over TLS alone", [&] {
     Client({.addresses = {"127.0.0.1:1", "example.test:1"}, .token_file = folder_ / "token"});
   });
+  for (const std::string name : {"127.example.test:1", "localhost.example.test:1"}) {
+    ExpectError(ErrorCode::kInvalidArgument, "over TLS alone",
+                [&] { Client({.addresses = {name}, .token_file = folder_ / "token"}); });
+  }
+}
+
+TEST_F(TokensTest, AnEmptyOneIsNobodys) {
+  Write("tokens", LineOf("", "nobody"));
+  std::string holder;
+  const Tokens tokens(folder_ / "tokens");
+  EXPECT_EQ(tokens.FindHolder("Bearer ", &holder).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(holder, "");
+}
+
+TEST_F(TokensTest, WhatIsOfTlsNeedsIt) {
+  ExpectError(ErrorCode::kInvalidArgument, "ca_certificate",
+              [&] { Client({.ca_certificate = folder_ / "ca.pem"}); });
 }
 
 TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {

@@ -51,5 +51,18 @@ TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {
   EXPECT_EQ(card.at("from").at("card").at("data"), card.at("data"));
 }
 
+TEST(ShippedCheckpoints, TheLicenceNamesTheTermsOfAllThatAModelWentOnFrom) {
+  const auto engine = MakeEngine(Shipped().at("default"), {}, 1);
+  nlohmann::json card = nlohmann::json::parse(engine->model().card);
+  int runs = 0;
+  for (; true; ++runs) {
+    for (const auto& [of, clips] : card.at("data").at("clips_by_terms").items())
+      EXPECT_THAT(engine->model().licence, testing::HasSubstr(of));
+    if (!card.contains("from")) break;
+    card = nlohmann::json(card.at("from").at("card"));
+  }
+  EXPECT_GT(runs, 1);
+}
+
 }  // namespace
 }  // namespace choreo

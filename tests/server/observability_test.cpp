@@ -1,5 +1,6 @@
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -24,14 +25,18 @@ class MetricsTest : public ServerTest {
  protected:
   std::string Metrics() const { return MetricsAt(server->metrics_port()); }
 
-  // All that http://127.0.0.1:PORT/metrics says.
-  static std::string MetricsAt(int port) {
+  static int ConnectTo(int port) {
     const int fd = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    return fd;
+  }
+  // All that http://127.0.0.1:PORT/metrics says.
+  static std::string MetricsAt(int port) {
+    const int fd = ConnectTo(port);
     const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
     EXPECT_EQ(send(fd, request.data(), request.size(), 0), std::ssize(request));
     std::string said;
@@ -95,6 +100,21 @@ TEST_F(MetricsTest, TellWhatGoesOn) {
   EXPECT_EQ(Figure("choreo_streams"), 1);
   EXPECT_EQ(Figure("choreo_utilisation"), 0.25);
   client.Cancel();
+}
+
+TEST_F(MetricsTest, WhoSendsAByteNowAndThenIsLeft) {
+  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  const int fd = ConnectTo(server->metrics_port());
+  bool left = false;
+  for (int i = 0; i < 40 && !left; ++i) {
+    send(fd, "G", 1, MSG_NOSIGNAL);
+    pollfd waited{.fd = fd, .events = POLLIN, .revents = 0};
+    char byte;
+    left = poll(&waited, 1, 250) == 1 && recv(fd, &byte, 1, 0) <= 0;
+  }
+  close(fd);
+  EXPECT_TRUE(left) << "ten seconds, and a stop would wait for it";
+  EXPECT_THAT(Metrics(), HasSubstr("choreo_slots"));
 }
 
 TEST_F(MetricsTest, AnAddressThatIsTakenIsNamed) {

@@ -88,7 +88,8 @@ TEST(VmcTest, AFrameIsABundleThatPutsTheMirroredBodyTogether) {
 }
 
 TEST(VmcTest, AnAddressThatIsNoneIsNamed) {
-  for (const char* address : {"nowhere", "127.0.0.1:", ":39539", "127.0.0.1:port"}) {
+  for (const char* address :
+       {"nowhere", "127.0.0.1:", ":39539", "127.0.0.1:port", "127.0.0.1:99999", "127.0.0.1:0"}) {
     ExpectError(ErrorCode::kInvalidArgument, "--vmc",
                 [&] { live::VmcSender(address, Skeleton::Smpl24()); });
   }
