@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <cmath>
 
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/lively_figures.h"
 #include "model/evaluation/long_plans.h"
 #include "model/metrics/style_classifier.h"
 #include "model/training/style.h"
