@@ -14,7 +14,9 @@
 #include "model/engine/engines.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
+#include "model/flow/flow_tokens.h"
 #include "model/flow/random_checkpoint.h"
+#include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
 
 /// Both engines, and beside them what limits them: the bare matrix products of the same shapes, and
@@ -141,6 +143,26 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   return shapes;
 }
 
+/// The continuous flow's products of one transition of kFrames.
+std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
+                                        const Skeleton& skeleton) {
+  const int dimensions = 3 + 3 * skeleton.joints(), width = config.width;
+  const int tokens = (config.history_frames + kFrames + kFramesAToken - 1) / kFramesAToken;
+  const int token = kFramesAToken * TokenFrameWidth(dimensions, FrameFeatures());
+  std::vector<BareProducts::Shape> shapes;
+  for (int step = 0; step < config.steps; ++step) {
+    shapes.push_back({token, width, tokens});
+    for (int layer = 0; layer < config.layers; ++layer) {
+      shapes.push_back({width, 3 * width, tokens});
+      shapes.push_back({width, width, tokens});
+      shapes.push_back({width, 3 * width, tokens});
+      shapes.push_back({3 * width, width, tokens});
+    }
+    shapes.push_back({width, 2 * kFramesAToken * dimensions, tokens});
+  }
+  return shapes;
+}
+
 void Bare(benchmark::State& state, const std::vector<BareProducts::Shape>& shapes, int rows,
           int items, bool bf16) {
   BareProducts products(shapes, rows, bf16);
@@ -219,8 +241,15 @@ void Register(Models* models) {
           ->UseRealTime();
     }
   }
-  add("default/admission/torch",
-      [=](benchmark::State& state) { Admissions(state, models->Engine("default", "torch")); });
+  for (const std::string& kind : kinds) {
+    add("default/admission/" + kind,
+        [=](benchmark::State& state) { Admissions(state, models->Engine("default", kind)); });
+  }
+  for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
+    add(std::string("default/") + (half ? "bare-bf16" : "bare"), [=](benchmark::State& state) {
+      Bare(state, Shapes(ContinuousFlowConfig{}, Skeleton::Smpl24()), 0, 1, half);
+    });
+  }
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
 }
 

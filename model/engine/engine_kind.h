@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// What steps paper F's flow. Other models LibTorch runs, whatever is asked.
+/// What computes the flows' networks. Paper C's model LibTorch runs, whatever is asked.
 enum class EngineKind {
   kAuto,        ///< the faster one: packed on the CPU, else torch
   kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to

@@ -18,6 +18,7 @@
 #include "model/engine/build_identity.h"
 #include "model/engine/continuous_flow_engine.h"
 #include "model/engine/flow_engine.h"
+#include "model/engine/packed/continuous_flow.h"
 #include "model/engine/packed/flow.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/tile.h"
@@ -96,6 +97,14 @@ KernelSet ChooseKernels(EngineKind kind, const std::string& name) {
   throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
 }
 
+bool Packs(EngineKind kind, const Device& device) {
+  const bool on_cpu = device.kind == Device::Kind::kCpu;
+  const bool packs = kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16;
+  if (packs && !on_cpu)
+    throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
+  return packs || (kind == EngineKind::kAuto && on_cpu);
+}
+
 std::string Fingerprint(const std::string& preset, const std::string& hash,
                         const std::string& kernels) {
   return preset + "/" + hash + "/choreo " CHOREO_VERSION + ", " + BuildIdentity() + "/" + kernels;
@@ -144,13 +153,24 @@ Factory LoadControllers(const Safetensors& content, const std::filesystem::path&
 }
 
 Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::path& path,
-                           const Device& device) {
+                           const Device& device, EngineKind kind, const std::string& kernel_name) {
   const ContinuousFlowCheckpoint checkpoint = ParseContinuousFlow(content, path.string());
   const ContinuousFlowConfig& config = checkpoint.model->config();
+  const Skeleton& skeleton = checkpoint.model->skeleton();
   const auto parts = std::make_shared<const FlowModelParts>(checkpoint.model->Parts());
-  const torch::Device there = ToTorch(device);
-  const std::shared_ptr<const FlowNetwork> network = MakeTorchFlowNetwork(checkpoint.model, there);
-  ModelInfo info = InfoOf(checkpoint, config, checkpoint.model->skeleton(), TorchKernels(there));
+  std::shared_ptr<const FlowNetwork> network;
+  std::string kernels;
+  if (Packs(kind, device)) {
+    const KernelSet set = ChooseKernels(kind, kernel_name);
+    kernels = std::string("packed ") + set.products->name;
+    network = std::make_shared<const PackedFlowNetwork>(content, config, skeleton, *set.exact,
+                                                        *set.products);
+  } else {
+    const torch::Device there = ToTorch(device);
+    kernels = TorchKernels(there);
+    network = MakeTorchFlowNetwork(checkpoint.model, there);
+  }
+  ModelInfo info = InfoOf(checkpoint, config, skeleton, kernels);
   info.audio_features = 40;
   info.hears_music = false;  // but its beats
   info.default_temperature = config.temperature;
@@ -176,14 +196,9 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
   FlowModel model = checkpoint.model;
   const FlowConfig& config = model->config();
-  const bool on_cpu = device.kind == Device::Kind::kCpu;
-  const bool packs = kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16 ||
-                     (kind == EngineKind::kAuto && on_cpu);
-  if (packs && !on_cpu)
-    throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
   std::function<std::unique_ptr<FlowTile>(int slots)> tile;
   std::string kernels;
-  if (packs) {
+  if (Packs(kind, device)) {
     const KernelSet set = ChooseKernels(kind, kernel_name);
     kernels = std::string("packed ") + set.products->name;
     const auto packed = std::make_shared<const PackedFlow>(content, config, model->feature_width(),
@@ -217,7 +232,8 @@ Factory Load(const std::filesystem::path& path, const Device& device, EngineKind
   at::globalContext().setDeterministicCuDNN(true);
   const Safetensors content = ReadSafetensors(path);
   if (HoldsControllers(content)) return LoadControllers(content, path);
-  if (HoldsContinuousFlow(content)) return LoadContinuousFlow(content, path, device);
+  if (HoldsContinuousFlow(content))
+    return LoadContinuousFlow(content, path, device, kind, kernel_name);
   return LoadFlow(content, path, device, kind, kernel_name);
 }
 

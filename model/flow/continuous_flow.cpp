@@ -8,6 +8,7 @@
 
 #include "model/flow/checkpoint.h"
 #include "model/flow/checkpoint_file.h"
+#include "model/flow/flow_tokens.h"
 #include "model/flow/random_checkpoint.h"
 #include "model/flow/time_attention.h"
 
@@ -16,10 +17,6 @@ namespace choreo {
 using torch::Tensor;
 
 namespace {
-
-constexpr int64_t kTimeWidth = 32;  // of the embedded time of the flow
-constexpr double kTimeScale = 100;  // of that time, so that the embedding tells small steps
-constexpr int64_t kFramesAToken = 2;
 
 // A transformer block whose norms are scaled and shifted, and whose two halves are weighed, by what
 // is known of the whole window (adaptive layer norm, Peebles & Xie 2023).
@@ -51,8 +48,6 @@ class FlowBlockImpl : public torch::nn::Module {
     return attended + (1 + m[5]) * down_(torch::gelu(up_(mlp_norm_(attended) * (1 + m[3]) + m[4])));
   }
 
-  static constexpr int64_t kMostTokensApart = 64;
-
  private:
   torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
   torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr},
@@ -62,13 +57,14 @@ class FlowBlockImpl : public torch::nn::Module {
 TORCH_MODULE(FlowBlock);
 
 Tensor EmbedTime(const Tensor& t) {
-  const Tensor rate = torch::exp(torch::arange(kTimeWidth / 2, t.options()) *
-                                 (-std::log(1000.0) / (kTimeWidth / 2)));
-  const Tensor phase = kTimeScale * t.unsqueeze(-1) * rate;
-  return torch::cat({phase.sin(), phase.cos()}, -1);
+  const Tensor times = t.cpu().contiguous();
+  const Tensor embedded = torch::empty({t.size(0), kFlowTimeWidth});
+  for (int64_t i = 0; i < t.size(0); ++i) {
+    EmbedFlowTime(times.data_ptr<float>()[i],
+                  {embedded.data_ptr<float>() + i * kFlowTimeWidth, size_t{kFlowTimeWidth}});
+  }
+  return embedded.to(t.device());
 }
-
-constexpr double kReach = 0.3;  // metres: the spread of joints about the body
 
 // While it lives, products of matrices are made in bfloat16 where `on`: training is twice as fast.
 class Bfloat16Products {
@@ -151,10 +147,11 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   velocity_ = register_buffer("velocity_spread", torch::ones({dimensions}));
   energy_ = register_buffer(
       "energy_prior", torch::zeros({std::ssize(EnergyPrior(config.styles.size()).ToNumbers())}));
-  const int64_t features = kFramesAToken * (6 * dimensions - 3 + FrameFeatures());
+  const int64_t features =
+      kFramesAToken * TokenFrameWidth(static_cast<int>(dimensions), FrameFeatures());
   embed_ = register_module("embed", torch::nn::Linear(features, width));
   condition_in_ = register_module(
-      "condition_in", torch::nn::Linear(WholeFeatures(skeleton, config) + kTimeWidth, width));
+      "condition_in", torch::nn::Linear(WholeFeatures(skeleton, config) + kFlowTimeWidth, width));
   condition_out_ = register_module("condition_out", torch::nn::Linear(width, config.condition));
   blocks_ = register_module("blocks", torch::nn::ModuleList());
   for (int i = 0; i < config.layers; ++i)
@@ -176,7 +173,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   const int64_t tau = poses.size(1) - window;
   const Tensor silent = torch::zeros({batch, tau, dimensions}, z.options());
   Tensor x = torch::cat({torch::cat({silent, z}, 1), poses / spread_, Steps(poses) / velocity_,
-                         mean / spread_, Steps(mean) / velocity_, frames, joints / kReach},
+                         mean / spread_, Steps(mean) / velocity_, frames, joints / kBodyReach},
                         -1);
   // An odd frame out stands in front, where history is oldest.
   if (x.size(1) % kFramesAToken != 0) x = torch::cat({x.narrow(1, 0, 1), x}, 1);
@@ -185,7 +182,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   const Tensor condition = torch::silu(
       condition_out_(torch::silu(condition_in_(torch::cat({whole, EmbedTime(t)}, -1)))));
   x = embed_(x.reshape({batch, tokens, -1})) + inject_(condition).unsqueeze(1);
-  const Tensor distance = TimeDistances(tokens, z.device(), FlowBlockImpl::kMostTokensApart);
+  const Tensor distance = TimeDistances(tokens, z.device(), kMostTokensApart);
   {
     const Bfloat16Products fast(is_training());
     for (const auto& block : *blocks_) x = block->as<FlowBlock>()->forward(x, condition, distance);

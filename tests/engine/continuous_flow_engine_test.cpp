@@ -3,6 +3,7 @@
 
 #include "model/dance/transition_batch.h"
 #include "model/engine/engines.h"
+#include "model/engine/packed/kernels.h"
 #include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
@@ -63,6 +64,32 @@ TEST_F(ContinuousFlowEngineTest, TellsWhatItTakes) {
   ASSERT_EQ(model.velocity_references.size(), 1U);
   EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
   EXPECT_EQ(model.default_temperature, 1);
+}
+
+// Windows of odd and even numbers of frames, several in a row, with and without keys: heads here
+// are narrower than any panel.
+TEST_F(ContinuousFlowEngineTest, EnginesAgree) {
+  const auto torch = MakeEngine(path_, {}, 1, EngineKind::kTorch);
+  std::vector<std::pair<std::unique_ptr<StepEngine>, double>> others;
+  for (const PackedKernels* kernels : PackedKernelsHere()) {
+    const Device cpu;
+    others.emplace_back(
+        std::move(MakeEngines(path_, {&cpu, 1}, 1, EngineKind::kPacked, kernels->name).front()),
+        2e-4);
+  }
+  if (Bf16KernelsHere() != nullptr)
+    others.emplace_back(MakeEngine(path_, {}, 1, EngineKind::kPackedBf16), 0.1);
+  for (auto& [packed, most] : others) {
+    EXPECT_NE(packed->model().fingerprint, torch->model().fingerprint);
+    for (const int frames : {1, 2, 9, 16, 40}) {
+      for (uint64_t seed = 1; seed <= 4; ++seed) {
+        const TransitionSpec spec = Spec(seed, frames);
+        const auto wanted = DanceAlone(torch.get(), spec);
+        EXPECT_LT(LargestDifference(wanted, DanceAlone(packed.get(), spec)), most)
+            << packed->model().fingerprint << ", " << frames << " frames, seed " << seed;
+      }
+    }
+  }
 }
 
 TEST_F(ContinuousFlowEngineTest, GivesTheSameBitsAloneAndAmongOthers) {

@@ -1,0 +1,200 @@
+#include "model/engine/packed/continuous_flow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "model/engine/packed/tensors.h"
+#include "model/flow/flow_tokens.h"
+
+namespace choreo {
+namespace {
+
+long RoundUp(long count, long unit) { return (count + unit - 1) / unit * unit; }
+
+// Of one row.
+Eigen::VectorXf Run(const PackedLinear& linear, const Eigen::VectorXf& x) {
+  Eigen::VectorXf y(linear.padded());
+  linear.Run(x.data(), x.size(), y.data(), y.size(), 1);
+  return y;
+}
+
+}  // namespace
+
+struct PackedFlowNetwork::Workspace {
+  RowBuffer x;             // [tokens, width], what blocks add to
+  RowBuffer normal;        // normalised, shifted and scaled
+  RowBuffer qkv;           // [tokens, 3 width]
+  RowBuffer keys, values;  // of one head, laid out for products
+  RowBuffer shares;        // [tokens, tokens] of one head's attention
+  RowBuffer mixed;         // [tokens, width] and a panel, into which the last head may write
+  RowBuffer added;         // [tokens, width], what a half block adds
+  RowBuffer wide;          // [tokens, 3 width]
+};
+
+PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const ContinuousFlowConfig& config,
+                                     const Skeleton& skeleton, const PackedKernels& kernels,
+                                     const PackedKernels& products)
+    : kernels_(kernels),
+      width_(config.width),
+      heads_(config.heads),
+      most_tokens_((config.history_frames + config.window_frames + kFramesAToken - 1) /
+                   kFramesAToken) {
+  const PackedTensors tensors(content);
+  const int dimensions = 3 + 3 * skeleton.joints(), condition = config.condition;
+  spread_ = tensors.Get("spread", dimensions);
+  velocity_ = tensors.Get("velocity_spread", dimensions);
+  const auto linear = [&](const PackedKernels& by, const std::string& name, long in, long out) {
+    return tensors.Linear(by, name, in, out);
+  };
+  embed_ = linear(kernels, "embed", kFramesAToken * TokenFrameWidth(dimensions, FrameFeatures()),
+                  width_);
+  inject_ = linear(kernels, "inject", condition, width_);
+  condition_in_ =
+      linear(kernels, "condition_in", WholeFeatures(skeleton, config) + kFlowTimeWidth, width_);
+  condition_out_ = linear(kernels, "condition_out", width_, condition);
+  head_ = linear(kernels, "head", width_, 2L * kFramesAToken * dimensions);
+  head_modulation_ = linear(kernels, "head_modulation", condition, 2 * width_);
+  for (int i = 0; i < config.layers; ++i) {
+    const std::string name = "blocks." + std::to_string(i) + ".";
+    Block block{.qkv = linear(products, name + "qkv", width_, 3 * width_),
+                .out = linear(products, name + "out", width_, width_),
+                .up = linear(products, name + "up", width_, 3 * width_),
+                .down = linear(products, name + "down", 3 * width_, width_),
+                .modulation = linear(kernels, name + "modulation", condition, 6 * width_),
+                .bias = {}};
+    const auto bias = tensors.Get(name + "distance_bias", 2 * kMostTokensApart + 1, heads_);
+    block.bias.resize(heads_, 2 * most_tokens_ + kernels.panel);
+    for (long at = 0; at < block.bias.cols(); ++at) {
+      const long ahead = std::clamp<long>(at - most_tokens_, -kMostTokensApart, kMostTokensApart);
+      block.bias.col(at) = bias.row(ahead + kMostTokensApart).transpose();
+    }
+    blocks_.push_back(std::move(block));
+  }
+}
+
+Eigen::VectorXf PackedFlowNetwork::Condition(const Eigen::VectorXf& whole, float t) const {
+  Eigen::VectorXf known(whole.size() + kFlowTimeWidth);
+  known.head(whole.size()) = whole;
+  EmbedFlowTime(t, {known.data() + whole.size(), size_t{kFlowTimeWidth}});
+  Eigen::VectorXf hidden = Run(condition_in_, known);
+  kernels_.silu(hidden.data(), hidden.size());
+  hidden.conservativeResize(width_);
+  Eigen::VectorXf condition = Run(condition_out_, hidden);
+  kernels_.silu(condition.data(), condition.size());
+  condition.conservativeResize(condition_out_.columns());
+  return condition;
+}
+
+void PackedFlowNetwork::Normalise(const RowBuffer& x, const float* shift, const float* scale,
+                                  long tokens, RowBuffer* out) const {
+  const Eigen::VectorXf gain = Eigen::Map<const Eigen::VectorXf>(scale, width_).array() + 1;
+  for (long i = 0; i < tokens; ++i)
+    kernels_.layer_norm(x.Row(i), gain.data(), shift, width_, out->Row(i));
+}
+
+void PackedFlowNetwork::Attend(const Block& block, long tokens, Workspace* work) const {
+  const long panel = kernels_.panel, head = width_ / heads_;
+  const long key_panels = (tokens + panel - 1) / panel, value_panels = (head + panel - 1) / panel;
+  const float scale = 1 / std::sqrt(static_cast<float>(head));
+  work->keys.Resize(1, key_panels * panel * head);
+  work->values.Resize(1, value_panels * panel * tokens);
+  work->shares.Resize(tokens, key_panels * panel);
+  for (long h = 0; h < heads_; ++h) {
+    // Panels beside tokens and heads hold what is multiplied and never read.
+    for (long i = 0; i < tokens; ++i) {
+      const float* key = work->qkv.Row(i) + width_ + h * head;
+      float* out = work->keys.Row(0) + i / panel * panel * head + i % panel;
+      for (long d = 0; d < head; ++d) out[d * panel] = scale * key[d];
+      const float* value = work->qkv.Row(i) + 2 * width_ + h * head;
+      for (long v = 0; v < value_panels; ++v) {
+        std::copy_n(value + v * panel, std::min(panel, head - v * panel),
+                    work->values.Row(0) + (v * tokens + i) * panel);
+      }
+    }
+    kernels_.multiply({.a = work->qkv.Row(0) + h * head,
+                       .a_stride = work->qkv.stride(),
+                       .b = work->keys.Row(0),
+                       .depth = head,
+                       .panels = key_panels,
+                       // Of the token i tokens on all others are i tokens farther behind.
+                       .init = block.bias.row(h).data() + most_tokens_,
+                       .init_stride = -1,
+                       .c = work->shares.Row(0),
+                       .c_stride = work->shares.stride(),
+                       .rows = tokens});
+    for (long i = 0; i < tokens; ++i) kernels_.softmax(work->shares.Row(i), tokens);
+    for (long i = 0; i < tokens; ++i)
+      std::fill_n(work->mixed.Row(i) + h * head, value_panels * panel, 0.0F);
+    kernels_.multiply({.a = work->shares.Row(0),
+                       .a_stride = work->shares.stride(),
+                       .b = work->values.Row(0),
+                       .depth = tokens,
+                       .panels = value_panels,
+                       .init = work->mixed.Row(0) + h * head,
+                       .init_stride = work->mixed.stride(),
+                       .c = work->mixed.Row(0) + h * head,
+                       .c_stride = work->mixed.stride(),
+                       .rows = tokens});
+  }
+}
+
+void PackedFlowNetwork::Transform(const Block& block, const Eigen::VectorXf& condition, long tokens,
+                                  Workspace* work) const {
+  const Eigen::VectorXf modulation = Run(block.modulation, condition);
+  const auto part = [&](int i) { return modulation.data() + i * width_; };
+  const auto add = [&](const float* weight) {
+    const Eigen::Map<const Eigen::RowVectorXf> by(weight, width_);
+    for (long i = 0; i < tokens; ++i)
+      work->x.Part(i, 0, width_).array() +=
+          (1 + by.array()) * work->added.Part(i, 0, width_).array();
+  };
+  Normalise(work->x, part(1), part(0), tokens, &work->normal);
+  block.qkv.Run(work->normal.Row(0), work->normal.stride(), work->qkv.Row(0), work->qkv.stride(),
+                tokens);
+  Attend(block, tokens, work);
+  block.out.Run(work->mixed.Row(0), work->mixed.stride(), work->added.Row(0), work->added.stride(),
+                tokens);
+  add(part(2));
+  Normalise(work->x, part(4), part(3), tokens, &work->normal);
+  block.up.Run(work->normal.Row(0), work->normal.stride(), work->wide.Row(0), work->wide.stride(),
+               tokens);
+  for (long i = 0; i < tokens; ++i) kernels_.gelu(work->wide.Row(i), 3 * width_);
+  block.down.Run(work->wide.Row(0), work->wide.stride(), work->added.Row(0), work->added.stride(),
+                 tokens);
+  add(part(5));
+}
+
+Eigen::MatrixXf PackedFlowNetwork::Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                                            const Eigen::MatrixXf& joints,
+                                            const Eigen::MatrixXf& mean,
+                                            const WindowFeatures& features, float t) const {
+  thread_local Workspace work;
+  const Eigen::MatrixXf frames =
+      FlowTokens(z, poses, joints, mean, features.frames, spread_, velocity_);
+  const long tokens = frames.cols() / kFramesAToken, token = kFramesAToken * frames.rows();
+  const long panel = kernels_.panel, padded = RoundUp(width_, panel);
+  for (RowBuffer* buffer : {&work.x, &work.normal, &work.added}) buffer->Resize(tokens, padded);
+  for (RowBuffer* buffer : {&work.qkv, &work.wide})
+    buffer->Resize(tokens, RoundUp(3 * width_, panel));
+  work.mixed.Resize(tokens, width_ + panel);
+
+  const Eigen::VectorXf condition = Condition(features.whole, t);
+  embed_.Run(frames.data(), token, work.x.Row(0), work.x.stride(), tokens);
+  const Eigen::VectorXf injected = Run(inject_, condition);
+  for (long i = 0; i < tokens; ++i) work.x.Part(i, 0, width_) += injected.head(width_).transpose();
+  for (const Block& block : blocks_) Transform(block, condition, tokens, &work);
+
+  const Eigen::VectorXf modulation = Run(head_modulation_, condition);
+  Normalise(work.x, modulation.data() + width_, modulation.data(), tokens, &work.normal);
+  Eigen::MatrixXf out(head_.padded(), tokens);
+  head_.Run(work.normal.Row(0), work.normal.stride(), out.data(), out.rows(), tokens);
+  // Of a token two frames, of a frame what stands alone and what z is multiplied with.
+  const Eigen::MatrixXf pairs = out.topRows(head_.columns())
+                                    .reshaped(2 * z.rows(), kFramesAToken * tokens)
+                                    .rightCols(z.cols());
+  return pairs.topRows(z.rows()) + pairs.bottomRows(z.rows()).cwiseProduct(z);
+}
+
+}  // namespace choreo
