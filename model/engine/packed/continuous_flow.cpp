@@ -62,7 +62,7 @@ PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const Continuou
                 .out = linear(products, name + "out", width_, width_),
                 .up = linear(products, name + "up", width_, 3 * width_),
                 .down = linear(products, name + "down", 3 * width_, width_),
-                .modulation = linear(kernels, name + "modulation", condition, 6 * width_),
+                .modulation = linear(products, name + "modulation", condition, 6 * width_),
                 .bias = {}};
     const auto bias = tensors.Get(name + "distance_bias", 2 * kMostTokensApart + 1, heads_);
     block.bias.resize(heads_, 2 * most_tokens_ + kernels.panel);
