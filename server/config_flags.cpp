@@ -22,8 +22,9 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
   app.add_option(
          "--engine", config.engine,
-         "What steps paper F's flow: torch (LibTorch, on any device), packed (our own kernels, on "
-         "the CPU), packed-bf16 (the same with products of bfloat16, on CPUs with AVX512-BF16), or "
+         "What computes the flows' networks: torch (LibTorch, on any device), packed (our own "
+         "kernels, on the CPU), packed-bf16 (the same with products of bfloat16, on CPUs with "
+         "AVX512-BF16), or "
          "auto, the fastest of them here. Replicas that take over each other's dances must agree.")
       ->envname("CHOREO_ENGINE")
       ->capture_default_str();

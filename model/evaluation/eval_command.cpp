@@ -195,10 +195,10 @@ void AddEvalCommand(CLI::App& app) {
   command->add_option("--name", arguments->contest.name, "What the rows of --model are called")
       ->capture_default_str();
   command
-      ->add_option("--engine", arguments->contest.engine,
-                   EngineKindNames() +
-                       "; packed is float32 on any CPU; what is not paper F's flow is run by torch "
-                       "all the same")
+      ->add_option(
+          "--engine", arguments->contest.engine,
+          EngineKindNames() +
+              "; packed is float32 on any CPU; paper C's model is run by torch all the same")
       ->capture_default_str()
       ->check(CLI::IsMember(
           std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
