@@ -130,7 +130,7 @@ class TorchFlowNetwork : public FlowNetwork {
   torch::Device device_;
 };
 
-constexpr const char* kFormat = "choreo-continuous-flow-3";
+constexpr const char* kFormat = "choreo-continuous-flow-4";
 
 }  // namespace
 

@@ -7,8 +7,8 @@ namespace choreo {
 // One list serves both directions, so that a field can't be written and not read.
 #define CHOREO_FIELDS(apply)                                                                       \
   apply(name) apply(history_frames) apply(window_frames) apply(max_transition_frames) apply(width) \
-      apply(layers) apply(heads) apply(condition) apply(steps) apply(temperature) apply(styles)    \
-          apply(median_factors)
+      apply(layers) apply(heads) apply(condition) apply(steps) apply(temperature)                  \
+          apply(beat_guidance) apply(styles) apply(median_factors)
 
 void to_json(nlohmann::json& json, const ContinuousFlowConfig& config) {
 #define CHOREO_WRITE(field) json[#field] = config.field;

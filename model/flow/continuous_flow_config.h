@@ -20,8 +20,11 @@ struct ContinuousFlowConfig {
   int width = 224, layers = 6, heads = 7;
   int condition = 128;  ///< of what each block is modulated by: time, history, key, style
 
-  int steps = 3;                         ///< K, evaluations of the network from noise to motion
-  double temperature = 1;                ///< served by default, as FlowNoise has it
+  int steps = 3;           ///< K, evaluations of the network from noise to motion
+  double temperature = 1;  ///< served by default, as FlowNoise has it
+  /// What beats change in F is done so many times (classifier-free guidance, Ho & Salimans 2022);
+  /// other than 1 it takes twice the evaluations where there are beats.
+  double beat_guidance = 2;
   std::vector<std::string> styles = {};  ///< that it was told of in training
   /// Medians of the velocity factors of the training clips, metres a frame.
   std::array<double, kBodyParts> median_factors = {};

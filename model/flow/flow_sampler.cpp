@@ -77,8 +77,14 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
                                WindowRequest request, const FlowNoise& noise) {
   FillInEnergy(model, noise, &request);
   const FlowWindow window(model.prior, request);
-  const WindowFeatures features =
-      DescribeWindow(model.skeleton, model.config, model.prior, request, window);
+  const auto describe = [&] {
+    return DescribeWindow(model.skeleton, model.config, model.prior, request, window);
+  };
+  const WindowFeatures features = describe();
+  const double guidance = request.beats.empty() ? 1 : model.config.beat_guidance;
+  request.beats.clear();
+  const std::optional<WindowFeatures> unheard =
+      guidance == 1 ? std::nullopt : std::optional(describe());
   const int frames = window.frames(), tau = static_cast<int>(request.history.size());
   std::vector<int> led;  // axes of the root's position that are known
   if (request.path.cols() > 0) led = {0, 2};
@@ -108,10 +114,14 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
     const Eigen::MatrixXd x = window.Colour(z);
     poses.rightCols(frames) = (window.mean() + x).cast<float>();
     PlaceJoints(model.skeleton, window.Decode(x), joints.rightCols(frames));
-    return Eigen::MatrixXd(network
-                               .Evaluate(z.cast<float>(), poses, joints, mean, features,
-                                         static_cast<float>(size * std::sin(angle)))
-                               .cast<double>());
+    const auto f = [&](const WindowFeatures& of) {
+      return Eigen::MatrixXd(network
+                                 .Evaluate(z.cast<float>(), poses, joints, mean, of,
+                                           static_cast<float>(size * std::sin(angle)))
+                                 .cast<double>());
+    };
+    if (!unheard) return f(features);
+    return Eigen::MatrixXd(guidance * f(features) - (guidance - 1) * f(*unheard));
   };
 
   Eigen::MatrixXd mean_way;

@@ -166,6 +166,41 @@ TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
   EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
 }
 
+// Moves everything by `step` where it hears beats.
+class Hearing : public Silent {
+ public:
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                           const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
+                           const WindowFeatures& features, float t) const override {
+    const bool hears = features.frames.row(1).any();
+    return Silent::Evaluate(z, poses, joints, mean, features, t).array() + (hears ? step : 0);
+  }
+  float step = 0;
+};
+
+TEST(FlowSampler, WhatBeatsChangeIsDoneAsOftenAsTheModelSays) {
+  Scene scene = MakeScene(30);
+  scene.request.beats = {0, 15, 30};
+  FlowModelParts parts = Parts();
+  Hearing network;
+  const auto sample = [&](double guidance, float step) {
+    parts.config.beat_guidance = guidance;
+    network.step = step;
+    network.evaluations = 0;
+    return SampleWindow(parts, network, scene.request, {.seed = 1, .temperature = 1});
+  };
+  const auto twice = sample(2, 0.125F);
+  EXPECT_EQ(network.evaluations, 2 * parts.config.steps);
+  const auto once = sample(1, 0.25F);
+  EXPECT_EQ(network.evaluations, parts.config.steps);
+  for (size_t i = 0; i < once.size(); ++i) EXPECT_EQ(Apart(once[i], twice[i]), 0);
+  const auto weak = sample(1, 0.125F);
+  EXPECT_GT(Apart(weak[15], once[15]), 1e-3);
+  scene.request.beats.clear();
+  sample(2, 0.125F);
+  EXPECT_EQ(network.evaluations, parts.config.steps);
+}
+
 TEST(FlowSampler, APathIsMetExactlyAndItsHeightsWhereTheyAreAskedFor) {
   Scene scene = MakeScene(30);
   scene.request.path.resize(3, 30);
