@@ -13,10 +13,12 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/adam.h"
+#include "model/training/clip_statistics.h"
 #include "model/training/clip_store.h"
 #include "model/training/flow_matching.h"
 #include "model/training/model_card.h"
 #include "model/training/training_run.h"
+#include "model/training/window_clips.h"
 
 namespace choreo {
 namespace {
@@ -101,7 +103,7 @@ class FlowMatchingRun : public TrainingRun {
     ContinuousFlowConfig config;
     if (!options.name.empty()) config.name = options.name;
     config.styles = train_.styles();
-    config.median_factors = train_.MedianFactors();
+    config.median_factors = MedianFactors(train_.tracks());
     model_ = ContinuousFlow(config, train_.skeleton());
     if (!options.from.empty()) {
       const auto base = ParseContinuousFlow(ReadSafetensors(options.from), options.from.string());
@@ -256,7 +258,8 @@ class FlowMatchingRun : public TrainingRun {
   // powers have scaled them.
   void Measure() {
     const int dimensions = 3 + 3 * train_.skeleton().joints();
-    const Eigen::MatrixXd covariance = train_.VelocityCovariance(MotionPrior::kLags);
+    const Eigen::MatrixXd covariance =
+        VelocityCovariance(train_.skeleton(), train_.tracks(), MotionPrior::kLags);
     model_->SetPrior(covariance, {}, Eigen::MatrixXd::Identity(dimensions, dimensions),
                      Eigen::VectorXd::Ones(dimensions));
     const VariancePowers powers =

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/flow/torch_kinematics.h"
-#include "model/training/window_clips.h"
+#include "model/training/window_batch.h"
 
 namespace choreo {
 

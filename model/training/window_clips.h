@@ -1,36 +1,14 @@
 #pragma once
 
-#include <torch/types.h>
-
-#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "model/core/random.h"
-#include "model/flow/flow_sampler.h"
-#include "model/training/prepared_clip.h"
+#include "model/training/clip_track.h"
+#include "model/training/window_batch.h"
 
 namespace choreo {
-
-/// A batch of windows of equal shape as the continuous flow sees them; see FlowNetwork for what
-/// the tensors are. Time stands before features, float32.
-struct WindowBatch {
-  int frames = 0, to_key = 0;
-  torch::Tensor z = {};                     ///< [batch, w, dimensions] real motion, white
-  torch::Tensor scales = {};                ///< [batch, dimensions] as FlowWindow has them
-  std::vector<double> surprise = {};        ///< [batch], the same
-  torch::Tensor keyed = {};                 ///< [batch, dimensions] in {0, 1}
-  torch::Tensor mean = {};                  ///< [batch, tau + w, dimensions], history in front
-  torch::Tensor features = {}, whole = {};  ///< of WindowFeatures
-  torch::Tensor history_joints = {};        ///< [batch, tau, 3 joints] metres
-  /// The mean as poses: root positions [batch, w, 3] and local rotations [batch, w, joints, 3, 3].
-  torch::Tensor base_root = {}, base_turns = {};
-  /// Of the real motion: the turn in the world that a unit of each of a joint's coordinates makes
-  /// [batch, w, joints, 3, 3], and the way from its parent to it [batch, w, joints, 3] in metres.
-  torch::Tensor axes = {}, bones = {};
-  std::vector<WindowRequest> requests = {};   ///< what each was asked for
-  std::vector<std::vector<Pose>> truth = {};  ///< [batch][w] canonical frame
-};
 
 /// Prepared clips with what they say of themselves: the energy of body parts, their root path,
 /// beats, style. Immutable after construction.
@@ -56,25 +34,13 @@ class WindowClips {
   int Longest(int history) const;
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<std::string>& styles() const { return styles_; }
-  std::array<double, kBodyParts> MedianFactors() const;
-  /// [dimensions, lags] of velocities, both sides alike, as MotionPrior has it.
-  Eigen::MatrixXd VelocityCovariance(int lags) const;
+  /// Of the clips as they were danced.
+  std::span<const ClipTrack> tracks() const { return {tracks_.data(), clips_}; }
 
  private:
-  struct Track {
-    double tempo = 1;
-    std::vector<Pose> poses = {};
-    Eigen::MatrixXd energy = {};         // [kBodyParts, frames], smoothed, metres a frame
-    std::vector<double> beats = {};      // frames; of music, or of the dance's own grid
-    std::vector<double> kinematic = {};  // frames in which it pauses
-    int style = -1;
-  };
-  Track MakeTrack(const PreparedClip& clip, double tempo) const;
-  std::vector<double> Beats(const Track& track, int64_t from, int64_t to, Random* random) const;
-
   Skeleton skeleton_;
   std::vector<std::string> styles_;
-  std::vector<Track> tracks_;  // by tempo, the clips' own first
+  std::vector<ClipTrack> tracks_;  // by tempo, the clips' own first
   size_t clips_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "model/training/clip_statistics.h"
 #include "model/training/flow_matching.h"
 #include "model/training/window_body.h"
 #include "tests/support/synthetic_clips.h"
@@ -24,10 +25,13 @@ class WindowClipsTest : public testing::Test {
 
   FlowModelParts Parts() const {
     ContinuousFlowConfig config;
-    config.median_factors = clips_.MedianFactors();
+    config.median_factors = MedianFactors(clips_.tracks());
     VariancePowers powers{.medians = config.median_factors};
     powers.parts.assign(static_cast<size_t>(3 + 3 * clips_.skeleton().joints()), 0);
-    return {clips_.skeleton(), config, MotionPrior(clips_.VelocityCovariance(60), powers), {}};
+    return {clips_.skeleton(),
+            config,
+            MotionPrior(VelocityCovariance(clips_.skeleton(), clips_.tracks(), 60), powers),
+            {}};
   }
   WindowBatch Draw(const WindowClips::Variation& variation) const {
     Random random(4);
@@ -120,7 +124,7 @@ TEST_F(WindowClipsTest, DancersGoOnAsLivelyAsTheyWere) {
   // One dances twice as fast as the other.
   const WindowClips clips({SyntheticClip("calm", 400, 0, false), FastClip()});
   FlowModelParts parts = Parts();
-  parts.config.median_factors = clips.MedianFactors();
+  parts.config.median_factors = MedianFactors(clips.tracks());
   std::vector<WindowBatch> batches;
   for (uint32_t i = 0; i < 6; ++i) {
     Random random(4, i);

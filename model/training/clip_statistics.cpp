@@ -1,0 +1,78 @@
+#include "model/training/clip_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/motion/mirror.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kCovarianceSigma = 30;  // frames, of the taper that keeps covariances definite
+constexpr double kLeastSpeed = 1e-4;     // radians a frame
+
+Eigen::VectorXd Velocity(const Pose& before, const Pose& now) {
+  Eigen::VectorXd velocity(3 + now.rotations.size());
+  velocity.head<3>() = now.root_position - before.root_position;
+  for (Eigen::Index j = 0; j < now.rotations.cols(); ++j)
+    velocity.segment<3>(3 + 3 * j) =
+        RotationDifference(before.rotations.col(j), now.rotations.col(j));
+  return velocity;
+}
+
+}  // namespace
+
+std::array<double, kBodyParts> MedianFactors(std::span<const ClipTrack> tracks) {
+  std::array<double, kBodyParts> medians;
+  for (int part = 0; part < kBodyParts; ++part) {
+    std::vector<double> values;
+    for (const ClipTrack& track : tracks) {
+      const auto row = track.energy.row(part);
+      values.insert(values.end(), row.begin(), row.end());
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    medians[static_cast<size_t>(part)] = *middle;
+  }
+  return medians;
+}
+
+Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const ClipTrack> tracks,
+                                   int lags) {
+  const std::vector<int> pairs = MirrorPairs(skeleton);
+  const int dimensions = 3 + 3 * skeleton.joints();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dimensions, lags);
+  double frames = 0;
+  for (const ClipTrack& track : tracks) {
+    const auto& poses = track.poses;
+    if (poses.size() < 2) continue;
+    Eigen::MatrixXd velocity(dimensions, static_cast<int>(poses.size()) - 1);
+    for (int i = 0; i < velocity.cols(); ++i)
+      velocity.col(i) = Velocity(poses[static_cast<size_t>(i)], poses[static_cast<size_t>(i) + 1]);
+    for (int lag = 0; lag < std::min<int>(lags, static_cast<int>(velocity.cols())); ++lag) {
+      const int count = static_cast<int>(velocity.cols()) - lag;
+      sum.col(lag) +=
+          velocity.leftCols(count).cwiseProduct(velocity.rightCols(count)).rowwise().sum();
+    }
+    frames += static_cast<double>(velocity.cols());
+  }
+  sum /= frames;
+  for (int lag = 0; lag < lags; ++lag)
+    sum.col(lag) *= std::exp(-0.5 * std::pow(lag / kCovarianceSigma, 2));
+  // Sideways is as forwards: positions stand in no frame of the dancer's. And sides are alike.
+  const Eigen::RowVectorXd floor = 0.5 * (sum.row(0) + sum.row(2));
+  sum.row(0) = sum.row(2) = floor;
+  Eigen::MatrixXd covariance = sum;
+  for (int j = 0; j < skeleton.joints(); ++j) {
+    covariance.middleRows<3>(3 + 3 * j) =
+        0.5 *
+        (sum.middleRows<3>(3 + 3 * j) + sum.middleRows<3>(3 + 3 * pairs[static_cast<size_t>(j)]));
+  }
+  // Joints that recordings lack never move.
+  covariance.col(0) = covariance.col(0).cwiseMax(kLeastSpeed * kLeastSpeed);
+  return covariance;
+}
+
+}  // namespace choreo
