@@ -24,5 +24,11 @@ fi
 
 "$lab" eval --liveliness --model model/checkpoints/default.safetensors --data "$data/dancedb" --splits "$recordings/splits.json" \
   --split test --json docs/figures/liveliness.json "$@"
-sed -i '/"fingerprint"/d' docs/figures/liveliness.json  # of a build, which is another everywhere
+controls() {  # KIND JSON [OPTION...]
+  "$lab" eval --controls "$1" --model model/checkpoints/default.safetensors --data "$data/dancedb" --splits "$recordings/splits.json" \
+    --split test --windows 3 --no-encoder --json "docs/figures/$2.json" "${@:3}"
+}
+controls all controls
+controls paper controls_mean --temperature 0
+sed -i '/"fingerprint"/d' docs/figures/*.json  # of a build, which is another everywhere
 scripts/quote_figures.py

@@ -5,7 +5,8 @@
     scripts/quote_figures.py --check    changes nothing; fails where a page says something else
 
 Two kinds of quotation, each up to <!-- end -->:
-    <!-- table: FILE TABLE | COLUMN | COLUMN ... -->    all rows of a table, and what is wanted of them (wanted.json)
+    <!-- table: FILE TABLE | COLUMN | COLUMN ... -->    all rows of a table, and what is wanted of them (wanted.json); COLUMN=VALUE
+                                                        leaves only rows that have it
     <!-- figure: FILE TABLE | ROW | COLUMN -->          one figure; ROW is the row's first column
 """
 import json
@@ -43,8 +44,12 @@ def cell(row, column):
 def table(place, *columns):
     file, name = place.split()
     wanted = WANTED.get(name, {})
-    lines = [list(columns) + (["wanted"] if wanted else [])]
+    only = dict(column.split("=") for column in columns if re.fullmatch(r"\w+=\w+", column))
+    columns = [column for column in columns if not re.fullmatch(r"\w+=\w+", column)]
+    lines = [columns + (["wanted"] if wanted else [])]
     for row in rows_of(file, name):
+        if any(row.get(column) != value for column, value in only.items()):
+            continue
         lines.append([cell(row, column) for column in columns] + ([wanted.get(row[columns[0]], "")] if wanted else []))
     lines.insert(1, ["---"] * len(lines[0]))
     return "\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n\n"

@@ -113,7 +113,9 @@ std::vector<Pose> ContinuousFlowEngine::Sample(const TransitionSpec& spec) const
                         .candidate = spec.candidate,
                         .first_frame = spec.first_frame,
                         .temperature = spec.temperature};
-  const bool is_asked = request.energy.cols() > 0 && std::ranges::count(request.asked, true) > 0;
+  // The mean way is as lively as it is.
+  const bool is_asked = noise.temperature > 0 && request.energy.cols() > 0 &&
+                        std::ranges::count(request.asked, true) > 0;
   return is_asked ? SampleAsLively(*parts_, *network_, request, noise)
                   : SampleTransition(*parts_, *network_, request, noise);
 }

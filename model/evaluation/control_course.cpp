@@ -67,7 +67,7 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
 
 TransitionInput ControlCourse::InputFor(size_t window) const {
   TransitionInput input = InputOf(model_, evaluation_.set, chosen_[window], frames_,
-                                  static_cast<float>(model_.default_temperature), window);
+                                  evaluation_.options.temperature, window);
   input.request.target->pose = windows_[window].key;
   return input;
 }
