@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that this project needs. The one place that names them.
 #
-#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint browser verify; default: build run demo video test
+#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint browser blender verify; default: build run demo video test
 #
 # Runs as root, or through sudo. Quick when everything is there already: it asks dpkg first and touches apt only for what is missing.
 set -euo pipefail
@@ -32,6 +32,8 @@ bench=(python3-torch python3-numpy)
 lint=(clang-format clang-tidy)
 # To use the studio in a browser that nobody sees.
 browser=(chromium nodejs npm)
+# To open what we write in Blender, and to try its add-on.
+blender=(blender)
 # To build the container without a container engine.
 verify=(buildah debootstrap)
 
@@ -49,8 +51,9 @@ for group in "${groups[@]}"; do
     bench) wanted+=("${bench[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     browser) wanted+=("${browser[@]}") ;;
+    blender) wanted+=("${blender[@]}") ;;
     verify) wanted+=("${verify[@]}") ;;
-    *) echo "install_packages.sh: unknown group '$group' (build run demo video test bench lint browser verify)" >&2; exit 2 ;;
+    *) echo "install_packages.sh: unknown group '$group' (build run demo video test bench lint browser blender verify)" >&2; exit 2 ;;
   esac
 done
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, the studio in a
-# browser, the container, a
+# browser, Blender, the container, a
 # build without the service, and the tests under sanitizers.
 # CHOREO_RECORDINGS names the folder of recordings that figures are measured on (scripts/evaluate.sh). Without it nothing is measured,
 # which the last line says.
@@ -46,6 +46,10 @@ grep -q "127.0.0.1:1" "$scratch/said"
 echo "== The studio in a browser"
 scripts/install_packages.sh browser
 tests/studio/browser/run.sh "$build"
+
+echo "== Blender opens our BVH files"
+scripts/install_packages.sh blender || echo "verify.sh: no Blender comes from here" >&2
+CHOREO_SKIP_CODE=0 tests/formats/blender/run.sh "$build"
 
 echo "== Faults that are injected for longer"
 scripts/faults.sh "$build"

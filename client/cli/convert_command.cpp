@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "client/cli/bvh_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
@@ -16,10 +17,12 @@ struct ConvertOptions {
   std::string out;
   double fps = 0;
   bool smpl = false;
+  BvhOptions bvh;
 };
 
 void Run(const ConvertOptions& options) {
   RequireMotionFile(options.out);
+  options.bvh.Check(options.out);
   RequireOutputs({{"out", options.out}}, {{"in", options.in}});
   auto [skeleton, motion] = ReadMotion(options.in);
   if (options.smpl) {
@@ -28,7 +31,7 @@ void Run(const ConvertOptions& options) {
   }
   if (options.fps > 0) motion = Resample(motion, options.fps);
   const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
-  WriteMotion(options.out, skeleton, motion, &contacts);
+  options.bvh.Write(options.out, skeleton, motion, contacts);
 }
 
 }  // namespace
@@ -47,6 +50,7 @@ void AddConvertCommand(CLI::App& program) {
       ->check(NumberFrom(1, 1000));
   command->add_flag("--smpl", options->smpl,
                     "Retarget what has a skeleton of its own to SMPL's 24 joints.");
+  options->bvh.AddTo(*command);
   command->callback([options] { Run(*options); });
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 
+#include "client/cli/bvh_options.h"
 #include "client/cli/choreography.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
@@ -44,6 +45,7 @@ struct DanceOptions {
   std::string out;
   std::string report;
   std::string vmc;
+  BvhOptions bvh;
   bool no_clobber = false;
 };
 
@@ -67,6 +69,7 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
   if (path == ".npz") path = "dance.npz";
   // Better now than after the dance.
   RequireMotionFile(path);
+  options.bvh.Check(path);
   if (options.no_clobber && std::filesystem::exists(path))
     throw InvalidArgument("--no-clobber", path.string() + " is there already");
   std::vector<NamedFile> inputs = options.controls.Files();
@@ -153,7 +156,7 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
   } catch (const Error& error) {
     if (!dance.motion.frames.empty()) {
       const std::filesystem::path partial = PartialPath(out);
-      WriteMotion(partial, dance.header.skeleton, dance.motion, &dance.contacts);
+      options.bvh.Write(partial, dance.header.skeleton, dance.motion, dance.contacts);
       std::ostringstream message;
       message << "the dance was cut off; its first " << dance.motion.frames.size() << " frames ("
               << Rounded(static_cast<double>(dance.motion.frames.size()) / dance.motion.fps)
@@ -210,7 +213,7 @@ void Run(const DanceOptions& options) {
   const client::DanceResult dance = Dance(connection.client(), config, keys, audio, model.fps,
                                           options, out, show ? &*show : nullptr);
 
-  WriteMotion(out, dance.header.skeleton, dance.motion, &dance.contacts);
+  options.bvh.Write(out, dance.header.skeleton, dance.motion, dance.contacts);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
@@ -262,6 +265,7 @@ void AddDanceCommand(CLI::App& program) {
                       "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song, or "
                       "dance.npz. A file that is there is replaced.");
   command->add_option("--report", options->report, "JSON file to write the report to.");
+  options->bvh.AddTo(*command);
   AddVmc(*command, options->vmc);
   command->add_flag("--no-clobber", options->no_clobber, "Replace no motion file that is there.");
   command->add_flag(

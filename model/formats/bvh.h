@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/fit/position_clip.h"
+#include "model/formats/joint_names.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -72,23 +73,30 @@ Eigen::Matrix3Xd BvhPositions(const BvhFile& file, int64_t frame);
 /// centimetres.
 PositionClip BvhToPositions(const BvhFile& file, double metres_per_unit);
 
-/// Ours: the skeleton's names, rest offsets in centimetres, 6 channels at the root, ZXY Euler
-/// angles everywhere, an End Site at each leaf. The root's offset is zero, so that readers that add
-/// it to the position channels and readers that do not agree. Euler angles are continuous in time
-/// where they can be. Throws Error(kInvalidArgument) for a motion without frames or of another
-/// joint count.
-BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion);
+inline constexpr double kCentimetres = 100, kMetres = 1;  ///< units in a metre
 
-/// The file's own skeleton (own_skeleton.h), lengths taken for centimetres; none where a joint
-/// stands above its root.
+/// How a file of ours is written.
+struct BvhLayout {
+  JointNames names = JointNames::kSmpl;
+  double units_per_metre = kCentimetres;
+};
+
+/// Ours: rest offsets, 6 channels at the root, ZXY Euler angles everywhere, an End Site at each
+/// leaf. The root's offset is the height of the hips at rest, which its position channels replace:
+/// a body at rest stands on the floor. Euler angles are continuous in time where they can be.
+/// Throws Error(kInvalidArgument) for a motion without frames or of another joint count, and for
+/// another skeleton than SMPL's by other names than its own.
+BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLayout& layout = {});
+
+/// The file's own skeleton (own_skeleton.h), in centimetres, or in metres where it is less than 5
+/// units large; none where a joint stands above its root.
 std::optional<Skeleton> BvhSkeleton(const BvhFile& file);
 
-/// Whether a file has exactly this skeleton: names, parents and rest offsets (1 mm, in
-/// centimetres).
+/// Whether a file has exactly this skeleton in some layout: names, parents and rest offsets (1 mm).
 bool IsBvhOf(const BvhFile& file, const Skeleton& skeleton);
 
-/// The inverse of MotionToBvh, for files of which IsBvhOf holds; throws Error(kInvalidArgument) for
-/// others.
+/// The inverse of MotionToBvh, whatever the layout, for files of which IsBvhOf holds; throws
+/// Error(kInvalidArgument) for others.
 Motion BvhToMotion(const BvhFile& file, const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "model/motion/kinematics.h"
@@ -93,6 +95,54 @@ TEST(Bvh, OursComesBackAndStandsWhereForwardKinematicsPutsIt) {
       EXPECT_LT((ours.col(index) - 0.01 * theirs.col(joint)).norm(), 1e-6);
     }
   }
+}
+
+TEST(Bvh, ComesBackFromEveryLayout) {
+  const Motion motion = fixtures::SmoothMotion(kSmpl, 12, 20, 30);
+  for (const auto& [names, foot] :
+       {std::pair(JointNames::kSmpl, "left_ankle"),
+        std::pair(JointNames::kMixamo, "mixamorig:LeftFoot"),
+        std::pair(JointNames::kHumanIk, "LeftFoot"), std::pair(JointNames::kUnreal, "foot_l")}) {
+    for (const double units : {kCentimetres, kMetres}) {
+      SCOPED_TRACE(foot);
+      std::stringstream text;
+      WriteBvh(text, MotionToBvh(kSmpl, motion, {names, units}));
+      const BvhFile file = ParseBvh(text.str(), "ours");
+      const std::vector<std::string> called = file.JointNames();
+      EXPECT_EQ(std::ranges::count(called, foot), 1);
+      // At rest the hips are as high as they are.
+      EXPECT_LT((file.joints[0].offset - units * Vector3d(0, kSmpl.pelvis_height, 0)).norm(), 1e-6);
+      ASSERT_TRUE(IsBvhOf(file, kSmpl));
+      const Motion back = BvhToMotion(file, kSmpl);
+      ASSERT_EQ(back.frames.size(), motion.frames.size());
+      for (size_t i = 0; i < motion.frames.size(); ++i) {
+        const PoseError error = ComparePoses(kSmpl, motion.frames[i], back.frames[i]);
+        EXPECT_LT(error.position_m, 1e-5);
+        EXPECT_LT(error.angle_deg, 1e-4);
+      }
+    }
+  }
+}
+
+TEST(Bvh, KnowsOtherNamesOfSmplsJointsAlone) {
+  std::set<std::string> names;
+  for (const std::string& joint : kSmpl.joint_names) {
+    for (const JointNames other : kAllJointNames) {
+      if (other == JointNames::kSmpl) continue;
+      const std::string name = JointName(joint, other);
+      EXPECT_TRUE(joint == "pelvis" || joint == "head" || name != joint) << joint;
+      EXPECT_TRUE(names.insert(std::string(NameOf(other)) + name).second) << name;
+    }
+  }
+  for (const JointNames known : kAllJointNames)
+    EXPECT_EQ(ParseJointNames(NameOf(known), "--names"), known);
+  ExpectError(ErrorCode::kInvalidArgument, "--names: \"maya\" is none of smpl, mixamo, humanik, ue",
+              [] { ParseJointNames("maya", "--names"); });
+  Skeleton other = kSmpl;
+  other.joint_names[3] = "waist";
+  ExpectError(ErrorCode::kInvalidArgument, "names: mixamo has names for SMPL's joints alone", [&] {
+    MotionToBvh(other, {.fps = 30, .frames = {RestPose(other)}}, {.names = JointNames::kMixamo});
+  });
 }
 
 TEST(Bvh, EulerAnglesGoThroughTheLockWithoutJumps) {

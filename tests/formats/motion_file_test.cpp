@@ -175,6 +175,18 @@ TEST(MotionFile, AnotherSkeletonGoesThereAndBackInEveryFormat) {
   }
 }
 
+TEST(MotionFile, AnotherSkeletonIsReadInMetresToo) {
+  const TemporaryFolder folder;
+  const Skeleton& native = testing_support::Native().skeleton;
+  const Motion motion = fixtures::SmoothMotion(native, 21, 10, 30);
+  WriteBvh(folder / "a.bvh", MotionToBvh(native, motion, {.units_per_metre = kMetres}));
+  const Skeleton own = ReadMotion(folder / "a.bvh").skeleton;
+  EXPECT_NEAR(own.pelvis_height, native.pelvis_height, 1e-4);
+  const Motion back = ReadMotion(folder / "a.bvh", native);
+  for (size_t i = 0; i < motion.frames.size(); ++i)
+    EXPECT_LT(ComparePoses(native, motion.frames[i], back.frames[i]).position_m, 1e-5);
+}
+
 TEST(MotionFile, AMotionOfSmplIsRetargetedToAnotherSkeletonAndBack) {
   const TemporaryFolder folder;
   const Skeleton& native = testing_support::Native().skeleton;

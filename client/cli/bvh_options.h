@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/motion/contacts.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo::cli {
+
+/// `--names` and `--unit`, of commands that write motions: as animators' tools take a BVH.
+struct BvhOptions {
+  std::string names;  ///< empty: SMPL's
+  std::string unit;   ///< "m" or "cm"; empty: centimetres
+
+  void AddTo(CLI::App& command);
+  /// Throws Error(kInvalidArgument) whose field is the option where one is given and `out` is no
+  /// BVH, and for names that are none of the known.
+  void Check(const std::filesystem::path& out) const;
+  /// As WriteMotion (motion_file.h), a BVH in this layout.
+  void Write(const std::filesystem::path& out, const Skeleton& skeleton, const Motion& motion,
+             const std::vector<Contacts>& contacts) const;
+};
+
+}  // namespace choreo::cli

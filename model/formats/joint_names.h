@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace choreo {
+
+/// Whose names the joints of SMPL's body have in a file.
+enum class JointNames : uint8_t {
+  kSmpl,     ///< pelvis, left_hip, ...
+  kMixamo,   ///< mixamorig:Hips, mixamorig:LeftUpLeg, ...
+  kHumanIk,  ///< Hips, LeftUpLeg, ...: MotionBuilder's and Maya's
+  kUnreal,   ///< pelvis, thigh_l, ...: Unreal Engine's mannequin
+};
+
+inline constexpr std::array kAllJointNames = {JointNames::kSmpl, JointNames::kMixamo,
+                                              JointNames::kHumanIk, JointNames::kUnreal};
+
+/// "smpl", "mixamo", "humanik" or "ue".
+std::string_view NameOf(JointNames names);
+/// Throws Error(kInvalidArgument) whose field is `field`, naming the four.
+JointNames ParseJointNames(std::string_view text, const std::string& field);
+
+/// What `joint`, one of SMPL's, is called there. A joint that SMPL has not keeps its name.
+std::string JointName(const std::string& joint, JointNames names);
+
+}  // namespace choreo

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Opens our BVH files in Blender. Ends with 77 where there is none.
+#   run.sh BUILD_DIRECTORY
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+bin=$(realpath "$1")/bin
+if ! command -v blender >/dev/null; then
+  echo "skipped: there is no Blender here (scripts/install_packages.sh blender)"
+  exit "${CHOREO_SKIP_CODE:-77}"
+fi
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+dance=$scratch/dance.glb
+"$here/../../examples/with_server.sh" "$bin/fake_choreod" sh -c \
+  '"$0" dance --server "$CHOREO_SERVER" --keyframes "$1" --seconds 2 --out "$2" >/dev/null' \
+  "$bin/choreo" "$here/keys.json" "$dance"
+for names in smpl mixamo humanik ue; do
+  for unit in m cm; do "$bin/choreo" convert "$dance" "$scratch/$names-$unit.bvh" --names $names --unit $unit; done
+done
+blender -b --factory-startup --python-exit-code 1 -P "$here/check_bvh.py" -- "$scratch" | grep -v '^$'
