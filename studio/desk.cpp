@@ -201,7 +201,7 @@ void Desk::HearSongOf(uint32_t call, const File& file) {
   const ScratchFolder folder;
   const std::filesystem::path path = PlaceFor(folder, file.name());
   Write(path, file.data());
-  auto heard = std::make_shared<const Song>(HearSong(path, file.name()));
+  auto heard = std::make_shared<const Song>(HearSong(path, file.name(), house_.most_seconds()));
   Response response;
   *response.mutable_song() = heard->heard;
   {

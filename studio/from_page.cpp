@@ -105,6 +105,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   if (config.frame_rate() != 0) refuse("config.frame_rate");
   if (config.has_seed()) out.seed = config.seed();
   if (config.has_temperature()) out.temperature = config.temperature();
+  out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();
   for (int i = 0; i < config.history().poses_size(); ++i) {
     out.history.push_back(ToPose(config.history().poses(i), skeleton,

@@ -32,6 +32,7 @@ std::string ReadBytes(const std::filesystem::path& path) {
 House::House(const client::Options& server, const std::filesystem::path& song) : client_(server) {
   const client::ServerDescription description = client_.GetServerInfo();
   model_ = description.models.front();
+  most_seconds_ = description.limits.max_audio_s;
   welcome_.set_version(description.version);
   *welcome_.mutable_model() = ToProto(model_);
   for (const cli::LibraryPose& pose : cli::PosesToDance(model_.skeleton)) {
@@ -42,7 +43,7 @@ House::House(const client::Options& server, const std::filesystem::path& song) :
   }
   welcome_.set_body(BodyAtRest(model_.skeleton));
   if (song.empty()) return;
-  song_ = std::make_shared<const Song>(HearSong(song, song.string()));
+  song_ = std::make_shared<const Song>(HearSong(song, song.string(), most_seconds_));
   welcome_.mutable_song()->set_name(song.filename().string());
   welcome_.mutable_song()->set_data(ReadBytes(song));
   *welcome_.mutable_heard() = song_->heard;

@@ -20,6 +20,8 @@ class House {
 
   const client::Client& client() const { return client_; }
   const client::ModelDescription& model() const { return model_; }
+  /// Of music that the server dances to.
+  double most_seconds() const { return most_seconds_; }
   /// The first message to every page.
   const Welcome& welcome() const { return welcome_; }
   /// That of the command line, or null.
@@ -28,6 +30,7 @@ class House {
  private:
   client::Client client_;
   client::ModelDescription model_;
+  double most_seconds_ = 0;
   std::shared_ptr<const Song> song_;
   Welcome welcome_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/audio/suggest_keys.h"
+#include "model/core/rounded.h"
 
 namespace choreo::studio {
 namespace {
@@ -42,16 +43,20 @@ int64_t Room(const std::vector<double>& beats) {
 
 }  // namespace
 
-Song HearSong(const std::filesystem::path& path, const std::string& name) {
+Song HearSong(const std::filesystem::path& path, const std::string& name, double most_seconds) {
   Song song;
   try {
-    song.music = cli::ReadMusic(path);
+    // What is longer is not decoded to its end.
+    song.music = cli::ReadMusic(path, most_seconds);
   } catch (const Error& error) {
     std::string message = error.what();
     if (message.starts_with(error.field() + ": ")) message.erase(0, error.field().size() + 2);
     throw Error(error.code(), name, message);
   }
   const double seconds = song.music.audio.seconds();
+  if (seconds > most_seconds)
+    throw InvalidArgument(
+        name, "is longer than " + Rounded(most_seconds) + " s, the most that is danced to");
   song.audio = cli::AudioFor(song.music.audio, seconds);
   const std::vector<double> beats = song.music.track.Seconds();
   song.heard.set_seconds(seconds);

@@ -16,7 +16,7 @@ struct Song {
 };
 
 /// Decodes a song and hears its beats. `name` is how errors call it, which are those of
-/// DecodeAudioFile.
-Song HearSong(const std::filesystem::path& path, const std::string& name);
+/// DecodeAudioFile, and Error(kInvalidArgument) for one that is longer than `most_seconds`.
+Song HearSong(const std::filesystem::path& path, const std::string& name, double most_seconds);
 
 }  // namespace choreo::studio

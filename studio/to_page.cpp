@@ -109,6 +109,7 @@ v1::ModelInfo ToProto(const client::ModelDescription& model) {
     if (control == "velocity_factors") out.add_controls(v1::CONTROL_VELOCITY_FACTORS);
   }
   out.set_max_transition_frames(model.max_transition_frames);
+  out.mutable_styles()->Add(model.styles.begin(), model.styles.end());
   out.set_takes_no_music(!model.takes_music);
   out.set_deterministic(model.deterministic);
   return out;

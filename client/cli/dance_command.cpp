@@ -19,6 +19,7 @@
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "client/cli/project_file.h"
 #include "client/cli/report.h"
 #include "client/cli/vmc_show.h"
 #include "model/core/atomic_file.h"
@@ -34,6 +35,7 @@ struct DanceOptions {
   ServerOptions server;
   std::string song;
   std::vector<std::string> keys;
+  std::string project;
   std::optional<double> seconds;
   double song_start_s = 0;
   std::optional<uint64_t> seed;
@@ -61,6 +63,26 @@ bool HasNoKeys(const DanceOptions& options) {
 /// The key files and motions that are named.
 std::vector<std::string> KeySources(const DanceOptions& options) {
   return HasNoKeys(options) ? std::vector<std::string>{} : options.keys;
+}
+
+/// What the command line leaves open, the project says.
+void TakeProject(DanceOptions* options) {
+  const Project project = ReadProject(options->project);
+  options->keys = {options->project};
+  if (options->song.empty() && !project.song.empty()) {
+    if (!std::filesystem::is_regular_file(project.song)) {
+      throw Error(
+          ErrorCode::kNotFound, options->project + ":song",
+          project.song + " is not there; name it: choreo dance SONG --project " + options->project);
+    }
+    options->song = project.song;
+  }
+  if (!options->seconds) options->seconds = project.seconds;
+  if (!options->seed) options->seed = project.seed;
+  if (options->style.empty()) options->style = project.style;
+  // Of several sources the last that speaks of a part counts: those of the command line.
+  std::vector<std::string>& velocities = options->controls.velocities;
+  velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
 }
 
 std::filesystem::path OutputPath(const DanceOptions& options) {
@@ -245,6 +267,12 @@ void AddDanceCommand(CLI::App& program) {
               "key at all. "
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
   command
+      ->add_option("--project", options->project,
+                   "A project that `choreo studio` saved: its keys, seed, style, liveliness and "
+                   "the song beside it, as far as nothing else is said here.")
+      ->check(CLI::ExistingFile)
+      ->excludes("--keyframes");
+  command
       ->add_option("-s,--seconds", options->seconds,
                    "Length of the dance, which ends with the song at the latest; default: the "
                    "song's, or else up to the last key pose and point of the path.")
@@ -273,6 +301,7 @@ void AddDanceCommand(CLI::App& program) {
       "If the server is lost and only one of another model or build is left, go on with that.");
   options->server.AddTo(*command);
   command->callback([options] {
+    if (!options->project.empty()) TakeProject(options.get());
     const bool keys = !options->keys.empty() && !HasNoKeys(*options);
     if (options->song.empty() && !options->seconds && !keys && options->controls.path.empty()) {
       throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");

@@ -150,7 +150,7 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   const v1::Frames frames = ReadDance(page);
   ASSERT_EQ(frames.count(), 120);
 
-  const Song song = HearSong(folder_ / "clicks.wav", "clicks.wav");
+  const Song song = HearSong(folder_ / "clicks.wav", "clicks.wav", 600);
   client::KeyPose key{.id = kick.id(), .frame = 45};
   key.pose.root_position = {kick.pose().root_position().x(), kick.pose().root_position().y(),
                             kick.pose().root_position().z()};
@@ -167,6 +167,29 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
           << "frame " << frame;
     }
   }
+}
+
+TEST_F(StudioTest, DancesInAStyle) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  EXPECT_THAT(page.welcome().model().styles(), testing::ElementsAre("calm", "wild"));
+  const auto danced = [&](const std::string& style) {
+    Request request = DanceRequest(20, 7);
+    request.mutable_dance()->mutable_config()->set_style(style);
+    page.Say(2, request);
+    page.Say(2, Complete());
+    return ReadDance(page).SerializeAsString();
+  };
+  const std::string calm = danced("");
+  EXPECT_EQ(calm, danced("calm"));
+  EXPECT_NE(calm, danced("wild"));
+}
+
+TEST_F(StudioTest, RefusesASongThatIsLongerThanADance) {
+  Clicks(5);
+  ExpectError(ErrorCode::kInvalidArgument, "long.wav: is longer than 4 s",
+              [&] { HearSong(folder_ / "clicks.wav", "long.wav", 4); });
+  EXPECT_NEAR(HearSong(folder_ / "clicks.wav", "long.wav", 5).heard.seconds(), 5, 1e-3);
 }
 
 // What a moved key does: from the frames before it onto it, and into those that follow.

@@ -78,11 +78,11 @@ function FileButton({ label, primary = false }: { label: string; primary?: boole
   return (
     <>
       <button class={primary ? 'primary' : ''} onClick={() => input.current!.click()}>{label}</button>
-      <input ref={input} type="file" hidden aria-label={label} accept=".wav,.flac,.ogg,.mp3,.json,.npz,.bvh,.glb"
+      <input ref={input} type="file" hidden aria-label={label} accept={studio.accepted} multiple
         onChange={(event) => {
-          const [file] = event.currentTarget.files!;
+          const files = [...event.currentTarget.files!];
           event.currentTarget.value = '';
-          if (file) void studio.openFile(file);
+          if (files.length) void studio.openFiles(files);
         }} />
     </>
   );
@@ -190,8 +190,8 @@ export function App() {
   return (
     <div class="page" onDragOver={(event) => event.preventDefault()} onDrop={(event) => {
       event.preventDefault();
-      const file = event.dataTransfer?.files[0];
-      if (file) void studio.openFile(file);
+      const files = [...(event.dataTransfer?.files ?? [])];
+      if (files.length) void studio.openFiles(files);
     }}>
       <Bar />
       <Library />

@@ -43,7 +43,7 @@ export class Dancer {
     return this.model.modelFrameRate;
   }
   frames(project: Project) {
-    return Math.max(1, Math.floor(project.seconds * this.fps));
+    return Math.max(1, Math.round(project.seconds * this.fps));
   }
 
   /// Everything behind frame `from` (-1: all of it); what stands before stays. Ends early, with what
@@ -137,7 +137,7 @@ export class Dancer {
   }
 
   private config(project: Project, before: Motion, whole: boolean): Init<typeof DanceConfigSchema> {
-    const config: Init<typeof DanceConfigSchema> = { seed: BigInt(project.seed) };
+    const config: Init<typeof DanceConfigSchema> = { seed: BigInt(project.seed), style: project.style };
     if (whole) config.frames = BigInt(this.frames(project));
     if (before.count > 0) {
       config.start = {

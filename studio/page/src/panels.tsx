@@ -1,4 +1,4 @@
-// What is beside the stage: the chosen key, takes, liveliness.
+// What is beside the stage: the chosen key, takes, style, liveliness.
 import { signal } from '@preact/signals';
 import { Vector3 } from 'three';
 import { turned } from './body';
@@ -85,8 +85,28 @@ function TakesPanel() {
   );
 }
 
-function LivelyPanel() {
+/// How to dance: a style of the model's, where it has any.
+function StylePanel() {
+  const styles = studio.welcome.value?.model?.styles ?? [];
+  if (styles.length === 0) return null;
   const { value } = studio.project;
+  return (
+    <section aria-label="Style">
+      <h2>Style</h2>
+      <select aria-label="How to dance" disabled={!value} value={value?.style ?? ''}
+        onChange={(event) => studio.change({ style: event.currentTarget.value })}>
+        <option value="">as it comes</option>
+        {styles.map((style) => <option key={style} value={style}>{style}</option>)}
+      </select>
+    </section>
+  );
+}
+
+function LivelyPanel() {
+  if (!studio.canBeLively()) return null;
+  const { value } = studio.project;
+  const set = (part: number, factor: number) =>
+    studio.change({ lively: value.lively.map((old, i) => (i === part ? factor : old)) });
   return (
     <section aria-label="Liveliness">
       <h2>Liveliness</h2>
@@ -94,7 +114,7 @@ function LivelyPanel() {
         <label class="slider" key={part}>
           <span>{part}</span>
           <input type="range" min="0.2" max="2" step="0.1" disabled={!value} value={value?.lively[i] ?? 1}
-            onChange={(event) => studio.setLively(i, Number(event.currentTarget.value))} />
+            onChange={(event) => set(i, Number(event.currentTarget.value))} />
           <output>{(value?.lively[i] ?? 1).toFixed(1)}</output>
         </label>
       ))}
@@ -107,6 +127,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
     <aside class="panels" aria-label="Settings">
       <KeyPanel stage={stage} />
       <TakesPanel />
+      <StylePanel />
       <LivelyPanel />
       <section aria-label="View">
         <label class="check">

@@ -14,7 +14,7 @@ const seconds = 12;
 mkdirSync(pictures, { recursive: true });
 
 /// A click every half second over a soft tone, as a WAV file.
-function clicks() {
+function clicks(seconds) {
   const rate = 22050;
   const wav = Buffer.alloc(44 + 2 * rate * seconds);
   wav.write('RIFF');
@@ -31,22 +31,22 @@ function clicks() {
   return wav;
 }
 
-const studio = spawn(program, ['studio', '--listen', '127.0.0.1:0'], { stdio: ['ignore', 'pipe', 'inherit'] });
-const url = await new Promise((resolve, reject) => {
-  studio.stdout.on('data', (data) => resolve(/http:\S+/.exec(data)[0]));
-  studio.on('exit', (code) => reject(new Error(`choreo studio ended: ${code}`)));
-});
+/// The studio program, and where its page is.
+async function open(listen) {
+  const studio = spawn(program, ['studio', '--listen', listen], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const url = await new Promise((resolve, reject) => {
+    studio.stdout.on('data', (data) => resolve(/http:\S+/.exec(data)[0]));
+    studio.on('exit', (code) => reject(new Error(`choreo studio ended: ${code}`)));
+  });
+  studio.removeAllListeners('exit');
+  return { studio, url };
+}
+
+let { studio, url } = await open('127.0.0.1:0');
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required'],
 });
-
-/// A project as a file.
-function saved(text) {
-  const path = join(pictures, 'project.json');
-  writeFileSync(path, text);
-  return path;
-}
 
 let passed = 0;
 const check = async (what, body) => {
@@ -84,6 +84,14 @@ try {
     const [a, b] = [...document.querySelectorAll('.key')].map((key) => [key.getBoundingClientRect().x, key.dataset.frame / 30]);
     return (b[0] - a[0]) / (b[1] - a[1]);
   });
+  const give = (...files) => page.locator('input[type=file]').first().setInputFiles(
+    files.map(([name, content]) => ({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) })));
+  const drop = (name, base64, bytes = 0) => page.evaluate(([name, base64, bytes]) => {
+    const content = bytes ? new Uint8Array(bytes) : Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const dropped = new DataTransfer();
+    dropped.items.add(new File([content], name));
+    document.querySelector('.page').dispatchEvent(new DragEvent('drop', { dataTransfer: dropped, bubbles: true, cancelable: true }));
+  }, [name, base64, bytes]);
   const changed = (before, after) => after.flatMap((pose, i) => (pose === before[i] ? [] : [i]));
 
   await check('a page with landmarks and names', async () => {
@@ -93,12 +101,7 @@ try {
   });
 
   await check('a dropped song is danced to', async () => {
-    await page.evaluate((base64) => {
-      const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-      const dropped = new DataTransfer();
-      dropped.items.add(new File([bytes], 'clicks.wav', { type: 'audio/wav' }));
-      document.querySelector('.page').dispatchEvent(new DragEvent('drop', { dataTransfer: dropped, bubbles: true, cancelable: true }));
-    }, clicks().toString('base64'));
+    await drop('clicks.wav', clicks(seconds).toString('base64'));
     await page.locator('.key').first().waitFor();
     await settle();
     assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 30 * seconds);
@@ -184,21 +187,31 @@ try {
     assert.ok(touched.every((frame) => frame > from && frame < to));
   });
 
+  await check('a style is danced', async () => {
+    const before = await frames();
+    await page.getByLabel('How to dance').selectOption('tired');
+    await settle();
+    assert.ok(changed(before, await frames()).length > 100);
+  });
+
   const download = async (act) => {
     const [file] = await Promise.all([page.waitForEvent('download'), act()]);
     return file.path();
   };
-  await check('a project is saved, readable, and opened again', async () => {
-    const path = await download(() => page.getByRole('button', { name: 'Save' }).click());
-    const text = readFileSync(path, 'utf8');
+  await check('a project is saved, readable, opened again, and danced by the command line, too', async () => {
+    const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
     const keys = await page.evaluate(() => window.choreo.project.value.keys.length);
     assert.equal(JSON.parse(text).keyframes.length, keys);
-    // It is a key file, too.
-    const dance = join(pictures, 'project.npz');
-    execFileSync(program, ['dance', '--keyframes', saved(text), '--seconds', String(seconds), '--out', dance], { stdio: 'ignore' });
-    await page.locator('input[type=file]').first().setInputFiles({ name: 'clicks.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+    assert.equal(JSON.parse(text).style, 'tired');
+    await give(['clicks.json', text]);
     await settle();
     assert.equal(await page.evaluate(() => window.choreo.project.value.keys.length), keys);
+    assert.equal(await page.getByLabel('How to dance').inputValue(), 'tired');
+    const here = readFileSync(await download(() => page.getByLabel('Export the dance').selectOption('bvh')), 'utf8');
+    writeFileSync(join(pictures, 'clicks.wav'), clicks(seconds));
+    writeFileSync(join(pictures, 'project.json'), text);
+    execFileSync(program, ['dance', '--project', join(pictures, 'project.json'), '--out', join(pictures, 'project.bvh')], { stdio: 'ignore' });
+    assert.ok(readFileSync(join(pictures, 'project.bvh'), 'utf8') === here, 'the command line dances it otherwise');
   });
 
   for (const extension of ['glb', 'bvh', 'npz']) {
@@ -214,11 +227,46 @@ try {
     });
   }
 
+  await check('another song is danced to, and undo brings back the first', async () => {
+    await drop('short.wav', clicks(6).toString('base64'));
+    await until(() => window.choreo.song.value.name === 'short.wav' && window.choreo.busy.value === 0);
+    assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 180);
+    await page.keyboard.press('Control+z');
+    await until(() => window.choreo.song.value.name === 'clicks.wav' && window.choreo.busy.value === 0);
+    assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 30 * seconds);
+  });
+
   await check('what cannot be is said in words', async () => {
-    await page.locator('input[type=file]').first().setInputFiles({ name: 'noise.wav', mimeType: 'audio/wav', buffer: Buffer.from('no sound') });
     const alert = page.getByRole('alert');
+    const count = await page.evaluate(() => window.choreo.moments.value.length);
+    const key = { id: 'a', time: 1, rotations: Array(24).fill([0, 0, 0]) };
+    const refused = [
+      ['noise.wav', 'no sound', /noise\.wav/],
+      ['empty.wav', '', /empty\.wav/],
+      ['photo.png', 'x', /photo\.png is none of the files that the studio knows: \.mp3/],
+      ['broken.json', '{', /broken\.json is no JSON/],
+      ['list.json', '[]', /list\.json has no list "keyframes"/],
+      ['newer.json', '{"studio": 2, "keyframes": []}', /newer\.json is of format 2; this studio knows 1/],
+      ['words.json', '{"keyframes": [{"time": 1, "pose": "kick"}]}', /words\.json: keyframes\[0\]\.pose: the studio opens keys of numbers/],
+      ['early.json', JSON.stringify({ keyframes: [{ ...key, time: -1 }] }), /keyframes\[0\]\.time: -1 is not a number from 0/],
+      ['twice.json', JSON.stringify({ keyframes: [key, { ...key, time: 2 }] }), /two keys "a"/],
+      ['close.json', JSON.stringify({ keyframes: [key, { ...key, id: 'b' }] }), /stand closer than 2 frames/],
+      ['turned.json', JSON.stringify({ keyframes: [{ ...key, rotations: Array(24).fill([0, 99, 0]) }] }), /rotations\[1\]: 99 is not/],
+      ['seed.json', JSON.stringify({ seed: -1, keyframes: [key] }), /seed\.json: seed: -1 is not/],
+      ['endless.json', JSON.stringify({ seconds: 1e300, keyframes: [key] }), /seconds: 1e\+300 is not a number from 0 to 3600/],
+    ];
+    for (const [name, content, words] of refused) {
+      await page.evaluate(() => (window.choreo.message.value = null));
+      await give([name, content]);
+      await alert.waitFor();
+      assert.match(await alert.innerText(), words);
+    }
+    await page.evaluate(() => (window.choreo.message.value = null));
+    await drop('endless.wav', '', 201 << 20);
     await alert.waitFor();
-    assert.match(await alert.innerText(), /noise\.wav/);
+    assert.match(await alert.innerText(), /endless\.wav has 201 MiB; the studio takes 200/);
+    assert.equal(await page.evaluate(() => window.choreo.moments.value.length), count);
+    await page.evaluate(() => (window.choreo.message.value = null));
   });
 
   await check('the loss of the server is survived', async () => {
@@ -229,6 +277,18 @@ try {
     assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 30 * seconds);
     const said = await message();
     assert.ok(!said?.isError, said?.text);
+  });
+
+  await check('so is the loss of the studio program', async () => {
+    await page.getByRole('button', { name: 'New poses' }).click();
+    await until(() => window.choreo.busy.value > 0);
+    const ended = new Promise((resolve) => studio.on('exit', resolve));
+    studio.kill('SIGKILL');
+    await ended;
+    await until(() => window.choreo.message.value?.isError && window.choreo.busy.value === 0);
+    ({ studio } = await open(new URL(url).host));
+    await until((count) => window.choreo.busy.value === 0 && window.choreo.isConnected.value && window.choreo.motion.value.count === count, 30 * seconds);
+    assert.deepEqual(await message(), { text: 'The studio program is there again.', isError: false });
   });
 
   await check('it plays, picture and sound together', async () => {
@@ -265,7 +325,6 @@ try {
   await browser.close();
   studio.kill('SIGINT');
 }
-studio.removeAllListeners('exit');
 const code = await new Promise((resolve) => studio.on('exit', resolve));
 assert.equal(code, 0, 'Ctrl-C should end the studio in order');
 console.log(`${passed} passed, 0 failed`);

@@ -1,0 +1,85 @@
+#include "client/cli/project_file.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "client/cli/json_fields.h"
+#include "model/core/error.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kFormat = 1;
+
+std::string Text(const json& file, const std::string& name, const char* member) {
+  if (!file.contains(member)) return {};
+  if (!file[member].is_string())
+    throw InvalidArgument(name + ":" + member, Shown(file[member]) + " is no text");
+  return file[member].get<std::string>();
+}
+
+/// "left_arm=1.5" of each part, unless all are as usual.
+std::vector<std::string> Velocities(const json& lively, const std::string& field) {
+  if (!lively.is_object()) throw InvalidArgument(field, Shown(lively) + " is no object");
+  std::vector<std::string> out;
+  bool as_usual = true;
+  for (const auto& [member, value] : lively.items()) {
+    std::string part = member;
+    std::ranges::replace(part, ' ', '_');
+    if (std::ranges::find(kBodyPartNames, part) == kBodyPartNames.end())
+      throw InvalidArgument(field + "." + member, "is none of " + BodyPartNames());
+    const double factor = JsonNumber(value, field + "." + member);
+    if (!(factor >= 0 && factor <= kMaxVelocityFactor)) {
+      std::ostringstream message;
+      message << Shown(value) << " is not a number from 0 to " << kMaxVelocityFactor;
+      throw InvalidArgument(field + "." + member, message.str());
+    }
+    as_usual = as_usual && factor == 1;
+    std::ostringstream source;
+    source << part << '=' << factor;
+    out.push_back(source.str());
+  }
+  return as_usual ? std::vector<std::string>{} : out;
+}
+
+}  // namespace
+
+Project ParseProject(const json& file, const std::string& name) {
+  ListIn(file, name, "keyframes");  // which says what else the file may be
+  if (!file.contains("studio"))
+    throw InvalidArgument(name + ":studio", "is missing: a key file goes with --keyframes");
+  if (file["studio"] != kFormat) {
+    throw InvalidArgument(name + ":studio", "is format " + Shown(file["studio"]) + ", known is " +
+                                                std::to_string(kFormat));
+  }
+  Project project;
+  project.song = Text(file, name, "song");
+  project.style = Text(file, name, "style");
+  if (file.contains("seconds")) {
+    project.seconds = JsonNumber(file["seconds"], name + ":seconds");
+    if (!(*project.seconds > 0 && *project.seconds <= kLongestDance)) {
+      std::ostringstream message;
+      message << Shown(file["seconds"]) << " is not above 0 and up to " << kLongestDance;
+      throw InvalidArgument(name + ":seconds", message.str());
+    }
+  }
+  if (file.contains("seed")) {
+    if (!file["seed"].is_number_unsigned())
+      throw InvalidArgument(name + ":seed", Shown(file["seed"]) + " is no whole number from 0 on");
+    project.seed = file["seed"].get<uint64_t>();
+  }
+  if (file.contains("lively")) project.velocities = Velocities(file["lively"], name + ":lively");
+  return project;
+}
+
+Project ReadProject(const std::filesystem::path& path) {
+  Project project =
+      ParseProject(ParseJson(ReadText(path, "project"), path.string()), path.string());
+  if (!project.song.empty()) project.song = (path.parent_path() / project.song).string();
+  return project;
+}
+
+}  // namespace choreo::cli

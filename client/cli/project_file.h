@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace choreo::cli {
+
+/// What a project of the studio says beside its keys, which are read as a key file's (key_file.h).
+struct Project {
+  std::string song = {};  ///< the file's name; empty: it has none
+  std::optional<double> seconds = {};
+  std::optional<uint64_t> seed = {};
+  std::string style = {};                    ///< empty: as it comes
+  std::vector<std::string> velocities = {};  ///< as --velocity takes them; none where all are 1
+};
+
+/// Reads a project, JSON with `studio`, which is 1, `song`, `seconds`, `seed`, `style`, `lively` (a
+/// factor for each part of the body) and `keyframes`. `name` is the file's. Throws
+/// Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
+Project ParseProject(const nlohmann::json& file, const std::string& name);
+
+/// The same of a file, whose song is the one beside it. Throws Error(kNotFound) where it cannot be
+/// opened. Whether the song is there is not looked at.
+Project ReadProject(const std::filesystem::path& path);
+
+}  // namespace choreo::cli

@@ -1,0 +1,88 @@
+// What is dropped or chosen, and what is saved.
+import { danceFrom, made, push } from './history';
+import { compose } from './keys';
+import { dancer, skeleton, wire } from './link';
+import { Motion } from './motion';
+import { emptyProject } from './project';
+import { fromJson, toJson } from './project_file';
+import { hear, playSilence, songExtensions } from './songs';
+import { message, moment, project, song, tell, welcome, work } from './state';
+
+const motionExtensions = ['npz', 'bvh', 'glb'];
+/// What the file chooser offers.
+export const accepted = [...songExtensions, 'json', ...motionExtensions].map((extension) => `.${extension}`).join();
+const mostBytes = 200 * 2 ** 20; // what a message to the program holds, and some room
+
+const extensionOf = ({ name }: File) => name.split('.').at(-1)!.toLowerCase();
+
+/// Songs, projects and motion files: a song first, so that a project that comes along is danced to it.
+export const openFiles = (files: File[]) => work(async () => {
+  const find = (extensions: string[]) => files.filter((file) => extensions.includes(extensionOf(file)));
+  const [songs, others] = [find(songExtensions), find(['json', ...motionExtensions])];
+  const strange = files.find((file) => !songs.includes(file) && !others.includes(file));
+  if (strange) throw new Error(`${strange.name} is none of the files that the studio knows: ${accepted.replaceAll(',', ' ')}`);
+  if (songs.length > 1 || others.length > 1) throw new Error('One song at a time, and one project or motion.');
+  for (const file of songs) {
+    tell(`Listening to ${file.name} …`);
+    await hear(file.name, await bytesOf(file));
+    message.value = null;
+  }
+  for (const file of others) await openOther(file);
+  if (others.length === 0 && songs.length === 1) await compose();
+});
+
+async function bytesOf(file: File) {
+  if (file.size > mostBytes)
+    throw new Error(`${file.name} has ${Math.round(file.size / 2 ** 20)} MiB; the studio takes ${mostBytes / 2 ** 20}.`);
+  return new Uint8Array(await file.arrayBuffer());
+}
+
+async function openOther(file: File) {
+  const bytes = await bytesOf(file);
+  if (extensionOf(file) === 'json') openProject(file.name, new TextDecoder().decode(bytes));
+  else await openMotion(file.name, bytes);
+}
+
+function openProject(name: string, text: string) {
+  const said: string[] = [];
+  const model = { joints: skeleton.joints, fps: dancer.fps, styles: welcome.value!.model!.styles };
+  const opened = fromJson(text, name, model, (words) => said.push(words));
+  if (song.value) opened.seconds = song.value.heard.seconds;
+  if (!opened.seconds) opened.seconds = ((opened.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
+  const inside = opened.keys.filter(({ frame }) => frame < dancer.frames(opened));
+  const outside = opened.keys.length - inside.length;
+  if (outside > 0) said.push(`${outside} of its keys lie behind the end of the song, and are left out.`);
+  if (opened.song && opened.song !== song.value?.name) said.push(`It was made to ${opened.song}: drop that song, too.`);
+  if (!song.value) playSilence(opened.seconds);
+  danceFrom({ ...opened, keys: inside }, -1);
+  if (said.length) tell(`${name}: ${said.join(' ')}`);
+}
+
+async function openMotion(name: string, bytes: Uint8Array) {
+  const answer = await wire.ask({ case: 'open', value: { name, data: bytes } });
+  if (answer.case !== 'clip') return;
+  const opened = Motion.fromClip(answer.value, skeleton.joints, dancer.fps);
+  const from = project.value ?? emptyProject(song.value?.name ?? '', 0);
+  const seconds = song.value?.heard.seconds ?? opened.count / dancer.fps;
+  push({ ...from, seconds, keys: [] }, opened, async () => opened);
+  if (!song.value) playSilence(seconds);
+  tell(`${name}: ${(opened.count / dancer.fps).toFixed(1)} s of dance.`);
+}
+
+function download(name: string, data: BlobPart, type = 'application/octet-stream') {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([data], { type }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+const stem = () => (project.value?.song || 'dance').replace(/\.[^.]*$/, '');
+
+export const saveProject = () => download(`${stem()}.json`, toJson(project.value, dancer.fps), 'application/json');
+
+export const exportAs = (extension: string) => work(async () => {
+  const clip = (await made(moment.value)).toClip();
+  const answer = await wire.ask({ case: 'export', value: { name: `${stem()}.${extension}`, clip } });
+  if (answer.case === 'file') download(answer.value.name, answer.value.data as BlobPart);
+});

@@ -1,0 +1,149 @@
+// The dance as it was and is: each change is a moment, whose motion is danced while it is watched.
+import { computed, signal } from '@preact/signals';
+import type { Signal } from '@preact/signals';
+import { dancer, skeleton } from './link';
+import { Motion } from './motion';
+import type { Project } from './project';
+import { returnTo } from './songs';
+import { busy, chosen, complain, danced, moment, moments, motion, present, project, selectedKey, song, takes, tell, warnings, work } from './state';
+import type { Make, Moment, Warning } from './state';
+
+const mostMoments = 60;
+/// So many frames behind an interval must be there before it alone is danced anew.
+const lead = 30;
+
+/// Frames of the whole dance.
+export const total = computed(() => (project.value && dancer ? dancer.frames(project.value) : 0));
+
+/// What is shown at a time.
+export const motionAt = (time: number) => {
+  const { value } = moment;
+  const isThere = !value || value.isReady || value.motion.value.count > time * dancer.fps + 1;
+  return isThere ? motion.value : value.before;
+};
+
+/// Notes warnings where they belong; the rest is told.
+const note = (list: Signal<Warning[]>) => (text: string, frame?: number) => {
+  if (frame === undefined) return tell(text);
+  if (!list.value.some((known) => known.frame === frame && known.text === text)) list.value = [...list.value, { frame, text }];
+};
+
+/// Gives a moment its motion; until that is there, what `make` shows is seen.
+function fill(filled: Moment, make: Make) {
+  const show = (grown: Motion) => {
+    filled.motion.value = grown;
+    if (moment.value === filled) danced.value = grown.count;
+  };
+  busy.value += 1;
+  filled.isReady = false;
+  filled.unmade = null;
+  filled.ready = make({ grown: show, noted: note(filled.warnings) })
+    .then(show, (error) => {
+      filled.unmade = make;
+      complain(error);
+    })
+    .then(() => {
+      busy.value -= 1;
+      filled.isReady = true;
+      return filled.motion.value;
+    });
+}
+
+/// A moment's motion once it is there; what could not be made is tried again.
+export async function made(of: Moment): Promise<Motion> {
+  if (of.unmade) fill(of, of.unmade);
+  const there = await of.ready;
+  if (of.unmade) throw new Error('The dance before this change could not be danced; take it back.');
+  return there;
+}
+
+/// A new moment behind the present one, in place of those that were undone.
+export function push(next: Project, shown: Motion, make: Make, known: Warning[] = []) {
+  takes.value = [];
+  chosen.value = null;
+  const kept = moments.value.slice(Math.max(0, present.value + 2 - mostMoments), present.value + 1);
+  const added: Moment = {
+    project: next,
+    song: song.value,
+    motion: signal(shown),
+    before: motion.value ?? shown,
+    warnings: signal(known),
+    ready: Promise.resolve(shown),
+    isReady: false,
+    unmade: null,
+  };
+  moments.value = [...kept, added];
+  present.value = kept.length;
+  danced.value = shown.count;
+  fill(added, make);
+}
+
+let streaming: AbortController | null = null;
+
+/// One dance streams at a time: the one that began last.
+export function stream(): AbortController {
+  streaming?.abort();
+  streaming = new AbortController();
+  return streaming;
+}
+
+/// Dances a project from behind frame `from` of `before` on.
+const streamFrom = (next: Project, before: Motion, from: number): Make => (watch) => {
+  const control = stream();
+  return dancer.stream(next, before, from, watch, control.signal).finally(() => {
+    if (streaming === control) streaming = null;
+  });
+};
+
+/// Dances everything behind `from` anew.
+export function danceFrom(next: Project, from: number) {
+  const before = motion.value ?? new Motion(skeleton.joints, dancer.fps);
+  const stay = warnings.value.filter(({ frame }) => frame <= from);
+  push(next, from >= 0 ? before.head(from + 1) : before, streamFrom(next, before, from), stay);
+}
+
+/// Changes the project and dances what it touches, `frames`, anew: from the key before them to the
+/// one behind.
+export function edit(next: Project, frames: number[]) {
+  const before = moment.value;
+  const stays = next.keys.filter(({ frame }) => !frames.includes(frame)).map(({ frame }) => frame);
+  const from = stays.filter((frame) => frame < Math.min(...frames)).at(-1) ?? -1;
+  const to = stays.find((frame) => frame > Math.max(...frames)) ?? dancer.frames(next);
+  const long = !dancer.spans(to - from);
+  const there = before.isReady || !streaming ? Infinity : before.motion.value.count;
+  if (long || to + lead > there) return danceFrom(next, Math.min(from, before.motion.value.count - 1));
+  const stay = before.warnings.value.filter(({ frame }) => frame <= from || frame > to);
+  push(next, before.motion.value, async (watch) => {
+    const whole = await made(before);
+    return (await dancer.between(next, whole, from, Math.min(to, whole.count), next.seed, 1, watch))[0];
+  }, stay);
+}
+
+/// Changes what all of the dance depends on.
+export const change = (what: Partial<Project>) => danceFrom({ ...project.value, ...what }, -1);
+
+export const undo = () => step(-1);
+export const redo = () => step(1);
+function step(by: number) {
+  const to = present.value + by;
+  if (to < 0 || to >= moments.value.length) return;
+  takes.value = [];
+  present.value = to;
+  danced.value = moment.value.motion.value.count;
+  if (!project.value.keys.some(({ id }) => id === selectedKey.value)) selectedKey.value = null;
+  const there = moment.value;
+  if (!there.song || there.song === song.value) return finish(there);
+  void work(async () => {
+    await returnTo(there.song!);
+    if (moment.value === there) finish(there);
+  });
+}
+
+/// A dance that was left before its end goes on.
+export function finish(left: Moment) {
+  if (!left.isReady) return;
+  const there = left.motion.value;
+  if (left.unmade) fill(left, left.unmade);
+  else if (there.count < total.value && left.project.keys.length > 0)
+    fill(left, streamFrom(left.project, there, there.count - 1));
+}

@@ -1,0 +1,29 @@
+// The program behind the page, and what it said of the body and the model.
+import { Skeleton } from './body';
+import { Dancer } from './dancer';
+import type { Welcome } from './generated/studio/studio_pb';
+import { complain, isConnected, welcome } from './state';
+import { Wire } from './wire';
+
+export let skeleton: Skeleton;
+export let dancer: Dancer;
+
+let greet: (said: Welcome, isFirst: boolean) => void = () => {};
+/// What to do when the program is there: for the first time, or again.
+export const whenThere = (does: typeof greet) => (greet = does);
+
+export const wire = new Wire(
+  ({ response }) => {
+    if (response.case !== 'welcome') return;
+    const isFirst = !welcome.value;
+    skeleton = new Skeleton(response.value.model!.skeleton!);
+    dancer = new Dancer(wire, response.value.model!);
+    welcome.value = response.value;
+    isConnected.value = true;
+    greet(response.value, isFirst);
+  },
+  () => {
+    if (isConnected.value) complain(new Error('The studio program is gone. It is asked again each second.'));
+    isConnected.value = false;
+  },
+);

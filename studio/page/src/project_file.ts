@@ -1,0 +1,104 @@
+// A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
+import type { Triple } from './body';
+import { closest, emptyProject, parts, sorted } from './project';
+import type { Key, Project } from './project';
+
+const format = 1; // of the file
+const mostSeconds = 3600;
+const mostLively = 10;
+const mostRadians = 2 * Math.PI;
+
+type Json = Record<string, unknown>;
+/// What a project has to fit.
+export type Known = { joints: number; fps: number; styles: string[] };
+
+const round = (value: number) => Math.round(value * 1e5) / 1e5;
+
+export function toJson(project: Project, fps: number): string {
+  const keyframes = project.keys.map(({ id, frame, pose, hasPlace }) => ({
+    id,
+    time: round(frame / fps),
+    ...(hasPlace ? { root_position: pose.root.map(round) } : {}),
+    rotations: Array.from({ length: pose.rotations.length / 3 }, (_, joint) =>
+      pose.rotations.slice(3 * joint, 3 * joint + 3).map(round),
+    ),
+  }));
+  const { song, seconds, seed, style } = project;
+  const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
+  const text = JSON.stringify({ studio: format, song, seconds, seed, style, lively, keyframes }, null, 1);
+  // A line for each vector, not for each number.
+  return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]') + '\n';
+}
+
+const shown = (value: unknown) => (JSON.stringify(value) ?? 'nothing').slice(0, 40);
+
+function number(value: unknown, where: string, from: number, to: number): number {
+  if (typeof value !== 'number' || !(value >= from && value <= to))
+    throw new Error(`${where}: ${shown(value)} is not a number from ${from} to ${to}.`);
+  return value;
+}
+
+function numbers(value: unknown, where: string, count: number, most: number): number[] {
+  const flat: unknown[] = Array.isArray(value) ? value.flat() : [];
+  if (flat.length !== count) throw new Error(`${where}: ${flat.length} numbers, must be ${count}.`);
+  return flat.map((one, i) => number(one, `${where}[${i}]`, -most, most));
+}
+
+function parse(text: string, name: string): Json {
+  let json: unknown = null;
+  try {
+    json = JSON.parse(text);
+  } catch {
+    throw new Error(`${name} is no JSON.`);
+  }
+  if (typeof json !== 'object' || json === null || !Array.isArray((json as Json).keyframes))
+    throw new Error(`${name} has no list "keyframes": it is neither a project nor a key file.`);
+  return json as Json;
+}
+
+const keyMembers = ['id', 'time', 'frame', 'root_position', 'rotations'];
+
+function readKey(key: Json, where: string, nth: number, known: Known): Key {
+  if (typeof key !== 'object' || key === null) throw new Error(`${where}: ${shown(key)} is no key.`);
+  const strange = Object.keys(key).find((member) => !keyMembers.includes(member));
+  if (strange) throw new Error(`${where}.${strange}: the studio opens keys of numbers alone (${keyMembers.join(', ')}).`);
+  const frame = 'frame' in key
+    ? number(key.frame, `${where}.frame`, 0, mostSeconds * known.fps)
+    : Math.round(number(key.time, `${where}.time`, 0, mostSeconds) * known.fps);
+  const rotations = numbers(key.rotations, `${where}.rotations`, 3 * known.joints, mostRadians);
+  const hasPlace = key.root_position !== undefined;
+  const root = hasPlace ? numbers(key.root_position, `${where}.root_position`, 3, 1000) : [0, 0.9, 0];
+  const id = typeof key.id === 'string' && key.id ? key.id : `key${nth}`;
+  return { id, frame: Math.round(frame), pose: { root: root as Triple, rotations }, hasPlace };
+}
+
+function readKeys(list: unknown[], name: string, known: Known): Key[] {
+  const keys = sorted(list.map((key, i) => readKey(key as Json, `${name}: keyframes[${i}]`, i + 1, known)));
+  keys.forEach((key, i) => {
+    if (keys.findIndex(({ id }) => id === key.id) < i) throw new Error(`${name}: there are two keys "${key.id}".`);
+    if (i > 0 && key.frame - keys[i - 1].frame < closest)
+      throw new Error(`${name}: the keys "${keys[i - 1].id}" and "${key.id}" stand closer than ${closest} frames.`);
+  });
+  return keys;
+}
+
+/// Reads a project, or a key file. Throws where it cannot be used, naming member, value and limit;
+/// `tell` hears of what is left out.
+export function fromJson(text: string, name: string, known: Known, tell: (words: string) => void): Project {
+  const json = parse(text, name);
+  if (json.studio !== undefined && json.studio !== format)
+    throw new Error(`${name} is of format ${shown(json.studio)}; this studio knows ${format}. It was saved by another version.`);
+  const at = (member: string) => `${name}: ${member}`;
+  const project = emptyProject(typeof json.song === 'string' ? json.song : '', 0);
+  if (json.seconds !== undefined) project.seconds = number(json.seconds, at('seconds'), 0, mostSeconds);
+  if (json.seed !== undefined) project.seed = Math.round(number(json.seed, at('seed'), 0, Number.MAX_SAFE_INTEGER));
+  if (typeof json.style === 'string') project.style = json.style;
+  if (project.style && !known.styles.includes(project.style)) {
+    tell(`The model has no style "${project.style}", only ${known.styles.join(', ') || 'none'}.`);
+    project.style = '';
+  }
+  const lively = (json.lively ?? {}) as Json;
+  project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, mostLively));
+  project.keys = readKeys(json.keyframes as unknown[], name, known);
+  return project;
+}

@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/client/command_fixture.h"
+#include "tests/client/test_music.h"
+
+namespace choreo {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// `choreo dance --project`, with what the studio saves.
+class ProjectTest : public testing::Test {
+ protected:
+  ProjectTest() {
+    project_ = {
+        {"studio", 1}, {"song", "song.wav"}, {"seconds", 4}, {"seed", 3}, {"style", "wild"}};
+    project_["lively"] = {{"trunk", 1}, {"left arm", 1.5}, {"right arm", 1}};
+    const json joint = {0.1, 0.0, 0.2};
+    project_["keyframes"] = {{{"id", "bow"}, {"time", 2}, {"rotations", json::array()}}};
+    for (int i = 0; i < 24; ++i) project_["keyframes"][0]["rotations"].push_back(joint);
+    WriteClicks(folder_ / "song.wav", 5);
+  }
+
+  std::string At(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+  Outcome Dance(const std::string& arguments, const std::string& out) const {
+    std::ofstream(folder_ / "p.json") << project_.dump();
+    return Choreo("dance --server " + server_.address() + " -o " + At(out) + " " + arguments);
+  }
+  std::string Bytes(const std::string& name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void ExpectRefused(const std::string& message) const {
+    const Outcome outcome = Dance("--project " + At("p.json"), "x.bvh");
+    EXPECT_EQ(outcome.code, 1) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr(message));
+  }
+
+  TemporaryFolder folder_;
+  const TestServer server_{std::make_unique<ControlledEngine>()};
+  json project_;
+};
+
+TEST_F(ProjectTest, IsDancedAsItSays) {
+  const Outcome outcome = Dance("--project " + At("p.json"), "a.bvh");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Outcome spelt = Dance(At("song.wav") + " -k " + At("p.json") +
+                                  " --seed 3 --seconds 4 --style wild --velocity left_arm=1.5",
+                              "b.bvh");
+  ASSERT_EQ(spelt.code, 0) << spelt.said;
+  EXPECT_THAT(Bytes("a.bvh"), HasSubstr("Frames: 120\n"));
+  EXPECT_EQ(Bytes("a.bvh"), Bytes("b.bvh"));
+}
+
+TEST_F(ProjectTest, TheCommandLineWins) {
+  ASSERT_EQ(Dance("--project " + At("p.json"), "wild.bvh").code, 0);
+  ASSERT_EQ(Dance("--project " + At("p.json") + " --style calm", "calm.bvh").code, 0);
+  ASSERT_EQ(Dance("--project " + At("p.json") + " --velocity left_arm=1", "slow.bvh").code, 0);
+  ASSERT_EQ(Dance("--project " + At("p.json") + " --seconds 3", "short.bvh").code, 0);
+  EXPECT_NE(Bytes("wild.bvh"), Bytes("calm.bvh"));
+  EXPECT_NE(Bytes("wild.bvh"), Bytes("slow.bvh"));
+  EXPECT_THAT(Bytes("short.bvh"), HasSubstr("Frames: 90\n"));
+}
+
+TEST_F(ProjectTest, ASongThatIsNotBesideItIsNamed) {
+  project_["song"] = "other.wav";
+  ExpectRefused("p.json:song: ");
+  const Outcome outcome = Dance(At("song.wav") + " --project " + At("p.json"), "a.bvh");
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+}
+
+TEST_F(ProjectTest, WithoutASongItIsSilent) {
+  project_["song"] = "";
+  const Outcome outcome = Dance("--project " + At("p.json"), "a.bvh");
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+}
+
+TEST_F(ProjectTest, WhatCannotBeIsNamed) {
+  const json good = project_;
+  const auto with = [&](const char* member, const json& value, const std::string& message) {
+    project_ = good;
+    project_[member] = value;
+    ExpectRefused(std::string("p.json:") + member + message);
+  };
+  with("studio", 2, ": is format 2, known is 1");
+  with("seconds", 0, ": 0 is not above 0 and up to 3600");
+  with("seconds", 1e300, ": 1e+300 is not above 0 and up to 3600");
+  with("seed", -1, ": -1 is no whole number from 0 on");
+  with("song", 7, ": 7 is no text");
+  with("lively", {{"tail", 1}}, ".tail: is none of trunk");
+  with("lively", {{"trunk", 11}}, ".trunk: 11 is not a number from 0 to 10");
+  project_ = good;
+  project_["style"] = "foxtrot";
+  ExpectRefused("foxtrot");
+  project_ = good;
+  project_.erase("studio");
+  ExpectRefused("p.json:studio: is missing: a key file goes with --keyframes");
+  project_ = good;
+  project_.erase("keyframes");
+  ExpectRefused("p.json: has no list");
+}
+
+}  // namespace
+}  // namespace choreo
