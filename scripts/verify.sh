@@ -47,9 +47,10 @@ echo "== The studio in a browser"
 scripts/install_packages.sh browser
 tests/studio/browser/run.sh "$build"
 
-echo "== Blender opens our BVH files"
+echo "== Blender: our BVH files, and the add-on"
 scripts/install_packages.sh blender || echo "verify.sh: no Blender comes from here" >&2
 CHOREO_SKIP_CODE=0 tests/formats/blender/run.sh "$build"
+CHOREO_SKIP_CODE=0 tests/examples/blender/run.sh "$build"
 
 echo "== Faults that are injected for longer"
 scripts/faults.sh "$build"

@@ -1,10 +1,12 @@
 #include "studio/web_server.h"
 
+#include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/address.hpp>
+#include <boost/asio/post.hpp>
 #include <charconv>
 #include <chrono>
-#include <future>
+#include <optional>
 
 #include "model/core/error.h"
 #include "studio/page.h"
@@ -18,7 +20,8 @@ namespace http = beast::http;
 using tcp = boost::asio::ip::tcp;
 
 constexpr std::chrono::milliseconds kAskEvery{100};
-constexpr std::chrono::seconds kPatience{30};  // for a request
+constexpr std::chrono::seconds kPatience{30};      // for a request
+constexpr size_t kLargestBody = size_t{64} << 20;  // of a project with its song
 constexpr const char* kSocketPath = "/studio";
 // Browsers hold the page to this, whatever it loads.
 constexpr const char* kPolicy =
@@ -52,15 +55,22 @@ class Connection : public std::enable_shared_from_this<Connection> {
  public:
   using Upgrade = std::function<void(beast::tcp_stream, const http::request<http::string_body>&)>;
 
-  Connection(tcp::socket socket, std::string host, Upgrade upgrade)
-      : stream_(std::move(socket)), host_(std::move(host)), upgrade_(std::move(upgrade)) {}
+  Connection(tcp::socket socket, std::string host, ProjectCalls* calls, Upgrade upgrade)
+      : stream_(std::move(socket)),
+        host_(std::move(host)),
+        calls_(*calls),
+        upgrade_(std::move(upgrade)) {}
 
   void Read() {
-    request_ = {};
+    parser_.emplace();
+    parser_->body_limit(kLargestBody);
     stream_.expires_after(kPatience);
-    http::async_read(stream_, buffer_, request_,
+    http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, size_t) {
-                       if (!error) self->Answer();
+                       if (error == http::error::body_limit) return self->RefuseBody();
+                       if (error) return;
+                       self->request_ = self->parser_->release();
+                       self->Answer();
                      });
   }
 
@@ -84,12 +94,52 @@ class Connection : public std::enable_shared_from_this<Connection> {
         return Say(http::status::not_found, "text/plain", "No WebSocket here.\n");
       return upgrade_(std::move(stream_), request_);
     }
+    const std::string target(request_.target());
+    const std::string path = target.substr(0, target.find('?'));
+    if (path == "/dance") return Dance(target);
     if (request_.method() != http::verb::get && request_.method() != http::verb::head)
       return Say(http::status::method_not_allowed, "text/plain", "GET alone.\n");
-    const std::string target(request_.target());
-    const PageFile* file = FindPageFile(std::string_view(target).substr(0, target.find('?')));
+    if (path == "/model") return Say(calls_.Model());
+    const PageFile* file = FindPageFile(path);
     if (!file) return Say(http::status::not_found, "text/plain", "No such page.\n");
     Say(http::status::ok, file->type, file->data);
+  }
+
+  /// Dances a project, while this connection waits.
+  void Dance(const std::string& target) {
+    beast::error_code error;
+    const bool is_near = stream_.socket().remote_endpoint(error).address().is_loopback();
+    if (error || !is_near)
+      return Say(ProjectCalls::Refuse(403, "projects are danced for this machine alone"));
+    if (request_.method() != http::verb::post)
+      return Say(ProjectCalls::Refuse(405, "POST a project"));
+    // Which no page from elsewhere can send without asking first.
+    if (!request_[http::field::content_type].starts_with("application/json"))
+      return Say(ProjectCalls::Refuse(415, "Content-Type must be application/json"));
+    const std::string query = target.substr(std::min(target.find('?'), target.size()));
+    if (!query.empty() && query != "?as=bvh" && query != "?as=json")
+      return Say(ProjectCalls::Refuse(400, "as: must be json or bvh"));
+    stream_.expires_never();
+    calls_.Dance(std::move(request_.body()), query == "?as=bvh",
+                 [self = shared_from_this()](ProjectCalls::Reply reply) {
+                   boost::asio::post(self->stream_.get_executor(),
+                                     [self, reply = std::move(reply)] {
+                                       self->stream_.expires_after(kPatience);
+                                       self->Say(reply);
+                                     });
+                 });
+  }
+
+  /// What comes behind it cannot be told from another request.
+  void RefuseBody() {
+    request_ = {};
+    request_.keep_alive(false);
+    Say(ProjectCalls::Refuse(413,
+                             "project: is larger than " + std::to_string(kLargestBody) + " bytes"));
+  }
+
+  void Say(const ProjectCalls::Reply& reply) {
+    Say(http::int_to_status(reply.status), reply.type, reply.body);
   }
 
   void Say(http::status status, std::string_view type, std::string_view text) {
@@ -109,15 +159,17 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   beast::tcp_stream stream_;
   const std::string host_;
+  ProjectCalls& calls_;
   const Upgrade upgrade_;
   beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
   http::request<http::string_body> request_;
 };
 
 }  // namespace
 
 WebServer::WebServer(const std::string& listen, const House& house)
-    : house_(house), acceptor_(io_), timer_(io_) {
+    : house_(house), calls_(house), acceptor_(io_), timer_(io_) {
   const Place place = ParsePlace(listen);
   host_ = place.host;
   try {
@@ -162,7 +214,7 @@ void WebServer::Accept() {
   acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (!error) {
       std::make_shared<Connection>(
-          std::move(socket), host_,
+          std::move(socket), host_, &calls_,
           [this](beast::tcp_stream stream, const http::request<http::string_body>& request) {
             const auto page = std::make_shared<Socket>(std::move(stream), house_);
             sockets_.insert(page);

@@ -8,15 +8,16 @@
 #include <set>
 #include <string>
 
-#include "studio/house.h"
+#include "studio/project_calls.h"
 
 namespace choreo::studio {
 
 class Socket;
 
-/// Serves the page over HTTP, and a WebSocket at /studio with a Desk behind each. Answers only
-/// those who came to it by its own name: a page from elsewhere, or a name of elsewhere that leads
-/// here, is refused. No request of the page leaves this machine: its headers see to it.
+/// Serves the page over HTTP, and a WebSocket at /studio with a Desk behind each; projects of other
+/// programs (project_calls.h), which must run on this machine. Answers only those who came to it by
+/// its own name: a page from elsewhere, or a name of elsewhere that leads here, is refused. No
+/// request of the page leaves this machine: its headers see to it.
 class WebServer {
  public:
   /// Listens at HOST:PORT; port 0 takes a free one. `house` must outlive it. Throws
@@ -39,6 +40,7 @@ class WebServer {
 
   const House& house_;
   boost::asio::io_context io_;
+  ProjectCalls calls_;
   boost::asio::ip::tcp::acceptor acceptor_;
   boost::asio::steady_timer timer_;
   std::string host_;

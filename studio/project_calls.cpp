@@ -1,0 +1,183 @@
+#include "studio/project_calls.h"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "client/cli/json_fields.h"
+#include "client/cli/key_file.h"
+#include "client/cli/project_file.h"
+#include "client/cli/velocity_options.h"
+#include "model/core/rounded.h"
+#include "model/formats/bvh.h"
+#include "model/formats/motion_file.h"
+#include "studio/scratch_folder.h"
+
+namespace choreo::studio {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kName = "project";  // how errors call what came
+constexpr int kAtOnce = 2;
+constexpr int kMostAsked = 4;  // in progress or waiting
+
+std::string FromBase64(const std::string& text, const std::string& field) {
+  std::string out(text.size(), '\0');
+  const int size = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(out.data()),
+                                   reinterpret_cast<const unsigned char*>(text.data()),
+                                   static_cast<int>(text.size()));
+  if (size < 0) throw InvalidArgument(field, "is no base64");
+  const size_t padding = text.size() - std::min(text.size(), text.find_last_not_of('=') + 1);
+  out.resize(static_cast<size_t>(size) - std::min<size_t>(padding, static_cast<size_t>(size)));
+  return out;
+}
+
+/// The song that came with a project; none where it has none. Takes it out of `file`.
+std::optional<Song> TakeSong(json* file, const std::string& name, double most_seconds) {
+  const std::string field = std::string(kName) + ":song_data";
+  if (!file->contains("song_data")) {
+    if (name.empty()) return std::nullopt;
+    throw InvalidArgument(field, "is missing beside song: the file's bytes in base64");
+  }
+  const json data = std::exchange((*file)["song_data"], nullptr);
+  if (!data.is_string()) throw InvalidArgument(field, "is no text");
+  if (name.empty())
+    throw InvalidArgument(std::string(kName) + ":song", "is missing beside song_data");
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder.path() / ("song" + SmallExtension(name));
+  std::ofstream(path, std::ios::binary) << FromBase64(data.get_ref<const std::string&>(), field);
+  return HearSong(path, name, most_seconds);
+}
+
+/// Six digits behind the point are enough for bodies.
+double Short(double value) { return std::round(value * 1e6) / 1e6; }
+
+json Vectors(const Eigen::Matrix3Xd& columns) {
+  json out = json::array();
+  for (const auto& column : columns.colwise())
+    out.push_back({Short(column.x()), Short(column.y()), Short(column.z())});
+  return out;
+}
+
+std::string DanceJson(const client::DanceResult& dance) {
+  json out = {{"frame_rate", dance.motion.fps}, {"joints", dance.header.skeleton.joint_names}};
+  json& roots = out["root_positions"] = json::array();
+  json& rotations = out["rotations"] = json::array();
+  json& warnings = out["warnings"] = json::array();
+  for (const Pose& pose : dance.motion.frames) {
+    roots.push_back(Vectors(pose.root_position)[0]);
+    rotations.push_back(Vectors(pose.rotations));
+  }
+  for (const client::Warning& warning : dance.warnings)
+    warnings.push_back({{"frame", warning.frame}, {"message", warning.message}});
+  return out.dump();
+}
+
+unsigned StatusOf(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kResourceExhausted:
+    case ErrorCode::kUnavailable:
+    case ErrorCode::kCancelled:
+    case ErrorCode::kDeadlineExceeded:
+      return 503;
+    case ErrorCode::kInternal:
+      return 500;
+    default:
+      return 400;
+  }
+}
+
+}  // namespace
+
+ProjectCalls::ProjectCalls(const House& house) : house_(house), threads_(kAtOnce) {}
+
+ProjectCalls::~ProjectCalls() {
+  ends_ = true;
+  threads_.join();
+}
+
+ProjectCalls::Reply ProjectCalls::Refuse(unsigned status, const std::string& message) {
+  // What somebody sent may be no UTF-8.
+  const json said = {{"error", message}};
+  return {.status = status, .body = said.dump(-1, ' ', false, json::error_handler_t::replace)};
+}
+
+ProjectCalls::Reply ProjectCalls::Model() const {
+  const client::ModelDescription& model = house_.model();
+  const json out = {{"name", model.name},
+                    {"frame_rate", model.fps},
+                    {"joints", model.skeleton.joint_names},
+                    {"parents", model.skeleton.parents},
+                    {"offsets", Vectors(model.skeleton.offsets)},
+                    {"pelvis_height", Short(model.skeleton.pelvis_height)},
+                    {"styles", model.styles},
+                    {"most_seconds", house_.most_seconds()}};
+  return {.body = out.dump()};
+}
+
+void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
+  if (asked_ >= kMostAsked) {
+    return answer(Refuse(503, std::to_string(kMostAsked) +
+                                  " dances are asked for already, the most; ask again later"));
+  }
+  ++asked_;
+  boost::asio::post(threads_,
+                    [this, project = std::move(project), as_bvh, answer = std::move(answer)] {
+                      Reply reply;
+                      try {
+                        reply = Danced(project, as_bvh);
+                      } catch (const Error& error) {
+                        reply = Refuse(StatusOf(error.code()), error.what());
+                      } catch (const std::exception& error) {
+                        reply = Refuse(500, error.what());
+                      }
+                      --asked_;
+                      answer(std::move(reply));
+                    });
+}
+
+ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) const {
+  const client::ModelDescription& model = house_.model();
+  json file = cli::ParseJson(text, kName);
+  const cli::Project project = cli::ParseProject(file, kName);
+  const std::optional<Song> song = TakeSong(&file, project.song, house_.most_seconds());
+  const std::vector<client::KeyPose> keys = cli::ParseKeyFile(file.dump(), kName, model.skeleton);
+  if (!song && !project.seconds)
+    throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
+  // An answer has to fit into memory.
+  if (project.seconds && *project.seconds > house_.most_seconds()) {
+    throw InvalidArgument(std::string(kName) + ":seconds",
+                          Rounded(*project.seconds) + " is beyond " +
+                              Rounded(house_.most_seconds()) + ", the most that is danced");
+  }
+  double seconds = project.seconds.value_or(house_.most_seconds());
+  if (song) seconds = std::min(seconds, song->heard.seconds());
+
+  client::DanceConfig config;
+  config.seed = project.seed.value_or(0);
+  config.style = project.style;
+  config.frames = std::llround(seconds * model.fps);
+  if (!project.velocities.empty())
+    config.controls.velocity_factors = cli::ReadVelocities(project.velocities, "", model.fps);
+  client::Audio audio;
+  if (song) {
+    config.music_beats = cli::BeatsBefore(song->music, seconds);
+    if (model.takes_music) audio = cli::AudioFor(song->music.audio, seconds);
+  }
+  const client::DanceResult dance =
+      house_.client().Dance(config, keys, audio, [this](const client::Message&) {
+        if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
+      });
+  if (!as_bvh) return {.body = DanceJson(dance)};
+  std::ostringstream out;
+  WriteBvh(out, MotionToBvh(dance.header.skeleton, dance.motion));
+  return {.type = "text/plain", .body = std::move(out).str()};
+}
+
+}  // namespace choreo::studio

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <atomic>
+#include <boost/asio/thread_pool.hpp>
+#include <functional>
+#include <string>
+
+#include "studio/house.h"
+
+namespace choreo::studio {
+
+/// What other programs ask over plain HTTP, in JSON: a Blender add-on, a script.
+///
+///     GET /model           the model: name, frame_rate, joints, parents, offsets (metres, at
+///     rest),
+///                          pelvis_height, styles, most_seconds
+///     POST /dance          a project (client/cli/project_file.h) in, the dance out: frame_rate,
+///                          joints, root_positions [frames][3] in metres, rotations
+///                          [frames][joints][3] axis-angle, warnings [{frame, message}]
+///     POST /dance?as=bvh   the same as a BVH file, centimetres
+///
+/// A project's song comes with it: `song_data` is the file in base64, `song` its name. Without both
+/// the dance is silent, `seconds` long. What cannot be answered is {"error": "..."}, which names
+/// field, value and limit.
+class ProjectCalls {
+ public:
+  struct Reply {
+    unsigned status = 200;
+    std::string type = "application/json";
+    std::string body = {};
+  };
+  using Answer = std::function<void(Reply)>;
+
+  /// `house` must outlive it.
+  explicit ProjectCalls(const House& house);
+  /// Ends the dances in progress.
+  ~ProjectCalls();
+  ProjectCalls(const ProjectCalls&) = delete;
+  ProjectCalls& operator=(const ProjectCalls&) = delete;
+
+  Reply Model() const;
+  /// Returns at once; `answer` is called from another thread, once. Those beyond a few are sent
+  /// away with 503.
+  void Dance(std::string project, bool as_bvh, Answer answer);
+
+  static Reply Refuse(unsigned status, const std::string& message);
+
+ private:
+  Reply Danced(const std::string& project, bool as_bvh) const;
+
+  const House& house_;
+  std::atomic<int> asked_ = 0;
+  std::atomic<bool> ends_ = false;
+  boost::asio::thread_pool threads_;
+};
+
+}  // namespace choreo::studio
