@@ -139,11 +139,24 @@ void AddPoseCommand(CLI::App& program) {
       "Make a key pose: from another one, with joints in degrees, hands and feet in places.\n"
       "It is done in the order of the options below. Without --out and --png the joints are "
       "printed, in degrees.");
+  CLI::Option* from =
+      command
+          ->add_option(
+              "--from", recipe.from,
+              "A pose of the library (--list), rest (arms out to the sides), a key file, or "
+              "MOTION@SECOND.")
+          ->capture_default_str();
+  CLI::Option* landmarks =
+      command
+          ->add_option("--from-landmarks", recipe.from_landmarks,
+                       "What MediaPipe Pose saw in a photo: FILE.json of its 33 world landmarks.")
+          ->excludes(from);
   command
-      ->add_option("--from", recipe.from,
-                   "A pose of the library (--list), rest (arms out to the sides), a key file, or "
-                   "MOTION@SECOND.")
-      ->capture_default_str();
+      ->add_option("--from-smpl", recipe.from_smpl,
+                   "What an estimator saw in a photo as a pose of SMPL: FILE.json or FILE.npz of "
+                   "24 axis-angle vectors or matrices.")
+      ->excludes(from)
+      ->excludes(landmarks);
   AddRepeated(*command, "--set", recipe.set,
               "JOINT=DEGREES. Knees and elbows take one number, how far they bend; other joints "
               "three, as in left_shoulder=10,0,-45: turns about x (to the dancer's left), y (up) "

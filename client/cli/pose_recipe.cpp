@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "client/cli/photo_pose.h"
 #include "client/cli/pose_source.h"
 #include "model/body/ground.h"
 #include "model/core/error.h"
@@ -47,11 +48,19 @@ Assignment Parse(const std::string& option, const std::string& text, const Skele
   }
 }
 
-client::KeyPose Begin(const std::string& from, const Skeleton& skeleton) {
-  if (from != "rest") return ReadPose(from, skeleton).key;
+client::KeyPose Begin(const PoseRecipe& recipe, const Skeleton& skeleton) {
   client::KeyPose key;
-  key.id = from;
-  key.pose = RestPose(skeleton);
+  key.id = "photo";
+  if (!recipe.from_landmarks.empty()) {
+    key.pose = ReadLandmarkPose(recipe.from_landmarks, skeleton);
+  } else if (!recipe.from_smpl.empty()) {
+    key.pose = ReadSmplPose(recipe.from_smpl, skeleton);
+  } else if (recipe.from != "rest") {
+    return ReadPose(recipe.from, skeleton).key;
+  } else {
+    key.id = recipe.from;
+    key.pose = RestPose(skeleton);
+  }
   return key;
 }
 
@@ -100,7 +109,7 @@ void MirrorKey(const Skeleton& skeleton, client::KeyPose* key) {
 }  // namespace
 
 client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton) {
-  client::KeyPose key = Begin(recipe.from, skeleton);
+  client::KeyPose key = Begin(recipe, skeleton);
   Set(recipe.set, skeleton, &key);
   if (recipe.height_m)
     key.pose.root_position.y() += *recipe.height_m - DollAboveFloor(skeleton, key.pose);

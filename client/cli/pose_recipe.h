@@ -12,6 +12,8 @@ namespace choreo::cli {
 struct PoseRecipe {
   /// What ReadPose takes (pose_source.h), or "rest": upright, arms out to the sides.
   std::string from = "rest";
+  /// Files of poses that were seen in a photo (photo_pose.h), in place of `from`: at most one.
+  std::string from_landmarks = {}, from_smpl = {};
   /// "left_elbow=90", "left_shoulder=10,0,-45": joints in degrees (motion/joint_angles.h).
   std::vector<std::string> set;
   std::optional<double> height_m;  ///< of the body's lowest point above the floor; none: as it is
