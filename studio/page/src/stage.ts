@@ -77,10 +77,13 @@ export class Stage {
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.floor = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false }));
     this.floor.rotation.x = -Math.PI / 2;
-    const shade = new THREE.Mesh(new THREE.PlaneGeometry(14, 14), new THREE.ShadowMaterial({ opacity: 0.22 }));
-    shade.rotation.x = -Math.PI / 2;
+    // The shadows lie on the floor, wherever both are: they hide nothing of it.
+    const shade = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.ShadowMaterial({ opacity: 0.22, depthWrite: false }));
     shade.receiveShadow = true;
-    shade.position.y = 0.001;
+    shade.position.z = 0.001;
+    this.floor.renderOrder = -2;
+    shade.renderOrder = -1;
+    this.floor.add(shade);
     this.lamp.castShadow = true;
     this.lamp.shadow.mapSize.set(1024, 1024);
     this.lamp.shadow.radius = 5;
@@ -88,7 +91,7 @@ export class Stage {
     Object.assign(this.lamp.shadow.camera, { left: -4, right: 4, top: 3, bottom: -3, near: 0.5, far: 12 });
     this.ghost = doll.another().fade('#c9a227', 0.28);
     this.ghost.scene.visible = false;
-    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, shade, doll.scene, this.ghost.scene, this.dots);
+    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots);
     this.makeDots();
     this.camera.position.set(1.5, 1.35, 4.4);
     this.controls = new OrbitControls(this.camera, canvas);

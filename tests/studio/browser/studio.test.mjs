@@ -230,6 +230,8 @@ try {
   await check('another song is danced to, and undo brings back the first', async () => {
     await drop('short.wav', clicks(6).toString('base64'));
     await until(() => window.choreo.song.value.name === 'short.wav' && window.choreo.busy.value === 0);
+    const said = await message();
+    assert.ok(!said?.isError, said?.text);
     assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 180);
     await page.keyboard.press('Control+z');
     await until(() => window.choreo.song.value.name === 'clicks.wav' && window.choreo.busy.value === 0);
@@ -299,6 +301,21 @@ try {
     const rate = await page.evaluate(() => window.choreo.stage.value.rate);
     await page.getByRole('button', { name: 'Pause' }).click();
     console.log(`    ${rate.toFixed(0)} pictures a second; the picture shows the sound of ${(1000 * late).toFixed(0)} ms ago at most`);
+  });
+
+  await check('the floor is seen wherever the dancer goes', async () => {
+    const colours = await page.evaluate(() => [-3, 3].map((z) => {
+      const { renderer, scene, camera, floor } = window.choreo.stage.value;
+      floor.position.z += z;
+      renderer.render(scene, camera);
+      const gl = renderer.getContext();
+      const pixel = new Uint8Array(4);
+      gl.readPixels(gl.drawingBufferWidth / 2, gl.drawingBufferHeight * 0.15, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      floor.position.z -= z;
+      return [...pixel];
+    }));
+    // Less blue than the background, which is #fbf9f6.
+    for (const [, , blue] of colours) assert.ok(blue < 0xf6 - 8, `${colours}`);
   });
 
   await check('nothing left this machine, and nothing broke', async () => {
