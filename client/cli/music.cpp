@@ -34,7 +34,7 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start)
   music.audio = DecodeAudioFile(path, start + seconds + kTempoWindow);
   LeaveOut(start, path, &music.audio);
   music.mono = ToModelRate(music.audio);
-  music.onset_strength = OnsetStrength(music.mono, OnsetAggregate::kMedian);
+  music.onset_strength = OnsetStrength(music.mono);
   music.track = TrackBeats(music.onset_strength);
   return music;
 }

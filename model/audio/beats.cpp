@@ -220,8 +220,6 @@ BeatTrack TrackBeats(std::span<const float> onset_strength) {
   return track;
 }
 
-BeatTrack FindBeats(std::span<const float> mono) {
-  return TrackBeats(OnsetStrength(mono, OnsetAggregate::kMedian));
-}
+BeatTrack FindBeats(std::span<const float> mono) { return TrackBeats(OnsetStrength(mono)); }
 
 }  // namespace choreo

@@ -24,8 +24,7 @@ double EstimateTempo(std::span<const float> onset_strength);
 /// either end are dropped. Needs the whole envelope.
 BeatTrack TrackBeats(std::span<const float> onset_strength);
 
-/// The beats of mono samples at 22 050 Hz, from their median onset strength. Errors as
-/// OnsetStrength.
+/// The beats of mono samples at 22 050 Hz, from their OnsetStrength. Errors as that.
 BeatTrack FindBeats(std::span<const float> mono);
 
 }  // namespace choreo

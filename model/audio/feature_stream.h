@@ -8,7 +8,7 @@
 
 #include "model/audio/mel.h"
 #include "model/audio/mfcc.h"
-#include "model/audio/pulse.h"
+#include "model/audio/onset.h"
 #include "model/audio/resample.h"
 
 namespace choreo {
@@ -52,7 +52,7 @@ class FeatureStream {
   /// not final or before first_row().
   std::span<const float> Row(int64_t row) const;
   /// RowOnset of a row, which must be final and not forgotten; 0 beyond the audio. In a stream that
-  /// starts later, that of the first RowOnset::kOnsetMemory rows is not what the whole music has.
+  /// starts later, that of the first RowOnset::kMemory rows is not what the whole music has.
   float Onset(int64_t row) const;
   /// Rows before `row` are needed no more: first_row() moves up to it, or to the first row that is
   /// not final.

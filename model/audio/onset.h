@@ -1,24 +1,42 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "model/audio/mel.h"
+
 namespace choreo {
+
+/// How strongly something begins, row by row of mel bands: by how many dB they rose within
+/// `kRiseRows`, the mean of all bands and of the bass. What lies more than 40 dB below the loudest
+/// band of the last `kLoudRows` rows is not heard. A row's value is known with the row, and depends
+/// on no more than the kMemory rows before it. Beats are heard in this, live and in whole songs.
+/// Not thread-safe.
+template <size_t kRiseRows, size_t kLoudRows>
+class OnsetMeter {
+ public:
+  static constexpr int kMemory = kRiseRows + kLoudRows;
+
+  /// `db`: the bands of the next row.
+  float Add(std::span<const double, kMelBands> db);
+
+ private:
+  size_t rows_ = 0;
+  std::array<std::array<double, kMelBands>, kRiseRows> before_{};
+  std::array<double, kLoudRows> loudest_{};
+};
+
+/// Of the rows of a FeatureStream, 30 a second: over two rows, 67 ms, and two seconds.
+using RowOnset = OnsetMeter<2, 60>;
 
 /// Samples at 22 050 Hz from one onset value, and one beat frame, to the next.
 inline constexpr int kOnsetHop = 512;
 
-/// How the rise of the mel bands becomes one number.
-enum class OnsetAggregate {
-  kMean,    ///< librosa.onset.onset_strength's default
-  kMedian,  ///< what librosa.beat.beat_track uses on samples; less swayed by one loud band
-};
-
-/// Onset strength of mono samples at 22 050 Hz, as librosa 0.10.2: the mean or median over the mel
-/// bands of how many dB each rose since the frame before (top_db 80). Value f describes sample f *
-/// kOnsetHop; there are 1 + samples / kOnsetHop, all >= 0, the first three 0. Errors as
-/// MelSpectrogramDb.
-std::vector<float> OnsetStrength(std::span<const float> mono,
-                                 OnsetAggregate aggregate = OnsetAggregate::kMean);
+/// Onset strength of mono samples at 22 050 Hz, all of them: rises over one frame, 23 ms. Value f
+/// describes sample f * kOnsetHop; there are 1 + samples / kOnsetHop, all >= 0, the first one 0.
+/// Errors as MelSpectrogramDb.
+std::vector<float> OnsetStrength(std::span<const float> mono);
 
 }  // namespace choreo

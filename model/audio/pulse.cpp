@@ -1,20 +1,17 @@
 #include "model/audio/pulse.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 namespace choreo {
 namespace {
 
 constexpr double kRowRate = 30;  // a second
 constexpr double kTwoPi = 2 * std::numbers::pi;
-
-constexpr double kRangeDb = 40;  // what lies further below the loudest band is not heard
-// Up to 130 Hz, where the low drum is. It says which of two pulses half a beat apart is the beat,
-// so these few bands weigh as much as all.
-constexpr size_t kBassBands = 4;
 
 // ---- Onsets, evened out.
 constexpr double kMeanSeconds = 1;   // over which steady rustle is taken away
@@ -40,6 +37,7 @@ constexpr size_t kAhead = 30;        // rows between saying a beat and hearing i
 constexpr double kTrustSeconds = 5;  // over which that is averaged
 constexpr double kDoubtRows = 30;    // as many average onsets are taken to have been off the beat
 constexpr double kLeastConfidence = 0.13;
+constexpr int kSilentRows = 75;  // without any onset, and the music has stopped
 
 double Kept(double seconds) { return std::exp(-1 / (kRowRate * seconds)); }
 
@@ -94,6 +92,7 @@ class Listener {
     const double over = std::max(0.0, onset - mean_);
     level_ = level_kept * level_ + (1 - level_kept) * over;
     const double even = level_ > kQuietDb ? std::min(over / level_, kLoudest) : 0;
+    silent_rows_ = even > 0 ? 0 : silent_rows_ + 1;
     Ring(even);
     Judge(even);
     if (rows_ % kChoiceRows == 0) Choose();
@@ -105,7 +104,8 @@ class Listener {
 
   Pulse Heard() const {
     Pulse pulse = pulse_;
-    if (pulse.period > 0) pulse.confidence = std::clamp(met_ / (heard_ + kDoubtRows), 0.0, 1.0);
+    if (pulse.period > 0 && silent_rows_ < kSilentRows)
+      pulse.confidence = std::clamp(met_ / (heard_ + kDoubtRows), 0.0, 1.0);
     return pulse;
   }
 
@@ -233,30 +233,12 @@ class Listener {
   double rival_rows_ = 0;
   std::array<Pulse, kAhead> said_{};
   double met_ = 0, heard_ = 0;
+  int silent_rows_ = 0;
 };
 
 const Tables Listener::tables_;
 
 }  // namespace
-
-float RowOnset::Add(std::span<const double, kMelBands> db) {
-  const auto at = static_cast<size_t>(rows_);
-  loudest_[at % kLoudness] = *std::max_element(db.begin(), db.end());
-  const size_t known = std::min(at + 1, kLoudness);
-  const double floor =
-      *std::max_element(loudest_.begin(), loudest_.begin() + static_cast<std::ptrdiff_t>(known)) -
-      kRangeDb;
-  double all = 0, bass = 0;
-  auto& before = before_[at % kBack];
-  for (size_t band = 0; band < kMelBands; ++band) {
-    const double rise = at < kBack ? 0 : std::max(0.0, db[band] - std::max(before[band], floor));
-    all += rise;
-    if (band < kBassBands) bass += rise;
-    before[band] = db[band];
-  }
-  ++rows_;
-  return static_cast<float>(0.5 * (all / kMelBands + bass / kBassBands));
-}
 
 bool Pulse::Certain() const { return confidence >= kLeastConfidence; }
 

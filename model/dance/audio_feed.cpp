@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model/audio/format.h"
+#include "model/audio/pulse.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -27,7 +28,7 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
       silence_(SilenceRow()),
       first_row_(features_.first_row()),
       ready_(features_.first_row()),
-      first_onset_(first_row_ > 0 ? first_row_ + RowOnset::kOnsetMemory : 0) {}
+      first_onset_(first_row_ > 0 ? first_row_ + RowOnset::kMemory : 0) {}
 
 void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                      const std::function<void()>& on_rows) {

@@ -5,6 +5,7 @@
 
 #include "model/audio/feature_stream.h"
 #include "model/audio/format.h"
+#include "model/audio/pulse.h"
 #include "model/core/error.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
@@ -61,7 +62,7 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
 int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const ModelInfo& model) {
   const double rate = config.audio->sample_rate;
   if (!config.music_beats.empty()) return LatestFirstSample(first_frame, rate, model);
-  constexpr int64_t kHeard = kPulseMemory + RowOnset::kOnsetMemory;
+  constexpr int64_t kHeard = kPulseMemory + RowOnset::kMemory;
   // A dance whose music began in the middle has no more of it.
   return std::max(config.audio->first_sample,
                   FeatureStream::FirstSampleFor(std::max<int64_t>(0, first_frame - kHeard), rate));

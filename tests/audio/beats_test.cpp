@@ -42,6 +42,30 @@ TEST(BeatsTest, ClickTracksAreCountedAtTheirTempo) {
   }
 }
 
+TEST(BeatsTest, ClicksAreHeardWhenTheySound) {
+  const BeatTrack track = FindBeats(Clicks(20 * 22050, 7000, 22 * kOnsetHop));
+  ASSERT_GT(track.frames.size(), 30u);
+  double late = 0;  // seconds
+  for (size_t i = 1; i + 1 < track.frames.size(); ++i) {
+    const double since = track.Seconds()[i] - 7000.0 / 22050, period = 22.0 * kOnsetHop / 22050;
+    late += (since - std::round(since / period) * period) /
+            static_cast<double>(track.frames.size() - 2);
+  }
+  EXPECT_LT(std::abs(late), 0.015);
+}
+
+TEST(BeatsTest, TheLowDrumSaysWhichHalfOfABeatIsTheBeat) {
+  for (const double bpm : {100.0, 135.0}) {
+    const double period = 60 / bpm;
+    const std::vector<double> beats = FindBeats(Metal(30, period)).Seconds();
+    ASSERT_GT(beats.size(), 40u);
+    for (size_t i = 1; i + 1 < beats.size(); ++i) {
+      const double turns = (beats[i] - 0.3) / period;
+      EXPECT_LT(std::abs(turns - std::round(turns)) * period, 0.07) << bpm << " at " << beats[i];
+    }
+  }
+}
+
 TEST(BeatsTest, PulsesAreTheBeats) {
   const BeatTrack track = TrackBeats(Pulses(600, 10, 22));
   EXPECT_DOUBLE_EQ(track.tempo_bpm, 60.0 * 22050 / 512 / 22);

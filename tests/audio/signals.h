@@ -56,4 +56,22 @@ inline std::vector<float> Clicks(int64_t samples, int64_t first, int64_t period)
   return wave;
 }
 
+/// Metal at 22 050 Hz: what is bright and loud strikes between the beats, the low drum on them.
+/// Beat k is at second 0.3 + k * `period`.
+inline std::vector<float> Metal(double seconds, double period) {
+  constexpr int64_t kRate = 22050;
+  std::vector<float> wave = Noise(static_cast<int64_t>(seconds * kRate), 9, 0.001);
+  const std::vector<float> click = Clicks(600, 0, 600), thump = Sine(65, kRate, kRate / 8, 0.5);
+  const auto add = [&wave](double second, const std::vector<float>& sound, float decay) {
+    const auto at = static_cast<size_t>(second * kRate);
+    for (size_t i = 0; i < sound.size() && at + i < wave.size(); ++i)
+      wave[at + i] += sound[i] * std::exp(-decay * static_cast<float>(i) / kRate);
+  };
+  for (double beat = 0.3; beat < seconds; beat += period) {
+    add(beat, thump, 30);
+    add(beat + 0.5 * period, click, 0);
+  }
+  return wave;
+}
+
 }  // namespace choreo

@@ -116,7 +116,7 @@ TEST(SuggestKeysTest, NoOtherChoiceIsBetter) {
 
 TEST(SuggestKeysTest, ARealTrackOfClicksIsDividedWhereItsBeatsAre) {
   const std::vector<float> song = Clicks(30 * 22050, 7000, 22 * kOnsetHop);
-  const std::vector<float> envelope = OnsetStrength(song, OnsetAggregate::kMedian);
+  const std::vector<float> envelope = OnsetStrength(song);
   const BeatTrack track = TrackBeats(envelope);
   const std::vector<SuggestedKey> keys = SuggestKeys(track, envelope, 6, "n");
   const std::vector<double> beats = track.Seconds();
