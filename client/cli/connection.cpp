@@ -1,7 +1,9 @@
 #include "client/cli/connection.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iostream>
+#include <utility>
 
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
@@ -11,6 +13,9 @@ namespace {
 
 // Paths and velocity factors had a model of their own before 0.2.0; servers take its name, too.
 constexpr const char* kFormerControls = "controllers";
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kOfOneLoss{5};
 
 }  // namespace
 
@@ -67,9 +72,13 @@ Connection::Connection(const ServerOptions& options) {
     client_options.tls = false;
     client_options.token_file.clear();
   }
-  client_options.before_retry = [own = own_.get()] {
+  client_options.before_retry = [own = own_.get(), told = Clock::time_point()]() mutable {
     Interruption::Check();
     if (own) own->RequireRunning();
+    // Tries are seconds apart at most: what comes later is another loss.
+    const Clock::time_point before = std::exchange(told, Clock::now());
+    if (told - before > kOfOneLoss)
+      std::cerr << "note: the server is lost or busy; it is asked again and again\n";
   };
   client_ = std::make_unique<client::Client>(client_options);
   server_ = client_->GetServerInfo();

@@ -29,8 +29,6 @@
 namespace choreo::cli {
 namespace {
 
-constexpr const char* kNoKeys = "none";
-
 struct DanceOptions {
   ServerOptions server;
   std::string song;
@@ -50,20 +48,6 @@ struct DanceOptions {
   BvhOptions bvh;
   bool no_clobber = false;
 };
-
-/// Whether it is asked for that there be none.
-bool HasNoKeys(const DanceOptions& options) {
-  const bool none = std::ranges::find(options.keys, kNoKeys) != options.keys.end();
-  if (none && options.keys.size() > 1)
-    throw InvalidArgument("--keyframes",
-                          "none stands beside " + options.keys[options.keys[0] == kNoKeys]);
-  return none;
-}
-
-/// The key files and motions that are named.
-std::vector<std::string> KeySources(const DanceOptions& options) {
-  return HasNoKeys(options) ? std::vector<std::string>{} : options.keys;
-}
 
 /// What the command line leaves open, the project says.
 void TakeProject(DanceOptions* options) {
@@ -96,7 +80,7 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
     throw InvalidArgument("--no-clobber", path.string() + " is there already");
   std::vector<NamedFile> inputs = options.controls.Files();
   inputs.push_back({"song", options.song});
-  for (const std::string& keys : KeySources(options))
+  for (const std::string& keys : KeySources(options.keys))
     inputs.push_back({"--keyframes", FileOf(keys)});
   RequireOutputs({{"--out", path}, {"--report", options.report}}, inputs);
   return path;
@@ -113,7 +97,7 @@ double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& 
                            const client::ModelDescription& model) {
   if (options.seconds) return *options.seconds;
   int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
-  for (const std::string& source : KeySources(options)) {
+  for (const std::string& source : KeySources(options.keys)) {
     for (const client::KeyPose& key : ReadKeys(source, model.skeleton))
       last = std::max(last, FrameOf(key, model.fps));
   }
@@ -134,7 +118,7 @@ double ChooseSeconds(const DanceOptions& options, const Music& music) {
 
 DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& music, double seconds,
                      const DanceLength& length, const client::ModelDescription& model) {
-  if (HasNoKeys(options)) return {};
+  if (SaysNoKeys(options.keys)) return {};
   if (!options.keys.empty()) {
     if (length.frames < 1) {
       std::ostringstream message;
@@ -302,7 +286,7 @@ void AddDanceCommand(CLI::App& program) {
   options->server.AddTo(*command);
   command->callback([options] {
     if (!options->project.empty()) TakeProject(options.get());
-    const bool keys = !options->keys.empty() && !HasNoKeys(*options);
+    const bool keys = !options->keys.empty() && !SaysNoKeys(options->keys);
     if (options->song.empty() && !options->seconds && !keys && options->controls.path.empty()) {
       throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");
     }

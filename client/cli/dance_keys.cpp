@@ -13,6 +13,8 @@
 namespace choreo::cli {
 namespace {
 
+constexpr const char* kNoKeys = "none";
+
 /// Whoever asks for second 30 of a dance of 30 seconds means its end.
 void ComeToEnd(client::KeyPose* key, const DanceLength& length) {
   if (!key->frame && FrameOf(*key, length.fps) == length.frames) key->frame = length.frames - 1;
@@ -26,6 +28,17 @@ void CheckInside(const client::KeyPose& key, const std::string& place, const Dan
 }
 
 }  // namespace
+
+bool SaysNoKeys(const std::vector<std::string>& sources) {
+  const bool none = std::ranges::find(sources, kNoKeys) != sources.end();
+  if (none && sources.size() > 1)
+    throw InvalidArgument("--keyframes", "none stands beside " + sources[sources[0] == kNoKeys]);
+  return none;
+}
+
+std::vector<std::string> KeySources(const std::vector<std::string>& sources) {
+  return SaysNoKeys(sources) ? std::vector<std::string>{} : sources;
+}
 
 std::string SayBehindEnd(int64_t frame, const DanceLength& length) {
   const auto at = [&](int64_t count) {

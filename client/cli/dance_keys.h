@@ -7,6 +7,12 @@
 
 namespace choreo::cli {
 
+/// Whether `--keyframes none` asks for no keys at all. Throws Error(kInvalidArgument) where others
+/// stand beside it.
+bool SaysNoKeys(const std::vector<std::string>& sources);
+/// The key files and motions among what --keyframes names.
+std::vector<std::string> KeySources(const std::vector<std::string>& sources);
+
 /// The key poses of a dance in the order of their times, as they are sent.
 struct DanceKeys {
   std::vector<client::KeyPose> poses;

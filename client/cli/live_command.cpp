@@ -18,6 +18,7 @@
 #include "client/live/live_dance.h"
 #include "client/live/midi_clock.h"
 #include "client/live/vmc.h"
+#include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
@@ -46,7 +47,8 @@ void CheckOutput(const LiveCommand& options) {
   if (options.out.empty()) return;
   RequireMotionFile(options.out);
   std::vector<NamedFile> inputs = {{"song", options.song}};
-  for (const std::string& keys : options.keys) inputs.push_back({"--keyframes", FileOf(keys)});
+  for (const std::string& keys : KeySources(options.keys))
+    inputs.push_back({"--keyframes", FileOf(keys)});
   RequireOutputs({{"--out", options.out}}, inputs);
 }
 
@@ -96,10 +98,15 @@ std::string Say(const live::LiveFigures& figures) {
 
 void Run(const LiveCommand& options) {
   CheckOutput(options);
+  if (options.server.deadline_s > 0) {
+    throw InvalidArgument("--deadline",
+                          "a live dance takes as long as its music; --seconds says how long that "
+                          "is at most");
+  }
   if (options.look_ahead_s >= options.ahead_s) {
-    throw InvalidArgument("--look-ahead",
-                          "poses come --ahead of what sounds, and have to come "
-                          "behind what is danced already: it must be less");
+    throw InvalidArgument("--ahead", InFull(options.ahead_s) +
+                                         " s is not behind what is settled already, --look-ahead " +
+                                         InFull(options.look_ahead_s) + " s");
   }
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
@@ -110,10 +117,11 @@ void Run(const LiveCommand& options) {
   dance.config.temperature = options.temperature;
   dance.ahead_s = options.ahead_s;
   dance.look_ahead_s = options.look_ahead_s;
+  dance.most_keys = connection.server().limits.max_keyframes;
   const double most = connection.server().limits.max_audio_s;
   dance.seconds = std::min(options.seconds.value_or(most), most);
   const DanceLength length{std::llround(dance.seconds * model.fps), model.fps};
-  dance.keys = ReadDanceKeys(options.keys, length, model.skeleton).poses;
+  dance.keys = ReadDanceKeys(KeySources(options.keys), length, model.skeleton).poses;
   const std::vector<LibraryPose> poses = PosesToDance(model.skeleton);
   for (const LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;
 
@@ -171,7 +179,7 @@ void AddLiveCommand(CLI::App& program) {
       ->capture_default_str();
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses that are known from the beginning, as `choreo dance` takes them; seconds "
-              "count from when the dance begins.");
+              "count from when the dance begins. none: no keys, as without this.");
   command
       ->add_option("--osc", options->osc_port,
                    "UDP port for OSC messages of anybody who reaches it: /choreo/key POSE [SECONDS "
@@ -202,6 +210,7 @@ void AddLiveCommand(CLI::App& program) {
   command->add_option("-o,--out", options->out,
                       "FILE.npz, FILE.bvh or FILE.glb to write the dance to.");
   options->server.AddTo(*command);
+  command->get_option("--deadline")->group("");  // is refused, with the reason
   command->callback([options] { Run(*options); });
 }
 

@@ -7,25 +7,34 @@
 namespace choreo::live {
 namespace {
 
-constexpr size_t kBeats = 9;        // that are looked at
-constexpr double kForgotten = 3;    // seconds without a beat, and there is none
+constexpr size_t kBeats = 9;      // that are looked at
+constexpr double kForgotten = 3;  // seconds without a beat, and there is none
+// A step so many times the usual one is a gap: what was before it says nothing any more.
+constexpr double kGap = 1.7;
 constexpr double kRounding = 1e-3;  // seconds, of a beat that is asked for itself
 
 }  // namespace
 
 void BeatClock::Hear(const client::Beat& beat) {
+  const std::optional<double> step = Step();
+  if (step && beat.time_s - beats_.back().time_s > kGap * *step) beats_.clear();
   beats_.push_back(beat);
   if (beats_.size() > kBeats) beats_.pop_front();
 }
 
-std::optional<double> BeatClock::Period(double now) const {
-  if (beats_.size() < 3 || now - beats_.back().time_s > kForgotten) return std::nullopt;
+std::optional<double> BeatClock::Step() const {
+  if (beats_.size() < 2) return std::nullopt;
   std::vector<double> steps;
   for (size_t i = 1; i < beats_.size(); ++i)
     steps.push_back(beats_[i].time_s - beats_[i - 1].time_s);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   return *middle;
+}
+
+std::optional<double> BeatClock::Period(double now) const {
+  if (beats_.size() < 3 || now - beats_.back().time_s > kForgotten) return std::nullopt;
+  return Step();
 }
 
 double BeatClock::AtOrBehind(double seconds, double now) const {

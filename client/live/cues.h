@@ -23,15 +23,16 @@ class Cues {
 };
 
 /// Letters and digits typed at a terminal, which shows none of them as long as this lives; the
-/// backspace key takes back. `poses`: names, of the keys of KeyboardKeys in their order; those
-/// beyond have no key. Null where the file is no terminal.
+/// backspace key takes back. Arrows and function keys do nothing. `poses`: names, of the keys of
+/// KeyboardKeys in their order; those beyond have no key. Null where the file is no terminal.
 std::unique_ptr<Cues> ReadKeyboard(int terminal, std::vector<std::string> poses);
 /// a-z, A-Z, 0-9.
 const std::string& KeyboardKeys();
 
 /// OSC messages, over UDP at `port` of all of the machine's addresses: /choreo/key with a pose's
-/// name and, if so, the seconds ahead; /choreo/undo. Others are left aside. Throws
-/// Error(kUnavailable), whose field is --osc, for a port that is taken.
+/// name and, if so, the seconds ahead, a number of any type; /choreo/undo. Others are left aside,
+/// and so is what comes in floods. Throws Error(kUnavailable), whose field is --osc, for a port
+/// that is taken.
 std::unique_ptr<Cues> HearOsc(int port);
 
 }  // namespace choreo::live

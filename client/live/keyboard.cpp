@@ -24,20 +24,44 @@ class Keyboard final : public Cues {
   std::vector<Cue> Take() override {
     constexpr char kBackspace = 0x7f, kControlH = 0x08;
     std::vector<Cue> cues;
-    for (char key = 0; read(terminal_, &key, 1) == 1;) {
+    bool typed = false;
+    for (char key = 0; read(terminal_, &key, 1) == 1; typed = true) {
+      if (IsOfSequence(key)) continue;
       const size_t at = KeyboardKeys().find(key);
       if (key == kBackspace || key == kControlH)
         cues.push_back({});
       else if (at < poses_.size())
         cues.push_back({poses_[at]});
     }
+    // The escape key alone: what follows later is no part of a sequence.
+    if (!typed) sequence_ = Sequence::kNone;
     return cues;
   }
 
  private:
+  enum class Sequence { kNone, kEscape, kOneMore, kParameters };
+
+  // Arrows and function keys, and letters with Alt, are several bytes that begin with Escape
+  // (ECMA-48).
+  bool IsOfSequence(char key) {
+    constexpr char kEscape = 0x1b;
+    const Sequence before = std::exchange(sequence_, Sequence::kNone);
+    if (key == kEscape) {
+      sequence_ = Sequence::kEscape;
+    } else if (before == Sequence::kEscape && key == '[') {
+      sequence_ = Sequence::kParameters;
+    } else if (before == Sequence::kEscape && key == 'O') {
+      sequence_ = Sequence::kOneMore;
+    } else if (before == Sequence::kParameters && (key < '@' || key > '~')) {
+      sequence_ = Sequence::kParameters;
+    }
+    return key == kEscape || before != Sequence::kNone;
+  }
+
   int terminal_;
   termios before_;
   std::vector<std::string> poses_;
+  Sequence sequence_ = Sequence::kNone;
 };
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "model/core/printable.h"
+
 namespace choreo::live {
 namespace {
 
@@ -13,6 +15,9 @@ constexpr double kSpareSeconds = 0.05;      // for the way from here to the serv
 constexpr double kLeastWaySeconds = 0.5;    // from pose to pose
 constexpr double kLeastAheadSeconds = 0.1;  // of a pose before what is danced already
 constexpr double kMostAheadSeconds = 60;
+constexpr double kClockMissedSeconds = 5;  // a MIDI clock that was not started by then is asked for
+constexpr int kMostNotes = 5;              // a second
+constexpr size_t kLongestNote = 300;       // bytes
 
 void Add(const LiveFigures& figures, LiveFigures* all) {
   all->frames += figures.frames;
@@ -41,10 +46,8 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
   config.audio = {client::AudioKind::kPcmFloat, sound.sample_rate(), sound.channels()};
   config.generate_until = 0;
   dance_ = client_.StartDance(config);
-  for (const client::KeyPose& key : options_.keys) {
-    dance_->SendKey(key);
-    keys_[key.frame.value_or(FrameAt(key.time_s))] = key.id;
-  }
+  for (const client::KeyPose& key : options_.keys)
+    SendKey(key, key.frame.value_or(FrameAt(key.time_s)));
   began_ = PosePlayer::Clock::now();
   std::thread reader([this] { Read(); });
   try {
@@ -66,6 +69,7 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
 void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi) {
   int64_t samples = 0;
   double now = 0, told = 0;
+  bool clock_missed = midi == nullptr;
   while (!over_ && now < options_.seconds && observer_.go_on()) {
     const std::span<const float> piece = sound.Next();
     if (piece.empty()) break;
@@ -75,6 +79,10 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
       for (const Cue& cue : source->Take()) Follow(cue, now);
     }
     if (midi) SendBeats(midi->Take(now), now);
+    if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
+      clock_missed = true;
+      if (!midi->runs()) Note("no MIDI clock was started yet; until it is, beats are heard");
+    }
     granted_ = FrameAt(now + options_.look_ahead_s);
     dance_->GenerateUntil(granted_);
     dance_->SendSamples(piece);
@@ -96,6 +104,10 @@ void LiveDance::SendBeats(std::vector<double> beats, double now) {
 
 void LiveDance::Follow(const Cue& cue, double now) {
   if (cue.pose.empty()) return TakeBack();
+  if (sent_ >= options_.most_keys) {
+    return Refuse("this dance has had all of the " + std::to_string(options_.most_keys) +
+                  " poses that the server takes");
+  }
   const auto pose = options_.poses.find(cue.pose);
   if (pose == options_.poses.end()) return Note("there is no pose \"" + cue.pose + "\"");
   const double ahead = std::max(std::min(cue.ahead_s.value_or(options_.ahead_s), kMostAheadSeconds),
@@ -103,19 +115,35 @@ void LiveDance::Follow(const Cue& cue, double now) {
   BeatClock clock;
   {
     const std::lock_guard lock(mutex_);
-    ++since_.keys_taken;
     clock = clock_;
   }
   double at = clock.AtOrBehind(now + ahead, now);
   while (const std::optional<int64_t> near = KeyNear(FrameAt(at)))
     at = clock.AtOrBehind(static_cast<double>(*near + 1) / model_.fps + kLeastWaySeconds, now);
+  if (at > now + ahead + kMostAheadSeconds) return Refuse("a minute of poses waits already");
+  {
+    const std::lock_guard lock(mutex_);
+    ++since_.keys_taken;
+  }
   client::KeyPose key;
-  key.id = "cue " + std::to_string(++cues_) + " " + cue.pose;
+  key.id = "cue " + std::to_string(sent_ + 1) + " " + cue.pose;
   key.frame = FrameAt(at);
   key.pose = pose->second;
   key.mask.root_position = false;  // wherever the dancer is then
-  keys_[*key.frame] = key.id;
+  SendKey(key, *key.frame);
+}
+
+void LiveDance::SendKey(const client::KeyPose& key, int64_t frame) {
   dance_->SendKey(key);
+  keys_[frame] = key.id;
+  asked_.push_back(frame);
+  ++sent_;
+}
+
+void LiveDance::Refuse(const std::string& reason) {
+  Note("no further pose is taken: " + reason);
+  const std::lock_guard lock(mutex_);
+  ++since_.keys_refused;
 }
 
 // The last one that is too near to another one at this frame.
@@ -127,9 +155,15 @@ std::optional<int64_t> LiveDance::KeyNear(int64_t frame) const {
 }
 
 void LiveDance::TakeBack() {
-  if (keys_.empty() || keys_.rbegin()->first < granted_) return Note("no pose can be taken back");
-  dance_->RemoveKey(keys_.rbegin()->second);
-  keys_.erase(std::prev(keys_.end()));
+  while (!asked_.empty()) {
+    const auto last = keys_.find(asked_.back());
+    asked_.pop_back();
+    if (last == keys_.end() || last->first < granted_) continue;  // settled, and stays so
+    dance_->RemoveKey(last->second);
+    keys_.erase(last);
+    return;
+  }
+  Note("no pose can be taken back");
 }
 
 void LiveDance::Tell(double seconds) {
@@ -143,6 +177,10 @@ void LiveDance::Tell(double seconds) {
   }
   observer_.figures(since_);
   Add(std::exchange(since_, {}), &all_);
+  if (notes_ > kMostNotes) {
+    observer_.note("and " + std::to_string(notes_ - kMostNotes) + " more, not shown");
+  }
+  notes_ = 0;
 }
 
 void LiveDance::Read() {
@@ -197,7 +235,8 @@ void LiveDance::TakeFrames(const client::FrameBlock& block) {
 
 void LiveDance::Note(const std::string& text) {
   const std::lock_guard lock(mutex_);
-  observer_.note(text);
+  // Names may come from anybody who reaches the port.
+  if (++notes_ <= kMostNotes) observer_.note(Printable(text.substr(0, kLongestNote)));
 }
 
 }  // namespace choreo::live

@@ -29,6 +29,7 @@ struct LiveOptions {
   double ahead_s = 1;                      ///< a cue's pose comes so long behind it, on a beat
   double look_ahead_s = 0.3;               ///< what is nearer than this is danced already
   double seconds = std::numeric_limits<double>::infinity();  ///< of music, at most
+  int most_keys = 1000;  ///< that the server takes in one dance, those taken back included
 };
 
 /// How it goes: frames and keys since the last time, the pulse as it is now.
@@ -45,7 +46,7 @@ struct LiveFigures {
 struct LiveObserver {
   std::function<bool()> go_on;                      ///< asked before each piece of music
   std::function<void(const LiveFigures&)> figures;  ///< each second, and once for all of it
-  std::function<void(const std::string&)> note;     ///< for people
+  std::function<void(const std::string&)> note;     ///< for people, printable; few a second
   PosePlayer::Show show = {};                       ///< frames in time; may be empty
 };
 
@@ -71,6 +72,8 @@ class LiveDance {
   void SendBeats(std::vector<double> beats, double now);
   void Follow(const Cue& cue, double now);
   void TakeBack();
+  void Refuse(const std::string& reason);
+  void SendKey(const client::KeyPose& key, int64_t frame);
   std::optional<int64_t> KeyNear(int64_t frame) const;
   int64_t FrameAt(double seconds) const;
   void Tell(double seconds);
@@ -89,8 +92,9 @@ class LiveDance {
   PosePlayer::Clock::time_point began_;
 
   std::map<int64_t, std::string> keys_;  // by frame: ids of those that were sent and not taken back
+  std::vector<int64_t> asked_;           // their frames, in the order in which they were asked for
   int64_t granted_ = 0;
-  int cues_ = 0;
+  int sent_ = 0;  // keys, those taken back included
 
   client::Header header_;
   Motion motion_;
@@ -102,6 +106,7 @@ class LiveDance {
   std::mutex mutex_;  // guards what follows, and the observer
   BeatClock clock_;
   LiveFigures since_, all_;
+  int notes_ = 0;  // since the last figures
 };
 
 }  // namespace choreo::live

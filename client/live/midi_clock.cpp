@@ -1,6 +1,7 @@
 #include "client/live/midi_clock.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,18 +20,26 @@ constexpr int64_t kBeat = 24;  // ticks
 // Ticks that the tempo is told from, at most and at least: each of them is late by up to a piece of
 // sound, which makes one in a hundred over four beats.
 constexpr size_t kMost = 8 * kBeat, kLeast = 4 * kBeat;
-constexpr int kAhead = 8;               // beats: about as far as transitions reach
-constexpr double kFastest = 0.2;        // seconds a beat; faster ones would soon be too many
-constexpr double kPauseSeconds = 0.25;  // from tick to tick, beyond the slowest tempo
+constexpr int kAhead = 8;         // beats: about as far as transitions reach
+constexpr double kFastest = 0.2;  // seconds a beat; faster ones would soon be too many
+constexpr size_t kMostBytes = size_t{1} << 17;  // at once: twice what waits in a pipe
+constexpr double kPauseSeconds = 0.25;          // from tick to tick, beyond the slowest tempo
 
 }  // namespace
 
 MidiClock::MidiClock(const std::string& device)
-    : file_(open(device.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    : device_(device), file_(open(device.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {
   if (file_ < 0) {
     throw Error(ErrorCode::kNotFound, "--midi-clock",
                 "\"" + device + "\" can't be read: " + std::strerror(errno));
   }
+  struct stat kind {};
+  fstat(file_, &kind);
+  if (S_ISCHR(kind.st_mode) || S_ISFIFO(kind.st_mode)) return;
+  close(file_);
+  throw InvalidArgument("--midi-clock", "\"" + device + "\" is a " +
+                                            (S_ISDIR(kind.st_mode) ? "folder" : "file") +
+                                            ", no device that raw MIDI comes from");
 }
 
 MidiClock::~MidiClock() { close(file_); }
@@ -40,7 +49,14 @@ std::vector<double> MidiClock::Take(double now) {
   const double then = now - 0.5 * kPieceSeconds;
   std::vector<double> beats;
   std::array<uint8_t, 256> bytes;
-  for (ssize_t size = 0; (size = read(file_, bytes.data(), bytes.size())) > 0;) {
+  size_t all = 0;
+  ssize_t size = 0;
+  for (; (size = read(file_, bytes.data(), bytes.size())) > 0;) {
+    all += static_cast<size_t>(size);
+    if (all > kMostBytes) {
+      throw InvalidArgument("--midi-clock", "\"" + device_ + "\" is no MIDI device: more than " +
+                                                std::to_string(kMostBytes) + " bytes came at once");
+    }
     for (const uint8_t byte : std::span(bytes).first(static_cast<size_t>(size))) {
       if (byte == kStart) tick_ = -1;
       if (byte == kContinue && !tick_) tick_ = -1;
@@ -48,6 +64,10 @@ std::vector<double> MidiClock::Take(double now) {
       if (byte == kStop) tick_.reset();
       if (byte == kTick) Tick(then, &beats);
     }
+  }
+  if (size < 0 && errno != EAGAIN && errno != EINTR) {
+    throw Error(ErrorCode::kUnavailable, "--midi-clock",
+                "\"" + device_ + "\" is lost: " + std::strerror(errno));
   }
   return beats;
 }

@@ -24,16 +24,26 @@ class OscCues final : public Cues {
   }
 
   std::vector<Cue> Take() override {
-    while (lo_server_recv_noblock(server_.get(), 0) > 0) continue;
+    // What comes faster than it can be danced waits for the next time, or is lost.
+    for (int i = 0; i < kMostAtOnce && lo_server_recv_noblock(server_.get(), 0) > 0; ++i) continue;
     return std::exchange(cues_, {});
   }
 
  private:
+  static constexpr int kMostAtOnce = 64;
+
   static int Key(const char*, const char* types, lo_arg** values, int, lo_message, void* self) {
     const std::string_view given = types;
-    if (given != "s" && given != "sf") return 0;
+    const bool has_ahead =
+        given.size() == 2 && lo_is_numerical_type(static_cast<lo_type>(given[1]));
+    if (!given.starts_with(LO_STRING) || (given.size() > 1 && !has_ahead)) return 0;
     Cue cue{&values[0]->s};
-    if (given == "sf" && std::isfinite(values[1]->f)) cue.ahead_s = values[1]->f;
+    if (has_ahead) {
+      const auto ahead =
+          static_cast<double>(lo_hires_val(static_cast<lo_type>(given[1]), values[1]));
+      if (!std::isfinite(ahead)) return 0;
+      cue.ahead_s = ahead;
+    }
     if (!cue.pose.empty()) static_cast<OscCues*>(self)->cues_.push_back(std::move(cue));
     return 0;
   }

@@ -7,9 +7,11 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "client/live/beat_clock.h"
 #include "client/live/midi_clock.h"
@@ -46,6 +48,41 @@ TEST(Keyboard, LettersStandForPosesAndTheTerminalIsAsBefore) {
   close(master);
 }
 
+// What arrows, function keys and Alt with a letter send; the last one in two parts.
+TEST(Keyboard, ArrowsAndFunctionKeysAskForNothing) {
+  int master = -1, terminal = -1;
+  ASSERT_EQ(openpty(&master, &terminal, nullptr, nullptr, nullptr), 0);
+  const std::unique_ptr<Cues> keyboard =
+      ReadKeyboard(terminal, std::vector<std::string>(KeyboardKeys().size(), "pose"));
+  std::vector<Cue> cues;
+  const auto type = [&](const std::string& keys, const char* last) {
+    ASSERT_EQ(write(master, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+    const size_t before = cues.size();
+    // Until the last key, a backspace, has come.
+    while (cues.size() == before || std::string(last) != cues.back().pose) {
+      for (const Cue& cue : keyboard->Take()) cues.push_back(cue);
+    }
+  };
+  type(
+      "\x1b[A\x1b[1;5C\x1bOP\x1b[15~\x1b"
+      "a\x7f",
+      "");
+  EXPECT_EQ(cues.size(), 1U);
+  type("\x1b[Da\x7f", "");
+  ASSERT_EQ(cues.size(), 3U);
+  EXPECT_EQ(cues[1].pose, "pose");
+  // The escape key alone, and a letter later.
+  ASSERT_EQ(write(master, "\x1b", 1), 1);
+  for (int i = 0; i < 3; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(keyboard->Take().empty());
+  }
+  type("a", "pose");
+  EXPECT_EQ(cues.size(), 4U);
+  close(terminal);
+  close(master);
+}
+
 TEST(Keyboard, IsNoneWhereThereIsNoTerminal) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
@@ -68,6 +105,22 @@ TEST(BeatClock, GoesOnFromTheBeatsThatWereDanced) {
   // The music has paused.
   EXPECT_FALSE(clock.Period(6));
   EXPECT_EQ(clock.AtOrBehind(7, 6), 7);
+}
+
+TEST(BeatClock, WhatWasBeforeAGapSaysNothing) {
+  BeatClock clock;
+  for (const double second : {1.0, 1.5, 2.0, 5.1, 5.5}) clock.Hear({.time_s = second});
+  EXPECT_FALSE(clock.Period(5.6));  // two beats of the new pulse
+  clock.Hear({.time_s = 5.9});
+  ASSERT_TRUE(clock.Period(6));
+  EXPECT_NEAR(*clock.Period(6), 0.4, 1e-9);
+}
+
+TEST(BeatClock, AGapAtTheBeginIsNoPulse) {
+  BeatClock clock;
+  for (const double second : {1.0, 3.2, 3.7}) clock.Hear({.time_s = second});
+  ASSERT_TRUE(clock.Period(3.8));
+  EXPECT_NEAR(*clock.Period(3.8), 0.5, 1e-9);
 }
 
 // 24 ticks a beat at 125 a minute, read piece by piece.
@@ -105,6 +158,37 @@ TEST(MidiClock, TellsTheBeatsAheadOnceItWasStarted) {
 
 TEST(MidiClock, ADeviceThatIsNoneIsNamed) {
   ExpectError(ErrorCode::kNotFound, "--midi-clock: \"/no/midi\"", [] { MidiClock("/no/midi"); });
+}
+
+TEST(MidiClock, FilesAndFoldersAreNoDevices) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "song.mid") << "MThd";
+  const std::string file = folder / "song.mid", own = folder.path();
+  ExpectError(ErrorCode::kInvalidArgument, "--midi-clock: \"" + file + "\" is a file",
+              [&] { MidiClock{file}; });
+  ExpectError(ErrorCode::kInvalidArgument, "--midi-clock: \"" + own + "\" is a folder",
+              [&] { MidiClock{own}; });
+}
+
+TEST(MidiClock, ADeviceWithoutEndIsNoMidi) {
+  MidiClock clock("/dev/zero");
+  ExpectError(ErrorCode::kInvalidArgument, "--midi-clock: \"/dev/zero\" is no MIDI device",
+              [&] { clock.Take(1); });
+}
+
+TEST(MidiClock, RunsFromItsStartOn) {
+  const TemporaryFolder folder;
+  const std::string device = folder / "midi";
+  ASSERT_EQ(mkfifo(device.c_str(), 0600), 0);
+  MidiClock clock(device);
+  const int out = open(device.c_str(), O_WRONLY);
+  ASSERT_EQ(write(out, "\xf8", 1), 1);
+  clock.Take(1);
+  EXPECT_FALSE(clock.runs());
+  ASSERT_EQ(write(out, "\xfa\xf8", 2), 2);
+  clock.Take(2);
+  EXPECT_TRUE(clock.runs());
+  close(out);
 }
 
 // ALSA's own device that plays a file into whoever records.

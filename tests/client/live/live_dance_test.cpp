@@ -14,6 +14,7 @@
 #include <fstream>
 #include <thread>
 
+#include "client/cli/local_server.h"
 #include "client/cli/pose_library.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
@@ -96,6 +97,7 @@ class LiveDanceTest : public CommandTest {
     options.config.seed = 1;
     for (const char* name : {"kick", "groove"})
       options.poses[name] = cli::FindLibraryPose(name).pose;
+    options.most_keys = most_keys_;
     live::LiveObserver observer{
         [] { return true; },
         [this](const live::LiveFigures& figures) { figures_.push_back(figures); },
@@ -115,6 +117,7 @@ class LiveDanceTest : public CommandTest {
         .angle_deg;
   }
 
+  int most_keys_ = 1000;
   std::vector<live::LiveFigures> figures_;
   std::vector<std::string> notes_;
   Motion motion_;
@@ -149,6 +152,41 @@ TEST_F(LiveDanceTest, APoseIsTakenBackUntilItIsDanced) {
   EXPECT_GT(Off(45, "kick"), 5);
   EXPECT_EQ(figures_.back().keys_danced, 0);
   EXPECT_THAT(notes_, testing::ElementsAre("no pose can be taken back"));
+}
+
+// The groove stands later, the kick was asked for last.
+TEST_F(LiveDanceTest, TheLastPoseAskedForIsTakenBackFirst) {
+  Dance({{24, {"groove", 2.5}}, {25, {"kick"}}, {30, {}}});
+  EXPECT_GT(Off(45, "kick"), 5);
+  EXPECT_LT(Off(90, "groove"), 0.1);
+  EXPECT_EQ(figures_.back().keys_danced, 1);
+}
+
+TEST_F(LiveDanceTest, MorePosesThanTheServerTakesAreRefusedAndTheDanceGoesOn) {
+  most_keys_ = 2;
+  Dance({{24, {"kick"}}, {49, {"groove"}}, {74, {"kick"}}});
+  EXPECT_EQ(motion_.frames.size(), 120U);
+  EXPECT_EQ(figures_.back().keys_taken, 2);
+  EXPECT_EQ(figures_.back().keys_danced, 2);
+  EXPECT_EQ(figures_.back().keys_refused, 1);
+  EXPECT_THAT(notes_, testing::ElementsAre(HasSubstr("all of the 2 poses")));
+}
+
+TEST_F(LiveDanceTest, AMinuteOfPosesWaitsAtMost) {
+  std::multimap<int, live::Cue> flood;
+  for (int i = 0; i < 500; ++i) flood.insert({24, {"kick"}});
+  Dance(std::move(flood));
+  EXPECT_GE(motion_.frames.size(), 120U);
+  EXPECT_GT(figures_.back().keys_taken, 100);
+  EXPECT_LT(figures_.back().keys_taken, 130);
+  EXPECT_EQ(figures_.back().keys_taken + figures_.back().keys_refused, 500);
+  EXPECT_LE(notes_.size(), 6U);
+  EXPECT_THAT(notes_.back(), HasSubstr(" more, not shown"));
+}
+
+TEST_F(LiveDanceTest, NotesDoNothingToTheTerminal) {
+  Dance({{24, {"\x1b[2J\nkick"}}});
+  EXPECT_THAT(notes_, testing::ElementsAre("there is no pose \"\\x1b[2J\\x0akick\""));
 }
 
 // The music has 120 beats a minute, the clock 125.
@@ -208,6 +246,42 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
               testing::ContainsRegex(" [1-9][0-9]* taken, [1-9][0-9]* danced, 0 ref"));
 }
 
+TEST(OscCues, SecondsAreANumberOfAnyType) {
+  const int port = OscReceiver().port();
+  const std::unique_ptr<live::Cues> cues = live::HearOsc(port);
+  const std::unique_ptr<void, void (*)(lo_address)> to(
+      lo_address_new("127.0.0.1", std::to_string(port).c_str()), lo_address_free);
+  lo_send(to.get(), "/choreo/key", "si", "kick", 2);
+  lo_send(to.get(), "/choreo/key", "sd", "kick", 2.5);
+  lo_send(to.get(), "/choreo/key", "sf", "kick", NAN);
+  lo_send(to.get(), "/choreo/key", "ss", "kick", "2");
+  lo_send(to.get(), "/choreo/undo", "");
+  std::vector<live::Cue> came;
+  while (came.empty() || !came.back().pose.empty()) {
+    for (live::Cue& cue : cues->Take()) came.push_back(std::move(cue));
+  }
+  ASSERT_EQ(came.size(), 3U);
+  EXPECT_EQ(came[0].ahead_s, 2);
+  EXPECT_EQ(came[1].ahead_s, 2.5);
+}
+
+TEST_F(CommandTest, ALiveDanceTellsAtOnceThatItsServerIsLost) {
+  WriteClicks(folder_ / "song.wav", 60);
+  auto server = std::make_unique<cli::LocalServer>(FAKE_CHOREOD);
+  std::thread killer([&] {
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    kill(server->process(), SIGKILL);
+  });
+  const Outcome outcome =
+      Choreo("live " + At("song.wav") + " --server " + server->address() + " </dev/null");
+  killer.join();
+  EXPECT_EQ(outcome.code, 1);
+  const size_t lost = outcome.said.find("note: the server is lost");
+  ASSERT_NE(lost, std::string::npos) << outcome.said;
+  // Well before it is given up.
+  EXPECT_THAT(outcome.said.substr(lost), HasSubstr(" s: 0 frames"));
+}
+
 TEST_F(CommandTest, ALiveDanceEndsInOrderWhenInterrupted) {
   WriteClicks(folder_ / "song.wav", 60);
   const std::string pid_file = (folder_ / "pid").string();
@@ -235,7 +309,13 @@ TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
   WriteClicks(folder_ / "song.wav", 1);
   EXPECT_THAT(live("--input no-such-card").said, HasSubstr("--input: \"no-such-card\""));
   EXPECT_THAT(live(At("song.wav") + " --song-start 2").said, HasSubstr("--song-start: 2 s lies"));
-  EXPECT_THAT(live(At("song.wav") + " --ahead 0.3").said, HasSubstr("--look-ahead: "));
+  EXPECT_THAT(
+      live(At("song.wav") + " --ahead 0.2").said,
+      HasSubstr("--ahead: 0.2 s is not behind what is settled already, --look-ahead 0.3 s"));
+  EXPECT_THAT(live(At("song.wav") + " --deadline 5").said, HasSubstr("--deadline: a live dance"));
+  EXPECT_THAT(live(At("song.wav") + " -k none -k a.json").said,
+              HasSubstr("--keyframes: none stands beside a.json"));
+  EXPECT_EQ(live(At("song.wav") + " -k none").code, 0);
   const OscReceiver taken;
   EXPECT_THAT(live(At("song.wav") + " --osc " + std::to_string(taken.port())).said,
               HasSubstr("--osc: port "));
