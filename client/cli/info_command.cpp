@@ -163,6 +163,13 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
 }
 
 void Run(const InfoOptions& options) {
+  if (options.poses && options.json) {
+    auto json = nlohmann::ordered_json::array();
+    for (const LibraryPose& pose : PoseLibrary())
+      json.push_back({{"id", pose.id}, {"description", pose.description}});
+    std::cout << json.dump(2) << std::endl;
+    return;
+  }
   if (options.poses) {
     for (const LibraryPose& pose : PoseLibrary())
       std::printf("%-14s %s\n", pose.id.c_str(), pose.description.c_str());

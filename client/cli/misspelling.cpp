@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace choreo::cli {
 namespace {
 
-constexpr size_t kMostEdits = 2;
+/// Letters that may be wrong in a word of so many; in short ones everything is near.
+size_t MostEdits(size_t letters) { return letters < 3 ? 0 : letters < 6 ? 1 : 2; }
 
 // Letters put in, left out or changed between two words (Levenshtein).
 size_t Edits(const std::string& a, const std::string& b) {
@@ -25,6 +27,15 @@ size_t Edits(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+/// How far a word is from what it may have meant: none that it begins, as temp begins temperature,
+/// is far. Nothing where it is another word.
+std::optional<size_t> Distance(const std::string& word, const std::string& known) {
+  if (word.size() >= 2 && known.starts_with(word)) return 0;
+  const size_t edits = Edits(word, known);
+  if (edits > MostEdits(word.size())) return std::nullopt;
+  return edits;
+}
+
 }  // namespace
 
 std::string DescribeMisspelling(const CLI::App& program) {
@@ -33,12 +44,13 @@ std::string DescribeMisspelling(const CLI::App& program) {
       if (!word.starts_with("--")) continue;
       const std::string name = word.substr(0, word.find('='));
       std::string nearest;
-      size_t least = kMostEdits + 1;
+      std::optional<size_t> least;
       for (const CLI::Option* option : command->get_options()) {
+        if (option->get_group().empty()) continue;  // hidden
         for (const std::string& known : option->get_lnames()) {
-          const size_t edits = Edits(name, "--" + known);
-          if (edits >= least) continue;
-          least = edits;
+          const std::optional<size_t> distance = Distance(name.substr(2), known);
+          if (!distance || (least && *distance >= *least)) continue;
+          least = distance;
           nearest = "--" + known;
         }
       }

@@ -184,6 +184,9 @@ TEST_F(CommandTest, TellsAboutTheServerAndItsPoses) {
   EXPECT_THAT(plain, testing::Not(HasSubstr(card)));
   EXPECT_THAT(Choreo("info --cards" + Server()).said, HasSubstr(card));
   EXPECT_THAT(Choreo("info --poses").said, HasSubstr("arabesque"));
+  const nlohmann::json poses = nlohmann::json::parse(Choreo("info --poses --json").said);
+  EXPECT_EQ(poses.at(0).at("id"), "arabesque");
+  EXPECT_NE(poses.at(0).at("description"), "");
 }
 
 TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
@@ -227,6 +230,8 @@ TEST_F(CommandTest, ExplainsItself) {
   const Outcome misspelt = Choreo("dance --sead 3");
   EXPECT_EQ(misspelt.code, 2);
   EXPECT_THAT(misspelt.said, HasSubstr("--sead is no option of dance; did you mean --seed?"));
+  EXPECT_THAT(Choreo("dance --temp 1").said, HasSubstr("did you mean --temperature?"));
+  EXPECT_THAT(Choreo("health --temp 1").said, testing::Not(HasSubstr("did you mean")));
   EXPECT_THAT(Choreo("dance --xylophone").said, testing::Not(HasSubstr("did you mean")));
   const Outcome absurd = Choreo("convert /dev/null b.npz --fps 1e9");
   EXPECT_EQ(absurd.code, 2);
