@@ -125,6 +125,13 @@ export function positive(options, name) {
   throw Object.assign(new Error(`${options[name]} is not a number above 0`), { code: `--${name}` });
 }
 
+/** A whole number from `least` to `most` out of a program's options, as text: a seed has 64 bits. */
+export function whole(options, name, least = 0n, most = 2n ** 64n - 1n) {
+  const text = options[name];
+  if (/^\d{1,20}$/.test(text) && BigInt(text) >= least && BigInt(text) <= most) return text;
+  throw Object.assign(new Error(`${text} is not a whole number from ${least} to ${most}`), { code: `--${name}` });
+}
+
 /** Runs a program with options as node:util's parseArgs has them: Ctrl-C cancels, errors are shown with the fields that they name. */
 export async function run(options, main) {
   const stop = new AbortController();

@@ -1,6 +1,6 @@
 // Edits a dance while its music plays: each pose is asked for 1.5 s ahead and changed 0.8 s ahead, and half way limbs get livelier.
 //   node live_edit.js [--server HOST:PORT] [--seconds 8] [--seed 1] [--speed 1]
-import { ChoreoClient, pose, positive, run } from './choreo.js';
+import { ChoreoClient, pose, positive, run, whole } from './choreo.js';
 import { clicks, live, pcm, sampleRate } from './music.js';
 
 const flags = {
@@ -35,7 +35,7 @@ async function* requests(options, model) {
   const seconds = positive(options, 'seconds');
   const frameAt = (second) => Math.round(second * model.model_frame_rate);
   // Without generate_until here each key would settle the frames up to itself.
-  yield { config: { seed: options.seed, frames: frameAt(seconds), audio_format: pcm, generate_until: 0 } };
+  yield { config: { seed: whole(options, 'seed'), frames: frameAt(seconds), audio_format: pcm, generate_until: 0 } };
   const waiting = edits(seconds, model);
   for await (const piece of live(clicks(seconds), positive(options, 'speed'))) {
     const played = (piece.audio.first_sample + piece.audio.data.length / 2) / sampleRate;

@@ -1,7 +1,7 @@
 // Dances through two key poses to music that is still being played, or to a song:
 //   node stream_dance.js [--server HOST:PORT] [--song FILE] [--seconds 6] [--seed 1] [--speed 1] [--out dance.json]
 import { writeFile } from 'node:fs/promises';
-import { ChoreoClient, pose, positive, run } from './choreo.js';
+import { ChoreoClient, pose, positive, run, whole } from './choreo.js';
 import { clicks, file, live, pcm } from './music.js';
 
 const flags = {
@@ -17,7 +17,7 @@ async function* requests(options, { skeleton, model_frame_rate }) {
   const seconds = positive(options, 'seconds');
   yield {
     config: {
-      seed: options.seed,
+      seed: whole(options, 'seed'),
       frames: Math.round(seconds * model_frame_rate),
       audio_format: options.song ? { encoding: 'AUDIO_ENCODING_FILE' } : pcm,
     },

@@ -1,6 +1,6 @@
 // Makes several ways from rest to a pose, best first:
 //   node transition.js [--server HOST:PORT] [--frames 45] [--candidates 3] [--seed 1]
-import { ChoreoClient, pose, positive, run } from './choreo.js';
+import { ChoreoClient, pose, run, whole } from './choreo.js';
 import { clicks, pcm } from './music.js';
 
 const flags = {
@@ -13,11 +13,12 @@ const flags = {
 await run(flags, async (options, signal) => {
   const client = new ChoreoClient(options.server);
   const { skeleton, model_frame_rate } = (await client.info()).models[0];
-  const frames = positive(options, 'frames');
+  const count = (name) => Number(whole(options, name, 1n, 1_000_000n));
+  const frames = count('frames');
   const request = {
-    config: { seed: options.seed, audio_format: pcm },
+    config: { seed: whole(options, 'seed'), audio_format: pcm },
     frames,
-    candidates: positive(options, 'candidates'),
+    candidates: count('candidates'),
     target: pose(skeleton, { left_shoulder: [0, 0, 1], right_shoulder: [0, 0, -1] }),
     audio: { data: clicks(frames / model_frame_rate) },
   };

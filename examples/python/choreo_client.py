@@ -1,6 +1,8 @@
 """What a web app's back end needs to talk to a choreod: stubs made from proto/, errors that name the field, a body at rest."""
 
+import argparse
 import importlib
+import math
 import pathlib
 import shutil
 import subprocess
@@ -98,6 +100,31 @@ class Requests:
                 if not again.audio.data:
                     continue
             yield again
+
+
+def positive(text):
+    """A number above 0 out of a program's options, for argparse."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0 < number < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
+    return number
+
+
+def whole(least, most):
+    """A whole number from `least` to `most` out of a program's options, for argparse."""
+
+    def read(text):
+        if not (text.isascii() and text.isdigit() and least <= int(text[:40]) <= most):
+            raise argparse.ArgumentTypeError(f"{text} is not a whole number from {least} to {most}")
+        return int(text)
+
+    return read
+
+
+seed = whole(0, 2**64 - 1)
 
 
 def run(main):

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Edits a dance while its music plays: each pose is asked for 1.5 s ahead and changed 0.8 s ahead, and half way limbs get livelier. With
---lose-at the connection is lost on the way, and another one goes on from the last continuation, bit for bit."""
+"""Edits a dance while its music plays: each pose is asked for 1.5 s ahead and changed 0.8 s ahead, and half way limbs get livelier. What is
+nearer than 0.3 s is settled: with --change-ahead 0.1 each change is refused. With --lose-at the connection is lost on the way, and another one
+goes on from the last continuation, bit for bit."""
 
 import argparse
 import json
 import os
 
-from choreo_client import Requests, choreography, connect, pose, run
+from choreo_client import Requests, choreography, connect, pose, positive, run, seed
 from music import PCM, RATE, clicks, live
 
 LOOK_AHEAD = 0.3  # seconds
@@ -17,7 +18,7 @@ def edits(options, model):
     said = []
     for second in range(2, int(options.seconds), 2):
         left, both = {"left_shoulder": [0, 0, 1]}, {"left_shoulder": [0, 0, 1], "right_shoulder": [0, 0, -1]}
-        for ahead, rotations in ((1.5, left), (0.8, both)):
+        for ahead, rotations in ((1.5, left), (options.change_ahead, both)):
             wanted = pose(model.skeleton, rotations)
             wanted.ClearField("root_position")  # wherever the dancer is then
             said.append((second - ahead, {"keyframe": choreography.Keyframe(id=f"second {second}", time=second, pose=wanted)}))
@@ -50,6 +51,7 @@ class Dance:
         self.options, self.joints = options, joints
         self.root_positions, self.rotations = [], []
         self.continuation = None
+        self.told, self.known = set(), set()  # (key, whether it was reached); those told before the connection was lost
 
     def frames(self):
         return len(self.root_positions) // 3
@@ -68,13 +70,20 @@ class Dance:
             elif answer.HasField("continuation"):
                 self.continuation = answer.continuation
             elif answer.event.HasField("keyframe_reached"):
-                print(f"{answer.event.keyframe_reached.id}: reached")
-            elif answer.event.HasField("keyframe_rejected") and not self.continuation:
-                print(f"{answer.event.keyframe_rejected.id}: {answer.event.keyframe_rejected.reason}")
+                self.tell(answer.event.keyframe_reached.id, True, "reached")
+            elif answer.event.HasField("keyframe_rejected"):
+                self.tell(answer.event.keyframe_rejected.id, False, answer.event.keyframe_rejected.reason)
         return True
+
+    def tell(self, key, reached, what):
+        """Keys are sent again where the dance goes on: that they were reached, or are too late now, was told."""
+        self.told.add((key, reached))
+        if (key, True) not in self.known and (key, reached) not in self.known:
+            print(f"{key}: {what}")
 
     def forget_behind_continuation(self):
         """Frames behind it are made again, equal."""
+        self.known = set(self.told)
         frame = self.continuation.frame if self.continuation else 0
         del self.root_positions[3 * frame :], self.rotations[3 * self.joints * frame :]
 
@@ -82,10 +91,11 @@ class Dance:
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--server", default=os.environ.get("CHOREO_SERVER", "127.0.0.1:50051"), help="HOST:PORT")
-    parser.add_argument("--seconds", type=float, default=8)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--speed", type=float, default=1, help="of the clicks; 2 plays them twice as fast")
-    parser.add_argument("--lose-at", type=float, help="second of the dance at which the connection is lost")
+    parser.add_argument("--seconds", type=positive, default=8)
+    parser.add_argument("--seed", type=seed, default=1)
+    parser.add_argument("--speed", type=positive, default=1, help="of the clicks; 2 plays them twice as fast")
+    parser.add_argument("--change-ahead", type=positive, default=0.8, help="seconds before a pose at which it is changed")
+    parser.add_argument("--lose-at", type=positive, help="second of the dance at which the connection is lost")
     parser.add_argument("--out", help="JSON file for the dance")
     options = parser.parse_args()
 

@@ -6,7 +6,7 @@ import json
 import os
 import sys
 
-from choreo_client import choreography, connect, pose, run
+from choreo_client import choreography, connect, pose, positive, run, seed
 from music import PCM, clicks, file, live
 
 
@@ -27,9 +27,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--server", default=os.environ.get("CHOREO_SERVER", "127.0.0.1:50051"), help="HOST:PORT")
     parser.add_argument("--song", help="file to dance to; default: clicks, played meanwhile")
-    parser.add_argument("--seconds", type=float, default=6)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--speed", type=float, default=1, help="of the clicks; 2 plays them twice as fast")
+    parser.add_argument("--seconds", type=positive, default=6)
+    parser.add_argument("--seed", type=seed, default=1)
+    parser.add_argument("--speed", type=positive, default=1, help="of the clicks; 2 plays them twice as fast")
     parser.add_argument("--out", help="JSON file for the dance")
     options = parser.parse_args()
 

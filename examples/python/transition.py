@@ -6,16 +6,16 @@ import collections
 import os
 import sys
 
-from choreo_client import choreography, connect, pose, run
+from choreo_client import choreography, connect, pose, run, seed, whole
 from music import PCM, clicks
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--server", default=os.environ.get("CHOREO_SERVER", "127.0.0.1:50051"), help="HOST:PORT")
-    parser.add_argument("--frames", type=int, default=45)
-    parser.add_argument("--candidates", type=int, default=3)
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--frames", type=whole(1, 10**6), default=45)
+    parser.add_argument("--candidates", type=whole(1, 10**6), default=3)
+    parser.add_argument("--seed", type=seed, default=1)
     options = parser.parse_args()
 
     server = connect(options.server)

@@ -182,6 +182,13 @@ test('options that are no numbers, and songs that are missing, are named', async
     assert.equal(code, 1);
     assert.equal(err, `--seconds: ${seconds} is not a number above 0\n`);
   }
+  for (const seed of ['-1', '1.5', 'NaN', '18446744073709551616']) {
+    for (const name of ['stream_dance.js', 'live_edit.js', 'transition.js']) {
+      const { code, err } = await program(name, `--seed=${seed}`);
+      assert.equal(code, 1);
+      assert.equal(err, `--seed: ${seed} is not a whole number from 0 to 18446744073709551615\n`);
+    }
+  }
   const dash = await program('stream_dance.js', '--seconds', '-3');
   assert.equal(dash.code, 1);
   assert.match(dash.err, /^ERR_PARSE_ARGS_INVALID_OPTION_VALUE: Option '--seconds'/);

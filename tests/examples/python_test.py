@@ -77,6 +77,28 @@ class PythonTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout, "second 2: reached\nsecond 4: reached\n150 frames\n")
 
+    def test_live_edit_tells_of_each_change_that_comes_too_late(self):
+        done = program("live_edit.py", "--seconds", 7, "--speed", 20, "--change-ahead", 0.1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for second in (2, 4, 6):
+            self.assertEqual(done.stdout.count(f"second {second}: reached\n"), 1, done.stdout)
+            self.assertRegex(done.stdout, rf"second {second}: (?!reached)")
+
+    def test_options_that_cannot_be_are_named(self):
+        for name, flag, value in (
+            ("live_edit.py", "--seed", -1),
+            ("live_edit.py", "--seconds", "nan"),
+            ("live_edit.py", "--lose-at", "-inf"),
+            ("stream_dance.py", "--seconds", "inf"),
+            ("stream_dance.py", "--speed", 0),
+            ("stream_dance.py", "--seed", 2**64),
+            ("transition.py", "--frames", 1.5),
+            ("transition.py", "--candidates", 0),
+        ):
+            done = program(name, f"{flag}={value}")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"argument {flag}: {value} is not a ", done.stderr)
+
     def test_live_edit_survives_the_loss_of_its_connection(self):
         with tempfile.TemporaryDirectory() as folder:
             whole, resumed = pathlib.Path(folder, "whole.json"), pathlib.Path(folder, "resumed.json")
