@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What live dances are worth: starts a choreod and prints two tables.
+"""What live dances are worth: starts a choreod and prints up to three tables.
 
-    live.py BIN_DIRECTORY [--songs SONG...] [--tables beats latency] [--seconds 40]
+    live.py BIN_DIRECTORY [--songs SONG...] [--tables beats latency notice] [--data FOLDER --splits JSON] [--seconds 40]
 
 beats: how often dancers hit the beats of songs that are sent as PCM, whose beats are predicted while they play, against the same
 songs sent as files. A dancer's beats are the maxima of the mean joint speed, as in the server's report. Both are scored, from second 10 on,
@@ -11,6 +11,8 @@ heard from their second 30 on.
 
 latency: keys each 1, 2, 4 s come 3 s ahead and are changed 1 s ahead, and music plays in real time, in pieces of 0.1 s; frames are
 granted as far ahead of what plays as the table says. Lateness is behind the piece that holds the sample a frame needs.
+
+notice: what it costs that keys come late (live_notice.py), on clips that choreo-lab prepared, as /recordings/dancedb; only with --data.
 """
 import argparse
 import json
@@ -27,6 +29,7 @@ import numpy
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "examples" / "python"))
 from choreo_client import choreography, connect, motion  # noqa: E402
+from live_notice import notice_table  # noqa: E402
 from music import PCM, RATE, clicks  # noqa: E402
 
 FPS = 30
@@ -234,7 +237,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--songs", nargs="*", default=[])
-    parser.add_argument("--tables", nargs="+", default=["beats", "latency"], choices=["beats", "latency"])
+    parser.add_argument("--tables", nargs="+", default=["beats", "latency", "notice"], choices=["beats", "latency", "notice"])
+    parser.add_argument("--data", type=pathlib.Path, help="folder of prepared clips")
+    parser.add_argument("--splits", type=pathlib.Path, help="which of them are held out, JSON")
+    parser.add_argument("--split", default="validation")
     parser.add_argument("--seconds", type=float, default=40, help="of each song")
     parser.add_argument("--shift", type=float, default=0.07, help="seconds by which onsets lie behind the tempo maps")
     options = parser.parse_args()
@@ -244,6 +250,8 @@ def main():
             beats_table(server, options.songs, options.seconds, options.shift)
         if "latency" in options.tables:
             latency_table(server)
+        if "notice" in options.tables and options.data:
+            notice_table(server, places, options.data, options.splits, options.split)
     finally:
         server.close()
 
