@@ -3,6 +3,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -19,6 +20,14 @@ std::string Read(pid_t process, const char* name) {
   text << file.rdbuf();
   if (text.str().empty()) throw Error(ErrorCode::kNotFound, path, "the process is gone");
   return text.str();
+}
+
+int64_t EntriesOf(pid_t process, const char* folder) {
+  const auto path = std::filesystem::path("/proc") / std::to_string(process) / folder;
+  std::error_code error;
+  const std::filesystem::directory_iterator entries(path, error);
+  if (error) throw Error(ErrorCode::kNotFound, path.string(), "the process is gone");
+  return std::distance(begin(entries), end(entries));
 }
 
 }  // namespace
@@ -38,5 +47,9 @@ int64_t ResidentBytes(pid_t process) {
   pages >> total >> resident;
   return resident * sysconf(_SC_PAGESIZE);
 }
+
+int64_t Threads(pid_t process) { return EntriesOf(process, "task"); }
+
+int64_t Descriptors(pid_t process) { return EntriesOf(process, "fd"); }
 
 }  // namespace choreo::bench

@@ -9,5 +9,7 @@ namespace choreo::bench {
 
 double CpuSeconds(pid_t process);
 int64_t ResidentBytes(pid_t process);
+int64_t Threads(pid_t process);
+int64_t Descriptors(pid_t process);  ///< that are open
 
 }  // namespace choreo::bench

@@ -4,7 +4,7 @@
 add_library(choreo_options INTERFACE)
 # GCC 12 sees overlaps in std::string's operator+ (bug 105651) and uninitialised values in CLI11's pairs where there are none.
 target_compile_options(choreo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
-  -Wno-restrict -Wno-maybe-uninitialized)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
 target_include_directories(choreo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
 function(choreo_library name)

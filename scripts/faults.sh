@@ -12,3 +12,9 @@ CHOREO_FAULT_ROUNDS=200 "$bin/server_test" --gtest_brief=1 --gtest_filter='Calls
 
 echo "== Four times the load, for a minute; hostile clients"
 CHOREO_FAULT_SECONDS=60 "$bin/server_test" --gtest_brief=1 --gtest_filter='OverloadTest.*:HostileTest.*'
+
+echo "== A network that loses, delays and disorders packets, for a minute (as root)"
+CHOREO_FAULT_SECONDS=60 "$bin/network_test" --gtest_brief=1
+
+echo "== Half an hour among clients that crash, fall silent and want too much"
+"$bin/soak" --minutes 30

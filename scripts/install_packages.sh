@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that this project needs. The one place that names them.
 #
-#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint browser blender verify; default: build run demo video test
+#   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint browser blender fuzz verify; default: build run demo video test
 #
 # Runs as root, or through sudo. Quick when everything is there already: it asks dpkg first and touches apt only for what is missing.
 set -euo pipefail
@@ -34,6 +34,8 @@ lint=(clang-format clang-tidy)
 browser=(chromium nodejs npm)
 # To open what we write in Blender, and to try its add-on.
 blender=(blender)
+# libFuzzer, and the compiler that it comes with.
+fuzz=(clang-14 libclang-rt-14-dev libfuzzer-14-dev)
 # To build the container without a container engine.
 verify=(buildah debootstrap)
 
@@ -52,8 +54,9 @@ for group in "${groups[@]}"; do
     lint) wanted+=("${lint[@]}") ;;
     browser) wanted+=("${browser[@]}") ;;
     blender) wanted+=("${blender[@]}") ;;
+    fuzz) wanted+=("${fuzz[@]}") ;;
     verify) wanted+=("${verify[@]}") ;;
-    *) echo "install_packages.sh: unknown group '$group' (build run demo video test bench lint browser blender verify)" >&2; exit 2 ;;
+    *) echo "install_packages.sh: unknown group '$group' (build run demo video test bench lint browser blender fuzz verify)" >&2; exit 2 ;;
   esac
 done
 

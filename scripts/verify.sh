@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, the studio in a
-# browser, Blender, the container, a
-# build without the service, and the tests under sanitizers.
+# browser, Blender, faults, libFuzzer, the container, a build without the service, and the tests under sanitizers.
 # CHOREO_RECORDINGS names the folder of recordings that figures are measured on (scripts/evaluate.sh). Without it nothing is measured,
 # which the last line says.
 #   scripts/verify.sh BUILD_DIRECTORY
@@ -54,6 +53,12 @@ CHOREO_SKIP_CODE=0 tests/examples/blender/run.sh "$build"
 
 echo "== Faults that are injected for longer"
 scripts/faults.sh "$build"
+
+echo "== libFuzzer on every parser and call, ten minutes each"
+scripts/install_packages.sh fuzz
+cmake --preset fuzz >/dev/null
+cmake --build build/fuzz -j "$(nproc)" --target choreo_fuzz
+scripts/fuzz.sh build/fuzz 600
 
 echo "== The container builds and dances"
 "$root/scripts/verify_container.sh" "$build"

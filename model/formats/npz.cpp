@@ -2,6 +2,7 @@
 
 #include <zip.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -28,6 +29,20 @@ std::string ErrorText(int code) {
   std::string text = zip_error_strerror(&error);
   zip_error_fini(&error);
   return text;
+}
+
+// Exactly `size` bytes, whose checksum libzip verifies where they end. In pieces: memory goes with
+// what is there, not with what a directory claims.
+bool ReadAll(zip_file_t* file, uint64_t size, std::string* bytes) {
+  constexpr uint64_t kPiece = 1 << 20;
+  while (bytes->size() < size) {
+    const size_t start = bytes->size();
+    bytes->resize(start + std::min(size - start, kPiece));
+    const zip_int64_t count = zip_fread(file, bytes->data() + start, bytes->size() - start);
+    if (count != static_cast<zip_int64_t>(bytes->size() - start)) return false;
+  }
+  char beyond;
+  return zip_fread(file, &beyond, 1) == 0;
 }
 
 // numpy's str is UCS-4. Refuses what RFC 3629 does not allow, as far as the decoding shows it.
@@ -99,15 +114,9 @@ NpzArchive NpzArchive::Read(const std::filesystem::path& path) {
     if (!key.ends_with(".npy")) continue;
     key.resize(key.size() - 4);
     const std::unique_ptr<zip_file_t, Discard> file(zip_fopen_index(archive.get(), i, 0));
-    std::string bytes(file ? stat.size : 0, '\0');
-    // The second read verifies the checksum, which libzip does where the data ends.
-    char beyond;
-    if (!file ||
-        zip_fread(file.get(), bytes.data(), bytes.size()) !=
-            static_cast<zip_int64_t>(bytes.size()) ||
-        zip_fread(file.get(), &beyond, 1) != 0) {
+    std::string bytes;
+    if (!file || !ReadAll(file.get(), stat.size, &bytes))
       throw InvalidArgument(name, "its member '" + key + "' is damaged");
-    }
     npz.members_[key] = std::move(bytes);
   }
   return npz;

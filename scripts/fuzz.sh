@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# libFuzzer on every target of tests/fuzz for so many seconds each, as many at a time as there are cores: executions, covered edges, and
+# whether something was found. A find stays in out/fuzz/TARGET/: mend it, and add it to tests/fuzz/corpus/TARGET. Given targets, those alone.
+#   cmake --preset fuzz && cmake --build build/fuzz --target choreo_fuzz
+#   scripts/fuzz.sh build/fuzz SECONDS [TARGET...]
+set -euo pipefail
+[[ $# -ge 2 ]] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+root=$(cd "$(dirname "$0")/.." && pwd)
+bin=$(realpath "$1")/bin
+seconds=$2
+shift 2
+[[ $# -gt 0 ]] || set -- $(cd "$bin" && echo fuzz_* | sed 's/fuzz_//g')
+
+fuzz() {
+  local target=$1 leaks=1
+  # The server's threads free what calls took a little later.
+  [[ $target != stream_dance && $target != generate_transition ]] || leaks=0
+  local out=$root/out/fuzz/$target found=none
+  mkdir -p "$out/corpus"
+  (cd "$out" && "$bin/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=1024 -max_len=8192 \
+    -detect_leaks=$leaks -print_final_stats=1 corpus "$root/tests/fuzz/corpus/$target") >"$out/log" 2>&1 || found="see $out/log"
+  local executions edges
+  executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$out/log")
+  edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$out/log" | tail -1)
+  printf '%-20s %12s executions %6s edges   found: %s\n' "$target" "${executions:-?}" "${edges:-?}" "$found"
+  [[ $found == none ]]
+}
+export -f fuzz
+export bin root seconds
+printf '%s\n' "$@" | xargs -P "$(nproc)" -I TARGET nice -n 5 bash -c 'fuzz TARGET'

@@ -1,0 +1,18 @@
+#include <sstream>
+
+#include "model/formats/bvh.h"
+#include "tests/fuzz/fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace choreo;
+  fuzz::MayRefuse([&] {
+    const BvhFile file = ParseBvh(fuzz::Text(data, size), "a.bvh");
+    BvhSkeleton(file);
+    if (file.frames() > 0) BvhPositions(file, file.frames() - 1);
+    std::ostringstream written;
+    WriteBvh(written, file);
+    if (ParseBvh(written.str(), "b.bvh").frames() != file.frames())
+      fuzz::Fail("what was read can't be written");
+  });
+  return 0;
+}

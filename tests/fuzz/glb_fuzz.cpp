@@ -1,0 +1,18 @@
+#include "model/formats/gltf.h"
+#include "model/formats/gltf_scene.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/input_file.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace choreo;
+  static const fuzz::InputFile input(".glb");
+  fuzz::MayRefuse([&] {
+    const auto& path = input.Holding(fuzz::Text(data, size));
+    const GltfScene scene(ParseGlb(path));
+    scene.Frame(0);
+    scene.Frame(scene.frames() - 1);
+    // Longer ones take as long as they are.
+    if (scene.frames() < 100) ReadGlb(path);
+  });
+  return 0;
+}

@@ -1,0 +1,52 @@
+#include <array>
+#include <bit>
+#include <cstring>
+#include <string>
+
+#include "model/formats/amass_npz.h"
+#include "model/formats/skeleton_npz.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace choreo {
+namespace {
+
+// Behind an archive's checksums, which no mutation gets past: what the arrays of a motion may be.
+constexpr std::array kKeys = {"root_positions", "rotations",    "fps",
+                              "poses",          "trans",        "smpl_poses",
+                              "smpl_trans",     "smpl_scaling", "mocap_framerate"};
+constexpr std::array<int64_t, 10> kExtents = {0, 1, 2, 3, 24, 25, 72, 156, 165, 4};
+
+NpyArray MakeArray(fuzz::Decisions& decisions) {
+  NpyArray array;
+  int64_t count = 1;
+  for (int left = decisions.Byte() % 4; left > 0; --left) {
+    array.shape.push_back(kExtents[decisions.Byte() % kExtents.size()]);
+    count *= array.shape.back();
+  }
+  if (count > 50'000) return {};
+  std::vector<double> values(static_cast<size_t>(count), 0.1);
+  // One value, drawn bit by bit, stands somewhere.
+  double drawn = 0;
+  const auto bits = decisions.Take(sizeof(drawn));
+  std::memcpy(&drawn, bits.data(), bits.size());
+  if (count > 0) values[static_cast<size_t>(decisions.Below(1 << 16) % count)] = drawn;
+  array.values = std::move(values);
+  return array;
+}
+
+}  // namespace
+}  // namespace choreo
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace choreo;
+  fuzz::Decisions decisions(data, size);
+  fuzz::MayRefuse([&] {
+    NpzArchive npz;
+    while (!decisions.over()) {
+      const char* key = kKeys[decisions.Byte() % kKeys.size()];
+      npz.SetArray(key, MakeArray(decisions));
+    }
+    if (HasSmplMotion(npz)) ReadSmplMotion(npz);
+  });
+  return 0;
+}

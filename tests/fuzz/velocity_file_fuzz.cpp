@@ -1,0 +1,13 @@
+#include "client/cli/velocity_options.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/input_file.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace choreo;
+  static const fuzz::InputFile input(".json");
+  const std::string text(fuzz::Text(data, size));
+  fuzz::MayRefuse([&] { cli::ReadVelocities({input.Holding(text).string()}, "median", 30); });
+  // What stands on a command line: PART=VALUE.
+  if (!cli::IsVelocityFile(text)) fuzz::MayRefuse([&] { cli::ReadVelocities({text}, "", 30); });
+  return 0;
+}
