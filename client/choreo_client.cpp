@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <thread>
 
 #include "client/convert.h"
 #include "client/remote_dance.h"
@@ -28,7 +27,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
       if (error.code() != ErrorCode::kUnavailable) throw error;
       throw Error(ErrorCode::kUnavailable, server.address, error.what());
     }
-    std::this_thread::sleep_for(*wait);
+    replicas->Wait(*wait, [] { return false; });
   }
 }
 

@@ -125,7 +125,12 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
     if (error.code() != ErrorCode::kUnavailable) throw error;
     throw Error(ErrorCode::kUnavailable, failed.address, error.what());
   }
-  woken_.wait_for(lock, *wait, [&] { return cancelled_; });
+  lock.unlock();
+  replicas_->Wait(*wait, [&] {
+    const std::lock_guard guard(mutex_);
+    return cancelled_;
+  });
+  lock.lock();
   if (!header_) return;
   lost_because_ = status.error_message().empty() ? "lost" : status.error_message();
   const int64_t frame =
@@ -211,7 +216,6 @@ void RemoteDance::Impl::Cancel() noexcept {
   const std::lock_guard lock(mutex_);
   cancelled_ = true;
   if (attempt_) attempt_->Cancel();
-  woken_.notify_all();
 }
 
 }  // namespace choreo::client

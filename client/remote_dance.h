@@ -76,7 +76,6 @@ struct RemoteDance::Impl {
   v1::DanceConfig config_;  // touched by Next alone
 
   std::mutex mutex_;  // guards what follows, and the attempt's lifetime against Cancel and Send
-  std::condition_variable woken_;
   Journal journal_;
   std::unique_ptr<Attempt> attempt_;
   bool cancelled_ = false;

@@ -111,11 +111,10 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   balanced.SetServiceConfigJSON(kServiceConfig);
   for (const std::string& address : options_.addresses) {
     if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
-    servers_.push_back(
-        {address,
-         v1::Choreography::NewStub(grpc::CreateCustomChannel(address, credentials, balanced)),
-         grpc::health::v1::Health::NewStub(
-             grpc::CreateCustomChannel(address, credentials, arguments))});
+    const auto channel = grpc::CreateCustomChannel(address, credentials, balanced);
+    servers_.push_back({address, channel, v1::Choreography::NewStub(channel),
+                        grpc::health::v1::Health::NewStub(
+                            grpc::CreateCustomChannel(address, credentials, arguments))});
   }
 }
 
@@ -144,6 +143,17 @@ bool Replicas::Leave(const Server& failed) {
   const std::lock_guard lock(mutex_);
   if (servers_[current_].stub == failed.stub) current_ = (current_ + 1) % servers_.size();
   return servers_.size() > 1;
+}
+
+void Replicas::Wait(std::chrono::duration<double> time, const std::function<bool()>& stop) const {
+  constexpr std::chrono::milliseconds kPiece{20};
+  using Clock = std::chrono::system_clock;
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
+  const std::shared_ptr<grpc::Channel> channel = current().channel;
+  // Not asleep: gRPC makes connections, and hears answers to its pings, while a thread waits in it.
+  // With nobody there it looks every 5 s, and takes a link that is back for silent.
+  for (auto now = Clock::now(); now < end && !stop(); now = Clock::now())
+    channel->WaitForStateChange(channel->GetState(true), std::min(end, now + kPiece));
 }
 
 Patience::Patience(const Options& options)

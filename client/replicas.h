@@ -1,5 +1,7 @@
 #pragma once
 
+#include <grpcpp/channel.h>
+
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -21,6 +23,7 @@ class Replicas {
  public:
   struct Server {
     std::string address;
+    std::shared_ptr<grpc::Channel> channel;
     std::shared_ptr<v1::Choreography::Stub> stub;
     std::shared_ptr<grpc::health::v1::Health::Stub> health;
   };
@@ -36,6 +39,9 @@ class Replicas {
   /// This one failed: go on to the next, unless another caller went on already. False where there
   /// is no other.
   bool Leave(const Server& failed);
+  /// Lets time pass before the next attempt, or until `stop`, which is asked every now and then;
+  /// connections are made meanwhile.
+  void Wait(std::chrono::duration<double> time, const std::function<bool()>& stop) const;
 
  private:
   const Options options_;

@@ -27,4 +27,4 @@ fuzz() {
 }
 export -f fuzz
 export bin root seconds
-printf '%s\n' "$@" | xargs -P "$(nproc)" -I TARGET nice -n 5 bash -c 'fuzz TARGET'
+printf '%s\n' "$@" | xargs -P "${JOBS:-$(nproc)}" -I TARGET nice -n 5 bash -c 'fuzz TARGET'

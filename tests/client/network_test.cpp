@@ -127,6 +127,8 @@ TEST_F(NetworkTest, ADanceGoesOnWhereTheLinkWasCut) {
   const Danced danced = Dance(2, kFrames, /*in_time=*/true);
   ExpectSame(danced, wanted);
   EXPECT_GT(danced.resumes, 0) << "the link was not missed";
+  // 5 s without a link, then two attempts at most.
+  EXPECT_LT(danced.longest_pause_s, 15);
   std::cout << "cut for 5 s: " << danced.longest_pause_s << " s without a frame, " << danced.resumes
             << " resumes; bits as undisturbed\n";
 }
@@ -146,6 +148,18 @@ TEST_F(NetworkTest, ALinkThatStaysCutIsToldOfWithinTheClientsLimits) {
     while (dance->Next()) continue;
   });
   std::cout << "cut for good: told after " << SecondsSince(begin) << " s\n";
+}
+
+TEST_F(NetworkTest, WhoSaysAndReadsNothingForAWhileLosesNothing) {
+  const Client client(ClientOptions(250));
+  const auto dance = client.StartDance({.seed = 5, .frames = 60, .generate_until = 0});
+  dance->GenerateUntil(10);
+  std::this_thread::sleep_for(milliseconds(3'500));  // longer than the client's silence_s
+  dance->CompleteKeys();
+  int resumes = 0;
+  while (const std::optional<Message> message = dance->Next())
+    resumes += std::holds_alternative<Resumed>(*message) ? 1 : 0;
+  EXPECT_EQ(resumes, 0);
 }
 
 // More of them than there are places: those whose clients are out of reach come back.
