@@ -8,28 +8,22 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
+
+#include "model/core/pem.h"
 
 namespace choreo::client {
 namespace {
 
-constexpr double kLongestBackoff = 2;  // seconds
-constexpr double kLeastSilence = 2;    // seconds; servers take no pings that come much faster
+constexpr double kLongestBackoff = 2;        // seconds
+constexpr size_t kMostTokenBytes = 4 << 10;  // gRPC's headers have 8 KiB in all
+constexpr double kLeastSilence = 2;          // seconds; servers take no pings that come much faster
 
 /// Calls take turns at all addresses of a name, but for those that say that they do not serve.
 constexpr const char* kServiceConfig = R"({
   "loadBalancingConfig": [{"round_robin": {}}],
   "healthCheckConfig": {"serviceName": "choreo.v1.Choreography"}
 })";
-
-std::string ReadFile(const char* field, const std::filesystem::path& path) {
-  if (path.empty()) return "";
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InvalidArgument(field, "cannot read " + path.string());
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
   if (options.client_certificate.empty() != options.client_key.empty()) {
@@ -44,10 +38,17 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
     }
     return grpc::InsecureChannelCredentials();
   }
-  return grpc::SslCredentials(
-      {.pem_root_certs = ReadFile("ca_certificate", options.ca_certificate),
-       .pem_private_key = ReadFile("client_key", options.client_key),
-       .pem_cert_chain = ReadFile("client_certificate", options.client_certificate)});
+  grpc::SslCredentialsOptions files;
+  if (!options.ca_certificate.empty()) {
+    files.pem_root_certs = ReadCertificates("ca_certificate", options.ca_certificate);
+  }
+  if (!options.client_key.empty()) {
+    KeyPair own = ReadKeyPair("client_certificate", options.client_certificate, "client_key",
+                              options.client_key);
+    files.pem_private_key = std::move(own.key);
+    files.pem_cert_chain = std::move(own.certificates);
+  }
+  return grpc::SslCredentials(files);
 }
 
 /// Nobody else hears what is said to it. A name that only begins like an address is a name.
@@ -120,7 +121,7 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
 
 void Replicas::Prepare(grpc::ClientContext* context) const {
   if (options_.token_file.empty()) return;
-  std::string token = ReadFile("token_file", options_.token_file);
+  std::string token = ReadSmallFile("token_file", options_.token_file, kMostTokenBytes);
   while (!token.empty() && std::isspace(static_cast<unsigned char>(token.back()))) {
     token.pop_back();
   }

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <string_view>
 
 #include "model/core/error.h"
+#include "model/core/pem.h"
 #include "model/engine/devices.h"
 #include "model/engine/engine_kind.h"
 #include "server/config_flags.h"
@@ -41,10 +43,14 @@ void CheckAddress(const std::string& name, const std::string& address) {
   }
 }
 
-void CheckFile(const std::string& name, const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw Error(ErrorCode::kNotFound, name, "no file " + path.string());
+// Whether this machine has them is told when a model is loaded that heeds them.
+void CheckKernels(const std::string& name) {
+  if (name.empty() || std::ranges::find(kKernelNames, name) != kKernelNames.end()) return;
+  std::string names;
+  for (const std::string_view known : kKernelNames) {
+    names += (names.empty() ? "" : ", ") + std::string(known);
   }
+  throw InvalidArgument("--kernels", '"' + name + "\" is none of " + names);
 }
 
 void CheckLimits(const ServerConfig& config) {
@@ -65,22 +71,35 @@ void CheckSecurity(const ServerConfig& config) {
                           "missing; a certificate and its key go together");
   }
   if (!config.tls_certificate.empty()) {
-    CheckFile("--tls-cert", config.tls_certificate);
-    CheckFile("--tls-key", config.tls_key);
+    RequireRegularFile("--tls-cert", config.tls_certificate);
+    RequireRegularFile("--tls-key", config.tls_key);
   }
   if (!config.tls_client_ca.empty()) {
     if (config.tls_certificate.empty()) {
       throw InvalidArgument("--tls-client-ca", "needs --tls-cert: without TLS nobody shows one");
     }
-    CheckFile("--tls-client-ca", config.tls_client_ca);
+    RequireRegularFile("--tls-client-ca", config.tls_client_ca);
   }
-  if (!config.tokens.empty()) CheckFile("--tokens", config.tokens);
+  if (!config.tokens.empty()) RequireRegularFile("--tokens", config.tokens);
   if (config.tls_certificate.empty() && !config.insecure && !IsLocal(config.listen)) {
     throw InvalidArgument("--listen",
                           '"' + config.listen +
                               "\" can be reached from other machines, and without TLS "
                               "everybody on the way can read along: give --tls-cert and "
                               "--tls-key, or --insecure where that is wanted");
+  }
+}
+
+// "" for a file in a script is a variable that somebody forgot: without this, the server would be
+// open that was to be closed.
+void RequireNoEmptyFile(const CLI::App& app) {
+  for (const char* name : {"--tls-cert", "--tls-key", "--tls-client-ca", "--tokens"}) {
+    const CLI::Option* option = app.get_option(name);
+    const char* variable = std::getenv(option->get_envname().c_str());
+    const bool empty = option->count() == 0
+                           ? variable != nullptr && *variable == '\0'
+                           : std::ranges::any_of(option->results(), &std::string::empty);
+    if (empty) throw InvalidArgument(name, "is empty; leave it out where none is wanted");
   }
 }
 
@@ -93,8 +112,9 @@ std::string ServerConfig::MetricsAddress() const {
 void ServerConfig::Validate() const {
   CheckAddress("--listen", listen);
   if (!metrics.empty()) CheckAddress("--metrics", MetricsAddress());
-  for (const auto& path : checkpoints) CheckFile("--checkpoint", path);
+  for (const auto& path : checkpoints) RequireRegularFile("--checkpoint", path);
   ParseEngineKind(engine, "--engine");
+  CheckKernels(kernels);
   // Whether they are there is told when they are used; `auto` is whatever is there.
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
@@ -135,6 +155,7 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
   AddFlags(app, config);
   try {
     app.parse(argc, argv);
+    RequireNoEmptyFile(app);
     config.Validate();
     return {.config = std::move(config), .exit_code = 0};
   } catch (const CLI::ConfigError& error) {  // "INI was not able to parse KEY"

@@ -1,6 +1,7 @@
 #include "server/config_flags.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 
 namespace choreo {
 namespace {
@@ -80,7 +81,12 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
          "it, the fastest here. Replicas on different CPUs take over each other's dances "
          "where all have the slowest one's.")
       ->envname("CHOREO_KERNELS");
-  app.set_config("--config", "", "Read settings from this TOML or INI file, as in: slots = 32");
+  // CLI11 looks at variables only after the file: this one is its default, which must be there.
+  const char* file = std::getenv("CHOREO_CONFIG");
+  const bool is_named = file != nullptr && *file != '\0';
+  app.set_config("--config", is_named ? file : "",
+                 "Read settings from this TOML or INI file, as in: slots = 32", is_named)
+      ->envname("CHOREO_CONFIG");
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 

@@ -5,8 +5,11 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "server/status.h"
 
@@ -38,8 +41,42 @@ class Members final : public spdlog::custom_flag_formatter {
   }
 };
 
+/// Strangers can make gRPC write a line for each of their connections: so many come in a period,
+/// and the rest are counted. Thread-safe.
+class LineLimit {
+ public:
+  /// Whether one more may come; `left_out`: how many did not since the last that did.
+  bool Take(int* left_out) {
+    const auto now = std::chrono::steady_clock::now();
+    const std::lock_guard lock(mutex_);
+    if (now - begin_ >= kPeriod) {
+      begin_ = now;
+      lines_ = 0;
+    }
+    if (lines_ == kLines) {
+      ++left_out_;
+      return false;
+    }
+    ++lines_;
+    *left_out = std::exchange(left_out_, 0);
+    return true;
+  }
+
+ private:
+  static constexpr int kLines = 10;
+  static constexpr std::chrono::seconds kPeriod{10};
+
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point begin_;
+  int lines_ = 0, left_out_ = 0;
+};
+
 /// gRPC has a log of its own, of which errors alone come unless GRPC_VERBOSITY says otherwise.
 void TakeGrpcsLine(gpr_log_func_args* line) {
+  static LineLimit limit;
+  int left_out = 0;
+  if (!limit.Take(&left_out)) return;
+  if (left_out > 0) spdlog::warn("gRPC: {} lines were left out", left_out);
   const auto level = line->severity == GPR_LOG_SEVERITY_ERROR  ? spdlog::level::err
                      : line->severity == GPR_LOG_SEVERITY_INFO ? spdlog::level::info
                                                                : spdlog::level::debug;

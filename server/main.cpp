@@ -32,6 +32,20 @@ sigset_t BlockStopSignals() {
   return signals;
 }
 
+// Of settings that change nothing; whoever says them expects something of them.
+void WarnOfUnheeded(const ServerConfig& config, const StepEngine& engine) {
+  const Heeded heeded = HeededBy(engine);
+  const std::string& name = engine.model().name;
+  if (config.engine != "auto" && !heeded.kind) {
+    spdlog::warn("--engine {}: model \"{}\" does not heed it; LibTorch runs it", config.engine,
+                 name);
+  }
+  if (!config.kernels.empty() && !heeded.kernels) {
+    spdlog::warn("--kernels {}: model \"{}\" does not heed it; it concerns packed engines",
+                 config.kernels, name);
+  }
+}
+
 std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
   const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
   std::vector<std::filesystem::path> checkpoints = config.checkpoints;
@@ -55,6 +69,7 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
     spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...) of {} slots",
                  path.string(), engine.model().name, engine.model().fingerprint, workers.size(),
                  engine.device(), slots);
+    WarnOfUnheeded(config, engine);
   }
   return models;
 }

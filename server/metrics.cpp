@@ -82,8 +82,15 @@ class Figures final : public prometheus::Collectable {
  private:
   void AddCalls(Families& out) const {
     out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
-    for (const auto& [key, count] : serving_.tally.calls()) {
-      out.Add(static_cast<double>(count), {{"method", key.first}, {"status", NameOf(key.second)}});
+    // All of them from the start: a rate sees no step where a series begins.
+    const Tally::Calls counted = serving_.tally.calls();
+    for (const char* method : {"StreamDance", "GenerateTransition", "GetServerInfo"}) {
+      for (int code = 0; code <= grpc::StatusCode::UNAUTHENTICATED; ++code) {
+        const auto status = static_cast<grpc::StatusCode>(code);
+        const auto found = counted.find({method, status});
+        out.Add(found == counted.end() ? 0 : static_cast<double>(found->second),
+                {{"method", method}, {"status", NameOf(status)}});
+      }
     }
     const CallRegistry& calls = serving_.calls;
     out.Begin("streams", "Calls in progress.", MetricType::Gauge);
@@ -207,6 +214,17 @@ std::string ReadRequest(int connection) {
   return request;
 }
 
+struct RequestLine {
+  std::string_view method, path;  ///< without what follows a '?'
+};
+
+RequestLine ParseRequestLine(std::string_view request) {
+  const std::string_view line = request.substr(0, request.find("\r\n"));
+  const size_t space = std::min(line.find(' '), line.size());
+  const std::string_view rest = line.substr(std::min(space + 1, line.size()));
+  return {line.substr(0, space), rest.substr(0, rest.find_first_of("? "))};
+}
+
 void SendAll(int connection, std::string_view bytes) {
   const Deadline deadline;
   while (!bytes.empty()) {
@@ -231,12 +249,19 @@ struct MetricsEndpoint::Impl {
   void Answer(int connection) const {
     const std::string request = ReadRequest(connection);
     if (request.empty()) return;
-    const bool known = request.starts_with("GET /metrics ");
-    const std::string body =
-        known ? prometheus::TextSerializer().Serialize(figures.Collect()) : "see /metrics\n";
-    SendAll(connection, std::string("HTTP/1.1 ") + (known ? "200 OK" : "404 Not Found") +
+    const RequestLine line = ParseRequestLine(request);
+    const bool asks = line.method == "GET" || line.method == "HEAD";
+    const bool known = line.path == "/metrics";
+    const char* status = !asks   ? "405 Method Not Allowed\r\nAllow: GET, HEAD"
+                         : known ? "200 OK"
+                                 : "404 Not Found";
+    const std::string body = asks && known
+                                 ? prometheus::TextSerializer().Serialize(figures.Collect())
+                                 : "GET /metrics\n";
+    SendAll(connection, std::string("HTTP/1.1 ") + status +
                             "\r\nContent-Type: text/plain; version=0.0.4\r\nContent-Length: " +
-                            std::to_string(body.size()) + "\r\nConnection: close\r\n\r\n" + body);
+                            std::to_string(body.size()) + "\r\nConnection: close\r\n\r\n" +
+                            (line.method == "HEAD" ? "" : body));
   }
 
   const Figures figures;

@@ -63,6 +63,14 @@ CallLimits LimitsOf(const ServerConfig& config) {
           .unread = Milliseconds(config.unread_seconds)};
 }
 
+void TellOfSecurity(const ServerConfig& config, const Tokens& tokens) {
+  spdlog::info("TLS is {}, certificates of clients are {}, tokens are {}",
+               config.tls_certificate.empty() ? "off" : "on",
+               config.tls_client_ca.empty() ? "not asked for" : "needed",
+               tokens.needed() ? std::to_string(tokens.count()) + ", of which one is needed"
+                               : "not asked for");
+}
+
 /// Takes gRPC's reflection from one server: linked in, it is in all.
 class WithoutReflection final : public grpc::ServerBuilderOption {
  public:
@@ -122,6 +130,7 @@ struct Server::Impl {
     server = builder.BuildAndStart();
     if (!server) throw Error(ErrorCode::kUnavailable, "", "gRPC could not start");
     UpdateHealth();
+    TellOfSecurity(config, serving.tokens);
     watch.emplace(kWatchInterval, [this] {
       serving.calls.EndIdle();
       UpdateHealth();

@@ -4,20 +4,27 @@
 #include <openssl/sha.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
-#include "model/core/error.h"
+#include "model/core/pem.h"
 #include "server/status.h"
 
 namespace choreo {
 namespace {
 
-constexpr std::string_view kScheme = "Bearer ";
 /// A file longer than this is none of ours.
 constexpr size_t kMostBytes = 1 << 20;
+constexpr size_t kMostOfLines = 60;  // characters of a list of line numbers
+
+// Schemes are the same in either case (RFC 7235).
+bool IsBearer(std::string_view scheme) {
+  constexpr std::string_view kBearer = "bearer";
+  return std::ranges::equal(scheme, kBearer, [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+  });
+}
 
 grpc::Status SendToken(const std::string& why) {
   return Unauthenticated(why + "; send the metadata \"authorization: Bearer TOKEN\"");
@@ -28,21 +35,15 @@ grpc::Status SendToken(const std::string& why) {
 Tokens::Tokens(std::filesystem::path file) : file_(std::move(file)) {
   if (!needed()) return;
   text_ = Read();
-  holders_ = std::make_shared<const Holders>(Parse(text_));
+  Content content = Parse(*text_);
+  if (!content.bad_lines.empty()) throw BadLines(content.bad_lines);
+  Replace(std::move(content.holders));
 }
 
-std::string Tokens::Read() const {
-  std::ifstream in(file_, std::ios::binary);
-  if (!in) throw Error(ErrorCode::kNotFound, "--tokens", "cannot read " + file_.string());
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (text.size() <= kMostBytes) return text;
-  throw InvalidArgument("--tokens", file_.string() + " has " + std::to_string(text.size()) +
-                                        " bytes, of at most " + std::to_string(kMostBytes));
-}
+std::string Tokens::Read() const { return ReadSmallFile("--tokens", file_, kMostBytes); }
 
-// No line is ever quoted: somebody may have written a token there.
-Tokens::Holders Tokens::Parse(const std::string& text) const {
-  Holders holders;
+Tokens::Content Tokens::Parse(const std::string& text) {
+  Content content;
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -55,13 +56,19 @@ Tokens::Holders Tokens::Parse(const std::string& text) const {
       const char* at = digits.data() + 2 * i;
       good = std::from_chars(at, at + 2, holder.hash[i], 16).ptr == at + 2;
     }
-    if (!good || !(words >> holder.name)) {
-      throw InvalidArgument("--tokens", file_.string() + " line " + std::to_string(number) +
-                                            ": not \"SHA256 NAME\" with 64 hexadecimal digits");
+    if (good && words >> holder.name) {
+      content.holders.push_back(std::move(holder));
+    } else if (content.bad_lines.size() < kMostOfLines) {
+      content.bad_lines += (content.bad_lines.empty() ? "" : ", ") + std::to_string(number);
     }
-    holders.push_back(std::move(holder));
   }
-  return holders;
+  return content;
+}
+
+// No line is ever quoted: somebody may have written a token there.
+Error Tokens::BadLines(const std::string& numbers) const {
+  return InvalidArgument("--tokens", file_.string() + " line " + numbers +
+                                         ": not \"SHA256 NAME\" with 64 hexadecimal digits");
 }
 
 std::shared_ptr<const Tokens::Holders> Tokens::holders() const {
@@ -72,8 +79,12 @@ std::shared_ptr<const Tokens::Holders> Tokens::holders() const {
 grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* holder) const {
   if (!needed()) return grpc::Status::OK;
   if (authorization.empty()) return SendToken("a token is needed");
-  if (!authorization.starts_with(kScheme)) return SendToken("that is no bearer token");
-  authorization.remove_prefix(kScheme.size());
+  const size_t scheme = authorization.find(' ');
+  if (scheme == authorization.npos || !IsBearer(authorization.substr(0, scheme))) {
+    return SendToken("that is no bearer token");
+  }
+  authorization.remove_prefix(
+      std::min(authorization.find_first_not_of(' ', scheme), authorization.size()));
   if (authorization.empty()) return SendToken("that token is empty");
   Hash hash;
   SHA256(reinterpret_cast<const unsigned char*>(authorization.data()), authorization.size(),
@@ -88,21 +99,32 @@ grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* hol
   return grpc::Status::OK;
 }
 
+void Tokens::Replace(Holders holders) {
+  auto known = std::make_shared<const Holders>(std::move(holders));
+  const std::lock_guard lock(mutex_);
+  holders_ = std::move(known);
+}
+
 void Tokens::Refresh() {
   if (!needed()) return;
+  std::string text;
   try {
-    std::string text = Read();
-    if (text == text_) return;
-    text_ = std::move(text);
-    auto holders = std::make_shared<const Holders>(Parse(text_));
-    spdlog::info("{} tokens are known now", holders->size());
-    const std::lock_guard lock(mutex_);
-    holders_ = std::move(holders);
+    text = Read();
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::kNotFound && text_.empty()) return;  // said before
-    if (error.code() == ErrorCode::kNotFound) text_.clear();
-    spdlog::error("{}; those known before stay", error.what());
+    if (!text_) return;  // said before
+    text_.reset();
+    Replace({});
+    spdlog::error("{}; nobody is let in until it can be read", error.what());
+    return;
   }
+  if (text_ == text) return;
+  Content content = Parse(text);
+  if (!content.bad_lines.empty()) {
+    spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
+  }
+  spdlog::info("{} tokens are known now", content.holders.size());
+  Replace(std::move(content.holders));
+  text_ = std::move(text);
 }
 
 }  // namespace choreo

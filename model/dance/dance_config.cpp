@@ -32,9 +32,9 @@ void DanceConfig::Validate(const ModelInfo& model) const {
   ValidateStart(model, "config.");
   const int64_t first = FirstFrame();
   if (end_frame && (*end_frame <= 0 || *end_frame < first || *end_frame > kMaxDanceFrames)) {
-    throw InvalidArgument("config.end_frame", std::to_string(*end_frame) + " is not in [" +
-                                                  std::to_string(std::max<int64_t>(first, 1)) +
-                                                  ", " + std::to_string(kMaxDanceFrames) + "]");
+    throw InvalidArgument("config.frames", std::to_string(*end_frame) + " is not in [" +
+                                               std::to_string(std::max<int64_t>(first, 1)) + ", " +
+                                               std::to_string(kMaxDanceFrames) + "]");
   }
   if (generate_until && (*generate_until < 0 || *generate_until > kMaxDanceFrames)) {
     throw InvalidArgument("config.generate_until", std::to_string(*generate_until) +

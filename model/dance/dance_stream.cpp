@@ -47,7 +47,7 @@ struct DanceStream::Impl {
     chain->Change([this](Timeline& timeline) {
       if (chain->audio() == nullptr && !has_end_frame && timeline.Empty()) {
         throw InvalidArgument("keyframes_complete",
-                              "the dance has no end: no keyframe, no music and no end_frame");
+                              "the dance has no end: no keyframe, no music and no config.frames");
       }
       timeline.Complete();
     });

@@ -18,6 +18,11 @@ enum class EngineKind {
 inline constexpr std::array<std::string_view, 4> kEngineKindNames = {"auto", "torch", "packed",
                                                                      "packed-bf16"};
 
+/// What the packed engine's kernels are called (PackedKernels::name), slowest first; which of them
+/// are here depends on the machine.
+inline constexpr std::array<std::string_view, 4> kKernelNames = {"portable", "avx2", "avx512",
+                                                                 "avx512_bf16"};
+
 /// "auto, torch, ...", for messages.
 std::string EngineKindNames();
 

@@ -36,6 +36,9 @@ torch::Device ToTorch(const Device& device) {
              : torch::Device(torch::kCUDA, static_cast<torch::DeviceIndex>(device.index));
 }
 
+/// Of the kernels in a fingerprint, where they are our own.
+constexpr const char* kPackedPrefix = "packed ";
+
 // What LibTorch's own kernels were chosen for, as in "AVX512"; empty if it doesn't tell.
 std::string CpuCapability() {
   const std::string config = at::show_config();
@@ -200,7 +203,7 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
   std::string kernels;
   if (Packs(kind, device)) {
     const KernelSet set = ChooseKernels(kind, kernel_name);
-    kernels = std::string("packed ") + set.products->name;
+    kernels = kPackedPrefix + std::string(set.products->name);
     const auto packed = std::make_shared<const PackedFlow>(content, config, model->feature_width(),
                                                            *set.exact, *set.products);
     tile = [packed](int slots) { return std::make_unique<PackedTile>(packed, slots); };
@@ -263,6 +266,12 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
     engines.push_back(here->second(slots));
   }
   return engines;
+}
+
+Heeded HeededBy(const StepEngine& engine) {
+  if (dynamic_cast<const FlowEngine*>(&engine) == nullptr) return {};
+  return {.kind = true,
+          .kernels = engine.model().fingerprint.find(kPackedPrefix) != std::string::npos};
 }
 
 std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,

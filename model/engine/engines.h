@@ -37,6 +37,13 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
                                                      std::span<const Device> devices, int slots,
                                                      EngineKind kind = EngineKind::kAuto,
                                                      const std::string& kernels = "");
+/// Which of the two an engine heeds that was made with them; the others change nothing of it.
+struct Heeded {
+  bool kind = false;     ///< paper F's flow does: other models LibTorch runs
+  bool kernels = false;  ///< and these, where it is packed
+};
+Heeded HeededBy(const StepEngine& engine);
+
 std::unique_ptr<StepEngine> MakeEngine(const std::filesystem::path& checkpoint,
                                        const Device& device, int slots,
                                        EngineKind kind = EngineKind::kAuto);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <sstream>
@@ -137,6 +138,59 @@ TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {
               [&] { Client({.tls = true, .client_certificate = own.certificate}); });
 }
 
+// OpenSSL would ask for the passphrase on the terminal, and wait.
+TEST_F(TlsTest, AKeyWithAPassphraseIsRefused) {
+  const Certificate own = authority_.Issue("own");
+  const std::filesystem::path locked = folder_ / "locked.key";
+  ASSERT_EQ(Shell("openssl pkcs8 -topk8 -in " + own.key.string() + " -out " + locked.string() +
+                  " -passout pass:secret")
+                .code,
+            0);
+  const std::string refusal = locked.string() + " is encrypted; a key without a passphrase";
+  ExpectError(ErrorCode::kInvalidArgument, "--tls-key: " + refusal, [&] {
+    Start([&](ServerConfig& config) { Serve({own.certificate, locked}, config); });
+  });
+  ExpectError(ErrorCode::kInvalidArgument, "client_key: " + refusal, [&] {
+    Client({.tls = true, .client_certificate = own.certificate, .client_key = locked});
+  });
+}
+
+TEST_F(TlsTest, AClientsFilesThatCannotBeUsedAreNamed) {
+  const Certificate own = authority_.Issue("own"), other = authority_.Issue("other");
+  const std::filesystem::path empty = folder_ / "empty.pem", text = folder_ / "text.pem",
+                              fifo = folder_ / "fifo", damaged = folder_ / "damaged.pem";
+  std::ofstream{empty};
+  std::ofstream(text) << "no PEM at all\n";
+  std::ofstream(damaged) << "-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  for (const auto& [path, what] : std::vector<std::pair<std::filesystem::path, std::string>>{
+           {empty, " is empty"},
+           {text, " holds no certificate in PEM"},
+           {damaged, " has a damaged certificate, number 1"},
+           {fifo, " is a FIFO, no file"},
+           {folder_.path(), " is a directory, no file"},
+           {"/dev/zero", " is a device, no file"}}) {
+    ExpectError(ErrorCode::kInvalidArgument, "ca_certificate: " + path.string() + what,
+                [&] { Client({.tls = true, .ca_certificate = path}); });
+    ExpectError(ErrorCode::kInvalidArgument, "client_certificate: " + path.string() + what,
+                [&] { Client({.tls = true, .client_certificate = path, .client_key = own.key}); });
+    ExpectError(ErrorCode::kInvalidArgument, "--tls-cert", [&] {
+      Start([&](ServerConfig& config) { Serve({path, own.key}, config); });
+    });
+  }
+  const auto client_with = [&](const std::filesystem::path& key) {
+    Client({.tls = true, .client_certificate = own.certificate, .client_key = key});
+  };
+  ExpectError(ErrorCode::kInvalidArgument, "client_key: " + empty.string() + " is empty",
+              [&] { client_with(empty); });
+  ExpectError(ErrorCode::kInvalidArgument, "client_key: " + text.string() + " holds no private key",
+              [&] { client_with(text); });
+  ExpectError(
+      ErrorCode::kInvalidArgument,
+      "client_key: " + other.key.string() + " is not the key of " + own.certificate.string(),
+      [&] { client_with(other.key); });
+}
+
 class TokensTest : public SecurityTest {
  protected:
   void Write(const std::string& name, const std::string& text) {
@@ -179,11 +233,46 @@ TEST_F(TokensTest, WhoHasOneIsServedUntilItIsStruckOut) {
   Write("tokens", LineOf("b", "bob"));
   Eventually([&] { return !Serves(With(*server, "correct-horse")); }, "alice is struck out");
   EXPECT_TRUE(Serves(With(*server, "b")));
-  // What is no such file changes nothing.
-  Write("tokens", "correct-horse alice\n");
-  std::this_thread::sleep_for(std::chrono::milliseconds(1'200));
+}
+
+// Whatever becomes of the file, who was struck out stays out.
+TEST_F(TokensTest, AFileThatGoesBadKeepsNobodyIn) {
+  const std::filesystem::path file = folder_ / "tokens";
+  const std::string alice = LineOf("a", "alice"), bob = LineOf("b", "bob");
+  Write("tokens", alice + bob);
+  const auto server = Start([&](ServerConfig& config) { config.tokens = file; });
+  const auto becomes = [&](const std::string& token, bool serves, const std::string& what) {
+    Eventually([&] { return Serves(With(*server, token)) == serves; }, what);
+  };
+  becomes("a", true, "both are known");
+  Write("tokens", "0123 carol\n" + bob);  // good lines count beside a bad one
+  becomes("a", false, "alice is struck out");
   EXPECT_TRUE(Serves(With(*server, "b")));
-  EXPECT_FALSE(Serves(With(*server, "correct-horse")));
+  std::filesystem::remove(file);
+  becomes("b", false, "without a file nobody is known");
+  Write("tokens", alice);
+  becomes("a", true, "it is there again");
+  std::filesystem::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  becomes("a", false, "a FIFO holds nobody up, and lets nobody in");
+  std::filesystem::remove(file);
+  Write("tokens", bob);
+  becomes("b", true, "after which it goes on");
+  Write("tokens", std::string(2 << 20, '#'));
+  becomes("b", false, "what is too long is not read");
+}
+
+TEST_F(TokensTest, TheSchemeIsTheSameInEitherCase) {
+  Write("tokens", LineOf("a", "alice"));
+  const Tokens tokens(folder_ / "tokens");
+  std::string holder;
+  for (const char* good : {"Bearer a", "bearer a", "BEARER a", "bearer   a"}) {
+    EXPECT_TRUE(tokens.FindHolder(good, &holder).ok()) << good;
+  }
+  for (const char* bad :
+       {"", "a", "Bearer", "Bearera", "Bearer ", "Basic a", "Bearer\ta", " a", "Bearer a "}) {
+    EXPECT_FALSE(tokens.FindHolder(bad, &holder).ok()) << bad;
+  }
 }
 
 TEST_F(TokensTest, NoneIsLogged) {
@@ -234,12 +323,19 @@ TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {
   Write("tokens", LineOf("a", "alice") + "0123 bob\n");
   ExpectError(ErrorCode::kInvalidArgument, "tokens line 2",
               [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
+  Write("tokens", std::string(2 << 20, '#'));
+  ExpectError(ErrorCode::kInvalidArgument, "2097152 bytes, of at most 1048576",
+              [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
+  for (const char* none : {"/tmp", "/dev/zero"}) {
+    ExpectError(ErrorCode::kInvalidArgument, std::string("--tokens: ") + none,
+                [&] { Start([&](ServerConfig& config) { config.tokens = none; }); });
+  }
   const auto server = Start({});
   Options options = With(*server, "two words");
   ExpectError(ErrorCode::kInvalidArgument, "visible ASCII",
               [&] { Client(options).GetServerInfo(); });
   options.token_file = "/absent";
-  ExpectError(ErrorCode::kInvalidArgument, "/absent", [&] { Client(options).GetServerInfo(); });
+  ExpectError(ErrorCode::kNotFound, "/absent", [&] { Client(options).GetServerInfo(); });
 }
 
 }  // namespace

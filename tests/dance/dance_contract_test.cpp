@@ -120,7 +120,7 @@ TEST_F(DanceContract, ADanceNeedsAnEnd) {
   for (auto close : {&DanceStream::KeysComplete, &DanceStream::HalfClose}) {
     EXPECT_EQ(
         Refusal([close](DanceStream& stream) { (stream.*close)(); }, ErrorCode::kInvalidArgument),
-        "keyframes_complete: the dance has no end: no keyframe, no music and no end_frame");
+        "keyframes_complete: the dance has no end: no keyframe, no music and no config.frames");
   }
 }
 

@@ -110,12 +110,12 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
             }),
             "config.continuation.frame: -1 is not in [0, 108000]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.end_frame = 0; }),
-            "config.end_frame: 0 is not in [1, 108000]");
+            "config.frames: 0 is not in [1, 108000]");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.continuation = good;
               c.end_frame = 59;
             }),
-            "config.end_frame: 59 is not in [60, 108000]");
+            "config.frames: 59 is not in [60, 108000]");
   EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{4000, 1, 0}; }), "accepted");
   EXPECT_NE(refusal([](DanceConfig& c) { c.audio = DanceConfig::Audio{44100, 9, 0}; }), "accepted");
   EXPECT_NE(refusal(

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 
 #include "model/core/error.h"
+#include "server/config_flags.h"
 
 namespace choreo {
 namespace {
@@ -109,9 +112,65 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetting{"--max-file-music-mib", "127"}, BadSetting{"--max-network-mib", "63"},
         BadSetting{"--slots", "-1"}, BadSetting{"--slots", "many"},
         BadSetting{"--max-streams", "-1"}, BadSetting{"--engine", "fast"},
+        BadSetting{"--kernels", "avx9"}, BadSetting{"--tokens", ""}, BadSetting{"--tls-cert", ""},
+        BadSetting{"--tls-client-ca", ""}, BadSetting{"--tokens", "/tmp"},
+        BadSetting{"--tokens", "/dev/zero"}, BadSetting{"--checkpoint", "/dev/null"},
         BadSetting{"--device", "gpu"}, BadSetting{"--log-level", "loud"},
         BadSetting{"--checkpoint", "/nonexistent.safetensors"}, BadSetting{"--drain-seconds", "-3"},
         BadSetting{"--max-connection-seconds", "2073601"}, BadSetting{"--frobnicate", "1"}));
+
+// A server that was to ask for tokens does not start without.
+TEST(ServerConfigTest, AnEmptyNameOfAFileIsRefusedWhereverItStands) {
+  const std::string path = testing::TempDir() + "choreod_config_empty_test.toml";
+  std::ofstream(path) << "tokens = \"\"\n";
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(Parse({"--config", path.c_str()}).config);
+  ::setenv("CHOREO_TOKENS", "", 1);
+  EXPECT_FALSE(Parse({}).config);
+  ::unsetenv("CHOREO_TOKENS");
+  const std::string message = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(message,
+            "choreod: --tokens: is empty; leave it out where none is wanted\n"
+            "choreod: --tokens: is empty; leave it out where none is wanted\n");
+}
+
+TEST(ServerConfigTest, ThoseThatAreKnownAreListed) {
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(Parse({"--kernels", "avx9"}).config);
+  EXPECT_FALSE(Parse({"--engine", "fast"}).config);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "choreod: --kernels: \"avx9\" is none of portable, avx2, avx512, avx512_bf16\n"
+            "choreod: --engine: \"fast\" is none of auto, torch, packed, packed-bf16\n");
+}
+
+// The file, too.
+TEST(ServerConfigTest, EverySettingHasAVariable) {
+  ServerConfig config;
+  CLI::App app;
+  AddFlags(app, config);
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_lnames().front();
+    if (name == "help") continue;
+    std::string variable = "CHOREO_";
+    for (const char c : name) {
+      variable += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+    EXPECT_EQ(option->get_envname(), variable);
+  }
+  const std::string path = testing::TempDir() + "choreod_config_variable_test.toml";
+  std::ofstream(path) << "io-threads = 5\n";
+  ::setenv("CHOREO_CONFIG", path.c_str(), 1);
+  const CommandLine line = Parse({});
+  ::setenv("CHOREO_CONFIG", "/nonexistent.toml", 1);
+  const CommandLine flag = Parse({"--config", path.c_str()});
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(Parse({}).config);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("/nonexistent.toml"), std::string::npos);
+  ::unsetenv("CHOREO_CONFIG");
+  ASSERT_TRUE(line.config && flag.config);
+  EXPECT_EQ(line.config->io_threads, 5);
+  EXPECT_EQ(flag.config->io_threads, 5);
+}
 
 // Beyond this machine: only with TLS, or when told so.
 TEST(ServerConfigTest, PlaintextBeyondThisMachineIsAskedFor) {

@@ -1,10 +1,12 @@
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <grpc/support/log.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -20,6 +22,7 @@ namespace choreo {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class MetricsTest : public ServerTest {
  protected:
@@ -35,9 +38,10 @@ class MetricsTest : public ServerTest {
     return fd;
   }
   // All that http://127.0.0.1:PORT/metrics says.
-  static std::string MetricsAt(int port) {
+  static std::string MetricsAt(int port) { return AnswerTo(port, "GET /metrics"); }
+  static std::string AnswerTo(int port, const std::string& line) {
     const int fd = ConnectTo(port);
-    const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
+    const std::string request = line + " HTTP/1.0\r\n\r\n";
     EXPECT_EQ(send(fd, request.data(), request.size(), 0), std::ssize(request));
     std::string said;
     char bytes[4096];
@@ -100,6 +104,33 @@ TEST_F(MetricsTest, TellWhatGoesOn) {
   EXPECT_EQ(Figure("choreo_streams"), 1);
   EXPECT_EQ(Figure("choreo_utilisation"), 0.25);
   client.Cancel();
+}
+
+// An alert on a rate sees the first failure only where the series was there before.
+TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
+  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  for (const std::string method : {"StreamDance", "GenerateTransition", "GetServerInfo"}) {
+    for (const std::string status : {"OK", "INTERNAL", "UNAUTHENTICATED", "RESOURCE_EXHAUSTED"}) {
+      EXPECT_EQ(Figure("choreo_calls_total{method=\"" + method + "\",status=\"" + status + "\"}"),
+                0);
+    }
+  }
+}
+
+TEST_F(MetricsTest, AreAskedForAsHttpSays) {
+  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  const auto answer = [&](const std::string& line) {
+    return AnswerTo(server->metrics_port(), line);
+  };
+  EXPECT_THAT(answer("GET /metrics?x=1"), HasSubstr("\nchoreo_streams 0"));
+  const std::string head = answer("HEAD /metrics");
+  EXPECT_THAT(head, testing::StartsWith("HTTP/1.1 200 OK\r\n"));
+  EXPECT_THAT(head, testing::EndsWith("\r\n\r\n"));
+  EXPECT_THAT(head, Not(HasSubstr("Content-Length: 0")));
+  EXPECT_THAT(answer("GET /metricsx"), testing::StartsWith("HTTP/1.1 404 "));
+  EXPECT_THAT(answer("HEAD /"), testing::EndsWith("\r\n\r\n"));
+  EXPECT_THAT(answer("POST /metrics"), testing::StartsWith("HTTP/1.1 405 "));
+  EXPECT_THAT(answer(""), testing::StartsWith("HTTP/1.1 405 "));
 }
 
 TEST_F(MetricsTest, WhoSendsAByteNowAndThenIsLeft) {
@@ -187,6 +218,26 @@ TEST_F(LogTest, AsJsonEachLineIsAnObject) {
   EXPECT_EQ(calls[0].at("span_id"), "00f067aa0ba902b7");
   EXPECT_EQ(calls[1].at("status"), "NOT_FOUND");
   EXPECT_FALSE(calls[1].contains("trace_id"));
+}
+
+// Whoever can connect can make gRPC write: it writes ten lines in ten seconds, and how many more
+// there were.
+TEST_F(LogTest, GrpcsLinesAreBounded) {
+  const auto before = spdlog::default_logger();
+  testing::internal::CaptureStderr();
+  StartLog("info", false);
+  for (int i = 0; i < 1'000; ++i) gpr_log(GPR_ERROR, "handshake %d failed", i);
+  StartLog("info", false);
+  spdlog::set_default_logger(before);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_LE(std::ranges::count(said, '\n'), 2 * 11) << "at most two periods long";
+  EXPECT_THAT(said, HasSubstr("failed"));
+}
+
+TEST_F(LogTest, TheStartSaysWhoMayCome) {
+  const auto lines = LinesOfCall(false, kTraceparent);
+  EXPECT_THAT(lines, testing::Contains(HasSubstr(
+                         "TLS is off, certificates of clients are not asked for, tokens are not")));
 }
 
 TEST_F(LogTest, WhatIsNoTraceparentIsLeftOut) {
