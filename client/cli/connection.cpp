@@ -1,8 +1,10 @@
 #include "client/cli/connection.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <iostream>
+#include <memory>
 #include <utility>
 
 #include "client/cli/interruption.h"
@@ -72,16 +74,19 @@ Connection::Connection(const ServerOptions& options) {
     client_options.tls = false;
     client_options.token_file.clear();
   }
-  client_options.before_retry = [own = own_.get(), told = Clock::time_point()]() mutable {
+  // One that was never there is told of by the error.
+  const auto reached = std::make_shared<std::atomic<bool>>(false);
+  client_options.before_retry = [own = own_.get(), reached, told = Clock::time_point()]() mutable {
     Interruption::Check();
     if (own) own->RequireRunning();
     // Tries are seconds apart at most: what comes later is another loss.
     const Clock::time_point before = std::exchange(told, Clock::now());
-    if (told - before > kOfOneLoss)
+    if (*reached && told - before > kOfOneLoss)
       std::cerr << "note: the server is lost or busy; it is asked again and again\n";
   };
   client_ = std::make_unique<client::Client>(client_options);
   server_ = client_->GetServerInfo();
+  *reached = true;
 }
 
 const client::ModelDescription& Connection::model(const std::string& name) const {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <lo/lo.h>
 #include <pty.h>
 #include <sys/stat.h>
 #include <termios.h>
@@ -16,6 +17,7 @@
 #include "client/live/beat_clock.h"
 #include "client/live/midi_clock.h"
 #include "client/live/sound.h"
+#include "tests/client/live/osc_receiver.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -89,6 +91,25 @@ TEST(Keyboard, IsNoneWhereThereIsNoTerminal) {
   EXPECT_FALSE(ReadKeyboard(ends[0], {"kick"}));
   close(ends[0]);
   close(ends[1]);
+}
+
+TEST(OscCues, SecondsAreANumberOfAnyType) {
+  const int port = OscReceiver().port();
+  const std::unique_ptr<Cues> cues = HearOsc(port);
+  const std::unique_ptr<void, void (*)(lo_address)> to(
+      lo_address_new("127.0.0.1", std::to_string(port).c_str()), lo_address_free);
+  lo_send(to.get(), "/choreo/key", "si", "kick", 2);
+  lo_send(to.get(), "/choreo/key", "sd", "kick", 2.5);
+  lo_send(to.get(), "/choreo/key", "sf", "kick", NAN);
+  lo_send(to.get(), "/choreo/key", "ss", "kick", "2");
+  lo_send(to.get(), "/choreo/undo", "");
+  std::vector<Cue> came;
+  while (came.empty() || !came.back().pose.empty()) {
+    for (Cue& cue : cues->Take()) came.push_back(std::move(cue));
+  }
+  ASSERT_EQ(came.size(), 3U);
+  EXPECT_EQ(came[0].ahead_s, 2);
+  EXPECT_EQ(came[1].ahead_s, 2.5);
 }
 
 TEST(BeatClock, GoesOnFromTheBeatsThatWereDanced) {

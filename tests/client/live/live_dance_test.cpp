@@ -246,25 +246,6 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
               testing::ContainsRegex(" [1-9][0-9]* taken, [1-9][0-9]* danced, 0 ref"));
 }
 
-TEST(OscCues, SecondsAreANumberOfAnyType) {
-  const int port = OscReceiver().port();
-  const std::unique_ptr<live::Cues> cues = live::HearOsc(port);
-  const std::unique_ptr<void, void (*)(lo_address)> to(
-      lo_address_new("127.0.0.1", std::to_string(port).c_str()), lo_address_free);
-  lo_send(to.get(), "/choreo/key", "si", "kick", 2);
-  lo_send(to.get(), "/choreo/key", "sd", "kick", 2.5);
-  lo_send(to.get(), "/choreo/key", "sf", "kick", NAN);
-  lo_send(to.get(), "/choreo/key", "ss", "kick", "2");
-  lo_send(to.get(), "/choreo/undo", "");
-  std::vector<live::Cue> came;
-  while (came.empty() || !came.back().pose.empty()) {
-    for (live::Cue& cue : cues->Take()) came.push_back(std::move(cue));
-  }
-  ASSERT_EQ(came.size(), 3U);
-  EXPECT_EQ(came[0].ahead_s, 2);
-  EXPECT_EQ(came[1].ahead_s, 2.5);
-}
-
 TEST_F(CommandTest, ALiveDanceTellsAtOnceThatItsServerIsLost) {
   WriteClicks(folder_ / "song.wav", 60);
   auto server = std::make_unique<cli::LocalServer>(FAKE_CHOREOD);
