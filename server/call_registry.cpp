@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "server/caller.h"
+
 namespace choreo {
 namespace {
 
 constexpr double kShareOfLast = 0.1;  // of the call that ended last in the mean of them all
 
 const char* const kGoingAway = "the server is going away; try another one";
-
-std::string WithoutPort(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
 
 std::string Seconds(std::chrono::milliseconds limit) {
   const std::string text = std::to_string(std::chrono::duration<double>(limit).count());
@@ -26,7 +26,7 @@ Error HandedOn() {
 void CallRegistry::Enter(const std::shared_ptr<Call>& call, const std::string& peer) {
   const std::lock_guard lock(mutex_);
   if (!admitting_) throw Error(ErrorCode::kUnavailable, "", kGoingAway);
-  std::string address = WithoutPort(peer);
+  std::string address = AddressOf(peer);
   int& calls = of_address_[address];
   if (calls >= limits_.calls_of_peer) {
     ++refused_;

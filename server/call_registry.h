@@ -37,9 +37,6 @@ class Call {
 struct CallLimits {
   int calls = 64;
   int calls_of_peer = 64;  ///< of one address, those without a first message included
-  /// Share of a model's time that may go to frames which are due; the rest is for what is not
-  /// measured, gRPC and decoding.
-  double load = 0.9;
   std::chrono::milliseconds first_message{10'000};
   std::chrono::milliseconds idle{120'000};   ///< nothing came and nothing went
   std::chrono::milliseconds unread{60'000};  ///< an answer was not taken

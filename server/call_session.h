@@ -48,7 +48,7 @@ class CallSession : public Call {
 
   /// What is queued still goes out, then the call ends with this error.
   void Fail(const Error& error) {
-    End(error);
+    EndIn(error);
     CancelDance();
   }
 
@@ -68,6 +68,7 @@ class CallSession : public Call {
   /// The reactor is done: frees the dance, which holds this session in turn, and counts the call.
   void Release() noexcept {
     CancelDance();
+    serving_.frames.GiveBack(this);
     {
       const std::lock_guard lock(mutex_);
       dance_.reset();
@@ -145,14 +146,21 @@ class CallSession : public Call {
     outbox_.Send(std::move(response));
   }
 
-  /// What is queued still goes out, then the call ends with this error. The dance has ended.
-  void End(const Error& error) {
+  /// What is queued still goes out, then the call ends so. The dance has ended, and what it was
+  /// promised is there for whoever comes once its client knows.
+  void End(const grpc::Status& status) {
+    serving_.frames.GiveBack(this);
+    outbox_.Close(status);
+  }
+  void EndIn(const Error& error) {
     try {
-      outbox_.Close(StatusOf(error));
+      End(StatusOf(error));
     } catch (const std::bad_alloc&) {
-      outbox_.Close({grpc::StatusCode::INTERNAL, "no memory"});  // short enough to need none
+      End({grpc::StatusCode::INTERNAL, "no memory"});  // short enough to need none
     }
   }
+
+  std::string address() const { return AddressOf(caller_.peer); }
 
   /// Its RetryInfo, if any, is from the measured load.
   grpc::Status StatusOf(const Error& error) const {

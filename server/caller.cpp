@@ -34,6 +34,8 @@ std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char
   return {value.data(), value.size()};
 }
 
+std::string AddressOf(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
+
 Caller CallerOf(const grpc::CallbackServerContext& context) {
   Caller caller;
   caller.peer = context.peer();

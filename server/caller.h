@@ -16,6 +16,9 @@ struct Caller {
   std::string trace_id, span_id;
 };
 
+/// A peer without its port.
+std::string AddressOf(const std::string& peer);
+
 /// Everything but the holder.
 Caller CallerOf(const grpc::CallbackServerContext& context);
 

@@ -44,7 +44,7 @@ struct ServerConfig {
   double idle_seconds = 120;          ///< that a call may go on with nothing coming or going
   double unread_seconds = 60;         ///< that an answer may wait for its client
   double max_sleep_seconds = 0.5;     ///< that a dance which waits keeps a slot others wait for
-  double max_load = 0.9;  ///< share of the engines' time, beyond which calls are refused
+  double max_load = 0.9;  ///< share of the engines' time that may be promised (FrameBudget)
   double max_connection_seconds = 0;  ///< then a connection takes no new calls; 0: for ever
 
   /// Slots of a model on each device. If not set, two for each call: half of them are for dances

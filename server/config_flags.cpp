@@ -116,8 +116,8 @@ void AddLimits(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
   app.add_option(
          "--max-load", config.max_load,
-         "Share of a model's time that goes to frames which are due: beyond it new calls are "
-         "refused (RESOURCE_EXHAUSTED). Above 1: none are.")
+         "Share of the engines' time that may be promised to calls, each by the frames that it "
+         "will take: those beyond are refused (RESOURCE_EXHAUSTED). Above 1: none are.")
       ->envname("CHOREO_MAX_LOAD")
       ->capture_default_str();
   app.add_option("--max-connection-seconds", config.max_connection_seconds,

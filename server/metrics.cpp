@@ -98,11 +98,11 @@ class Figures final : public prometheus::Collectable {
     out.Begin("streams_limit", "Calls that may be in progress.", MetricType::Gauge);
     out.Add(calls.limits().calls);
     double load = 0;
-    for (const auto& model : serving_.models) load = std::max(load, model->stats().load);
+    for (const auto& model : serving_.models) load += serving_.frames.load(*model);
     out.Begin("utilisation",
-              "The larger of streams / limit and of a model's load / --max-load; 1 refuses calls.",
+              "The larger of streams / limit and of all load / --max-load; at 1 calls are refused.",
               MetricType::Gauge);
-    out.Add(std::max(load / calls.limits().load,
+    out.Add(std::max(load / serving_.frames.shares().of_all,
                      static_cast<double>(calls.count()) / calls.limits().calls));
     out.Begin("sent_frames_total", "Frames that calls got which are over.", MetricType::Counter);
     out.Add(static_cast<double>(serving_.tally.frames));
@@ -127,6 +127,11 @@ class Figures final : public prometheus::Collectable {
                     {"version", CHOREO_VERSION}});
       }
     }
+    out.Begin("load", "Share of the engines' time that is promised to calls in progress.",
+              MetricType::Gauge);
+    for (const auto& model : serving_.models) {
+      out.Add(serving_.frames.load(*model), {{"model", model->model().name}});
+    }
     struct Figure {
       const char* name;
       const char* help;
@@ -145,8 +150,6 @@ class Figures final : public prometheus::Collectable {
          [](const Stats& stats) { return double(stats.waiting); }},
         {"transitions_parked", "Transitions that slept for so long that they lost theirs.",
          MetricType::Gauge, [](const Stats& stats) { return double(stats.parked); }},
-        {"load", "Share of the engines' time that goes to frames which are due.", MetricType::Gauge,
-         [](const Stats& stats) { return stats.load; }},
         {"engine_failures", "How often an engine has failed in a row.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.failures); }},
         {"frames_total", "Frames made.", MetricType::Counter,

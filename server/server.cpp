@@ -57,10 +57,15 @@ milliseconds Milliseconds(double seconds) {
 CallLimits LimitsOf(const ServerConfig& config) {
   return {.calls = config.max_streams,
           .calls_of_peer = config.MaxStreamsOfPeer(),
-          .load = config.max_load,
           .first_message = Milliseconds(config.first_message_seconds),
           .idle = Milliseconds(config.idle_seconds),
           .unread = Milliseconds(config.unread_seconds)};
+}
+
+// Of time an address gets the share that it gets of calls.
+FrameShares SharesOf(const ServerConfig& config) {
+  const double of_peer = std::min(1.0, double(config.MaxStreamsOfPeer()) / config.max_streams);
+  return {.of_all = config.max_load, .of_peer = of_peer * config.max_load};
 }
 
 void TellOfSecurity(const ServerConfig& config, const Tokens& tokens) {
@@ -69,6 +74,16 @@ void TellOfSecurity(const ServerConfig& config, const Tokens& tokens) {
                config.tls_client_ca.empty() ? "not asked for" : "needed",
                tokens.needed() ? std::to_string(tokens.count()) + ", of which one is needed"
                                : "not asked for");
+}
+
+void TellOfTime(const Serving& serving) {
+  for (const auto& model : serving.models) {
+    constexpr int kDances = 64;
+    const double load = model->LoadOf(kDances * model->model().fps);
+    if (load <= 0) continue;  // nobody has measured
+    spdlog::info("model \"{}\": {} dances at once take {:.1f} % of its engines' time",
+                 model->model().name, kDances, 100 * load);
+  }
 }
 
 /// Takes gRPC's reflection from one server: linked in, it is in all.
@@ -105,8 +120,8 @@ std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engin
 
 struct Server::Impl {
   Impl(const ServerConfig& config, std::vector<Engines> models)
-      : serving(MakeSchedulers(std::move(models), config), LimitsOf(config), config.tokens,
-                static_cast<size_t>(config.outbox_kib) << 10,
+      : serving(MakeSchedulers(std::move(models), config), LimitsOf(config), SharesOf(config),
+                config.tokens, static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving, config.max_sleep_seconds),
         listener(config.listen) {
@@ -130,6 +145,7 @@ struct Server::Impl {
     server = builder.BuildAndStart();
     if (!server) throw Error(ErrorCode::kUnavailable, "", "gRPC could not start");
     UpdateHealth();
+    TellOfTime(serving);
     TellOfSecurity(config, serving.tokens);
     watch.emplace(kWatchInterval, [this] {
       serving.calls.EndIdle();

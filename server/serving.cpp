@@ -28,17 +28,6 @@ Scheduler& Serving::FindModel(const std::string& name, const std::string& field)
   throw Error(ErrorCode::kNotFound, field, "no model \"" + name + "\"; this server has " + known);
 }
 
-void Serving::RequireTime(const Scheduler& scheduler) const {
-  const double load = scheduler.stats().load;
-  const double most = calls.limits().load;
-  if (load <= most) return;
-  throw Error(ErrorCode::kResourceExhausted, "",
-              "model \"" + scheduler.model().name +
-                  "\" is busy: " + std::to_string(static_cast<int>(100 * load)) +
-                  " % of its time goes to frames that are due now, of at most " +
-                  std::to_string(static_cast<int>(100 * most)) + " %");
-}
-
 uint64_t Serving::FreshSeed() {
   std::random_device device;
   // 53 bits: exact in JSON and in JavaScript.

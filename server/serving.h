@@ -9,6 +9,7 @@
 
 #include "model/engine/scheduler.h"
 #include "server/call_registry.h"
+#include "server/frame_budget.h"
 #include "server/music_file.h"
 #include "server/tally.h"
 #include "server/task_pool.h"
@@ -19,10 +20,11 @@ namespace choreo {
 /// What the calls of one server share. Thread-safe after construction; outlives every call.
 struct Serving {
   Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, const CallLimits& limits,
-          std::filesystem::path tokens_file, size_t outbox_limit, int64_t file_music_bytes,
-          int io_threads)
+          const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
+          int64_t file_music_bytes, int io_threads)
       : models(std::move(schedulers)),
         calls(limits),
+        frames(models, shares),
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
@@ -33,15 +35,12 @@ struct Serving {
   /// Error(kNotFound) that lists the models.
   Scheduler& FindModel(const std::string& name, const std::string& field) const;
 
-  /// Throws Error(kResourceExhausted) where the model's engines have no time left for one more: it
-  /// would be late from its first frame on, and make others late.
-  void RequireTime(const Scheduler& scheduler) const;
-
   /// A seed for those who name none.
   static uint64_t FreshSeed();
 
   const std::vector<std::unique_ptr<Scheduler>> models;  ///< one each; never empty
   CallRegistry calls;
+  FrameBudget frames;
   Tokens tokens;
   Tally tally;
   const size_t outbox_bytes;

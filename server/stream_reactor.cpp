@@ -101,10 +101,10 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     FillTiming(static_cast<double>(report.frames) / scheduler_->model().fps,
                summary->mutable_timing());
     outbox().Send(std::move(response));
-    outbox().Close(grpc::Status::OK);
+    End(grpc::Status::OK);
   }
 
-  void OnError(const Error& error) override { End(error); }
+  void OnError(const Error& error) override { EndIn(error); }
 
  private:
   void Take(const Request& request) {
@@ -142,9 +142,9 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   void Configure(const v1::DanceConfig& message) {
     if (scheduler_) throw InvalidArgument("config", "came before; it comes once");
     Scheduler& scheduler = serving_.FindModel(message.model(), "config.model");
-    serving_.RequireTime(scheduler);
     const ModelInfo& model = scheduler.model();
     const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
+    serving_.frames.TakeDance(this, scheduler, address());
     scheduler_ = &scheduler;
     encoding_ = message.encoding();
     seed_ = config.seed;

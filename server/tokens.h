@@ -22,8 +22,8 @@ namespace choreo {
 /// Thread-safe.
 class Tokens {
  public:
-  /// An empty path: everybody may call. Throws Error(kNotFound) or Error(kInvalidArgument), field
-  /// "--tokens", naming file and line, where it cannot be read or one line is bad.
+  /// An empty path: everybody may call. Throws Error(kInvalidArgument), field "--tokens", naming
+  /// file and line, where it cannot be read or one line is bad.
   explicit Tokens(std::filesystem::path file);
 
   bool needed() const { return !file_.empty(); }

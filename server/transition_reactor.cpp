@@ -2,12 +2,14 @@
 
 #include <grpcpp/server_context.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
 #include "model/dance/transition_group.h"
+#include "model/dance/validation.h"
 #include "server/call_session.h"
 #include "server/read_message.h"
 #include "server/read_request.h"
@@ -36,8 +38,10 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
       ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       Scheduler& scheduler = serving_.FindModel(message.config().model(), "config.model");
-      serving_.RequireTime(scheduler);
       GroupRequest request = ToGroupRequest(message, scheduler.model(), Serving::FreshSeed());
+      // What is out of range is named once the music is there.
+      const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
+      serving_.frames.TakeTransition(this, scheduler, address(), request.candidates * frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
         return Begin(scheduler, message, std::move(request));
       }
@@ -88,10 +92,10 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     }
     FillTiming(static_cast<double>(frames) / model_->fps, summary->mutable_timing());
     outbox().Send(std::move(response));
-    outbox().Close(grpc::Status::OK);
+    End(grpc::Status::OK);
   }
 
-  void OnError(const Error& error) override { End(error); }
+  void OnError(const Error& error) override { EndIn(error); }
 
  private:
   // The samples of a file, and the beats of the music if the client does not know them.

@@ -56,8 +56,8 @@ void RequireRegular(const std::string& field, const std::filesystem::path& path,
 }
 
 Error Absent(const std::string& field, const std::filesystem::path& path, int why) {
-  if (why == ENOENT) return {ErrorCode::kNotFound, field, "no file " + path.string()};
-  return {ErrorCode::kNotFound, field, "cannot read " + path.string() + ": " + std::strerror(why)};
+  if (why == ENOENT) return InvalidArgument(field, "no file " + path.string());
+  return InvalidArgument(field, "cannot read " + path.string() + ": " + std::strerror(why));
 }
 
 X509Pointer FirstOf(const std::string& certificates) {

@@ -8,16 +8,15 @@
 /// told in words that name the setting, the file, and what is wrong with it. Thread-safe.
 namespace choreo {
 
-/// Throws Error(kNotFound, field) where nothing is there, Error(kInvalidArgument, field) for what
-/// is no regular file: to read a FIFO or a device could take for ever. Links are followed.
+/// Throws Error(kInvalidArgument, field) where nothing is there, and for what is no regular file:
+/// to read a FIFO or a device could take for ever. Links are followed.
 void RequireRegularFile(const std::string& field, const std::filesystem::path& path);
 
-/// Its bytes. Throws as RequireRegularFile, Error(kNotFound, field) where it may not be read, and
-/// Error(kInvalidArgument, field) beyond `most` bytes, of which it reads none.
+/// Its bytes. Throws as RequireRegularFile, and so where it may not be read or has more than `most`
+/// bytes, of which it reads none.
 std::string ReadSmallFile(const std::string& field, const std::filesystem::path& path, size_t most);
 
-/// A PEM file of certificates, one at least. Throws as ReadSmallFile, and Error(kInvalidArgument,
-/// field).
+/// A PEM file of certificates, one at least. Throws as ReadSmallFile.
 std::string ReadCertificates(const std::string& field, const std::filesystem::path& path);
 
 struct KeyPair {

@@ -165,7 +165,7 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
   std::string kernels;
   if (Packs(kind, device)) {
     const KernelSet set = ChooseKernels(kind, kernel_name);
-    kernels = std::string("packed ") + set.products->name;
+    kernels = kPackedPrefix + std::string(set.products->name);
     network = std::make_shared<const PackedFlowNetwork>(content, config, skeleton, *set.exact,
                                                         *set.products);
   } else {
@@ -269,8 +269,7 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
 }
 
 Heeded HeededBy(const StepEngine& engine) {
-  if (dynamic_cast<const FlowEngine*>(&engine) == nullptr) return {};
-  return {.kind = true,
+  return {.kind = dynamic_cast<const ControllersEngine*>(&engine) == nullptr,
           .kernels = engine.model().fingerprint.find(kPackedPrefix) != std::string::npos};
 }
 

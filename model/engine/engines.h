@@ -39,8 +39,8 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
                                                      const std::string& kernels = "");
 /// Which of the two an engine heeds that was made with them; the others change nothing of it.
 struct Heeded {
-  bool kind = false;     ///< paper F's flow does: other models LibTorch runs
-  bool kernels = false;  ///< and these, where it is packed
+  bool kind = false;     ///< flows do; paper C's network LibTorch runs
+  bool kernels = false;  ///< packed flows do
 };
 Heeded HeededBy(const StepEngine& engine);
 

@@ -32,6 +32,8 @@ Scheduler::Scheduler(std::vector<std::unique_ptr<StepEngine>> engines, Options o
     worker->owner = impl_.get();
     worker->engine = std::move(engines[i]);
     worker->slots = worker->engine->slots();
+    const int together = std::min(worker->engine->batch(), worker->slots);
+    worker->cost.emplace(worker->engine->cost(), std::clamp(together, 1, options.max_batch));
     if (worker->slots < 1) {
       throw InvalidArgument("engines[" + std::to_string(i) + "]", "has no slots");
     }
@@ -108,16 +110,22 @@ Scheduler::Stats Scheduler::stats() const {
   stats.steps = impl_->steps.load(std::memory_order_relaxed);
   std::lock_guard lock(impl_->mutex);
   for (const Impl::Entry* entry : impl_->slotless) ++(entry->parked ? stats.parked : stats.waiting);
-  const auto now = Impl::Clock::now();
   for (const auto& worker : impl_->workers) {
     stats.active += worker->taken;
     stats.slots += worker->slots;
-    impl_->FoldLoad(worker.get(), now);
-    stats.load += worker->load / static_cast<double>(impl_->workers.size());
     stats.asleep += worker->asleep.load(std::memory_order_relaxed);
     stats.failures = std::max(stats.failures, worker->failures.load(std::memory_order_relaxed));
   }
   return stats;
+}
+
+double Scheduler::LoadOf(double frames_per_second) const {
+  const auto workers = static_cast<double>(impl_->workers.size());
+  double load = 0;
+  for (const auto& worker : impl_->workers) {
+    load += worker->cost->LoadOf(frames_per_second / workers, model().fps) / workers;
+  }
+  return load;
 }
 
 Scheduler::Histograms Scheduler::histograms() const {

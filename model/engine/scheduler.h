@@ -65,7 +65,8 @@ class StepJob {
 ///
 /// There are jobs of dances, which were admitted elsewhere and are never refused for want of room,
 /// and jobs of groups, which are charged here and hold half of the slots at most (at least one), so
-/// that no burst of groups stands in a dance's way. Submit and SubmitGroup never block.
+/// that no burst of groups stands in a dance's way. Nobody plays a group's frames as they come:
+/// they are made where no frame of a dance is due. Submit and SubmitGroup never block.
 /// Thread-safe. A job is held from its submission until its OnDone has returned.
 class Scheduler {
  public:
@@ -86,9 +87,6 @@ class Scheduler {
     int slots = 0;    ///< of all engines
     uint64_t frames = 0;
     uint64_t steps = 0;  ///< frames / steps = mean batch
-    /// Share of the engines' time that goes to frames of dances which are due, over the last
-    /// seconds, 0 to 1: at 1 dances fall behind their music. Work done ahead does not count.
-    double load = 0;
     /// How often an engine has failed in a row, be it a step or an admission; the largest of all.
     int failures = 0;
   };
@@ -133,6 +131,10 @@ class Scheduler {
   const ModelInfo& model() const;
   std::vector<std::string> devices() const;
   Stats stats() const;
+  /// The share of the engines' time that so many frames a second take, by what frames have cost
+  /// lately; above 1 where they are more than the engines can make. 0 where no engine was warmed
+  /// up.
+  double LoadOf(double frames_per_second) const;
   Histograms histograms() const;
 
  private:

@@ -5,11 +5,13 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <thread>
 #include <unordered_map>
 #include <utility>
 
+#include "model/engine/frame_cost.h"
 #include "model/engine/scheduler.h"
 
 /// The inside of Scheduler: scheduler.cpp is what callers see of it, scheduler_worker.cpp what its
@@ -38,6 +40,8 @@ struct Scheduler::Impl {
     int slot = -1;                 ///< of the engine, once admitted
     bool asleep = false;           ///< NextInput said no, and no Wake has come since
     bool restarts = false;         ///< it was parked, and is to begin anew
+    double admission_s = 0;        ///< what its admission took
+    int frames = 0;                ///< made since
     Clock::time_point moved_at{};  ///< when it was admitted or last made a frame
     Clock::time_point awake_at{};  ///< since when it is not asleep
   };
@@ -50,12 +54,11 @@ struct Scheduler::Impl {
     std::thread thread;
     std::condition_variable work;  ///< BeginRound has something to see
 
-    int taken = 0;              ///< slots given to jobs, in `inbox` or `active`. Lock: mutex
-    std::vector<Entry*> inbox;  ///< given a slot by others, not yet admitted. Lock: mutex
-    double load = 0;            ///< as Stats::load, at `load_at`. Lock: mutex
-    Clock::time_point load_at = Clock::now();  ///< Lock: mutex
-    std::atomic<int> failures = 0;             ///< of the engine, in a row
-    std::atomic<int> asleep = 0;               ///< of `active`, as last gathered
+    int taken = 0;                  ///< slots given to jobs, in `inbox` or `active`. Lock: mutex
+    std::vector<Entry*> inbox;      ///< given a slot by others, not yet admitted. Lock: mutex
+    std::optional<FrameCost> cost;  ///< of the engine; always there
+    std::atomic<int> failures = 0;  ///< of the engine, in a row
+    std::atomic<int> asleep = 0;    ///< of `active`, as last gathered
 
     // Of the worker's thread alone. Capacities are reserved at the start: a round allocates
     // nothing.
@@ -66,7 +69,6 @@ struct Scheduler::Impl {
     std::vector<Entry*> batch;                       ///< of `ready`, those that step
     std::vector<StepInput> inputs;
     std::vector<StepOutput> outputs;
-    std::chrono::duration<double> due_time{};  ///< spent on what was due, since `load_at`
     bool in_on_done = false;  ///< inside the OnDone of a job that has just left its slot
     Entry* heir = nullptr;    ///< submitted from inside that OnDone
   };
@@ -112,7 +114,6 @@ struct Scheduler::Impl {
   void CountOut();
   Entry* NextToPark(const Worker& worker) const;
   void CollectSuspects(Worker* worker);
-  void FoldLoad(Worker* worker, Clock::time_point now) const;
   /// What follows does not.
   void PassSlotOn(Worker* worker, const Entry& left);
   void LookAtSuspects(Worker* worker);
@@ -130,12 +131,16 @@ struct Scheduler::Impl {
   bool Admit(Worker* worker, Entry* entry);
   static int AdmitToEngine(Worker* worker, const TransitionSpec& spec);
   void Leave(Worker* worker, Entry* entry, const Error* failure);
+  static void FreeSlot(Worker* worker, Entry* entry);
 
   /// Earliest deadline first, then in order of submission.
   static bool GoesFirst(const Entry* a, const Entry* b) {
     return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
   }
   static double DeadlineOf(const StepJob& job);
+  /// What it has to be compared with now. A group's frame is never overdue, a dance's is: so that
+  /// is made first.
+  static double DeadlineAt(const Entry& entry, Clock::time_point now);
   /// Whether a dance's listener waits for the job's next frame. Nobody does for those of groups.
   static bool IsDue(const Entry& entry, Clock::time_point now);
   /// Stats of the frame that was made at `now`, before its job takes it.

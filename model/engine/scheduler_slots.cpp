@@ -7,8 +7,9 @@
 namespace choreo {
 namespace {
 
-/// Stats::load looks back this far.
-constexpr double kLoadSeconds = 2;
+double Seconds(std::chrono::steady_clock::time_point time) {
+  return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
 
 }  // namespace
 
@@ -17,18 +18,19 @@ double Scheduler::Impl::DeadlineOf(const StepJob& job) {
   return std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline;
 }
 
+double Scheduler::Impl::DeadlineAt(const Entry& entry, Clock::time_point now) {
+  const double deadline = DeadlineOf(*entry.job);
+  return entry.of_group ? std::max(deadline, Seconds(now)) : deadline;
+}
+
 bool Scheduler::Impl::IsDue(const Entry& entry, Clock::time_point now) {
-  return !entry.of_group &&
-         DeadlineOf(*entry.job) <= std::chrono::duration<double>(now.time_since_epoch()).count();
+  return !entry.of_group && DeadlineOf(*entry.job) <= Seconds(now);
 }
 
 void Scheduler::Impl::CountLateness(const Entry& entry, Clock::time_point now) {
   if (entry.of_group) return;
-  const auto seconds = [](Clock::time_point time) {
-    return std::chrono::duration<double>(time.time_since_epoch()).count();
-  };
-  const double due = std::max(DeadlineOf(*entry.job), seconds(entry.awake_at));
-  lateness_seconds.Add(std::max(0.0, seconds(now) - due));
+  const double due = std::max(DeadlineOf(*entry.job), Seconds(entry.awake_at));
+  lateness_seconds.Add(std::max(0.0, Seconds(now) - due));
 }
 
 Scheduler::Impl::Worker* Scheduler::Impl::MostFreeWorker() {
@@ -228,8 +230,7 @@ void Scheduler::Impl::ParkSleepers(Worker* worker) {
       GiveSlot(next, worker);
       worker->arrivals.push_back(next);
     }
-    worker->engine->Release(std::exchange(sleeper->slot, -1));
-    std::erase(worker->active, sleeper);
+    FreeSlot(worker, sleeper);
     sleeper->asleep = false;
     sleeper->restarts = true;
     std::lock_guard lock(mutex);
@@ -245,16 +246,6 @@ void Scheduler::Impl::EndWaiting(std::unique_ptr<Entry> entry, const Error& fail
   entry.reset();
   std::lock_guard lock(mutex);
   CountOut();
-}
-
-void Scheduler::Impl::FoldLoad(Worker* worker, Clock::time_point now) const {
-  const double passed = std::chrono::duration<double>(now - worker->load_at).count();
-  worker->load *= std::exp(-passed / kLoadSeconds);
-  if (worker == current) {
-    const double spent = std::exchange(worker->due_time, {}).count();
-    worker->load = std::min(1.0, worker->load + spent / kLoadSeconds);
-  }
-  worker->load_at = now;
 }
 
 }  // namespace choreo

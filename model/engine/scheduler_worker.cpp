@@ -46,7 +46,6 @@ void Scheduler::Impl::Run(Worker* worker) {
 // end.
 bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
   std::unique_lock lock(mutex);
-  FoldLoad(worker, Clock::now());
   for (;;) {
     worker->arrivals.insert(worker->arrivals.end(), worker->inbox.begin(), worker->inbox.end());
     worker->inbox.clear();
@@ -98,7 +97,8 @@ void Scheduler::Impl::EndEverything(Worker* worker) {
 
 void Scheduler::Impl::AdmitArrivals(Worker* worker) {
   for (int admitted = 0; admitted < options.max_admissions && !worker->arrivals.empty();) {
-    for (Entry* entry : worker->arrivals) entry->deadline = DeadlineOf(*entry->job);
+    const Clock::time_point now = Clock::now();
+    for (Entry* entry : worker->arrivals) entry->deadline = DeadlineAt(*entry, now);
     const auto first = std::ranges::min_element(worker->arrivals, GoesFirst);
     Entry* entry = *first;
     worker->arrivals.erase(first);
@@ -119,8 +119,13 @@ void Scheduler::Impl::GatherBatch(Worker* worker) {
     if (!entry->asleep) worker->ready.push_back(entry);
     ++i;
   }
+  const Clock::time_point now = Clock::now();
+  const auto is_due = [now](const Entry* entry) { return IsDue(*entry, now); };
+  if (std::ranges::any_of(worker->ready, is_due)) {
+    std::erase_if(worker->ready, [](const Entry* entry) { return entry->of_group; });
+  }
   if (worker->ready.size() > limit) {
-    for (Entry* entry : worker->ready) entry->deadline = DeadlineOf(*entry->job);
+    for (Entry* entry : worker->ready) entry->deadline = DeadlineAt(*entry, now);
     std::ranges::sort(worker->ready, GoesFirst);
   }
   worker->batch.clear();
@@ -158,16 +163,16 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
   }
   worker->failures.store(0, std::memory_order_relaxed);
   const Clock::time_point end = Clock::now();
-  const auto due = std::ranges::count_if(worker->batch,
-                                         [end](const Entry* entry) { return IsDue(*entry, end); });
-  worker->due_time += (end - begin) * (static_cast<double>(due) / static_cast<double>(size));
-  step_seconds.Add(std::chrono::duration<double>(end - begin).count());
+  const double took = std::chrono::duration<double>(end - begin).count();
+  worker->cost->AddStep(static_cast<int>(size), took);
+  step_seconds.Add(took);
   batch_sizes.Add(static_cast<double>(size));
   steps.fetch_add(1, std::memory_order_relaxed);
   frames.fetch_add(size, std::memory_order_relaxed);
   for (size_t i = 0; i < size; ++i) {
     Entry* entry = worker->batch[i];
     entry->moved_at = end;
+    ++entry->frames;
     CountLateness(*entry, end);
     try {
       if (!entry->job->OnFrame(worker->outputs[i])) Leave(worker, entry, nullptr);
@@ -189,8 +194,9 @@ bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
     const Clock::time_point begin = Clock::now();
     entry->slot = AdmitToEngine(worker, spec);
     entry->moved_at = Clock::now();
-    admission_seconds.Add(std::chrono::duration<double>(entry->moved_at - begin).count());
-    if (IsDue(*entry, entry->moved_at)) worker->due_time += entry->moved_at - begin;
+    entry->admission_s = std::chrono::duration<double>(entry->moved_at - begin).count();
+    entry->frames = 0;
+    admission_seconds.Add(entry->admission_s);
     entry->asleep = false;
     entry->awake_at = begin;
     worker->active.push_back(entry);
@@ -215,12 +221,15 @@ int Scheduler::Impl::AdmitToEngine(Worker* worker, const TransitionSpec& spec) {
   }
 }
 
+void Scheduler::Impl::FreeSlot(Worker* worker, Entry* entry) {
+  worker->engine->Release(std::exchange(entry->slot, -1));
+  std::erase(worker->active, entry);
+  worker->cost->AddTransition(entry->admission_s, entry->frames);
+}
+
 // Frees a job's slot, tells the job, and passes the slot on.
 void Scheduler::Impl::Leave(Worker* worker, Entry* entry, const Error* failure) {
-  if (entry->slot >= 0) {
-    worker->engine->Release(entry->slot);
-    std::erase(worker->active, entry);
-  }
+  if (entry->slot >= 0) FreeSlot(worker, entry);
   std::unique_ptr<Entry> own;
   {
     std::lock_guard lock(mutex);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/engine/frame_cost.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
@@ -144,6 +145,13 @@ class StepEngine {
   virtual void Step(std::span<const StepInput> in, std::span<StepOutput> out) = 0;
   /// Frees a slot; at any time.
   virtual void Release(int slot) noexcept = 0;
+
+  /// What WarmUp has measured; nothing before.
+  const EngineCost& cost() const { return cost_; }
+  void set_cost(const EngineCost& cost) { cost_ = cost; }
+
+ private:
+  EngineCost cost_;
 };
 
 }  // namespace choreo

@@ -1,31 +1,70 @@
 #include "model/engine/warm_up.h"
 
 #include <algorithm>
-#include <array>
+#include <chrono>
+#include <functional>
+#include <vector>
 
 #include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
 
-constexpr int kFrames = 30;
+constexpr int kFrames = 60;  // of a transition: two seconds, as between two keys
+constexpr int kSteps = 12;   // of those
+constexpr int kTogether = 16;
 
-}  // namespace
+double SecondsOf(const std::function<void()>& action) {
+  const auto begin = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
-void WarmUp(StepEngine& engine) {
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+struct Measured {
+  double admission_s, step_s;  ///< medians
+};
+
+// As many transitions, step by step.
+Measured Dance(StepEngine& engine, int count) {
   const ModelInfo& model = engine.model();
   TransitionSpec spec;
   spec.frames = std::min(kFrames, model.max_transition_frames);
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
-  const int slot = engine.Admit(spec);
-  Pose previous;
-  for (int frame = 0; frame < spec.frames; ++frame) {
-    std::array<StepOutput, 1> out;
-    const StepInput in{.slot = slot, .previous = frame == 0 ? nullptr : &previous, .audio_row = {}};
-    engine.Step({&in, 1}, out);
-    previous = std::move(out[0].pose);
+  std::vector<double> admissions, steps;
+  std::vector<StepInput> in(static_cast<size_t>(count));
+  for (StepInput& input : in) {
+    admissions.push_back(SecondsOf([&] { input.slot = engine.Admit(spec); }));
   }
-  engine.Release(slot);
+  std::vector<StepOutput> out(in.size());
+  std::vector<Pose> previous(in.size());
+  for (int frame = 0; frame < std::min(kSteps, spec.frames); ++frame) {
+    steps.push_back(SecondsOf([&] { engine.Step(in, out); }));
+    for (size_t i = 0; i < in.size(); ++i) {
+      previous[i] = std::move(out[i].pose);
+      in[i].previous = &previous[i];
+    }
+  }
+  for (const StepInput& input : in) engine.Release(input.slot);
+  return {Median(admissions) / spec.frames, Median(steps)};
+}
+
+}  // namespace
+
+void WarmUp(StepEngine& engine) {
+  const int together = std::min({kTogether, engine.batch(), engine.free_slots()});
+  Dance(engine, 1);  // what is done once is not measured
+  const Measured one = Dance(engine, 1);
+  const Measured all = Dance(engine, together);
+  engine.set_cost({.admission = all.admission_s,
+                   .alone = one.step_s,
+                   .together = all.step_s,
+                   .slots = together});
 }
 
 }  // namespace choreo

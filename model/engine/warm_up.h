@@ -4,8 +4,9 @@
 
 namespace choreo {
 
-/// Dances one short transition in a free slot of `engine`, and forgets it: whatever is set up when
-/// it is first used is there when the first client comes. Throws what the engine throws.
+/// Dances short transitions in free slots of `engine`, alone and together, and forgets them:
+/// whatever is set up when it is first used is there when the first client comes, and the engine's
+/// cost() is known. Throws what the engine throws.
 void WarmUp(StepEngine& engine);
 
 }  // namespace choreo

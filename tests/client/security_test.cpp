@@ -335,7 +335,7 @@ TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {
   ExpectError(ErrorCode::kInvalidArgument, "visible ASCII",
               [&] { Client(options).GetServerInfo(); });
   options.token_file = "/absent";
-  ExpectError(ErrorCode::kNotFound, "/absent", [&] { Client(options).GetServerInfo(); });
+  ExpectError(ErrorCode::kInvalidArgument, "/absent", [&] { Client(options).GetServerInfo(); });
 }
 
 }  // namespace

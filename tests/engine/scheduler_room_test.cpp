@@ -8,6 +8,7 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::UnorderedElementsAre;
 
 // Who sleeps in the only slot makes room, and is danced anew, frame by frame as alone.
 TEST_F(SchedulerTest, WhoSleepsHoldsUpNobodyAndLosesNoBit) {
@@ -126,32 +127,57 @@ TEST_F(SchedulerTest, FailuresInARowAreCounted) {
   EXPECT_EQ(scheduler_->stats().failures, 0);
 }
 
-TEST_F(SchedulerTest, WhatIsDueIsLoadAndWhatIsDoneAheadIsNot) {
-  Start(1);
-  EXPECT_EQ(scheduler_->stats().load, 0);
-  gate_.Close();
-  auto ahead = Job(1, 2);
+// A dance whose next frame is due is stepped without the groups beside it; one that is ahead of its
+// music is not.
+TEST_F(SchedulerTest, GroupsYieldToDancesThatAreDue) {
+  Start(4);
+  HoldWorker();
+  auto group = Job(1, 2);
+  scheduler_->SubmitGroup({group});
+  auto due = SubmitJob(2, 2);
+  auto ahead = Job(3, 3);
   ahead->deadline = 1e12;
   scheduler_->Submit(ahead);
-  ASSERT_TRUE(gate_.WaitSteps(1));
-  std::this_thread::sleep_for(milliseconds(50));
-  ASSERT_TRUE(gate_.PassOne());
-  const double before = scheduler_->stats().load;
-  std::this_thread::sleep_for(milliseconds(50));
   gate_.Open();
-  ASSERT_TRUE(ahead->WaitDone());
-  auto due = Job(2, 1);
-  gate_.Close();
+  for (const auto& job : {group, due, ahead}) ASSERT_TRUE(job->WaitDone());
+  EXPECT_THAT(gate_.steps(),
+              ElementsAre(ElementsAre(99), UnorderedElementsAre(2, 3), UnorderedElementsAre(2, 3),
+                          UnorderedElementsAre(1, 3), ElementsAre(1)));
+}
+
+TEST_F(SchedulerTest, DancesThatAreDueAreAdmittedBeforeGroups) {
+  admissions_ = 1;
+  Start(4);
+  HoldWorker();
+  std::vector<std::shared_ptr<StepJob>> group = {Job(1, 5), Job(2, 5)};
+  scheduler_->SubmitGroup(group);
+  auto due = Job(3, 1);
+  due->deadline = 1;  // later than the group's, and long past
   scheduler_->Submit(due);
-  ASSERT_TRUE(gate_.WaitSteps(3));
-  std::this_thread::sleep_for(milliseconds(50));
   gate_.Open();
   ASSERT_TRUE(due->WaitDone());
-  ASSERT_TRUE(scheduler_->WaitUntilIdle(kLong));
-  auto last = SubmitJob(3, 1);  // its round tells what the one before took
-  ASSERT_TRUE(last->WaitDone());
-  EXPECT_LT(before, 0.01);
-  EXPECT_GT(scheduler_->stats().load, 0.01);
+  EXPECT_THAT(gate_.steps()[1], ElementsAre(3));
+}
+
+// Two engines share what comes.
+TEST(SchedulerLoadTest, FollowsFromWhatTheWarmUpMeasured) {
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  for (int i = 0; i < 2; ++i) {
+    engines.push_back(std::make_unique<FakeEngine>(64));
+    engines.back()->set_cost({.admission = 1e-3, .alone = 2e-3, .together = 5e-3, .slots = 4});
+  }
+  const Scheduler scheduler(std::move(engines), {});
+  EXPECT_EQ(scheduler.LoadOf(0), 0);
+  EXPECT_NEAR(scheduler.LoadOf(30), 0.5 * 30 * (2e-3 + 1e-3), 1e-9);
+  EXPECT_NEAR(scheduler.LoadOf(8 * 30), 30 * (5e-3 + 4 * 1e-3), 1e-9);
+  const Scheduler unknown(
+      [] {
+        std::vector<std::unique_ptr<StepEngine>> one;
+        one.push_back(std::make_unique<FakeEngine>());
+        return one;
+      }(),
+      {});
+  EXPECT_EQ(unknown.LoadOf(1e6), 0);
 }
 
 }  // namespace

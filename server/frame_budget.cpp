@@ -1,0 +1,80 @@
+#include "server/frame_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+/// Within so many seconds a transition's frames are to be made, if it can be done.
+constexpr double kTransitionSeconds = 10;
+
+std::string Percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+
+}  // namespace
+
+void FrameBudget::TakeDance(const void* call, const Scheduler& model, const std::string& address) {
+  Take(call, {&model, address, model.model().fps});
+}
+
+void FrameBudget::TakeTransition(const void* call, const Scheduler& model,
+                                 const std::string& address, int frames) {
+  double frames_per_second = frames / kTransitionSeconds;
+  const double most = std::min(shares_.of_all, shares_.of_peer) / 2;
+  const double load = model.LoadOf(frames_per_second);
+  if (load > most) frames_per_second *= most / load;
+  Take(call, {&model, address, frames_per_second});
+}
+
+void FrameBudget::Take(const void* call, Charge charge) {
+  const std::lock_guard lock(mutex_);
+  const auto require = [&](const std::string* address, double most) {
+    const double taken = Load(nullptr, address);
+    const double load = Load(&charge, address);
+    if (taken == 0 || load <= most) return;
+    throw Error(ErrorCode::kResourceExhausted, "",
+                "the engines are busy: " + (address ? *address + " has " : "calls have ") +
+                    Percent(taken) + " of their time, with this one it would be " + Percent(load) +
+                    ", of at most " + Percent(most) + (address ? " for one address" : ""));
+  };
+  if (shares_.of_all <= 1) {
+    require(nullptr, shares_.of_all);
+    require(&charge.address, shares_.of_peer);
+  }
+  charges_.emplace(call, std::move(charge));
+}
+
+void FrameBudget::GiveBack(const void* call) noexcept {
+  const std::lock_guard lock(mutex_);
+  charges_.erase(call);
+}
+
+double FrameBudget::load(const Scheduler& model) const {
+  const std::lock_guard lock(mutex_);
+  return model.LoadOf(FramesOf(model, nullptr));
+}
+
+double FrameBudget::Load(const Charge* more, const std::string* address) const {
+  double load = 0;
+  for (const auto& model : models_) {
+    double frames = FramesOf(*model, address);
+    if (more && more->model == model.get()) frames += more->frames_per_second;
+    load += model->LoadOf(frames);
+  }
+  return load;
+}
+
+double FrameBudget::FramesOf(const Scheduler& model, const std::string* address) const {
+  double frames = 0;
+  for (const auto& [call, charge] : charges_) {
+    if (charge.model == &model && (!address || charge.address == *address)) {
+      frames += charge.frames_per_second;
+    }
+  }
+  return frames;
+}
+
+}  // namespace choreo

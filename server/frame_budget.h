@@ -1,0 +1,62 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "model/engine/scheduler.h"
+
+namespace choreo {
+
+/// How much of the engines' time there is to promise.
+struct FrameShares {
+  double of_all = 0.9;   ///< to all calls together; the rest is for what is not measured
+  double of_peer = 0.9;  ///< to those of one address
+};
+
+/// The engines' time, promised to calls as they come: each is charged with the frames that it will
+/// take, at what frames cost now (Scheduler::LoadOf), until it gives them back. So a crowd that
+/// comes at once is served as far as the engines can, and the rest is told so before it begins.
+/// Models share the devices, so the times of all are one. Thread-safe.
+class FrameBudget {
+ public:
+  /// The models outlive it.
+  FrameBudget(const std::vector<std::unique_ptr<Scheduler>>& models, const FrameShares& shares)
+      : models_(models), shares_(shares) {}
+
+  /// A dance: it goes on as fast as it is played, whenever its music comes. Throws
+  /// Error(kResourceExhausted) where that is more than is left. Who is alone is always taken: slow
+  /// engines serve one at a time. Once for each call, named by any address that is its own.
+  void TakeDance(const void* call, const Scheduler& model, const std::string& address);
+  /// A transition of so many frames, candidates counted; as often as it asks to be made. It is
+  /// charged with half of all time at most, however long it is: it yields to dances anyway.
+  void TakeTransition(const void* call, const Scheduler& model, const std::string& address,
+                      int frames);
+  /// Also for calls that took nothing.
+  void GiveBack(const void* call) noexcept;
+
+  /// The share of the engines' time that is promised of this model.
+  double load(const Scheduler& model) const;
+  const FrameShares& shares() const { return shares_; }
+
+ private:
+  struct Charge {
+    const Scheduler* model;
+    std::string address;
+    double frames_per_second;
+  };
+
+  void Take(const void* call, Charge charge);
+  // With mutex_ held: of all models, or of calls from one address.
+  double Load(const Charge* more, const std::string* address) const;
+  double FramesOf(const Scheduler& model, const std::string* address) const;
+
+  const std::vector<std::unique_ptr<Scheduler>>& models_;
+  const FrameShares shares_;
+  mutable std::mutex mutex_;
+  std::map<const void*, Charge> charges_;  // by call. Lock: mutex_
+};
+
+}  // namespace choreo

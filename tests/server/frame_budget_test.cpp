@@ -1,0 +1,95 @@
+#include "server/frame_budget.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/expect_error.h"
+#include "tests/support/fake_engine.h"
+
+namespace choreo {
+namespace {
+
+/// Two models on one engine each, of which each has time for 20 dances: 10 of both.
+class FrameBudgetTest : public ::testing::Test {
+ protected:
+  FrameBudgetTest() {
+    for (int i = 0; i < 2; ++i) {
+      std::vector<std::unique_ptr<StepEngine>> engines;
+      engines.push_back(std::make_unique<FakeEngine>());
+      engines.back()->set_cost({.alone = 1.0 / 600, .together = 2.0 / 600, .slots = 2});
+      models.push_back(std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{}));
+    }
+  }
+
+  // How many dances are taken one after the other, from one address.
+  static int TakeDances(FrameBudget& budget, const Scheduler& model, const std::string& address,
+                        const char* calls) {
+    for (int taken = 0;; ++taken) {
+      try {
+        budget.TakeDance(calls + taken, model, address);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kResourceExhausted);
+        return taken;
+      }
+    }
+  }
+
+  std::vector<std::unique_ptr<Scheduler>> models;
+  const char calls[200] = {};  // whose addresses name calls
+};
+
+TEST_F(FrameBudgetTest, ACrowdIsTakenAsFarAsTheEnginesHold) {
+  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.9});
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 18);
+  EXPECT_NEAR(budget.load(*models[0]), 0.9, 1e-9);
+  budget.GiveBack(&calls[3]);
+  budget.GiveBack(&calls[3]);
+  budget.TakeDance(&calls[100], *models[0], "a");
+  EXPECT_THROW(budget.TakeDance(&calls[101], *models[0], "a"), Error);
+}
+
+TEST_F(FrameBudgetTest, ModelsShareTheTime) {
+  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.9});
+  for (int i = 0; i < 9; ++i) budget.TakeDance(&calls[i], *models[0], "a");
+  EXPECT_EQ(TakeDances(budget, *models[1], "a", calls + 100), 9);
+}
+
+TEST_F(FrameBudgetTest, OneAddressDoesNotTakeItAll) {
+  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.45});
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
+  ExpectError(ErrorCode::kResourceExhausted,
+              "a has 45 % of their time, with this one it would be 50 %, of at most 45 %",
+              [&] { budget.TakeDance(&calls[99], *models[0], "a"); });
+  EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 9);
+}
+
+TEST_F(FrameBudgetTest, TransitionsAreChargedWithTheirFramesAndWithHalfAtMost) {
+  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.9});
+  budget.TakeTransition(&calls[0], *models[0], "a", 600);  // as two dances for ten seconds
+  EXPECT_NEAR(budget.load(*models[0]), 0.1, 1e-9);
+  budget.TakeTransition(&calls[1], *models[0], "a", 1'000'000);
+  EXPECT_NEAR(budget.load(*models[0]), 0.55, 1e-9);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 7);
+  EXPECT_THROW(budget.TakeTransition(&calls[2], *models[0], "a", 1'000'000), Error);
+}
+
+TEST_F(FrameBudgetTest, WhoIsAloneIsTakenHoweverSlowTheEnginesAre) {
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  engines.push_back(std::make_unique<FakeEngine>());
+  engines.back()->set_cost({.alone = 1, .together = 1, .slots = 1});
+  models.push_back(std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{}));
+  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.8});
+  EXPECT_EQ(TakeDances(budget, *models[2], "a", calls), 1);
+  EXPECT_THROW(budget.TakeDance(&calls[99], *models[0], "b"), Error);
+  budget.GiveBack(&calls[0]);
+  EXPECT_EQ(TakeDances(budget, *models[2], "b", calls), 1);
+}
+
+TEST_F(FrameBudgetTest, AboveOneNobodyIsRefused) {
+  FrameBudget budget(models, {.of_all = 1.1, .of_peer = 1.1});
+  for (const char& call : calls) budget.TakeDance(&call, *models[0], "a");
+  EXPECT_NEAR(budget.load(*models[0]), 10, 1e-9);
+}
+
+}  // namespace
+}  // namespace choreo
