@@ -1,6 +1,7 @@
 #include "client/cli/json_fields.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
@@ -115,7 +116,17 @@ std::string ReadText(const std::filesystem::path& path, const std::string& kind)
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::array<char, 1 << 16> piece;
+  do {
+    file.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<size_t>(file.gcount()));
+    if (text.size() > kMostText) {
+      throw InvalidArgument(path.string(),
+                            "is larger than " + std::to_string(kMostText >> 20) + " MiB");
+    }
+  } while (file);
+  return text;
 }
 
 json ParseJson(std::string_view text, const std::string& name) {

@@ -30,8 +30,11 @@ std::string Shown(const nlohmann::json& value);
 
 double JsonNumber(const nlohmann::json& value, const std::string& field);
 
+/// More bytes than any text has that people write.
+inline constexpr size_t kMostText = size_t{64} << 20;
+
 /// The text of a file. Throws Error(kNotFound) where it cannot be opened; `kind` is what it should
-/// have been, "key file".
+/// have been, "key file". Error(kInvalidArgument) for a folder, and for more than kMostText.
 std::string ReadText(const std::filesystem::path& path, const std::string& kind);
 
 /// A text as JSON. Where it is no JSON, and for a member that is there twice, the

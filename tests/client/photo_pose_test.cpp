@@ -213,6 +213,8 @@ TEST_F(PhotoPoseTest, WhatCannotBeIsNamed) {
   no_pose({{"pose", std::vector<double>(216, 1)}}, "joint 0: is no rotation matrix");
   no_pose({{"pose", {"a"}}}, "s.json:pose[0]: \"a\" is not a number");
   no_pose({{"betas", 0}}, "s.json:pose: is missing");
+  ExpectError(ErrorCode::kInvalidArgument, "/dev/zero: is larger than 64 MiB",
+              [] { ReadLandmarkPose("/dev/zero", Body()); });
   ExpectError(ErrorCode::kNotFound, "none.json", [&] { ReadSmplPose(At("none.json"), Body()); });
   std::ofstream(folder_ / "p.pkl") << "\x80\x04K\x01.";
   ExpectError(ErrorCode::kInvalidArgument, "p.pkl", [&] { ReadSmplPose(At("p.pkl"), Body()); });
