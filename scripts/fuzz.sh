@@ -13,8 +13,8 @@ shift 2
 
 fuzz() {
   local target=$1 leaks=1
-  # The server's threads free what calls took a little later.
-  [[ $target != stream_dance && $target != generate_transition ]] || leaks=0
+  # The server's threads free what calls took a little later; libsndfile loses 6 KB of some damaged Oggs.
+  [[ ! $target =~ ^(stream_dance|generate_transition|audio)$ ]] || leaks=0
   local out=$root/out/fuzz/$target found=none
   mkdir -p "$out/corpus"
   (cd "$out" && "$bin/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=1024 -max_len=8192 \
@@ -27,4 +27,4 @@ fuzz() {
 }
 export -f fuzz
 export bin root seconds
-printf '%s\n' "$@" | xargs -P "${JOBS:-$(nproc)}" -I TARGET nice -n 5 bash -c 'fuzz TARGET'
+printf '%s\n' "$@" | xargs -P "${JOBS:-$(env -u OMP_NUM_THREADS nproc)}" -I TARGET nice -n 5 bash -c 'fuzz TARGET'

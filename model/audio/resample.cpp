@@ -86,8 +86,13 @@ double DotBaseline(const double* a, const double* b, size_t size) {
 [[gnu::target("avx2")]] double DotAvx2(const double* a, const double* b, size_t size) {
   return SumOfProducts(a, b, size);
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] double DotAvx512(const double* a,
-                                                                    const double* b, size_t size) {
+#if defined(__clang__)  // which knows no preferred width
+[[gnu::target("avx512f")]]
+#else
+[[gnu::target("avx512f,prefer-vector-width=512")]]
+#endif
+double
+DotAvx512(const double* a, const double* b, size_t size) {
   return SumOfProducts(a, b, size);
 }
 #endif

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model/core/error.h"
+#include "model/core/json_numbers.h"
 #include "model/core/safetensors.h"
 #include "model/motion/skeleton.h"
 
@@ -28,7 +29,9 @@ class CheckpointFile {
   template <typename Value>
   Value Get(const std::string& key) const {
     try {
-      return nlohmann::json::parse(Text(key)).get<Value>();
+      const auto json = nlohmann::json::parse(Text(key));
+      CheckJsonNumbers(json, name_ + ": its '" + key + "'");
+      return json.get<Value>();
     } catch (const nlohmann::json::exception& error) {
       throw InvalidArgument(name_, "its '" + key + "' can't be read: " + error.what());
     }

@@ -14,6 +14,7 @@ namespace {
 constexpr double kSparseRate = 20;  // keys a second below which they are no frames
 constexpr double kDefaultRate = 30;
 constexpr double kMaxFrames = 1e6;
+constexpr double kMaxPlaces = 3e7;  // of nodes in frames: a gigabyte, whatever a small file claims
 
 }  // namespace
 
@@ -170,6 +171,11 @@ void GltfScene::ChooseTimes(const tinygltf::Animation& animation) {
     throw InvalidArgument("animations[0]", std::to_string(end - start_) + " s at " +
                                                std::to_string(fps_) +
                                                " fps, at most 1000000 frames are read");
+  }
+  if (frames * static_cast<double>(names_.size()) > kMaxPlaces) {
+    throw InvalidArgument("nodes", std::to_string(names_.size()) + " in " +
+                                       std::to_string(static_cast<int64_t>(frames)) +
+                                       " frames, at most 30000000 places are read");
   }
   frames_ = static_cast<int64_t>(frames);
 }

@@ -195,7 +195,11 @@ class Unpickler {
     npy.append(reinterpret_cast<const char*>(&size), sizeof size) += header + values->text;
     array->array = ParseNpy(std::as_bytes(std::span(npy)), name_);
   }
-  static int64_t Integer(const Ref& number) { return number->array->As<int64_t>()[0]; }
+  int64_t Integer(const Ref& number) const {
+    const auto* whole = std::get_if<std::vector<int64_t>>(&number->array->values);
+    if (whole == nullptr) Refuse("a number that is not whole");
+    return (*whole)[0];
+  }
 
   std::string Latin1(std::string_view utf8) const {
     std::string bytes;

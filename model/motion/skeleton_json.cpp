@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
+#include "model/core/json_numbers.h"
 
 namespace choreo {
 namespace {
@@ -59,7 +60,9 @@ std::string SkeletonToJson(const Skeleton& skeleton) {
 Skeleton SkeletonFromJson(const std::string& text) {
   Skeleton skeleton;
   try {
-    skeleton = Read(json::parse(text));
+    const json object = json::parse(text);
+    CheckJsonNumbers(object, "skeleton");
+    skeleton = Read(object);
   } catch (const json::exception& error) {
     throw InvalidArgument("skeleton", std::string("can't be read: ") + error.what());
   }

@@ -252,6 +252,10 @@ TEST_F(GltfTest, RefusesWhatItCannotRead) {
   refuse("has two parents", [](Glb& glb) { glb.document["nodes"][24]["children"] = {5}; });
   refuse("their own ancestors", [](Glb& glb) { glb.document["nodes"][10]["children"] = {0}; });
   refuse("extras.fps", [](Glb& glb) { glb.document["animations"][0]["extras"]["fps"] = 0; });
+  refuse("21025 in 1467 frames, at most 30000000 places", [](Glb& glb) {
+    glb.document["animations"][0]["extras"]["fps"] = 1000;
+    while (glb.document["nodes"].size() < 21'025) glb.document["nodes"].push_back({{"name", "a"}});
+  });
   refuse("is no binary glTF", [](Glb& glb) { glb.document["buffers"][0]["uri"] = "/etc/passwd"; });
   refuse("is no binary glTF", [](Glb& glb) { glb.document = "nothing"; });
   refuse("no joint named", [](Glb& glb) {

@@ -92,6 +92,11 @@ TEST(PickleTest, OnlyDictsOfArraysAndNumbers) {
   other.replace(other.find("\x8c\x01<"), 3, "\x8c\x01>");
   Refused(other, "not little-endian");
   other = whole;
+  const size_t extent = other.find("K\x03K\x04\x86");
+  ASSERT_NE(extent, std::string::npos);
+  other.replace(extent, 2, "G\xe1\x40\x40\x40\x40\x40\x40\x40");  // -4.7e160
+  Refused(other, "a number that is not whole");
+  other = whole;
   other.replace(other.find("f8"), 2, "c8");
   ExpectError(ErrorCode::kInvalidArgument, "a.pkl: values of type '<c8'", [&] { Parse(other); });
   ExpectError(ErrorCode::kNotFound, "nowhere.pkl",

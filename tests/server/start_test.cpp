@@ -3,7 +3,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
+#include "client/choreo_client.h"
+#include "client/cli/local_server.h"
 #include "model/core/safetensors.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/shell.h"
@@ -81,6 +84,45 @@ TEST_F(StartTest, WhatAModelDoesNotHeedIsSaid) {
   EXPECT_THAT(outcome.said, testing::HasSubstr("--kernels avx2: model \"default\" does not heed"));
   EXPECT_THAT(outcome.said, testing::HasSubstr("dances at once take"));
   EXPECT_EQ(outcome.code, 1) << "an address of nobody's was listened on";
+}
+
+// What was loaded is all that it needs: neither who dances nor who comes later notices.
+TEST_F(StartTest, ARunningServerOutlivesItsCheckpoint) {
+  ::setenv("CHOREO_CHECKPOINT", path_.c_str(), 1);
+  cli::LocalServer server(CHOREOD_PROGRAM);
+  ::unsetenv("CHOREO_CHECKPOINT");
+  const client::Client client({.addresses = {server.address()}});
+  const auto dance = [&](const std::function<void()>& between) {
+    constexpr int64_t kFrames = 300, kFirst = 30;
+    const auto one = client.StartDance({.seed = 1, .frames = kFrames, .generate_until = 0});
+    one->GenerateUntil(kFirst);
+    std::vector<Pose> poses;
+    while (const std::optional<client::Message> message = one->Next()) {
+      const auto* block = std::get_if<client::FrameBlock>(&*message);
+      if (block == nullptr) continue;
+      poses.insert(poses.end(), block->poses.begin(), block->poses.end());
+      if (std::ssize(poses) != kFirst) continue;
+      between();
+      one->CompleteKeys();
+    }
+    EXPECT_EQ(std::ssize(poses), kFrames);
+    return poses;
+  };
+  const auto nothing = [] {};
+  const std::vector<Pose> wanted = dance(nothing);
+  const auto expect_same = [&](const std::vector<Pose>& poses) {
+    ASSERT_EQ(poses.size(), wanted.size());
+    for (size_t i = 0; i < poses.size(); ++i) {
+      ASSERT_EQ(poses[i].root_position, wanted[i].root_position) << i;
+      ASSERT_EQ(poses[i].rotations, wanted[i].rotations) << i;
+    }
+  };
+  // In its place, so that who had it open would see it.
+  expect_same(dance([&] { std::ofstream(path_, std::ios::trunc) << "no checkpoint"; }));
+  expect_same(dance(nothing));
+  expect_same(dance([&] { std::filesystem::remove(path_); }));
+  expect_same(dance(nothing));
+  server.RequireRunning();
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+#include "model/core/json_numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/expect_error.h"
+
+namespace choreo {
+namespace {
+
+TEST(JsonNumbers, ThoseOfAnIntPassWhereverTheyStand) {
+  CheckJsonNumbers(nlohmann::json::parse(R"({"a": [1, -2147483647, 0.5, {"b": 2147483647}]})"), "");
+  CheckJsonNumbers(nlohmann::json::parse(R"(["9e9", null, true])"), "");
+}
+
+TEST(JsonNumbers, LargerOnesAreRefusedByName) {
+  for (const char* number : {"9e9", "-9e9", "2147483648", "18446744073709551615", "1e308"}) {
+    const auto json = nlohmann::json::parse("{\"a\": [{\"b\": " + std::string(number) + "}]}");
+    ExpectError(ErrorCode::kInvalidArgument, "skeleton: the number ",
+                [&] { CheckJsonNumbers(json, "skeleton"); });
+  }
+}
+
+TEST(JsonNumbers, NestedDeeperThanAnybodyWritesIsRefused) {
+  const auto json = nlohmann::json::parse(std::string(100'000, '[') + std::string(100'000, ']'));
+  ExpectError(ErrorCode::kInvalidArgument, "more than 16 levels",
+              [&] { CheckJsonNumbers(json, "skeleton"); });
+}
+
+}  // namespace
+}  // namespace choreo
