@@ -17,7 +17,7 @@ fuzz() {
   [[ ! $target =~ ^(stream_dance|generate_transition|audio)$ ]] || leaks=0
   local out=$root/out/fuzz/$target found=none
   mkdir -p "$out/corpus"
-  (cd "$out" && "$bin/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=1024 -max_len=8192 \
+  (cd "$out" && ASAN_OPTIONS=detect_leaks=$leaks "$bin/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=1024 -max_len=8192 \
     -detect_leaks=$leaks -print_final_stats=1 corpus "$root/tests/fuzz/corpus/$target") >"$out/log" 2>&1 || found="see $out/log"
   local executions edges
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$out/log")
