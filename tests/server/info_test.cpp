@@ -76,7 +76,7 @@ TEST_F(InfoTest, TellsModelLimitsAndDevices) {
   ASSERT_EQ(info.devices_size(), 1);
   EXPECT_EQ(info.devices(0), "fake:0");
   EXPECT_EQ(info.slots(), 5);
-  EXPECT_EQ(info.version(), "0.1.0");
+  EXPECT_EQ(info.version(), "0.2.0");
 }
 
 class BriefEngine : public FakeEngine {
