@@ -119,7 +119,7 @@ class Figures final : public prometheus::Collectable {
     for (const auto& model : serving_.models) {
       std::vector<std::string> devices = model->devices();
       std::ranges::sort(devices);
-      devices.erase(std::ranges::unique(devices).begin(), devices.end());
+      devices.erase(std::unique(devices.begin(), devices.end()), devices.end());
       for (const std::string& device : devices) {
         out.Add(1, {{"model", model->model().name},
                     {"fingerprint", model->model().fingerprint},
