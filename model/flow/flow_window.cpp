@@ -13,6 +13,8 @@ namespace {
 // Radians from the mean that coordinates reach: with a key, less than the half turn at which the
 // other way round is nearer; without one, less than the whole turn at which they are singular.
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
+// Times a velocity's spread: a history that is faster was forced by a key, and does not go on so.
+constexpr double kFastest = 8;
 
 }  // namespace
 
@@ -48,6 +50,9 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   for (int p = 0; p < MotionPrior::kPast && p + 1 < tau; ++p) {
     velocity.col(p) = history_.col(tau - 1 - p) - history_.col(tau - 2 - p);
   }
+  const Eigen::ArrayXd fastest = kFastest * prior.VelocitySpread().array();
+  for (int p = 0; p < MotionPrior::kPast; ++p)
+    velocity.col(p) = velocity.col(p).array().min(fastest).max(-fastest);
   if (request.key) {
     const Pose& key = *request.key;
     const PoseMask& mask = request.mask;

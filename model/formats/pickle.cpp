@@ -13,6 +13,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "model/core/error.h"
@@ -196,9 +198,14 @@ class Unpickler {
     array->array = ParseNpy(std::as_bytes(std::span(npy)), name_);
   }
   int64_t Integer(const Ref& number) const {
-    const auto* whole = std::get_if<std::vector<int64_t>>(&number->array->values);
-    if (whole == nullptr) Refuse("a number that is not whole");
-    return (*whole)[0];
+    return std::visit(
+        [this](const auto& values) -> int64_t {
+          if constexpr (std::is_integral_v<std::decay_t<decltype(values[0])>>)
+            return values[0];
+          else
+            Refuse("a number that is not whole");
+        },
+        number->array->values);
   }
 
   std::string Latin1(std::string_view utf8) const {

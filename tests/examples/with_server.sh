@@ -5,6 +5,6 @@ set -euo pipefail
 exec 3< <(exec "$1" --listen 127.0.0.1:0)
 server=$!
 trap 'kill "$server"; wait "$server" || true' EXIT
-read -r line <&3 # "choreod listens on HOST:PORT"
+until [[ ${line:-} == *"listens on "* ]]; do read -r line <&3; done # "choreod listens on HOST:PORT", behind what it logs
 export CHOREO_SERVER=${line##* }
 "${@:2}"

@@ -102,6 +102,20 @@ TEST(FlowWindow, ItsMeanIsTheKeyInItsLastFrameAndLeavesWhatTheKeyLeavesOpen) {
   EXPECT_GT((reached.rotations.col(4) - scene.request.key->rotations.col(4)).norm(), 0.02);
 }
 
+// Keys too far away in time force any speed; what follows must not be faster still.
+TEST(FlowWindow, AHistoryFasterThanAnyDancerDoesNotGoOnSo) {
+  Scene scene = MakeScene(30);
+  scene.request.key.reset();
+  const auto carried = [&](double speed) {
+    for (int i = 0; i < kTau; ++i)
+      scene.request.history[static_cast<size_t>(i)].root_position.x() = speed * (i + 1 - kTau);
+    return FlowWindow(Parts().prior, scene.request).mean()(0, 29);
+  };
+  const double spread = std::sqrt(1e-4);
+  EXPECT_NEAR(carried(4 * spread), 2 * carried(2 * spread), 1e-9);
+  EXPECT_EQ(carried(100 * spread), carried(1000 * spread));
+}
+
 TEST(FlowWindow, ARootGoesTheWayRoundThatIsExpected) {
   const Eigen::Vector3d half(0, 3.0, 0);
   EXPECT_LT((NearerWayRound(half, {0, 1, 0}) - half).norm(), 1e-12);
