@@ -117,8 +117,10 @@ void Frames(benchmark::State& state, StepEngine& engine, int streams) {
 }
 
 /// Admissions of transitions of kFrames: all that is computed ahead.
-void Admissions(benchmark::State& state, StepEngine& engine) {
-  for (auto _ : state) engine.Release(engine.Admit(Spec(engine.model(), 1)));
+void Admissions(benchmark::State& state, StepEngine& engine, const std::vector<double>& beats) {
+  TransitionSpec spec = Spec(engine.model(), 1);
+  spec.beats = beats;
+  for (auto _ : state) engine.Release(engine.Admit(spec));
   state.SetItemsProcessed(state.iterations());
 }
 
@@ -218,7 +220,7 @@ void Register(Models* models) {
           [=](benchmark::State& state) { Frames(state, models->Engine(model, kind), streams); });
     }
     add("paper/admission/" + kind,
-        [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind)); });
+        [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind), {}); });
   }
   const int width = 3 + 3 * Skeleton::Smpl24().joints() + 3 + 4;
   for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
@@ -243,7 +245,10 @@ void Register(Models* models) {
   }
   for (const std::string& kind : kinds) {
     add("default/admission/" + kind,
-        [=](benchmark::State& state) { Admissions(state, models->Engine("default", kind)); });
+        [=](benchmark::State& state) { Admissions(state, models->Engine("default", kind), {}); });
+    add("default/to_beats/" + kind, [=](benchmark::State& state) {
+      Admissions(state, models->Engine("default", kind), {0, 15, 30, 45, 60});  // 120 a minute
+    });
   }
   for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
     add(std::string("default/") + (half ? "bare-bf16" : "bare"), [=](benchmark::State& state) {

@@ -31,8 +31,11 @@ def read_safetensors(path):
     tensors = {}
     for name, entry in header.items():
         begin, end = (8 + length + offset for offset in entry["data_offsets"])
-        values = numpy.frombuffer(data[begin:end], numpy.float32).reshape(entry["shape"])
-        tensors[name] = torch.from_numpy(values.copy())
+        if entry["dtype"] == "BF16":  # the upper half of a float32
+            values = (numpy.frombuffer(data[begin:end], numpy.uint16).astype(numpy.uint32) << 16).view(numpy.float32)
+        else:
+            values = numpy.frombuffer(data[begin:end], numpy.float32)
+        tensors[name] = torch.from_numpy(values.reshape(entry["shape"]).copy())
     return tensors, metadata
 
 

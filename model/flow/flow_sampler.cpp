@@ -81,6 +81,7 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
     return DescribeWindow(model.skeleton, model.config, model.prior, request, window);
   };
   const WindowFeatures features = describe();
+  // What the network says without beats, for guidance: nothing else reads them.
   const double guidance = request.beats.empty() ? 1 : model.config.beat_guidance;
   request.beats.clear();
   const std::optional<WindowFeatures> unheard =

@@ -38,8 +38,8 @@ void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vec
   }
 }
 
-// What is asked of a window of `frames` frames, the track's from `first` on. `history`
-// and `way`, to the key, stand in the canonical frame.
+// What is asked of a window of `frames` frames, the track's from `first` on. `history` and `way`,
+// which ends in the key, stand in the canonical frame.
 WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way, const ClipTrack& track,
                   int64_t first, bool mirrored, const WindowClips::Variation& variation, int frames,
                   Random* random) {

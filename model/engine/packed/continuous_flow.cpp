@@ -96,7 +96,8 @@ void PackedFlowNetwork::Normalise(const RowBuffer& x, const float* shift, const 
 
 void PackedFlowNetwork::Attend(const Block& block, long tokens, Workspace* work) const {
   const long panel = kernels_.panel, head = width_ / heads_;
-  const long key_panels = (tokens + panel - 1) / panel, value_panels = (head + panel - 1) / panel;
+  const long key_panels = RoundUp(tokens, panel) / panel;
+  const long value_panels = RoundUp(head, panel) / panel;
   const float scale = 1 / std::sqrt(static_cast<float>(head));
   work->keys.Resize(1, key_panels * panel * head);
   work->values.Resize(1, value_panels * panel * tokens);

@@ -36,10 +36,12 @@ class PackedFlowNetwork : public FlowNetwork {
 
   /// What is known of the whole window, embedded: [condition].
   Eigen::VectorXf Condition(const Eigen::VectorXf& whole, float t) const;
-  /// x += attention over time.
+  /// Attention over time, from `qkv` to `mixed`.
   void Attend(const Block& block, long tokens, Workspace* work) const;
+  /// One block: x += attention, x += perceptron, each weighed by the condition.
   void Transform(const Block& block, const Eigen::VectorXf& condition, long tokens,
                  Workspace* work) const;
+  /// out = normalised x times (1 + scale) + shift, row by row; both [width].
   void Normalise(const RowBuffer& x, const float* shift, const float* scale, long tokens,
                  RowBuffer* out) const;
 

@@ -3,13 +3,7 @@
 #   run.sh BUILD_DIRECTORY
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-bin=$(realpath "$1")/bin
-if ! command -v blender >/dev/null; then
-  echo "skipped: there is no Blender here (scripts/install_packages.sh blender)"
-  exit "${CHOREO_SKIP_CODE:-77}"
-fi
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+source "$here/../../support/blender.sh" "$1"
 (cd "$here/../../../examples/blender" && python3 -m zipfile -c "$scratch/choreo.zip" choreo)
 python3 - "$scratch/song.wav" <<'PYTHON'
 import math, struct, sys, wave

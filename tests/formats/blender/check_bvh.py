@@ -13,24 +13,15 @@ import bpy
 import io_anim_bvh.import_bvh
 import numpy
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "examples/blender/choreo"))
+from rig import HUMANIK, SMPL, UNREAL  # noqa: E402: a folder of Blender's add-ons, no package here
+
 # Debian 12's Blender 3.4 is older than its NumPy and its Python: its importers use names that these have no more.
 numpy.bool = bool
 io_anim_bvh.import_bvh.open = lambda path, mode: open(path, mode.replace("U", ""))
 
 FOLDER = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
-JOINTS = (
-    "pelvis left_hip right_hip spine1 left_knee right_knee spine2 left_ankle right_ankle spine3 left_foot right_foot neck "
-    "left_collar right_collar head left_shoulder right_shoulder left_elbow right_elbow left_wrist right_wrist left_hand right_hand"
-).split()
-HUMANIK = (
-    "Hips LeftUpLeg RightUpLeg Spine LeftLeg RightLeg Spine1 LeftFoot RightFoot Spine2 LeftToeBase RightToeBase Neck "
-    "LeftShoulder RightShoulder Head LeftArm RightArm LeftForeArm RightForeArm LeftHand RightHand LeftHandMiddle1 RightHandMiddle1"
-).split()
-UNREAL = (
-    "pelvis thigh_l thigh_r spine_01 calf_l calf_r spine_02 foot_l foot_r spine_03 ball_l ball_r neck_01 "
-    "clavicle_l clavicle_r head upperarm_l upperarm_r lowerarm_l lowerarm_r hand_l hand_r middle_01_l middle_01_r"
-).split()
-NAMES = {"smpl": JOINTS, "mixamo": ["mixamorig:" + name for name in HUMANIK], "humanik": HUMANIK, "ue": UNREAL}
+NAMES = {"smpl": SMPL, "mixamo": ["mixamorig:" + name for name in HUMANIK], "humanik": HUMANIK, "ue": UNREAL}
 METRES = {"m": 1.0, "cm": 0.01}
 HIP_HEIGHT = 0.976  # metres, of the body as it stands at rest
 
@@ -69,7 +60,7 @@ def main():
         assert 0 <= min(rest) < 0.04, f"{path}: at rest the lowest joint is {min(rest)} m high"
         worst = 0.0
         for frame in range(0, frames, 10):
-            there = places(reference, JOINTS, frame)
+            there = places(reference, SMPL, frame)
             here = places(armature, NAMES[names], frame + 1)
             worst = max([worst] + [(a - b).length for a, b in zip(here, there)])
         assert worst < 1e-3, f"{path}: a joint is {worst} m off"

@@ -3,13 +3,7 @@
 #   run.sh BUILD_DIRECTORY
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-bin=$(realpath "$1")/bin
-if ! command -v blender >/dev/null; then
-  echo "skipped: there is no Blender here (scripts/install_packages.sh blender)"
-  exit "${CHOREO_SKIP_CODE:-77}"
-fi
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+source "$here/../../support/blender.sh" "$1"
 dance=$scratch/dance.glb
 "$here/../../examples/with_server.sh" "$bin/fake_choreod" sh -c \
   '"$0" dance --server "$CHOREO_SERVER" --keyframes "$1" --seconds 2 --out "$2" >/dev/null' \
