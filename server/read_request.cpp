@@ -71,6 +71,10 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
     continuation.last_beat = message.last_beat();
     CheckBeat(message.last_beat(), field + ".last_beat");
   }
+  if (message.stage_size() > 0) {
+    CheckSize(message.stage_size(), 2, "[x, z]", field + ".stage");
+    continuation.stage = {message.stage(0), 0, message.stage(1)};
+  }
   for (int i = 0; i < history; ++i) {
     Pose pose;
     for (int axis = 0; axis < 3; ++axis) {

@@ -115,6 +115,10 @@ void FromContinuation(const Continuation& continuation, const ModelInfo& model, 
   }
   out->set_skeleton(model.skeleton.name);
   if (continuation.last_beat) out->set_last_beat(*continuation.last_beat);
+  if (continuation.stage) {
+    out->add_stage(static_cast<float>(continuation.stage->x()));
+    out->add_stage(static_cast<float>(continuation.stage->z()));
+  }
 }
 
 void FromReport(const QualityReport& report, v1::QualityReport* out) {

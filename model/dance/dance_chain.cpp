@@ -34,6 +34,7 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
       beats_(model_.fps, config.music_beats,
              config.continuation ? config.continuation->last_beat : std::nullopt, audio()) {
   if (!config.Before().empty()) history_ = FillHistory(model_, config.Before());
+  if (config.continuation) stage_ = config.continuation->stage;
 }
 
 void DanceChain::Begin() {
@@ -164,7 +165,9 @@ void DanceChain::Start(const Segment& segment) {
         controls_.Stance(segment.from, request.frames == 1 ? request.target : std::nullopt);
     history_ = FillHistory(model_, {&stance, 1});
   }
+  if (!stage_) stage_ = history_.back().root_position;
   request.history = history_;
+  request.stage = stage_;
   request.seed = config_.seed;
   request.candidate = config_.candidate;
   request.first_frame = segment.from;
@@ -206,6 +209,7 @@ void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const Da
   }
   const int64_t emitted = next_frame_++;
   MoveOn(frame.pose, &history_);
+  if (run.places()) stage_ = frame.pose.root_position;
   meter_.Add(frame);
   OutputFrames frames = output_.Push(frame);
   if (!frames.poses.empty()) {
@@ -230,6 +234,7 @@ void DanceChain::PostContinuation() {
   Continuation continuation{next_frame_, history_, model_.fingerprint};
   if (audio_) continuation.audio_from_sample = ResumeSample(config_, next_frame_, model_);
   continuation.last_beat = beats_.Last(next_frame_);
+  continuation.stage = stage_;
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);
   });

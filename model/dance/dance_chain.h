@@ -93,7 +93,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   ControlTrack controls_;
   // The last tau poses; empty until the first transition of a dance that is given none.
   std::vector<Pose> history_;
-  int64_t next_frame_;  // to be emitted
+  std::optional<Eigen::Vector3d> stage_;  // where the dance keeps to, from the first transition on
+  int64_t next_frame_;                    // to be emitted
   Job* job_ = nullptr;  // of the timeline's current transition: submitted and not done; the
                         // scheduler keeps it alive
   bool over_ = false;   // the last call to the sink is posted

@@ -118,6 +118,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   ground_ = GroundFrame::Of(world_);
   spec_.frames = request.frames;
   spec_.history = CanonicalHistory(ground_, history);
+  spec_.stage = ground_.ToLocal(request.stage.value_or(world_.root_position));
   spec_.has_audio = request.has_audio;
   if (request.has_audio) spec_.audio_history = request.audio_history;
   spec_.beats = request.beats;

@@ -36,6 +36,9 @@ struct TransitionRequest {
   std::vector<Pose> history;  ///< oldest first; any number: the last tau count, fewer are filled by
                               ///< holding the earliest, none is the neutral stance at the origin
   std::optional<WorldTarget> target;  ///< none: music alone
+  /// The middle of the floor that the dance keeps to while nothing says its place; none: where the
+  /// history ends.
+  std::optional<Eigen::Vector3d> stage = {};
   std::optional<Pose>
       after;  ///< one frame after the key, where the motion that follows stands already
   bool has_audio = false;
@@ -82,7 +85,8 @@ struct Continuation {
   std::string fingerprint;  ///< of the model and build that danced
   /// First sample that who goes on from here has to hear; none: nobody says.
   std::optional<int64_t> audio_from_sample = {};
-  std::optional<double> last_beat = {};  ///< MusicBeats::Last at this frame
+  std::optional<double> last_beat = {};       ///< MusicBeats::Last at this frame
+  std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, its height unread
 };
 
 /// Speeds that the way to a key asks for on average. Paper F, Section 5.2: too short an interval
@@ -121,6 +125,12 @@ class TransitionRun {
 
   /// After the last frame of a transition with a target.
   const std::optional<ArrivalResult>& arrival() const { return arrival_result_; }
+  /// Something said where the root is in the newest frame: a path, or the key that it is. The dance
+  /// keeps to that place from there on.
+  bool places() const {
+    return spec_.controls.root_path.cols() > 0 ||
+           (arrival_result_ && spec_.target->mask.root_position);
+  }
   /// None without a target.
   std::optional<RequiredSpeed> required_speed() const;
 

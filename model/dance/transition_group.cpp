@@ -208,6 +208,7 @@ void TransitionGroup::Impl::Begin() {
   const std::vector<Pose>& given = request_.Before();
   transition.history =
       FillHistory(model_, given.empty() ? std::span(&stance, 1) : std::span(given));
+  if (request_.continuation) transition.stage = request_.continuation->stage;
   TransitionControls asked = controls_.For(first_frame_, transition.frames, transition.history,
                                            transition.target, request_.target_id);
   transition.controls = std::move(asked.controls);

@@ -114,6 +114,13 @@ bool ValidateContinuation(const ModelInfo& model, const Continuation& continuati
                                                 std::to_string(model.history_frames));
   }
   ValidateHistory(model.skeleton, continuation.poses, field + ".poses");
+  if (continuation.stage) {
+    for (const double value : *continuation.stage) {
+      if (std::abs(value) <= kMaxPosition) continue;  // NaN is not, either
+      throw InvalidArgument(field + ".stage", Show(value) + " m is not within " +
+                                                  Show(kMaxPosition) + " m of the origin");
+    }
+  }
   if (continuation.fingerprint == model.fingerprint) return true;
   if (continuation.fingerprint.size() > kMaxFingerprintLength) {
     throw InvalidArgument(field + ".fingerprint",

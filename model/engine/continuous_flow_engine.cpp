@@ -26,6 +26,7 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
       request.key->root_position.y() = *spec.target->height;
     }
   }
+  request.stage = spec.stage;
   request.path = spec.controls.root_path.cast<double>();
   request.path_heights = spec.controls.path_heights;
   request.beats = spec.beats;

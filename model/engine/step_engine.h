@@ -73,7 +73,10 @@ struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one stands right before frame 0
   std::optional<Target> target;  ///< none: music alone
-  bool has_audio = false;        ///< false: audio rows are ignored, the model dances without music
+  /// The middle of the floor that the dance keeps to where nothing says its place; its height is
+  /// unread.
+  Eigen::Vector3d stage = Eigen::Vector3d::Zero();
+  bool has_audio = false;  ///< false: audio rows are ignored, the model dances without music
   Eigen::MatrixXf
       audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first
   /// Where the music beats, in frames from frame 0, ascending; a dance without a path is timed to

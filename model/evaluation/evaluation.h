@@ -62,7 +62,7 @@ struct Evaluation {
   const EvalOptions& options;
   const Runner& runner;
   const MotionEncoder* encoder = nullptr;  ///< of EvaluateEncoded
-  const ClipSet* training = nullptr;       ///< of EvaluateStyles: the set's clips that train
+  const ClipSet* training = nullptr;       ///< the set's clips that train, or null
 
   const Method& judged() const { return methods.back(); }
   const ModelInfo& model() const { return judged().engine->model(); }

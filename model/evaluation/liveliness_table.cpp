@@ -39,6 +39,9 @@ class Rows {
   void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio) {
     rows_.push_back({{figure}, {real, locked, danced, ratio}});
   }
+  void AddReal(const std::string& figure, double real) {
+    Add(figure, Plain(real), {}, {}, {});
+  }
   void AddDanced(const std::string& figure, Cell danced, Cell ratio = {}) {
     Add(figure, {}, {}, danced, ratio);
   }
@@ -175,9 +178,15 @@ void AddFrechet(const Evaluation& evaluation, const Method& method, Rows* rows) 
   };
   add("FID_k at 60 frames", features.kinetic, &WindowFigures::kinetic);
   add("FID_g at 60 frames", features.geometric, &WindowFigures::geometric);
+  if (evaluation.training == nullptr) return;
+  const RealFeatures others = GatherRealFeatures(*evaluation.training, kFrechetFrames);
+  rows->AddReal("FID_k, dancers of the training clips",
+                CompareFeatures(features.kinetic, others.kinetic).distance);
+  rows->AddReal("FID_g, dancers of the training clips",
+                CompareFeatures(features.geometric, others.geometric).distance);
 }
 
-void AddCritic(const KeyedDances& dances, double fps, Rows* rows) {
+void AddCritic(const Evaluation& evaluation, const KeyedDances& dances, double fps, Rows* rows) {
   const auto windows = [&](const LivelyDances& some) {
     CriticWindows all;
     for (const LivelyFigures& dance : some) all.Add(dance.track, fps, dance.clip);
@@ -186,6 +195,14 @@ void AddCritic(const KeyedDances& dances, double fps, Rows* rows) {
   const CriticWindows locked = windows(dances.locked);
   rows->Add("critic's area under the curve", {}, Plain(RealAgainstReal(locked)),
             Plain(CriticArea(locked, windows(dances.seeds[0]))), {});
+  if (evaluation.training == nullptr) return;
+  CriticWindows others;
+  for (size_t clip = 0; clip < evaluation.training->clips.size(); ++clip) {
+    const PreparedClip& one = evaluation.training->clips[clip];
+    others.Add(TrackJoints(one.skeleton, one.motion.frames), fps, clip);
+  }
+  rows->AddReal("critic's area, dancers of the training clips",
+                CriticArea(windows(dances.real), others));
 }
 
 void AddFree(const Evaluation& evaluation, const Method& method, Rows* rows) {
@@ -221,7 +238,7 @@ Table LivelinessTable(const Evaluation& evaluation, const Method& method,
     AddMovement(dances, &rows);
     AddDifferences(dances, &rows);
     AddHits(dances, fps, &rows);
-    AddCritic(dances, fps, &rows);
+    AddCritic(evaluation, dances, fps, &rows);
   }
   AddFrechet(evaluation, method, &rows);
   AddFree(evaluation, method, &rows);
@@ -230,7 +247,8 @@ Table LivelinessTable(const Evaluation& evaluation, const Method& method,
                " seeds, the clips' own poses each 2 s as keys and nothing else of them; free: " +
                std::to_string(evaluation.options.free_dances) +
                " dances without keys. The critic is fair where it finds real motion against real "
-               "between 0.45 and 0.55.";
+               "between 0.45 and 0.55; dancers of the training clips are real ones, who dance "
+               "something else.";
   table.label_headings = {"figure"};
   table.columns = {{"real motion", 2}, {"real, foot lock", 2}, {"danced", 2}, {"danced ÷ real", 2}};
   table.rows = rows.Take();

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,8 +30,9 @@ struct LongPlan {
 };
 
 struct LongDance {
-  std::vector<Pose> poses;     ///< [frames]
-  std::map<int, double> keys;  ///< final error at each key, m
+  std::vector<Pose> poses;                    ///< [frames]
+  std::map<int, double> keys;                 ///< final error at each key, m
+  std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, once a key said it
 };
 
 /// Dances what tables ask for, all of a call together, and says how far it is. Not

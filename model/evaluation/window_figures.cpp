@@ -93,6 +93,13 @@ RealFeatures GatherRealFeatures(const ClipSet& set, int frames) {
   return {Stack(kinetic), Stack(geometric)};
 }
 
+FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Eigen::MatrixXd& others) {
+  if (others.cols() < 2 || real.cols() < 2) return {};
+  const FeatureScale scale = FeatureScale::Of(real);
+  const Eigen::MatrixXd scaled = scale.Apply(others);
+  return {FrechetDistance(scaled, scale.Apply(real)), MeanPairDistance(scaled)};
+}
+
 FeatureFigures CompareFeatures(const Eigen::MatrixXd& real,
                                const std::vector<WindowFigures>& windows,
                                Eigen::VectorXd WindowFigures::*features) {
@@ -100,10 +107,7 @@ FeatureFigures CompareFeatures(const Eigen::MatrixXd& real,
   for (const WindowFigures& window : windows) {
     if ((window.*features).size() > 0) columns.push_back(window.*features);
   }
-  if (columns.size() < 2 || real.cols() < 2) return {};
-  const FeatureScale scale = FeatureScale::Of(real);
-  const Eigen::MatrixXd ours = scale.Apply(Stack(columns));
-  return {FrechetDistance(ours, scale.Apply(real)), MeanPairDistance(ours)};
+  return CompareFeatures(real, Stack(columns));
 }
 
 }  // namespace choreo

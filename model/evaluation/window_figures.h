@@ -53,6 +53,7 @@ RealFeatures GatherRealFeatures(const ClipSet& set, int frames);
 struct FeatureFigures {
   double distance = NAN, diversity = NAN;
 };
+FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Eigen::MatrixXd& others);
 FeatureFigures CompareFeatures(const Eigen::MatrixXd& real,
                                const std::vector<WindowFigures>& windows,
                                Eigen::VectorXd WindowFigures::*features);

@@ -130,7 +130,7 @@ class TorchFlowNetwork : public FlowNetwork {
   torch::Device device_;
 };
 
-constexpr const char* kFormat = "choreo-continuous-flow-4";
+constexpr const char* kFormat = "choreo-continuous-flow-5";
 
 }  // namespace
 
@@ -142,6 +142,7 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   covariance_ = register_buffer("velocity_covariance", walk);
   powers_ = register_buffer("variance_powers", torch::zeros({6}));
   SetPowers({});
+  roaming_ = register_buffer("roaming", torch::zeros({1}));
   mixing_ = register_buffer("mixing", torch::eye(dimensions));
   spread_ = register_buffer("spread", torch::ones({dimensions}));
   velocity_ = register_buffer("velocity_spread", torch::ones({dimensions}));
@@ -198,7 +199,8 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
 }
 
 void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
-                                  const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread) {
+                                  const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread,
+                                  double roaming) {
   torch::NoGradGuard no_grad;
   const auto set = [](Tensor to, const Eigen::MatrixXd& from) {
     const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = from;
@@ -206,6 +208,7 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Varia
   };
   set(covariance_, covariance);
   SetPowers(powers);
+  roaming_.fill_(roaming);
   set(mixing_, mixing);
   set(spread_, spread);
   set(velocity_, MotionPrior(covariance).VelocitySpread());
@@ -241,7 +244,8 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
   EnergyPrior energy(config_.styles.size());
   const Eigen::MatrixXd measured = ToEigen(energy_);
   energy.SetNumbers({measured.data(), static_cast<size_t>(measured.size())});
-  return {skeleton_, config_, MotionPrior(ToEigen(covariance_), std::move(powers)),
+  return {skeleton_, config_,
+          MotionPrior(ToEigen(covariance_), std::move(powers), roaming_.item<double>()),
           ToEigen(mixing_), energy};
 }
 

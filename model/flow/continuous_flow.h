@@ -31,10 +31,10 @@ class ContinuousFlowImpl : public torch::nn::Module {
                         const torch::Tensor& frames, const torch::Tensor& whole,
                         const torch::Tensor& t);
 
-  /// `covariance` as MotionPrior has it; `mixing` as FlowModelParts; `spread` [dimensions]: of
-  /// displacements over a window.
+  /// `covariance` and `roaming` as MotionPrior has them; `mixing` as FlowModelParts; `spread`
+  /// [dimensions]: of displacements over a window.
   void SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
-                const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread);
+                const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread, double roaming);
   void SetEnergy(const EnergyPrior& energy);
   /// What sampling needs besides the network.
   FlowModelParts Parts() const;
@@ -47,7 +47,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
 
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
-  torch::Tensor covariance_, powers_, mixing_, spread_, velocity_, energy_;
+  torch::Tensor covariance_, powers_, roaming_, mixing_, spread_, velocity_, energy_;
   torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
       condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;

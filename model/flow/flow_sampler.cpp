@@ -172,6 +172,7 @@ std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwor
     if (request.energy.cols() > 0) here.energy = request.energy.middleCols(from, frames);
     here.asked = request.asked;
     here.style = request.style;
+    if (request.stage) here.stage = ground.ToLocal(*request.stage);
     FlowNoise from_here = noise;
     from_here.first_frame += from;
     for (const Pose& pose : SampleWindow(model, network, here, from_here)) {

@@ -23,10 +23,8 @@ std::array<std::optional<double>, kBodyParts> LevelsOf(
   std::array<std::optional<double>, kBodyParts> levels;
   for (size_t part = 0; part < levels.size() && request.energy.cols() > 0; ++part) {
     if (!request.asked[part]) continue;
-    double sum = 0;
-    for (const double factor : request.energy.row(static_cast<Eigen::Index>(part)))
-      sum += EnergyLevel(factor, medians[part]);
-    levels[part] = sum / static_cast<double>(request.energy.cols());
+    levels[part] =
+        EnergyLevel(request.energy.row(static_cast<Eigen::Index>(part)).mean(), medians[part]);
   }
   return levels;
 }
@@ -77,6 +75,12 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   }
   const bool whole = std::ranges::find(keyed_, false) == keyed_.end();
   if (!whole) free_ = prior.Bridges(request.frames, 0);
+  Eigen::VectorXd way = displacement_;  // to the key or to the stage's middle
+  if (request.StageCounts() && prior.roaming() > 0) {
+    stage_ = prior.StageBridges(request.frames);
+    way[0] = request.stage->x() - last.root_position.x();
+    way[2] = request.stage->z() - last.root_position.z();
+  }
 
   mean_.resize(dimensions, request.frames);
   double squares = 0, known = 0;
@@ -88,11 +92,14 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
       squares += displacement_[d] * displacement_[d] / bridge.expected[MotionPrior::kPast];
       ++known;
     } else if (prior.Moves(d) && !request.key) {
-      squares += velocity.row(d).transpose().cwiseAbs2().cwiseQuotient(bridge.expected).sum();
+      squares += velocity.row(d)
+                     .transpose()
+                     .cwiseAbs2()
+                     .cwiseQuotient(bridge.expected.head<MotionPrior::kPast>())
+                     .sum();
       known += MotionPrior::kPast;
     }
-    mean_.row(d) =
-        (bridge.past * velocity.row(d).transpose() + bridge.key * displacement_[d]).transpose();
+    mean_.row(d) = (bridge.past * velocity.row(d).transpose() + bridge.key * way[d]).transpose();
   }
   if (known > 0) surprise_ = squares / known;
   scales_ = prior.Scales(surprise_, LevelsOf(request, prior.powers().medians));

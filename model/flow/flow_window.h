@@ -33,9 +33,14 @@ struct WindowRequest {
   Eigen::MatrixXd energy = {};     ///< [kBodyParts, w] velocity factors, metres a frame, or empty
   std::array<bool, kBodyParts> asked = {true, true, true, true, true};  ///< rows of `energy` known
   int style = -1;                                                       ///< index of a style, or -1
+  /// The middle of the floor that the dancer keeps to, or unknown; unread where a key or a path
+  /// says where the root goes.
+  std::optional<Eigen::Vector3d> stage = {};
+
+  bool StageCounts() const { return stage && path.cols() == 0 && !(key && mask.root_position); }
 };
 
-/// Mean EnergyLevel of each body part that is asked for.
+/// EnergyLevel of the mean factor of each body part that is asked for.
 std::array<std::optional<double>, kBodyParts> LevelsOf(
     const WindowRequest& request, const std::array<double, kBodyParts>& medians);
 
@@ -57,6 +62,8 @@ class FlowWindow {
   const Eigen::VectorXd& displacement() const { return displacement_; }
   /// Which dimensions the key fixes, [dimensions].
   const std::vector<bool>& keyed() const { return keyed_; }
+  /// The stage says how the root's place goes on.
+  bool staged() const { return stage_ != nullptr; }
 
   /// How far the key is or, without one, how fast the history was, of what the prior expects: mean
   /// square.
@@ -76,10 +83,10 @@ class FlowWindow {
  private:
   const MotionPrior::Bridge& At(int dimension) const {
     const auto d = static_cast<size_t>(dimension);
-    return (keyed_[d] ? *to_key_ : *free_)[d];
+    return (keyed_[d] ? *to_key_ : d < 3 && stage_ ? *stage_ : *free_)[d];
   }
 
-  std::shared_ptr<const std::vector<MotionPrior::Bridge>> to_key_, free_;
+  std::shared_ptr<const std::vector<MotionPrior::Bridge>> to_key_, free_, stage_;
   std::vector<bool> keyed_;
   Eigen::MatrixXd mean_, history_;
   Eigen::VectorXd displacement_;

@@ -16,6 +16,7 @@ constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
 constexpr double kStillness = 2e-4;  // a frame; slower dimensions don't move
 constexpr double kLeastScale = 0.5, kLeastAsked = 0.25;
 constexpr double kLeastEnergy = 1e-3;  // metres a frame
+constexpr int kStaged = -1;            // in place of a key's frames, among what is kept
 constexpr size_t kKept = 96;           // bridges; one of 96 frames takes 5 MB
 
 }  // namespace
@@ -28,9 +29,10 @@ struct MotionPrior::Cache {
   std::list<Key> order;  // oldest first
 };
 
-MotionPrior::MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers)
+MotionPrior::MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers, double roaming)
     : covariance_(std::move(covariance)),
       powers_(std::move(powers)),
+      roaming_(roaming),
       cache_(std::make_shared<Cache>()) {
   if (covariance_.cols() < 1 || !covariance_.allFinite() || covariance_.col(0).minCoeff() <= 0) {
     throw InvalidArgument("velocity_covariance", "is no covariance of a process in time");
@@ -85,13 +87,13 @@ Eigen::VectorXd MotionPrior::Scales(
   return scales;
 }
 
-MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) const {
+MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key, bool staged) const {
   const Eigen::Index lags = covariance_.cols();
   const auto velocity = [&](int lag) { return lag < lags ? covariance_(dimension, lag) : 0.0; };
   const auto sum = [&](int lag) {  // of lags 1 to `lag`
     return sums_[static_cast<size_t>(dimension)][std::min<Eigen::Index>(lag, lags - 1)];
   };
-  const int longest = std::max(frames, to_key);
+  const int longest = std::max({frames, to_key, kPast});
   std::vector<double> variance(static_cast<size_t>(longest) + 1, 0.0);  // of n frames' displacement
   for (int n = 1; n <= longest; ++n) {
     variance[static_cast<size_t>(n)] =
@@ -104,7 +106,7 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) con
   // The velocity p frames before the last one, and the displacement over i frames.
   const auto with_past = [&](int i, int p) { return sum(i + p) - sum(p); };
 
-  const int known = kPast + (to_key > 0 ? 1 : 0);
+  const int known = kPast + (to_key > 0 || staged ? 1 : 0);
   Eigen::MatrixXd observed(known, known), shared(frames, known), own(frames, frames);
   for (int p = 0; p < kPast; ++p) {
     for (int q = 0; q < kPast; ++q) observed(p, q) = velocity(std::abs(p - q));
@@ -116,6 +118,14 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) con
     observed(kPast, kPast) = both(to_key, to_key) + kJitter * velocity(0);
     for (int i = 0; i < frames; ++i) shared(i, kPast) = both(i + 1, to_key);
   }
+  if (staged) {
+    // Where the dancer is and where he was i frames ago differ by half the variance of the way.
+    const auto half = [&](int i) { return 0.5 * variance[static_cast<size_t>(i)]; };
+    for (int p = 0; p < kPast; ++p) observed(p, kPast) = observed(kPast, p) = half(p) - half(p + 1);
+    // Nobody goes farther than to the middle for being off it.
+    observed(kPast, kPast) = std::max(roaming_, half(longest));
+    for (int i = 0; i < frames; ++i) shared(i, kPast) = half(i + 1);
+  }
   for (int i = 0; i < frames; ++i) {
     for (int j = 0; j < frames; ++j) own(i, j) = both(i + 1, j + 1);
   }
@@ -124,7 +134,7 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) con
   own = 0.5 * (own + own.transpose()).eval();
   Bridge bridge{
       .past = weights.leftCols(kPast),
-      .key = to_key > 0 ? Eigen::VectorXd(weights.col(kPast)) : Eigen::VectorXd::Zero(frames),
+      .key = known > kPast ? Eigen::VectorXd(weights.col(kPast)) : Eigen::VectorXd::Zero(frames),
       .spread = {},
       .expected = observed.diagonal()};
   for (double jitter = kJitter;; jitter *= 10) {
@@ -138,16 +148,14 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key) con
   }
 }
 
-std::shared_ptr<const std::vector<MotionPrior::Bridge>> MotionPrior::Bridges(int frames,
-                                                                             int to_key) const {
-  const Cache::Key key{frames, to_key};
+MotionPrior::Made MotionPrior::Cached(std::pair<int, int> key,
+                                      const std::function<std::vector<Bridge>()>& make) const {
   {
     const std::lock_guard lock(cache_->mutex);
     const auto found = cache_->bridges.find(key);
     if (found != cache_->bridges.end()) return found->second;
   }
-  auto made = std::make_shared<std::vector<Bridge>>();
-  for (int d = 0; d < dimensions(); ++d) made->push_back(Make(d, frames, to_key));
+  const auto made = std::make_shared<const std::vector<Bridge>>(make());
   const std::lock_guard lock(cache_->mutex);
   if (cache_->bridges.emplace(key, made).second) cache_->order.push_back(key);
   if (cache_->order.size() > kKept) {
@@ -155,6 +163,22 @@ std::shared_ptr<const std::vector<MotionPrior::Bridge>> MotionPrior::Bridges(int
     cache_->order.pop_front();
   }
   return made;
+}
+
+MotionPrior::Made MotionPrior::Bridges(int frames, int to_key) const {
+  return Cached({frames, to_key}, [&] {
+    std::vector<Bridge> bridges;
+    for (int d = 0; d < dimensions(); ++d) bridges.push_back(Make(d, frames, to_key, false));
+    return bridges;
+  });
+}
+
+MotionPrior::Made MotionPrior::StageBridges(int frames) const {
+  return Cached({frames, kStaged}, [&] {
+    std::vector<Bridge> bridges;
+    for (int d = 0; d < 3; ++d) bridges.push_back(Make(d, frames, 0, d != 1));
+    return bridges;
+  });
 }
 
 }  // namespace choreo

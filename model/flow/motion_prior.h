@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -53,19 +54,20 @@ class MotionPrior {
 
   /// What is known of the displacements f_1..f_w from the last history frame of one degree of
   /// freedom. `past` [w, kPast] and `key` [w] weigh the last velocities (latest first) and the
-  /// key's displacement in their mean; `spread` [w, w] is the lower Cholesky factor of their
-  /// covariance, so that row i depends on frames up to i alone.
+  /// displacement of the key, or of the stage's middle, in their mean; `spread` [w, w] is the lower
+  /// Cholesky factor of their covariance, so that row i depends on frames up to i alone.
   struct Bridge {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
     Eigen::MatrixXd spread;
-    /// Variance of what is known: the last velocities, then the key's displacement.
+    /// Variance of what is known: the last velocities, then that displacement.
     Eigen::VectorXd expected;
   };
 
-  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later.
+  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later. `roaming`:
+  /// the variance of where a dancer is about the stage's middle, along one axis, m²; 0: unknown.
   /// Throws Error(kInvalidArgument) where it is no covariance.
-  explicit MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers = {});
+  explicit MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers = {}, double roaming = 0);
 
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
@@ -84,12 +86,20 @@ class MotionPrior {
   /// By dimension: a window of `frames` frames whose key stands `to_key` frames behind the history
   /// (at least `frames`); 0: there is no key. The last few that were asked for are kept.
   std::shared_ptr<const std::vector<Bridge>> Bridges(int frames, int to_key) const;
+  /// Of the root's position alone [3]: a window without a key, on a stage whose middle is known.
+  /// Places on the floor are stationary about it, so who is off it comes back. Heights are as
+  /// without.
+  std::shared_ptr<const std::vector<Bridge>> StageBridges(int frames) const;
+  double roaming() const { return roaming_; }
 
  private:
-  Bridge Make(int dimension, int frames, int to_key) const;
+  using Made = std::shared_ptr<const std::vector<Bridge>>;
+  Made Cached(std::pair<int, int> key, const std::function<std::vector<Bridge>()>& make) const;
+  Bridge Make(int dimension, int frames, int to_key, bool staged) const;
 
   Eigen::MatrixXd covariance_;
   VariancePowers powers_;
+  double roaming_;
   // By dimension, [lags]: sums of the covariance over lags from 1 on.
   std::vector<Eigen::VectorXd> sums_;
   struct Cache;

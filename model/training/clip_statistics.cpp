@@ -75,4 +75,16 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
   return covariance;
 }
 
+double Roaming(std::span<const ClipTrack> tracks) {
+  double squares = 0, frames = 0;
+  for (const ClipTrack& track : tracks) {
+    for (const Pose& pose : track.poses) {
+      const Eigen::Vector3d off = pose.root_position - track.stage;
+      squares += 0.5 * (off.x() * off.x() + off.z() * off.z());
+    }
+    frames += static_cast<double>(track.poses.size());
+  }
+  return squares / frames;
+}
+
 }  // namespace choreo

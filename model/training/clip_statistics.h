@@ -16,4 +16,7 @@ std::array<double, kBodyParts> MedianFactors(std::span<const ClipTrack> tracks);
 Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const ClipTrack> tracks,
                                    int lags);
 
+/// Variance of where dancers are about their stage's middle, along one axis of the floor, m².
+double Roaming(std::span<const ClipTrack> tracks);
+
 }  // namespace choreo

@@ -52,6 +52,8 @@ ClipTrack MakeTrack(const PreparedClip& clip, double tempo,
     track.poses.push_back(part > 0 ? InterpolatePoses(frames[first], frames[first + 1], part)
                                    : frames[first]);
   }
+  for (const Pose& pose : track.poses)
+    track.stage += pose.root_position / static_cast<double>(track.poses.size());
   const BodyPartWeights weights = WeighBodyParts(skeleton);
   Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(kBodyParts, static_cast<int>(track.poses.size()));
   std::vector<float> speed;

@@ -19,6 +19,7 @@ struct ClipTrack {
   std::vector<double> beats = {};      ///< frames; of the grid that its notes tell
   std::vector<double> kinematic = {};  ///< frames in which it pauses
   int style = -1;                      ///< index into the styles, or -1
+  Eigen::Vector3d stage = Eigen::Vector3d::Zero();  ///< mean place of the root
 };
 
 /// `tempo` times as fast as it was danced. `styles`: ascending (training/style.h).

@@ -77,7 +77,8 @@ const FlowMatching::Spreads& FlowMatching::Of(int frames, int to_key) {
   const auto [place, is_new] = spreads_.try_emplace({frames, to_key});
   if (is_new) {
     place->second = {Stack(*parts_.prior.Bridges(frames, to_key)),
-                     Stack(*parts_.prior.Bridges(frames, 0))};
+                     Stack(*parts_.prior.Bridges(frames, 0)),
+                     Stack(*parts_.prior.StageBridges(frames))};
   }
   return place->second;
 }
@@ -87,8 +88,11 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const int64_t tau = batch.mean.size(1) - window;
   const Spreads& spreads = Of(batch.frames, batch.to_key);
   const auto colour = [&](const Tensor& z) {
+    const Tensor staged = batch.staged.view({-1, 1, 1}) > 0, free = Colour(spreads.free, z);
+    const Tensor root =
+        torch::where(staged, Colour(spreads.stage, z.narrow(2, 0, 3)), free.narrow(2, 0, 3));
     return torch::where(batch.keyed.unsqueeze(1) > 0, Colour(spreads.to_key, z),
-                        Colour(spreads.free, z));
+                        torch::cat({root, free.narrow(2, 3, free.size(2) - 3)}, 2));
   };
   const Tensor at_noise = torch::rand({count, 1, 1}) < kAtNoise;
   const Tensor t = torch::where(at_noise, torch::zeros({count, 1, 1}), torch::rand({count, 1, 1}));
@@ -223,8 +227,17 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowB
       measured.styles.col(styles[i]) += off;
       ++of_style[static_cast<size_t>(styles[i])];
     }
+    if (keyed) measured.spread = left.llt().matrixL();
+    // So that factors, not their logarithms, are right on average: who stands still for a while has
+    // a logarithm without bound.
+    const EnergyPrior::Levels spread = measured.spread.rowwise().squaredNorm();
+    EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
+    for (size_t i = 0; i < inputs.size(); ++i) {
+      real.array() += levels[i].array().exp();
+      said.array() += (weights * inputs[i] + 0.5 * spread).array().exp();
+    }
+    weights.col(0) += (real.array() / said.array()).log().matrix();
     if (!keyed) continue;
-    measured.spread = left.llt().matrixL();
     for (int input = 0; input < EnergyPrior::kInputs; ++input) {
       std::vector<double> values;
       for (const EnergyPrior::Inputs& one : inputs) values.push_back(one[input]);

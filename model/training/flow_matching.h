@@ -31,6 +31,7 @@ class FlowMatching {
  private:
   struct Spreads {
     torch::Tensor to_key, free;  // [dimensions, w, w] Cholesky factors
+    torch::Tensor stage;         // [3, w, w] the root's, in place of the first that are free
   };
   const Spreads& Of(int frames, int to_key);
   FlowModelParts parts_;

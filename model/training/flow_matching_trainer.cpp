@@ -140,6 +140,7 @@ class FlowMatchingRun : public TrainingRun {
                                      .energy = kEnergy,
                                      .path = 0.2,
                                      .style = 0.6,
+                                     .stage = 0.8,
                                      .hold_history = 0.05,
                                      .astray = 0.2};
     if (random.Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
@@ -260,14 +261,15 @@ class FlowMatchingRun : public TrainingRun {
     const int dimensions = 3 + 3 * train_.skeleton().joints();
     const Eigen::MatrixXd covariance =
         VelocityCovariance(train_.skeleton(), train_.tracks(), MotionPrior::kLags);
+    const double roaming = Roaming(train_.tracks());
     model_->SetPrior(covariance, {}, Eigen::MatrixXd::Identity(dimensions, dimensions),
-                     Eigen::VectorXd::Ones(dimensions));
+                     Eigen::VectorXd::Ones(dimensions), roaming);
     const VariancePowers powers =
         MeasureVariancePowers(model_->Parts().prior, StatisticsBatches(1));
     model_->SetPrior(covariance, powers, Eigen::MatrixXd::Identity(dimensions, dimensions),
-                     Eigen::VectorXd::Ones(dimensions));
+                     Eigen::VectorXd::Ones(dimensions), roaming);
     const WindowStatistics measured = MeasureWindows(StatisticsBatches(kEnergy));
-    model_->SetPrior(covariance, powers, measured.mixing, measured.spread);
+    model_->SetPrior(covariance, powers, measured.mixing, measured.spread, roaming);
     std::vector<WindowBatch> of_all_lengths;
     for (const int frames : {20, 60, 90})
       std::ranges::move(StatisticsBatches(1, frames), std::back_inserter(of_all_lengths));

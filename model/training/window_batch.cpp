@@ -93,6 +93,7 @@ bool WindowBatchBuilder::Add(WindowRequest request, std::span<const Pose> truth)
   for (int d = 0; d < fixed.size(); ++d) fixed[d] = window.keyed()[static_cast<size_t>(d)] ? 1 : 0;
   z_.push_back(Columns(white));
   mean_.push_back(Columns(lines));
+  staged_.push_back(window.staged() ? 1 : 0);
   batch_.surprise.push_back(window.surprise());
   scales_.push_back(Columns(window.scales()).squeeze(0));
   keyed_.push_back(Columns(fixed).squeeze(0));
@@ -115,6 +116,7 @@ WindowBatch WindowBatchBuilder::Build() {
   batch_.mean = torch::stack(mean_);
   batch_.scales = torch::stack(scales_);
   batch_.keyed = torch::stack(keyed_);
+  batch_.staged = torch::tensor(staged_);
   batch_.features = torch::stack(features_);
   batch_.whole = torch::stack(whole_);
   batch_.history_joints = torch::stack(history_joints_);

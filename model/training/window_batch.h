@@ -18,6 +18,7 @@ struct WindowBatch {
   torch::Tensor scales = {};                ///< [batch, dimensions] as FlowWindow has them
   std::vector<double> surprise = {};        ///< [batch], the same
   torch::Tensor keyed = {};                 ///< [batch, dimensions] in {0, 1}
+  torch::Tensor staged = {};                ///< [batch] in {0, 1}: FlowWindow::staged
   torch::Tensor mean = {};                  ///< [batch, tau + w, dimensions], history in front
   torch::Tensor features = {}, whole = {};  ///< of WindowFeatures
   torch::Tensor history_joints = {};        ///< [batch, tau, 3 joints] metres
@@ -44,6 +45,7 @@ class WindowBatchBuilder {
  private:
   const FlowModelParts& model_;
   WindowBatch batch_;
+  std::vector<float> staged_;
   std::vector<torch::Tensor> z_, scales_, keyed_, mean_, features_, whole_, history_joints_,
       base_root_, base_turns_, axes_, bones_;
 };

@@ -38,10 +38,11 @@ void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vec
   }
 }
 
-// What is asked of a window of `frames` frames, the track's from `first` on. `history` and `way`,
-// which ends in the key, stand in the canonical frame.
-WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way, const ClipTrack& track,
-                  int64_t first, bool mirrored, const WindowClips::Variation& variation, int frames,
+// What is asked of a window of `frames` frames, the track's from `first` on. `history`, `way`,
+// which ends in the key, and `stage` stand in the canonical frame.
+WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
+                  const Eigen::Vector3d& stage, const ClipTrack& track, int64_t first,
+                  bool mirrored, const WindowClips::Variation& variation, int frames,
                   Random* random) {
   WindowRequest request{.frames = frames, .to_key = static_cast<int>(way.size())};
   request.history.assign(history.begin(), history.end());
@@ -76,6 +77,7 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way, cons
     request.path_heights = random->Uniform() < 0.3;
   }
   if (random->Uniform() < variation.style) request.style = track.style;
+  if (random->Uniform() < variation.stage) request.stage = stage;
   return request;
 }
 
@@ -138,9 +140,12 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     }
     const GroundFrame ground = GroundFrame::Of(poses[static_cast<size_t>(tau) - 1]);
     for (Pose& pose : poses) pose = ground.ToLocal(pose);
+    Eigen::Vector3d stage = track.stage;
+    if (mirrored) stage.x() = -stage.x();
     const auto way = std::span<const Pose>(poses).subspan(static_cast<size_t>(tau));
-    WindowRequest request = Ask(std::span(poses).first(static_cast<size_t>(tau)), way, track,
-                                from + tau, mirrored, variation, frames, random);
+    WindowRequest request =
+        Ask(std::span(poses).first(static_cast<size_t>(tau)), way, ground.ToLocal(stage), track,
+            from + tau, mirrored, variation, frames, random);
     request.turning = turning;
     result.Add(std::move(request), way.first(static_cast<size_t>(frames)));
   }

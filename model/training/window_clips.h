@@ -23,6 +23,7 @@ class WindowClips {
     double no_key = 0;
     double partial_key = 0;                             ///< joints or the root's position are open
     double beats = 0, energy = 0, path = 0, style = 0;  ///< that the label is told
+    double stage = 0;                                   ///< that the stage is known
     double hold_history = 0;  ///< only the last few poses are known, the earliest being held
     double astray = 0;        ///< starts out of balance, as dances of a model do, and comes back
   };

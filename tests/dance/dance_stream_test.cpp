@@ -113,6 +113,25 @@ TEST(DanceStream, ALongDanceWithoutKeysStaysFinite) {
   EXPECT_EQ(recording.continuations.back().frame, 18'000);
 }
 
+// It may be led away by keys; then it keeps to where they left it.
+TEST(DanceStream, KeepsToWhereItBeganOrWasLastPlaced) {
+  const auto scheduler = FakeScheduler();
+  Dance dance;
+  dance.config.temperature = 0;
+  Pose start = RestPose(Skeleton::Smpl24()), away = start, armed = start;
+  start.root_position.x() = 3;
+  away.root_position.z() = -4;
+  dance.config.history = {start};
+  PoseMask arms{.root_position = false, .joints = std::vector<bool>(24, false)};
+  arms.joints[16] = true;
+  dance.keys = {{"arms", 60, armed, arms}, {"away", 120, away, {}}, {"end", 240, armed, arms}};
+  const std::vector<Pose> poses = Perform(*scheduler, dance).poses;
+  ASSERT_EQ(poses.size(), 241U);
+  EXPECT_NEAR(poses[60].root_position.x(), 3, 0.05);
+  EXPECT_NEAR(poses[240].root_position.x(), 0, 0.05);
+  EXPECT_NEAR(poses[240].root_position.z(), -4, 0.05);
+}
+
 TEST(DanceStream, CancellationFreesTheSlot) {
   const auto scheduler = FakeScheduler(1, 1, 0);
   const auto idle = [&] { return scheduler->WaitUntilIdle(std::chrono::seconds(30)); };

@@ -116,6 +116,34 @@ TEST(FlowWindow, AHistoryFasterThanAnyDancerDoesNotGoOnSo) {
   EXPECT_EQ(carried(100 * spread), carried(1000 * spread));
 }
 
+// Part of the way back within a second, as far as it is; unless a key or a path says the place.
+TEST(FlowWindow, WhoIsOffTheStageComesBack) {
+  const Scene scene = MakeScene(30);
+  const MotionPrior prior(Parts().prior.covariance(), {}, /*roaming=*/0.3);
+  const auto led = [&](WindowRequest request, const Eigen::Vector3d& off) {
+    const auto end = [&] {
+      return Eigen::Vector3d(FlowWindow(prior, request).mean().col(29).head<3>());
+    };
+    request.stage = request.history.back().root_position;
+    const Eigen::Vector3d there = end();
+    *request.stage += off;
+    return Eigen::Vector3d(end() - there);
+  };
+  WindowRequest open = scene.request;
+  open.key.reset();
+  const Eigen::Vector3d back = led(open, {1, 9, -2});
+  EXPECT_GT(back.x(), 0.03);
+  EXPECT_LT(back.x(), 1);
+  EXPECT_EQ(back.y(), 0);
+  EXPECT_NEAR(back.z(), -2 * back.x(), 1e-9);
+  EXPECT_EQ(led(scene.request, {1, 0, 0}).norm(), 0) << "the key says the place";
+  WindowRequest arms = scene.request;
+  arms.mask.root_position = false;
+  EXPECT_GT(led(arms, {1, 0, 0}).x(), 0.03);
+  open.path = scene.request.key->root_position.replicate(1, 30);
+  EXPECT_EQ(led(open, {1, 0, 0}).norm(), 0) << "the path does";
+}
+
 TEST(FlowWindow, ARootGoesTheWayRoundThatIsExpected) {
   const Eigen::Vector3d half(0, 3.0, 0);
   EXPECT_LT((NearerWayRound(half, {0, 1, 0}) - half).norm(), 1e-12);

@@ -71,6 +71,26 @@ TEST(MotionPrior, SamplesAreAsSmoothAsTheMotionThatTheyAreOf) {
   EXPECT_NEAR(second.squaredNorm() / expected, 1, 0.25);
 }
 
+// Places are stationary: what is known of where they go follows from how they vary and how ways do.
+TEST(MotionPrior, WhoRoamsAboutAMiddleComesBackToItInTheEnd) {
+  const Eigen::MatrixXd covariance = SmoothCovariance().replicate(2, 1);
+  const MotionPrior prior(covariance, {}, /*roaming=*/0.25), free(covariance);
+  const auto staged = prior.StageBridges(90);
+  const auto open = prior.Bridges(90, 0);
+  const auto floor = (*staged)[0], height = (*staged)[1];
+  EXPECT_EQ(height.spread, (*open)[1].spread);
+  EXPECT_EQ(height.key.norm(), 0);
+  for (int i = 1; i < 90; ++i) {
+    EXPECT_GT(floor.key[i], floor.key[i - 1]);
+    EXPECT_LT(floor.key[i], 1);
+    EXPECT_LE(floor.spread.row(i).norm(), (*open)[0].spread.row(i).norm());
+  }
+  // Of where a dancer is and how she goes on, and of nothing else: half the variance of a way over
+  // that of places.
+  const Eigen::VectorXd own = (*free.Bridges(90, 0))[0].spread.row(89);
+  EXPECT_NEAR(floor.key[89], 0.5 * own.squaredNorm() / 0.25, 0.25 * floor.key[89]);
+}
+
 TEST(MotionPrior, RefusesWhatIsNoCovariance) {
   ExpectError(ErrorCode::kInvalidArgument, "velocity_covariance",
               [] { MotionPrior(Eigen::MatrixXd::Zero(2, 3)); });

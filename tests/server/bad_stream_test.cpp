@@ -5,6 +5,13 @@
 namespace choreo {
 namespace {
 
+void FillContinuation(v1::Continuation* from) {
+  from->set_skeleton("smpl24");
+  from->set_fingerprint("fake-1");
+  from->mutable_root_positions()->Resize(3 * 10, 0.0F);
+  from->mutable_rotations()->Resize(3 * 10 * 24, 0.0F);
+}
+
 TEST_P(BadStreamTest, IsNamedAndTheServerGoesOn) {
   Start();
   v1::StreamDanceRequest key;
@@ -228,10 +235,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadStreamCase{"ContinuationOf23Joints",
                       WithConfig([](auto& c) {
                         v1::Continuation* from = c.mutable_continuation();
-                        from->set_skeleton("smpl24");
-                        from->set_fingerprint("fake-1");
-                        from->mutable_root_positions()->Resize(3 * 10, 0.0F);
-                        from->mutable_rotations()->Resize(3 * 10 * 23, 0.0F);
+                        FillContinuation(from);
+                        from->mutable_rotations()->Truncate(3 * 10 * 23);
                       }),
                       kInvalid,
                       "config.continuation.rotations",
@@ -243,7 +248,26 @@ INSTANTIATE_TEST_SUITE_P(
                       }),
                       kInvalid,
                       "config.continuation.root_positions",
-                      {"1 ", "30"}}),
+                      {"1 ", "30"}},
+        BadStreamCase{"ContinuationWithHalfAStage",
+                      WithConfig([](auto& c) {
+                        v1::Continuation* from = c.mutable_continuation();
+                        FillContinuation(from);
+                        from->add_stage(1);
+                      }),
+                      kInvalid,
+                      "config.continuation.stage",
+                      {"1 ", "2"}},
+        BadStreamCase{"ContinuationOnNoStage",
+                      WithConfig([](auto& c) {
+                        v1::Continuation* from = c.mutable_continuation();
+                        FillContinuation(from);
+                        from->add_stage(1);
+                        from->add_stage(NAN);
+                      }),
+                      kInvalid,
+                      "config.continuation.stage",
+                      {"nan", "10000"}}),
     NameOf);
 
 }  // namespace

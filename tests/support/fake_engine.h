@@ -22,10 +22,10 @@ inline const std::array<std::string, kBodyParts> kTellingJoints = {
 /// A dance model without a network, for tests of what stands around one. Each degree of freedom
 /// walks towards the target (or towards its last history value, where there is none or it is
 /// masked), damped, shaken by the counter noise and by the music row, and nods on the beats.
-/// Deterministic; a slot's output depends on its spec, its rows and its fed-back poses alone. Like
-/// a real model it misses its target by a little. Controls it obeys to the letter: its root stands
-/// on the path, and the first number of a telling joint's rotation is the velocity factor asked of
-/// the joint's part.
+/// Whose place nobody says goes to the middle of the stage. Deterministic; a slot's output depends
+/// on its spec, its rows and its fed-back poses alone. Like a real model it misses its target by a
+/// little. Controls it obeys to the letter: its root stands on the path, and the first number of a
+/// telling joint's rotation is the velocity factor asked of the joint's part.
 class FakeEngine : public StepEngine {
  public:
   explicit FakeEngine(int slots = 16, std::string device = "fake:0",
@@ -85,9 +85,11 @@ class FakeEngine : public StepEngine {
     return flat;
   }
 
-  // The history's last pose where the target does not ask for a degree of freedom.
+  // The history's last pose where the target does not ask for a degree of freedom, on the stage.
   Eigen::VectorXd Goal(const TransitionSpec& spec) const {
-    const Pose& last = spec.history.back();
+    Pose last = spec.history.back();
+    last.root_position.x() = spec.stage.x();
+    last.root_position.z() = spec.stage.z();
     return Flat(spec.target ? Masked(spec.target->pose, spec.target->mask, last) : last);
   }
 
