@@ -142,7 +142,8 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   covariance_ = register_buffer("velocity_covariance", walk);
   powers_ = register_buffer("variance_powers", torch::zeros({6}));
   SetPowers({});
-  roaming_ = register_buffer("roaming", torch::zeros({1}));
+  usual_ = register_buffer("usual_pose", torch::zeros({dimensions}));
+  home_ = register_buffer("usual_variance", torch::zeros({dimensions}));
   mixing_ = register_buffer("mixing", torch::eye(dimensions));
   spread_ = register_buffer("spread", torch::ones({dimensions}));
   velocity_ = register_buffer("velocity_spread", torch::ones({dimensions}));
@@ -200,7 +201,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
 
 void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
                                   const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread,
-                                  double roaming) {
+                                  const UsualPose& usual) {
   torch::NoGradGuard no_grad;
   const auto set = [](Tensor to, const Eigen::MatrixXd& from) {
     const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = from;
@@ -208,7 +209,10 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Varia
   };
   set(covariance_, covariance);
   SetPowers(powers);
-  roaming_.fill_(roaming);
+  Eigen::VectorXd pose(covariance.rows());
+  pose << usual.pose.root_position, usual.pose.rotations.reshaped();
+  set(usual_, pose);
+  set(home_, usual.variance);
   set(mixing_, mixing);
   set(spread_, spread);
   set(velocity_, MotionPrior(covariance).VelocitySpread());
@@ -241,12 +245,16 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
     weights.col(joint).maxCoeff(&part);
     powers.parts.insert(powers.parts.end(), 3, part);
   }
+  const Eigen::VectorXd pose = ToEigen(usual_);
+  UsualPose usual{
+      .pose = {pose.head<3>(), pose.tail(pose.size() - 3).reshaped(3, pose.size() / 3 - 1)},
+      .variance = ToEigen(home_)};
   EnergyPrior energy(config_.styles.size());
   const Eigen::MatrixXd measured = ToEigen(energy_);
   energy.SetNumbers({measured.data(), static_cast<size_t>(measured.size())});
   return {skeleton_, config_,
-          MotionPrior(ToEigen(covariance_), std::move(powers), roaming_.item<double>()),
-          ToEigen(mixing_), energy};
+          MotionPrior(ToEigen(covariance_), std::move(powers), std::move(usual)), ToEigen(mixing_),
+          energy};
 }
 
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model, torch::Device device) {

@@ -31,10 +31,11 @@ class ContinuousFlowImpl : public torch::nn::Module {
                         const torch::Tensor& frames, const torch::Tensor& whole,
                         const torch::Tensor& t);
 
-  /// `covariance` and `roaming` as MotionPrior has them; `mixing` as FlowModelParts; `spread`
+  /// `covariance` and `usual` as MotionPrior has them; `mixing` as FlowModelParts; `spread`
   /// [dimensions]: of displacements over a window.
   void SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
-                const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread, double roaming);
+                const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread,
+                const UsualPose& usual);
   void SetEnergy(const EnergyPrior& energy);
   /// What sampling needs besides the network.
   FlowModelParts Parts() const;
@@ -47,7 +48,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
 
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
-  torch::Tensor covariance_, powers_, roaming_, mixing_, spread_, velocity_, energy_;
+  torch::Tensor covariance_, powers_, usual_, home_, mixing_, spread_, velocity_, energy_;
   torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
       condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;

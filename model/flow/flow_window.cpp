@@ -75,11 +75,22 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   }
   const bool whole = std::ranges::find(keyed_, false) == keyed_.end();
   if (!whole) free_ = prior.Bridges(request.frames, 0);
-  Eigen::VectorXd way = displacement_;  // to the key or to the stage's middle
-  if (request.StageCounts() && prior.roaming() > 0) {
-    stage_ = prior.StageBridges(request.frames);
-    way[0] = request.stage->x() - last.root_position.x();
-    way[2] = request.stage->z() - last.root_position.z();
+  Eigen::VectorXd way = displacement_;  // to the key or to the usual pose
+  if (const Pose& usual = prior.usual().pose; !whole && usual.rotations.cols() == joints) {
+    Eigen::VectorXd home(dimensions);
+    Eigen::Vector3d place = usual.root_position;
+    if (request.StageCounts()) {
+      stage_ = prior.StageBridges(request.frames);
+      place.x() += request.stage->x();
+      place.z() += request.stage->z();
+    }
+    home.head<3>() = place - last.root_position;
+    for (int j = 0; j < joints; ++j)
+      home.segment<3>(3 + 3 * j) =
+          RotationDifference(last.rotations.col(j), usual.rotations.col(j));
+    for (int d = 0; d < dimensions; ++d) {
+      if (!keyed_[static_cast<size_t>(d)]) way[d] = home[d];
+    }
   }
 
   mean_.resize(dimensions, request.frames);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/motion/motion.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {
@@ -39,6 +40,13 @@ double EnergyFactor(double level, double median);
 /// bounds: it has the mean of the others. The first three, of the root's position, stay.
 Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still);
 
+/// What dancers come back to where nothing is asked of them, as measured. Empty: unknown.
+struct UsualPose {
+  /// In the canonical frame, over the stage's middle.
+  Pose pose = {};
+  Eigen::VectorXd variance = {};  ///< [dimensions], m² and rad², of where they are about it
+};
+
 /// How poses move when nothing but their past and a key is known: the velocity of every degree of
 /// freedom is a stationary Gaussian process. Its mean through history and key is the line that the
 /// flow departs from; its covariance is the flow's noise. Noise so made is as smooth as motion is,
@@ -54,8 +62,8 @@ class MotionPrior {
 
   /// What is known of the displacements f_1..f_w from the last history frame of one degree of
   /// freedom. `past` [w, kPast] and `key` [w] weigh the last velocities (latest first) and the
-  /// displacement of the key, or of the stage's middle, in their mean; `spread` [w, w] is the lower
-  /// Cholesky factor of their covariance, so that row i depends on frames up to i alone.
+  /// displacement of the key or, without one, of the usual pose, in their mean; `spread` [w, w] is
+  /// the lower Cholesky factor of their covariance, so that row i depends on frames up to i alone.
   struct Bridge {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
@@ -64,10 +72,10 @@ class MotionPrior {
     Eigen::VectorXd expected;
   };
 
-  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later. `roaming`:
-  /// the variance of where a dancer is about the stage's middle, along one axis, m²; 0: unknown.
+  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later.
   /// Throws Error(kInvalidArgument) where it is no covariance.
-  explicit MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers = {}, double roaming = 0);
+  explicit MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers = {},
+                       UsualPose usual = {});
 
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
@@ -86,20 +94,22 @@ class MotionPrior {
   /// By dimension: a window of `frames` frames whose key stands `to_key` frames behind the history
   /// (at least `frames`); 0: there is no key. The last few that were asked for are kept.
   std::shared_ptr<const std::vector<Bridge>> Bridges(int frames, int to_key) const;
-  /// Of the root's position alone [3]: a window without a key, on a stage whose middle is known.
-  /// Places on the floor are stationary about it, so who is off it comes back. Heights are as
-  /// without.
+  /// Without a key, of the root's position alone [3], on a stage whose middle is known.
   std::shared_ptr<const std::vector<Bridge>> StageBridges(int frames) const;
-  double roaming() const { return roaming_; }
+  const UsualPose& usual() const { return usual_; }
 
  private:
   using Made = std::shared_ptr<const std::vector<Bridge>>;
   Made Cached(std::pair<int, int> key, const std::function<std::vector<Bridge>()>& make) const;
-  Bridge Make(int dimension, int frames, int to_key, bool staged) const;
+  // `home`: variance about the usual pose, which a window without a key comes back to; 0: none.
+  Bridge Make(int dimension, int frames, int to_key, double home) const;
+  double HomeOf(int dimension) const {
+    return usual_.variance.size() > 0 ? usual_.variance[dimension] : 0;
+  }
 
   Eigen::MatrixXd covariance_;
   VariancePowers powers_;
-  double roaming_;
+  UsualPose usual_;
   // By dimension, [lags]: sums of the covariance over lags from 1 on.
   std::vector<Eigen::VectorXd> sums_;
   struct Cache;

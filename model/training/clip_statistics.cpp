@@ -1,9 +1,11 @@
 #include "model/training/clip_statistics.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
 #include "model/motion/rotation.h"
 
@@ -20,6 +22,13 @@ Eigen::VectorXd Velocity(const Pose& before, const Pose& now) {
     velocity.segment<3>(3 + 3 * j) =
         RotationDifference(before.rotations.col(j), now.rotations.col(j));
   return velocity;
+}
+
+// The rotation that a sum of rotations is nearest to: their chordal mean.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& sum) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  return svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace
@@ -75,16 +84,43 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
   return covariance;
 }
 
-double Roaming(std::span<const ClipTrack> tracks) {
-  double squares = 0, frames = 0;
-  for (const ClipTrack& track : tracks) {
-    for (const Pose& pose : track.poses) {
-      const Eigen::Vector3d off = pose.root_position - track.stage;
-      squares += 0.5 * (off.x() * off.x() + off.z() * off.z());
+UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> tracks) {
+  const std::vector<int> pairs = MirrorPairs(skeleton);
+  const int joints = skeleton.joints();
+  // Each frame and its mirror image, over the stage's middle.
+  const auto visit = [&](auto what) {
+    for (const ClipTrack& track : tracks) {
+      for (const Pose& pose : track.poses) {
+        Pose here = GroundFrame::Of(pose).ToLocal(pose);
+        here.root_position.x() = pose.root_position.x() - track.stage.x();
+        here.root_position.z() = pose.root_position.z() - track.stage.z();
+        what(here);
+        what(Mirror(pairs, here));
+      }
     }
-    frames += static_cast<double>(track.poses.size());
-  }
-  return squares / frames;
+  };
+  std::vector<Eigen::Matrix3d> turns(static_cast<size_t>(joints), Eigen::Matrix3d::Zero());
+  double height = 0, poses = 0;
+  visit([&](const Pose& pose) {
+    for (int j = 0; j < joints; ++j) turns[static_cast<size_t>(j)] += ExpMap(pose.rotations.col(j));
+    height += pose.root_position.y();
+    ++poses;
+  });
+  UsualPose usual{.pose = {{0, height / poses, 0}, Eigen::Matrix3Xd(3, joints)},
+                  .variance = Eigen::VectorXd::Zero(3 + 3 * joints)};
+  for (int j = 0; j < joints; ++j)
+    usual.pose.rotations.col(j) = LogMap(NearestRotation(turns[static_cast<size_t>(j)]));
+  visit([&](const Pose& pose) {
+    const Eigen::Vector3d off = usual.pose.root_position - pose.root_position;
+    const double floor = 0.5 * (off.x() * off.x() + off.z() * off.z());  // facing anywhere
+    usual.variance.head<3>() += Eigen::Vector3d(floor, off.y() * off.y(), floor) / poses;
+    for (int j = 0; j < joints; ++j) {
+      usual.variance.segment<3>(3 + 3 * j) +=
+          RotationDifference(pose.rotations.col(j), usual.pose.rotations.col(j)).cwiseAbs2() /
+          poses;
+    }
+  });
+  return usual;
 }
 
 }  // namespace choreo

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "model/flow/motion_prior.h"
 #include "model/motion/velocity_factors.h"
 #include "model/training/clip_track.h"
 
@@ -16,7 +17,7 @@ std::array<double, kBodyParts> MedianFactors(std::span<const ClipTrack> tracks);
 Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const ClipTrack> tracks,
                                    int lags);
 
-/// Variance of where dancers are about their stage's middle, along one axis of the floor, m².
-double Roaming(std::span<const ClipTrack> tracks);
+/// What dancers come back to: the mean pose, of both sides alike, and how they vary about it.
+UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> tracks);
 
 }  // namespace choreo

@@ -261,15 +261,15 @@ class FlowMatchingRun : public TrainingRun {
     const int dimensions = 3 + 3 * train_.skeleton().joints();
     const Eigen::MatrixXd covariance =
         VelocityCovariance(train_.skeleton(), train_.tracks(), MotionPrior::kLags);
-    const double roaming = Roaming(train_.tracks());
+    const UsualPose usual = MeasureUsualPose(train_.skeleton(), train_.tracks());
     model_->SetPrior(covariance, {}, Eigen::MatrixXd::Identity(dimensions, dimensions),
-                     Eigen::VectorXd::Ones(dimensions), roaming);
+                     Eigen::VectorXd::Ones(dimensions), usual);
     const VariancePowers powers =
         MeasureVariancePowers(model_->Parts().prior, StatisticsBatches(1));
     model_->SetPrior(covariance, powers, Eigen::MatrixXd::Identity(dimensions, dimensions),
-                     Eigen::VectorXd::Ones(dimensions), roaming);
+                     Eigen::VectorXd::Ones(dimensions), usual);
     const WindowStatistics measured = MeasureWindows(StatisticsBatches(kEnergy));
-    model_->SetPrior(covariance, powers, measured.mixing, measured.spread, roaming);
+    model_->SetPrior(covariance, powers, measured.mixing, measured.spread, usual);
     std::vector<WindowBatch> of_all_lengths;
     for (const int frames : {20, 60, 90})
       std::ranges::move(StatisticsBatches(1, frames), std::back_inserter(of_all_lengths));

@@ -116,10 +116,26 @@ TEST(FlowWindow, AHistoryFasterThanAnyDancerDoesNotGoOnSo) {
   EXPECT_EQ(carried(100 * spread), carried(1000 * spread));
 }
 
+TEST(FlowWindow, WhoIsBentComesBackToTheUsualPoseFacingWhereShePleases) {
+  Scene scene = MakeScene(30);
+  const Pose rest = RestPose(Skeleton::Smpl24());
+  const MotionPrior prior(Parts().prior.covariance(), {}, {rest, Eigen::VectorXd::Constant(75, 1)});
+  for (Pose& pose : scene.request.history) pose = scene.request.history.back();  // stands still
+  scene.request.key.reset();
+  const FlowWindow window(prior, scene.request);
+  const Pose& last = scene.request.history.back();
+  const Pose end = window.Decode(Eigen::MatrixXd::Zero(prior.dimensions(), 30)).back();
+  const double before = last.rotations.rightCols(23).norm();
+  EXPECT_GT(before, 0.1);
+  EXPECT_LT(end.rotations.rightCols(23).norm(), 0.99 * before);
+  EXPECT_EQ(window.mean().row(4).norm(), 0);
+}
+
 // Part of the way back within a second, as far as it is; unless a key or a path says the place.
 TEST(FlowWindow, WhoIsOffTheStageComesBack) {
   const Scene scene = MakeScene(30);
-  const MotionPrior prior(Parts().prior.covariance(), {}, /*roaming=*/0.3);
+  const MotionPrior prior(Parts().prior.covariance(), {},
+                          {RestPose(Skeleton::Smpl24()), Eigen::VectorXd::Constant(75, 0.3)});
   const auto led = [&](WindowRequest request, const Eigen::Vector3d& off) {
     const auto end = [&] {
       return Eigen::Vector3d(FlowWindow(prior, request).mean().col(29).head<3>());

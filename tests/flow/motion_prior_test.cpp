@@ -71,24 +71,29 @@ TEST(MotionPrior, SamplesAreAsSmoothAsTheMotionThatTheyAreOf) {
   EXPECT_NEAR(second.squaredNorm() / expected, 1, 0.25);
 }
 
-// Places are stationary: what is known of where they go follows from how they vary and how ways do.
-TEST(MotionPrior, WhoRoamsAboutAMiddleComesBackToItInTheEnd) {
-  const Eigen::MatrixXd covariance = SmoothCovariance().replicate(2, 1);
-  const MotionPrior prior(covariance, {}, /*roaming=*/0.25), free(covariance);
-  const auto staged = prior.StageBridges(90);
-  const auto open = prior.Bridges(90, 0);
-  const auto floor = (*staged)[0], height = (*staged)[1];
-  EXPECT_EQ(height.spread, (*open)[1].spread);
-  EXPECT_EQ(height.key.norm(), 0);
-  for (int i = 1; i < 90; ++i) {
-    EXPECT_GT(floor.key[i], floor.key[i - 1]);
-    EXPECT_LT(floor.key[i], 1);
-    EXPECT_LE(floor.spread.row(i).norm(), (*open)[0].spread.row(i).norm());
+// Poses are stationary: how they come back follows from how they vary and how far ways spread.
+TEST(MotionPrior, WithoutAKeyDancersComeBackToTheirUsualPose) {
+  const Eigen::MatrixXd covariance = SmoothCovariance().replicate(3, 1);
+  Eigen::VectorXd variance = Eigen::VectorXd::Constant(6, 1);
+  const MotionPrior prior(covariance, {}, {.variance = variance}), wanderer(covariance);
+  const auto home = prior.Bridges(90, 0), lost = wanderer.Bridges(90, 0);
+  const auto stage = prior.StageBridges(90);
+  EXPECT_EQ((*prior.Bridges(90, 90))[3].spread, (*wanderer.Bridges(90, 90))[3].spread);
+  for (const size_t d : {0, 2, 4}) {  // the place but on a stage, where one faces
+    EXPECT_EQ((*home)[d].key.norm(), 0);
+    EXPECT_EQ((*home)[d].spread, (*lost)[d].spread);
   }
-  // Of where a dancer is and how she goes on, and of nothing else: half the variance of a way over
-  // that of places.
-  const Eigen::VectorXd own = (*free.Bridges(90, 0))[0].spread.row(89);
-  EXPECT_NEAR(floor.key[89], 0.5 * own.squaredNorm() / 0.25, 0.25 * floor.key[89]);
+  for (const MotionPrior::Bridge& bridge : {(*home)[3], (*stage)[0], (*stage)[2]}) {
+    for (int i = 1; i < 90; ++i) {
+      EXPECT_GT(bridge.key[i], bridge.key[i - 1]);
+      EXPECT_LT(bridge.key[i], 1);
+    }
+  }
+  for (int i = 0; i < 90; ++i)
+    EXPECT_LE((*home)[3].spread.row(i).norm(), (*lost)[3].spread.row(i).norm());
+  // Apart from what the last velocities say: half the variance of the way over that of the pose.
+  const double way = (*lost)[3].spread.row(89).squaredNorm();
+  EXPECT_NEAR((*home)[3].key[89] / (0.5 * way), 1, 0.25);
 }
 
 TEST(MotionPrior, RefusesWhatIsNoCovariance) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "model/motion/mirror.h"
 #include "model/training/clip_statistics.h"
 #include "model/training/flow_matching.h"
 #include "model/training/window_body.h"
@@ -30,7 +31,8 @@ class WindowClipsTest : public testing::Test {
     powers.parts.assign(static_cast<size_t>(3 + 3 * clips_.skeleton().joints()), 0);
     return {clips_.skeleton(),
             config,
-            MotionPrior(VelocityCovariance(clips_.skeleton(), clips_.tracks(), 60), powers),
+            MotionPrior(VelocityCovariance(clips_.skeleton(), clips_.tracks(), 60), powers,
+                        MeasureUsualPose(clips_.skeleton(), clips_.tracks())),
             {}};
   }
   WindowBatch Draw(const WindowClips::Variation& variation) const {
@@ -74,6 +76,30 @@ TEST_F(WindowClipsTest, ABodyStandsWhereForwardKinematicsHasIt) {
       EXPECT_LT((own.cast<double>() - expected).cwiseAbs().maxCoeff(), 1e-5);
     }
   }
+}
+
+// The mean of a pose and its mirror image is its own mirror image; where clips stand is no matter.
+TEST_F(WindowClipsTest, TheUsualPoseHasNoSides) {
+  const UsualPose usual = MeasureUsualPose(clips_.skeleton(), clips_.tracks());
+  const Pose mirrored = Mirror(clips_.skeleton(), usual.pose);
+  EXPECT_LT((mirrored.rotations - usual.pose.rotations).norm(), 1e-9);
+  EXPECT_EQ(usual.pose.root_position.x(), 0);
+  EXPECT_GT(usual.pose.root_position.y(), 0.5);
+  EXPECT_GT(usual.variance.minCoeff(), -1e-12);
+  std::vector<ClipTrack> elsewhere(clips_.tracks().begin(), clips_.tracks().end());
+  for (ClipTrack& track : elsewhere) {
+    track.stage.x() += 7;
+    for (Pose& pose : track.poses) pose.root_position.x() += 7;
+  }
+  const UsualPose there = MeasureUsualPose(clips_.skeleton(), elsewhere);
+  EXPECT_LT((there.variance - usual.variance).norm(), 1e-9);
+}
+
+// Who does not know the stage has no usual place; a batch says whose root it leads.
+TEST_F(WindowClipsTest, StagesAreToldAsOftenAsAskedFor) {
+  EXPECT_EQ(Draw({.no_key = 1}).staged.sum().item<double>(), 0);
+  EXPECT_EQ(Draw({.no_key = 1, .stage = 1}).staged.sum().item<double>(), 3);
+  EXPECT_EQ(Draw({.stage = 1}).staged.sum().item<double>(), 0) << "keys say the place";
 }
 
 TEST_F(WindowClipsTest, ABodyMovesAsItsCoordinatesDo) {
