@@ -1,40 +1,41 @@
 #include "model/fit/bvh_source.h"
 
 #include <cmath>
-#include <initializer_list>
 #include <optional>
 
 #include "model/core/error.h"
+#include "model/fit/human_bones.h"
 #include "model/fit/mapping_builder.h"
 #include "model/fit/quantile.h"
 
 namespace choreo {
 namespace {
 
-// Finds joints whatever their prefix ("mixamorig:Hips") and returns the name as the file has it.
-class BvhNames {
+/// The clip's joints by what they are.
+class ClipBones {
  public:
-  explicit BvhNames(const std::vector<std::string>& names) : names_(names) {}
+  explicit ClipBones(const PositionClip& clip)
+      : names_(clip.joint_names), found_(FindHumanBones(clip.joint_names)) {}
 
-  std::optional<std::string> Any(std::initializer_list<const char*> candidates) const {
-    for (const std::string candidate : candidates) {
-      for (const std::string& name : names_) {
-        const bool prefixed =
-            name.size() > candidate.size() && name.ends_with(candidate) &&
-            std::string(":_").find(name[name.size() - candidate.size() - 1]) != std::string::npos;
-        if (name == candidate || prefixed) return name;
-      }
-    }
-    return std::nullopt;
+  std::optional<std::string> Any(const std::string& bone) const {
+    const int index = found_.Find(bone);
+    if (index < 0) return std::nullopt;
+    return names_[static_cast<size_t>(index)];
   }
-  std::string Need(std::initializer_list<const char*> candidates) const {
-    if (const auto name = Any(candidates)) return *name;
-    throw InvalidArgument("joint_names", "no joint named '" + std::string(*candidates.begin()) +
-                                             "' or one of its usual other names");
+  std::string Need(const std::string& bone) const {
+    if (const auto name = Any(bone)) return *name;
+    throw InvalidArgument("joint_names", "no joint named '" + NameInRig(found_.rig, bone) +
+                                             "' or one of its usual other names (" + bone + ")");
+  }
+  std::vector<std::string> Spine() const {
+    std::vector<std::string> spine;
+    for (const int index : found_.Spine()) spine.push_back(names_[static_cast<size_t>(index)]);
+    return spine;
   }
 
  private:
   const std::vector<std::string>& names_;
+  HumanBones found_;
 };
 
 struct SideNames {
@@ -42,42 +43,17 @@ struct SideNames {
   std::optional<std::string> toes, hand, eye, collar;
 };
 
-// Collarbones come first: where they are named, LeftShoulder is the shoulder, else the collarbone.
-SideNames FindSide(const BvhNames& names, bool left) {
-  SideNames side;
-  side.hip =
-      left ? names.Need({"LeftUpLeg", "LeftHip", "lThigh", "LeftThigh", "left_hip", "L_Thigh"})
-           : names.Need({"RightUpLeg", "RightHip", "rThigh", "RightThigh", "right_hip", "R_Thigh"});
-  side.knee =
-      left ? names.Need({"LeftLeg", "LeftKnee", "lShin", "LeftShin", "left_knee", "L_Calf"})
-           : names.Need({"RightLeg", "RightKnee", "rShin", "RightShin", "right_knee", "R_Calf"});
-  side.ankle = left ? names.Need({"LeftFoot", "LeftAnkle", "lFoot", "left_ankle", "L_Foot"})
-                    : names.Need({"RightFoot", "RightAnkle", "rFoot", "right_ankle", "R_Foot"});
-  side.shoulder = left ? names.Need({"LeftArm", "lShldr", "LeftUpArm", "LeftUpperArm",
-                                     "left_shoulder", "L_Upperarm", "LeftShoulder"})
-                       : names.Need({"RightArm", "rShldr", "RightUpArm", "RightUpperArm",
-                                     "right_shoulder", "R_Upperarm", "RightShoulder"});
-  side.elbow = left ? names.Need({"LeftForeArm", "LeftElbow", "lForeArm", "LeftLowArm",
-                                  "left_elbow", "L_Forearm"})
-                    : names.Need({"RightForeArm", "RightElbow", "rForeArm", "RightLowArm",
-                                  "right_elbow", "R_Forearm"});
-  side.wrist = left ? names.Need({"LeftHand", "LeftWrist", "lHand", "left_wrist", "L_Hand"})
-                    : names.Need({"RightHand", "RightWrist", "rHand", "right_wrist", "R_Hand"});
-  side.toes = left ? names.Any({"LeftToeBase", "LeftToe", "LeftToes", "lFoot_end", "LeftFoot_end",
-                                "left_foot", "L_ToeBase"})
-                   : names.Any({"RightToeBase", "RightToe", "RightToes", "rFoot_end",
-                                "RightFoot_end", "right_foot", "R_ToeBase"});
-  side.hand = left ? names.Any({"LeftHandMiddle1", "lMid1", "LeftHandIndex1", "LeftFingerBase",
-                                "left_hand", "L_Mid1"})
-                   : names.Any({"RightHandMiddle1", "rMid1", "RightHandIndex1", "RightFingerBase",
-                                "right_hand", "R_Mid1"});
-  side.collar =
-      left ? names.Any({"LeftCollar", "lCollar", "left_collar", "L_Clavicle", "LeftShoulder"})
-           : names.Any({"RightCollar", "rCollar", "right_collar", "R_Clavicle", "RightShoulder"});
-  if (side.collar == side.shoulder) side.collar.reset();
-  side.eye = left ? names.Any({"leftEye", "LeftEye", "L_Eye"})
-                  : names.Any({"rightEye", "RightEye", "R_Eye"});
-  return side;
+SideNames FindSide(const ClipBones& bones, const std::string& side) {
+  return {.hip = bones.Need(side + "hip"),
+          .knee = bones.Need(side + "knee"),
+          .ankle = bones.Need(side + "ankle"),
+          .shoulder = bones.Need(side + "shoulder"),
+          .elbow = bones.Need(side + "elbow"),
+          .wrist = bones.Need(side + "wrist"),
+          .toes = bones.Any(side + "foot"),
+          .hand = bones.Any(side + "hand"),
+          .eye = bones.Any(side + "eye"),
+          .collar = bones.Any(side + "collar")};
 }
 
 double MedianDistance(const PositionClip& clip, const JointBlend& a, const JointBlend& b) {
@@ -106,7 +82,7 @@ JointBlend Sum(JointBlend a, const JointBlend& b) {
 // The spine from the middle of the hips to the neck, whatever number of joints it has.
 class SpineChain {
  public:
-  SpineChain(const PositionClip& clip, const BvhNames& names, const JointBlend& hips,
+  SpineChain(const PositionClip& clip, const ClipBones& bones, const JointBlend& hips,
              const std::string& neck)
       : points_{hips}, heights_{0.0} {
     const auto append = [&](const JointBlend& point) {
@@ -116,11 +92,7 @@ class SpineChain {
       heights_.push_back(heights_.back() + step);
       points_.push_back(point);
     };
-    for (const char* name :
-         {"LowerBack", "Waist", "Spine", "Spine1", "Spine2", "Spine3", "Spine4", "Spine01",
-          "Spine02", "abdomen", "chest", "Chest", "Chest2", "Chest3", "Chest4"}) {
-      if (const auto joint = names.Any({name})) append({{*joint, 1.0}});
-    }
+    for (const std::string& joint : bones.Spine()) append({{joint, 1.0}});
     append({{neck, 1.0}});
   }
 
@@ -176,11 +148,11 @@ void AddCollar(const PositionClip& clip, const SpineChain& spine, const SideName
   builder.Add(prefix + "shoulder", prefix + "collar", shoulder, {{.joint = prefix + "shoulder"}});
 }
 
-void AddTrunk(const PositionClip& clip, const BvhNames& names, const SideNames& left,
+void AddTrunk(const PositionClip& clip, const ClipBones& bones, const SideNames& left,
               const SideNames& right, MappingBuilder& builder) {
-  const std::string neck = names.Need({"Neck", "Neck1", "neck", "NeckTwist01"});
+  const std::string neck = bones.Need("neck");
   const JointBlend hips = {{left.hip, 0.5}, {right.hip, 0.5}};
-  const SpineChain spine(clip, names, hips, neck);
+  const SpineChain spine(clip, bones, hips, neck);
   builder.Add("hips", "", hips, MappingBuilder::Between("left_hip", "right_hip"));
   builder.AddJoint("left_hip", "hips", left.hip);
   builder.AddJoint("right_hip", "hips", right.hip);
@@ -191,7 +163,7 @@ void AddTrunk(const PositionClip& clip, const BvhNames& names, const SideNames& 
     builder.Add("chest", "hips", spine.At(kChestHeight), {{.joint = "spine3"}}, 0.5, false);
   }
   builder.Add("neck", "hips", {{neck, 1.0}}, {{.joint = "neck"}}, 1, false);
-  if (const auto head = names.Any({"Head", "head"})) {
+  if (const auto head = bones.Any("head")) {
     // Straight above the neck, where ours leads forward.
     builder.Add("head", "neck", {{*head, 1.0}}, {MappingBuilder::At("neck", 0, 0.09, 0.012)});
     if (left.eye && right.eye) {
@@ -233,11 +205,11 @@ void AddLimbs(const SideNames& side, bool left, MappingBuilder& builder) {
 
 SourceMapping BvhSource(const PositionClip& clip) {
   ValidateClip(clip);
-  const BvhNames names(clip.joint_names);
-  const SideNames left = FindSide(names, true);
-  const SideNames right = FindSide(names, false);
+  const ClipBones bones(clip);
+  const SideNames left = FindSide(bones, "left_");
+  const SideNames right = FindSide(bones, "right_");
   MappingBuilder builder("bvh", 0.01);
-  AddTrunk(clip, names, left, right, builder);
+  AddTrunk(clip, bones, left, right, builder);
   AddLimbs(left, true, builder);
   AddLimbs(right, false, builder);
   return builder.Take();

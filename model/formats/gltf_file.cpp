@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "model/core/json_depth.h"
+#include "model/formats/glb_chunks.h"
 
 namespace choreo {
 
@@ -16,24 +15,12 @@ std::string GltfItem(const char* list, size_t index) {
   return item;
 }
 
-namespace {
-
-/// The first chunk of a file, as far as it is there.
-std::string_view JsonOf(const std::vector<char>& bytes) {
-  constexpr size_t kHeaders = 20;  // of the file and of the chunk, whose length stands at 12
-  if (bytes.size() < kHeaders) return {};
-  uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, sizeof(length));
-  return std::string_view(bytes.data(), bytes.size()).substr(kHeaders, length);
+tinygltf::Model ParseGlb(const std::filesystem::path& path) {
+  return ParseGlb(std::string_view(ReadGlbBytes(path)));
 }
 
-}  // namespace
-
-tinygltf::Model ParseGlb(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-  CheckJsonDepth(JsonOf(bytes), "");
+tinygltf::Model ParseGlb(std::string_view bytes) {
+  CheckJsonDepth(SplitGlb(bytes).json, "");
   tinygltf::TinyGLTF gltf;
   // A motion comes from one file: no others are opened, and pictures are not looked at.
   gltf.SetFsCallbacks(
@@ -53,8 +40,7 @@ tinygltf::Model ParseGlb(const std::filesystem::path& path) {
   tinygltf::Model model;
   std::string error, warning;
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  if (bytes.size() > UINT32_MAX ||
-      !gltf.LoadBinaryFromMemory(&model, &error, &warning, data,
+  if (!gltf.LoadBinaryFromMemory(&model, &error, &warning, data,
                                  static_cast<unsigned>(bytes.size()))) {
     error.erase(std::find(error.begin(), error.end(), '\n'), error.end());
     throw InvalidArgument("", "is no binary glTF: " + (error.empty() ? "bad header" : error));
@@ -114,6 +100,14 @@ Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int ty
   }
   if (!values.allFinite()) throw InvalidArgument(name, "holds values that are not finite");
   return values;
+}
+
+void AppendTurn(Eigen::Quaterniond turn, std::vector<float>* turns) {
+  Eigen::Quaternionf before = Eigen::Quaternionf::Identity();
+  if (turns->size() >= 4) before = Eigen::Quaternionf(&*(turns->end() - 4));
+  if (turn.dot(before.cast<double>()) < 0) turn.coeffs() = -turn.coeffs();
+  const Eigen::Vector4f coefficients = turn.normalized().coeffs().cast<float>();  // x y z w
+  turns->insert(turns->end(), coefficients.begin(), coefficients.end());
 }
 
 }  // namespace choreo

@@ -3,8 +3,10 @@
 #include <tiny_gltf.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/core/error.h"
@@ -29,9 +31,15 @@ const T& GltfAt(const std::vector<T>& list, int index, const char* name) {
 /// Reads and parses a file. Opens no other file beside it and decodes no pictures. Throws
 /// Error(kNotFound) naming the path, and Error(kInvalidArgument) without it.
 tinygltf::Model ParseGlb(const std::filesystem::path& path);
+/// The same of bytes.
+tinygltf::Model ParseGlb(std::string_view bytes);
 
 /// An accessor's elements, [components, count]; normalised integers become -1 to 1. `type` is a
 /// TINYGLTF_TYPE. Throws Error(kInvalidArgument) naming the accessor.
 Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type);
+
+/// Appends x, y, z, w, of the sign that is nearer to the four before: readers interpolate along the
+/// shorter way between neighbours of one sign.
+void AppendTurn(Eigen::Quaterniond turn, std::vector<float>* turns);
 
 }  // namespace choreo

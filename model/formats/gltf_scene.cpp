@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <utility>
 
-#include "model/motion/pose_limits.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
@@ -18,8 +15,7 @@ constexpr double kMaxPlaces = 3e7;  // of nodes in frames: a gigabyte, whatever 
 
 }  // namespace
 
-GltfScene::GltfScene(const tinygltf::Model& model) {
-  ReadNodes(model);
+GltfScene::GltfScene(const tinygltf::Model& model) : nodes_(model) {
   if (model.animations.empty()) throw InvalidArgument("animations", "there is none");
   for (const tinygltf::AnimationChannel& channel : model.animations[0].channels) {
     AddChannel(model, channel);
@@ -28,19 +24,14 @@ GltfScene::GltfScene(const tinygltf::Model& model) {
   ChooseTimes(model.animations[0]);
 }
 
-int GltfScene::Find(const std::string& name) const {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
-}
-
 std::vector<Eigen::Affine3d> GltfScene::Frame(int64_t frame) const {
-  std::vector<Placement> local = rest_;
+  std::vector<GltfPlacement> local = nodes_.rest();
   const double time = start_ + static_cast<double>(frame) / fps_;
   for (const Channel& channel : channels_) channel.Drive(time, local[channel.node]);
-  return Place(local);
+  return nodes_.Place(local);
 }
 
-void GltfScene::Channel::Drive(double time, Placement& placement) const {
+void GltfScene::Channel::Drive(double time, GltfPlacement& placement) const {
   const auto* const begin = times.data();
   const auto* const end = begin + times.size();
   const Eigen::Index after = std::upper_bound(begin, end, time) - begin;
@@ -55,52 +46,6 @@ void GltfScene::Channel::Drive(double time, Placement& placement) const {
     (path == Path::kScale ? placement.scale : placement.translation) =
         values.col(a) + t * (values.col(b) - values.col(a));
   }
-}
-
-void GltfScene::ReadNodes(const tinygltf::Model& model) {
-  const size_t count = model.nodes.size();
-  parents_.assign(count, -1);
-  for (size_t i = 0; i < count; ++i) {
-    const tinygltf::Node& node = model.nodes[i];
-    names_.push_back(node.name);
-    rest_.push_back(ReadPlacement(node, GltfItem("nodes", i)));
-    for (const int child : node.children) {
-      GltfAt(model.nodes, child, "nodes");
-      if (std::exchange(parents_[static_cast<size_t>(child)], static_cast<int>(i)) >= 0)
-        throw InvalidArgument(GltfItem("nodes", static_cast<size_t>(child)), "has two parents");
-    }
-  }
-  // Parents first.
-  for (size_t i = 0; i < count; ++i) {
-    if (parents_[i] < 0) order_.push_back(i);
-  }
-  for (size_t i = 0; i < order_.size(); ++i) {
-    for (const int child : model.nodes[order_[i]].children)
-      order_.push_back(static_cast<size_t>(child));
-  }
-  if (order_.size() != count) throw InvalidArgument("nodes", "some are their own ancestors");
-}
-
-GltfScene::Placement GltfScene::ReadPlacement(const tinygltf::Node& node, const std::string& name) {
-  Placement placement;
-  if (node.matrix.size() == 16) {
-    const Eigen::Affine3d transform(Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()));
-    Eigen::Matrix3d rotation, scaling;
-    transform.computeRotationScaling(&rotation, &scaling);
-    placement.translation = transform.translation();
-    placement.rotation = Eigen::Quaterniond(rotation);
-    placement.scale = scaling.diagonal();
-  }
-  if (node.translation.size() == 3)
-    placement.translation = Eigen::Map<const Eigen::Vector3d>(node.translation.data());
-  if (node.rotation.size() == 4)
-    placement.rotation =
-        Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(node.rotation.data())).normalized();
-  if (node.scale.size() == 3)
-    placement.scale = Eigen::Map<const Eigen::Vector3d>(node.scale.data());
-  if (!placement.Transform().matrix().allFinite())
-    throw InvalidArgument(name, "has a placement that is not finite");
-  return placement;
 }
 
 void GltfScene::AddChannel(const tinygltf::Model& model,
@@ -172,28 +117,12 @@ void GltfScene::ChooseTimes(const tinygltf::Animation& animation) {
                                                std::to_string(fps_) +
                                                " fps, at most 1000000 frames are read");
   }
-  if (frames * static_cast<double>(names_.size()) > kMaxPlaces) {
-    throw InvalidArgument("nodes", std::to_string(names_.size()) + " in " +
+  if (frames * static_cast<double>(names().size()) > kMaxPlaces) {
+    throw InvalidArgument("nodes", std::to_string(names().size()) + " in " +
                                        std::to_string(static_cast<int64_t>(frames)) +
                                        " frames, at most 30000000 places are read");
   }
   frames_ = static_cast<int64_t>(frames);
-}
-
-std::vector<Eigen::Affine3d> GltfScene::Place(const std::vector<Placement>& local) const {
-  std::vector<Eigen::Affine3d> world(local.size());
-  for (const size_t node : order_) {
-    world[node] = local[node].Transform();
-    if (parents_[node] >= 0) world[node] = world[static_cast<size_t>(parents_[node])] * world[node];
-    const double distance = world[node].translation().cwiseAbs().maxCoeff();
-    if (!(distance <= kMaxPosition)) {
-      std::ostringstream message;
-      message << "stands at " << distance << " m, further than " << kMaxPosition
-              << " m from the origin";
-      throw InvalidArgument(GltfItem("nodes", node), message.str());
-    }
-  }
-  return world;
 }
 
 }  // namespace choreo

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/formats/gltf_file.h"
+#include "model/formats/gltf_nodes.h"
 
 namespace choreo {
 
@@ -19,26 +19,16 @@ class GltfScene {
 
   double fps() const { return fps_; }
   int64_t frames() const { return frames_; }
-  const std::vector<std::string>& names() const { return names_; }
-  int parent(int node) const { return parents_[static_cast<size_t>(node)]; }
+  const std::vector<std::string>& names() const { return nodes_.names(); }
+  int parent(int node) const { return nodes_.parent(static_cast<size_t>(node)); }
   /// The first node of this name, or -1.
-  int Find(const std::string& name) const;
+  int Find(const std::string& name) const { return nodes_.Find(name); }
 
   /// Where all nodes are in the world.
-  std::vector<Eigen::Affine3d> Rest() const { return Place(rest_); }
+  std::vector<Eigen::Affine3d> Rest() const { return nodes_.Place(nodes_.rest()); }
   std::vector<Eigen::Affine3d> Frame(int64_t frame) const;
 
  private:
-  struct Placement {
-    Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-    Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-
-    Eigen::Affine3d Transform() const {
-      return Eigen::Translation3d(translation) * rotation * Eigen::Scaling(scale);
-    }
-  };
-
   struct Channel {
     enum class Path { kTranslation, kRotation, kScale };
     size_t node;
@@ -48,19 +38,13 @@ class GltfScene {
     Eigen::MatrixXd values;    // [3 or 4, keys]
 
     // Sets what it drives to its value at `time`; before the first and after the last key it holds.
-    void Drive(double time, Placement& placement) const;
+    void Drive(double time, GltfPlacement& placement) const;
   };
 
-  static Placement ReadPlacement(const tinygltf::Node& node, const std::string& name);
-  void ReadNodes(const tinygltf::Model& model);
   void AddChannel(const tinygltf::Model& model, const tinygltf::AnimationChannel& channel);
   void ChooseTimes(const tinygltf::Animation& animation);
-  std::vector<Eigen::Affine3d> Place(const std::vector<Placement>& local) const;
 
-  std::vector<std::string> names_;
-  std::vector<int> parents_;   // -1: none
-  std::vector<size_t> order_;  // parents first
-  std::vector<Placement> rest_;
+  GltfNodes nodes_;
   std::vector<Channel> channels_;
   double fps_ = 0;
   double start_ = 0;

@@ -8,6 +8,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/gltf.h"
+#include "model/formats/gltf_file.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
@@ -149,15 +150,8 @@ class GlbBuilder {
     channel(0, "translation", Add(places, TINYGLTF_TYPE_VEC3));
     for (int joint = 0; joint < skeleton_.joints(); ++joint) {
       std::vector<float> turns;
-      Eigen::Quaterniond before = Eigen::Quaterniond::Identity();
-      for (const Pose& pose : motion_.frames) {
-        Eigen::Quaterniond turn = QuaternionFromExp(pose.rotations.col(joint));
-        // Readers interpolate along the shorter way between neighbours of one sign.
-        if (turn.dot(before) < 0) turn.coeffs() = -turn.coeffs();
-        before = turn;
-        const Eigen::Vector4f coefficients = turn.normalized().coeffs().cast<float>();  // x y z w
-        turns.insert(turns.end(), coefficients.begin(), coefficients.end());
-      }
+      for (const Pose& pose : motion_.frames)
+        AppendTurn(QuaternionFromExp(pose.rotations.col(joint)), &turns);
       channel(joint, "rotation", Add(turns, TINYGLTF_TYPE_VEC4));
     }
     model_.animations.push_back(std::move(animation));

@@ -1,46 +1,10 @@
 #include "model/motion/leg.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
-#include "model/motion/rotation.h"
+#include "model/motion/limb.h"
 
 namespace choreo {
-namespace {
-
-// Share of the straight leg's length over which it gives way: a knee that met the last millimetres
-// exactly would snap, as a millimetre of reach is six degrees of it there.
-constexpr double kSoftShare = 0.04;
-// Sine of the bend below which the knee's own hinge, not the bend, tells the plane.
-constexpr double kHingeWeight = 0.02;
-
-/// A knee that turns about one axis: bones of lengths `a` and `b`, of the lower of which the share
-/// `in_plane` turns.
-struct Knee {
-  double a, b, in_plane;
-
-  double Straight() const { return std::sqrt(a * a + b * b + 2 * a * b * in_plane); }
-
-  // How far it is bent, radians, with its ends so far apart: exact up to a soft zone, in which it
-  // straightens ever more slowly, and is straight nowhere.
-  double SoftBend(double distance) const {
-    const double straight = Straight(), zone = kSoftShare * straight;
-    const double beyond = distance - (straight - zone);
-    const double soft = beyond > 0 ? straight - zone * std::exp(-beyond / zone) : distance;
-    return std::acos(std::clamp((soft * soft - a * a - b * b) / (2 * a * b * in_plane), -1.0, 1.0));
-  }
-
-  // The same, from a knee bent by `bend` at the distance `present`: the further it is from there,
-  // the less it is the knee's present bend, straight or beyond, and the more the soft one.
-  double BendFrom(double bend, double present, double distance) const {
-    const double fades = 4 * kSoftShare * Straight();
-    const double near = std::max(0.0, 1 - std::abs(distance - present) / fades);
-    return SoftBend(distance) + near * near * (bend - SoftBend(present));
-  }
-};
-
-}  // namespace
 
 std::array<Leg, 2> Leg::Of(const Skeleton& skeleton) {
   return {Leg{skeleton.left_hip, skeleton.left_knee, skeleton.feet[0], skeleton.feet[1]},
@@ -67,40 +31,9 @@ double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vecto
 void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
                const Eigen::Vector3d& toes, Pose* pose) {
   const auto at = [&](int joint) -> Eigen::Vector3d { return placement.positions.col(joint); };
-  const auto turned = [&](int joint) -> const Eigen::Matrix3d& {
-    return placement.rotations[static_cast<size_t>(joint)];
-  };
-  const Eigen::Vector3d hip = at(leg.hip);
-  const Eigen::Vector3d thigh = at(leg.knee) - hip, shin = at(leg.ankle) - at(leg.knee);
-  const double a = thigh.norm(), b = shin.norm();
-  const Eigen::Vector3d goal = toes - (at(leg.toes) - at(leg.ankle)) - hip;
-  const double distance = std::max(goal.norm(), std::abs(a - b) + 0.05 * b);
-
-  // Across the thigh; about it the ankle swings backwards. The plane of a bent leg counts by how
-  // far it bends as the hinge does: a knee that is bent backwards or sideways bends forward from
-  // there.
-  const Eigen::Vector3d hinge = turned(leg.hip).col(0);
-  const Eigen::Vector3d along = thigh / a;
-  const Eigen::Vector3d plane = thigh.cross(shin) / (a * b);
-  const double forward = std::max(0.0, plane.dot(hinge)) / std::max(plane.norm(), 1e-12);
-  const Eigen::Vector3d axis =
-      (forward * plane + kHingeWeight * (hinge - hinge.dot(along) * along)).normalized();
-  const double bend = std::atan2(axis.dot(along.cross(shin)), along.dot(shin));
-  const double in_plane = std::max(0.1, (shin - shin.dot(axis) * axis).norm() / b);
-  const double wanted = Knee{a, b, in_plane}.BendFrom(bend, (thigh + shin).norm(), distance);
-  const Eigen::Matrix3d knee = Eigen::AngleAxisd(wanted - bend, axis).toRotationMatrix();
-  const Eigen::Matrix3d swing =
-      Eigen::Quaterniond::FromTwoVectors(thigh + knee * shin, goal).toRotationMatrix();
-
-  const Eigen::Matrix3d& pelvis = turned(skeleton.parents[static_cast<size_t>(leg.hip)]);
-  const Eigen::Matrix3d new_hip = swing * turned(leg.hip);
-  const Eigen::Matrix3d new_knee = swing * knee * turned(leg.knee);
-  const auto set = [&](int joint, const Eigen::Matrix3d& local) {
-    pose->rotations.col(joint) = NearestBranch(LogMap(local), pose->rotations.col(joint));
-  };
-  set(leg.hip, pelvis.transpose() * new_hip);
-  set(leg.knee, new_hip.transpose() * new_knee);
-  set(leg.ankle, new_knee.transpose() * turned(leg.ankle));
+  const Eigen::Vector3d goal = toes - (at(leg.toes) - at(leg.ankle)) - at(leg.hip);
+  const Eigen::Vector3d hinge = placement.rotations[static_cast<size_t>(leg.hip)].col(0);
+  PlaceEnd({leg.hip, leg.knee, leg.ankle}, hinge, skeleton, placement, goal, pose);
 }
 
 }  // namespace choreo

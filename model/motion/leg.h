@@ -23,13 +23,8 @@ struct Leg {
 /// thigh and shin: below 1 the ankle of `placement` could be put where `toes` asks for it.
 double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vector3d& toes);
 
-/// Two-bone inverse kinematics: turns hip and knee so that the toes come to `toes`, the foot
-/// keeping its global rotation. The knee bends in its present plane (a straight leg, and one that is
-/// bent backwards: forward), and the leg turns about the hip by the smallest angle. Continuous in
-/// pose and `toes`: asked for what is there, it changes nothing; towards its full length a leg
-/// straightens ever more slowly, so that toes may stay behind by a centimetre, and out of reach it
-/// points at them. `placement` is the forward kinematics of `pose`, in whose frame `toes` stands;
-/// afterwards it is stale. Rotations stay on their branch.
+/// Turns hip and knee so that the toes come to `toes`, the foot keeping its global rotation
+/// (limb.h: PlaceEnd); a straight knee bends forward. `toes` stands in the frame of `pose`.
 void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
                const Eigen::Vector3d& toes, Pose* pose);
 

@@ -1,0 +1,224 @@
+#include "model/fit/character_body.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "model/core/error.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kHighestAnkle = 0.3;   // of the leg: what stands higher does not stand on y = 0
+constexpr double kSunkenToes = -0.03;   // of the leg: nor what is lower
+constexpr double kToesHeight = 0.025;   // of the leg: of SMPL's toes above the floor
+constexpr double kAnkleHeight = 0.1;    // the same of its ankles
+constexpr double kShortestBone = 1e-4;  // of the leg
+
+class BodyBuilder {
+ public:
+  BodyBuilder(const HumanBones& bones, const Eigen::Matrix3Xd& places)
+      : bones_(bones), places_(places), rest_(JointPositions(smpl_, RestPose(smpl_))) {}
+
+  CharacterBody Build() {
+    Upright();
+    AddTrunk();
+    for (const std::string side : {"left_", "right_"}) AddArm(side);
+    for (const std::string side : {"left_", "right_"}) AddLeg(side);
+    Skeleton& skeleton = body_.skeleton;
+    skeleton.name = "character";
+    skeleton.AssignRoles();
+    Stand();
+    skeleton.Validate();
+    return std::move(body_);
+  }
+
+ private:
+  Eigen::Vector3d Place(const std::string& bone) const { return places_.col(bones_.Find(bone)); }
+  Eigen::Vector3d Rest(const std::string& joint) const { return rest_.col(smpl_.Find(joint)); }
+
+  // What turns the rig upright, facing +Z.
+  void Upright() {
+    const auto middle = [&](const char* joint) -> Eigen::Vector3d {
+      return (Place(std::string("left_") + joint) + Place(std::string("right_") + joint)) / 2;
+    };
+    const auto across = [&](const char* joint) -> Eigen::Vector3d {
+      return Place(std::string("left_") + joint) - Place(std::string("right_") + joint);
+    };
+    const Eigen::Vector3d trunk = middle("shoulder") - middle("hip");
+    Eigen::Index axis = 0;
+    trunk.cwiseAbs().maxCoeff(&axis);
+    const Eigen::Vector3d up = Eigen::Vector3d::Unit(axis) * (trunk[axis] < 0 ? -1 : 1);
+    Eigen::Vector3d left = across("shoulder") + across("hip");
+    left -= left.dot(up) * up;
+    leg_ = (Place("left_knee") - Place("left_hip")).norm() +
+           (Place("left_ankle") - Place("left_knee")).norm();
+    if (!(left.norm() > kShortestBone * leg_) || !(trunk.norm() > kShortestBone * leg_)) {
+      throw InvalidArgument("bones", "hips and shoulders of left and right stand in one place");
+    }
+    left.normalize();
+    upright_.row(0) = left;
+    upright_.row(1) = up;
+    upright_.row(2) = left.cross(up);
+    double ahead = 0;
+    for (const std::string side : {"left_", "right_"}) {
+      if (HasToes(side)) ahead += (upright_ * (Place(side + "foot") - Place(side + "ankle"))).z();
+    }
+    if (ahead < 0) {
+      throw InvalidArgument("bones", "the feet point backwards: left and right are exchanged");
+    }
+  }
+
+  bool HasToes(const std::string& side) const {
+    return bones_.Find(side + "foot") >= 0 &&
+           (Place(side + "foot") - Place(side + "ankle")).norm() > kShortestBone * leg_;
+  }
+
+  int Add(const std::string& joint, int node, int parent, const Eigen::Vector3d& offset,
+          const Eigen::Matrix3d& turn) {
+    Skeleton& skeleton = body_.skeleton;
+    skeleton.joint_names.push_back(joint);
+    skeleton.parents.push_back(parent);
+    skeleton.offsets.conservativeResize(3, skeleton.joints());
+    skeleton.offsets.rightCols<1>() = offset;
+    body_.nodes.push_back(node);
+    body_.turns.push_back(turn);
+    return skeleton.joints() - 1;
+  }
+
+  int AddBone(const std::string& bone, int parent, const Eigen::Matrix3d& turn) {
+    const int node = bones_.Find(bone);
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+    if (parent >= 0) {
+      const auto above = static_cast<size_t>(parent);
+      offset = body_.turns[above] * (places_.col(node) - places_.col(body_.nodes[above]));
+    }
+    return Add(bone, node, parent, offset, turn);
+  }
+
+  void AddTrunk() {
+    chest_ = AddBone("pelvis", -1, upright_);
+    const auto chain = [&](const char* first, size_t count, int parent) {
+      for (size_t i = 1; i <= count; ++i) {
+        const bool bare = i == 1 && std::string(first) == "neck";
+        parent = AddBone(bare ? first : first + std::to_string(i), parent, upright_);
+      }
+      return parent;
+    };
+    chest_ = chain("spine", bones_.Spine().size(), chest_);
+    const int neck = chain("neck", bones_.Neck().size(), chest_);
+    if (bones_.Find("head") >= 0) AddBone("head", neck, upright_);
+  }
+
+  // What leads from the rest pose, turned by `turn`, to where the bone lies as SMPL's does.
+  Eigen::Matrix3d Along(const std::string& from, const std::string& to,
+                        const Eigen::Matrix3d& turn) const {
+    const Eigen::Vector3d bone = turn * (Place(to) - Place(from));
+    if (!(bone.norm() > kShortestBone * leg_))
+      throw InvalidArgument("bones", to + " stands where " + from + " does");
+    return Eigen::Quaterniond::FromTwoVectors(bone, Rest(to) - Rest(from)).matrix() * turn;
+  }
+
+  void AddArm(const std::string& side) {
+    int above = chest_;
+    if (bones_.Find(side + "collar") >= 0) above = AddBone(side + "collar", above, upright_);
+    const Eigen::Matrix3d arm = Along(side + "shoulder", side + "elbow", upright_);
+    const Eigen::Matrix3d forearm = Along(side + "elbow", side + "wrist", arm);
+    above = AddBone(side + "shoulder", above, arm);
+    above = AddBone(side + "elbow", above, forearm);
+    AddBone(side + "wrist", above, forearm);  // a hand goes on where the forearm points
+  }
+
+  void AddLeg(const std::string& side) {
+    const Eigen::Matrix3d thigh = Along(side + "hip", side + "knee", upright_);
+    const Eigen::Matrix3d shin = Along(side + "knee", side + "ankle", thigh);
+    int above = AddBone(side + "hip", 0, thigh);
+    above = AddBone(side + "knee", above, shin);
+    const Eigen::Vector3d ours = Rest(side + "foot") - Rest(side + "ankle");
+    if (HasToes(side)) {
+      const Eigen::Matrix3d foot =
+          Flat(upright_ * (Place(side + "foot") - Place(side + "ankle")), ours);
+      above = AddBone(side + "ankle", above, foot);
+      AddBone(side + "foot", above, foot);
+    } else {
+      above = AddBone(side + "ankle", above, upright_);
+      Eigen::Vector3d offset = ours * Size();
+      offset.y() = kToesHeight * leg_ - AnkleHeight(side);
+      Add(side + "foot", -1, above, offset, upright_);
+    }
+  }
+
+  // A foot is flat at rest: it turns about the vertical alone.
+  Eigen::Matrix3d Flat(const Eigen::Vector3d& foot, const Eigen::Vector3d& ours) const {
+    if (std::hypot(foot.x(), foot.z()) < 0.5 * std::abs(foot.y())) return upright_;
+    const double turn = std::atan2(ours.x(), ours.z()) - std::atan2(foot.x(), foot.z());
+    return Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()).toRotationMatrix() * upright_;
+  }
+
+  double Height(const std::string& bone) const { return (upright_ * Place(bone)).y(); }
+
+  // The rig's size over SMPL's.
+  double Size() const {
+    return leg_ / ((Rest("left_knee") - Rest("left_hip")).norm() +
+                   (Rest("left_ankle") - Rest("left_knee")).norm());
+  }
+
+  double Floor() const {
+    const double ankle = std::min(Height("left_ankle"), Height("right_ankle"));
+    double toes = ankle - (kAnkleHeight - kToesHeight) * leg_;
+    bool stands = ankle > 0 && ankle < kHighestAnkle * leg_;
+    if (HasToes("left_") && HasToes("right_")) {
+      toes = std::min(Height("left_foot"), Height("right_foot"));
+      stands = stands && toes > kSunkenToes * leg_;
+    }
+    return stands ? 0 : toes - kToesHeight * leg_;
+  }
+
+  double AnkleHeight(const std::string& side) const { return Height(side + "ankle") - Floor(); }
+
+  void Stand() {
+    Skeleton& skeleton = body_.skeleton;
+    for (const std::string side : {"left_", "right_"}) {
+      double height = AnkleHeight(side);
+      for (int joint = skeleton.Find(side + "ankle"); joint > 0; joint = skeleton.parents[joint])
+        height -= skeleton.offsets(1, joint);
+      skeleton.pelvis_height = std::max(skeleton.pelvis_height, height);
+    }
+  }
+
+  const Skeleton& smpl_ = Skeleton::Smpl24();
+  const HumanBones& bones_;
+  const Eigen::Matrix3Xd& places_;
+  const Eigen::Matrix3Xd rest_;
+  CharacterBody body_;
+  Eigen::Matrix3d upright_;
+  double leg_ = 0;
+  int chest_ = -1;
+};
+
+}  // namespace
+
+std::string MissingBone(const HumanBones& bones) {
+  if (bones.Find("pelvis") < 0) return "pelvis";
+  for (const std::string side : {"left_", "right_"}) {
+    for (const char* bone : {"hip", "knee", "ankle", "shoulder", "elbow", "wrist"}) {
+      if (bones.Find(side + bone) < 0) return side + bone;
+    }
+  }
+  return bones.Find("head") < 0 && bones.Find("neck") < 0 ? "head" : "";
+}
+
+CharacterBody MakeCharacterBody(const HumanBones& bones, const Eigen::Matrix3Xd& places) {
+  if (const std::string missing = MissingBone(bones); !missing.empty())
+    throw InvalidArgument("bones", "none of them is the " + missing);
+  std::map<int, std::string> taken;
+  for (const auto& [bone, node] : bones.bones) {
+    const auto [other, is_new] = taken.try_emplace(node, bone);
+    if (!is_new) throw InvalidArgument("bones", other->second + " and " + bone + " are one node");
+  }
+  return BodyBuilder(bones, places).Build();
+}
+
+}  // namespace choreo

@@ -1,0 +1,192 @@
+#include "model/fit/human_bones.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "model/fit/human_rigs.h"
+
+namespace choreo {
+namespace {
+
+using Column = std::string_view Rig::*;
+constexpr std::pair<std::string_view, Column> kMiddle[] = {{"pelvis", &Rig::pelvis},
+                                                           {"head", &Rig::head}};
+constexpr std::pair<std::string_view, Column> kSide[] = {
+    {"hip", &Rig::hip},     {"knee", &Rig::knee},     {"ankle", &Rig::ankle},
+    {"foot", &Rig::toes},   {"collar", &Rig::collar}, {"shoulder", &Rig::shoulder},
+    {"elbow", &Rig::elbow}, {"wrist", &Rig::wrist},   {"hand", &Rig::hand},
+    {"eye", &Rig::eye}};
+constexpr int kMostSpines = 6, kMostNecks = 3;
+
+std::vector<std::string_view> Split(std::string_view names) {
+  std::vector<std::string_view> out;
+  while (!names.empty()) {
+    const size_t end = std::min(names.find('|'), names.size());
+    out.push_back(names.substr(0, end));
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+  return out;
+}
+
+// A name of the table on one side; in the middle, as it is.
+std::string OnSide(std::string_view name, const Rig& rig, bool left) {
+  std::string out;
+  for (const char letter : name) {
+    if (letter == '*') {
+      out += left ? rig.left : rig.right;
+    } else if (letter == '@') {
+      out += left ? "left" : "right";
+    } else {
+      out += letter;
+    }
+  }
+  return out;
+}
+
+std::string Numbered(const char* name, int number, bool first_bare) {
+  return first_bare && number == 1 ? name : name + std::to_string(number);
+}
+
+/// Indices of names, the first of each.
+class Names {
+ public:
+  explicit Names(const std::vector<std::string>& names) {
+    for (size_t i = 0; i < names.size(); ++i) index_.try_emplace(names[i], static_cast<int>(i));
+  }
+  int Find(const std::string& name) const {
+    const auto found = index_.find(name);
+    return found == index_.end() ? -1 : found->second;
+  }
+
+ private:
+  std::unordered_map<std::string_view, int> index_;
+};
+
+HumanBones FindIn(const Rig& rig, const std::string& prefix, const Names& names) {
+  HumanBones found{.rig = rig.name, .bones = {}};
+  const auto any = [&](const std::string& bone, std::string_view candidates, bool left) {
+    for (const std::string_view candidate : Split(candidates)) {
+      const int index = names.Find(prefix + OnSide(candidate, rig, left));
+      if (index >= 0 && found.bones.try_emplace(bone, index).second) return;
+    }
+  };
+  const auto all = [&](const char* bone, std::string_view candidates, bool first_bare) {
+    int number = 0;
+    for (const std::string_view candidate : Split(candidates)) {
+      const int index = names.Find(prefix + std::string(candidate));
+      if (index >= 0) found.bones[Numbered(bone, ++number, first_bare)] = index;
+    }
+  };
+  for (const auto& [bone, column] : kMiddle) any(std::string(bone), rig.*column, true);
+  all("spine", rig.spine, false);
+  all("neck", rig.neck, true);
+  for (const bool left : {true, false}) {
+    for (const auto& [bone, column] : kSide)
+      any((left ? "left_" : "right_") + std::string(bone), rig.*column, left);
+  }
+  return found;
+}
+
+// What may stand before all names of a rig: nothing, or what a separator ends.
+bool IsPrefix(std::string_view prefix) {
+  return prefix.empty() || prefix.starts_with("mixamorig") ||
+         std::string_view(":_-|. ").find(prefix.back()) != std::string_view::npos;
+}
+
+// Prefixes with which the left thigh is there. Of Rigify's three sets of bones DEF- moves the mesh.
+std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::string>& names) {
+  constexpr size_t kMost = 8;  // a hostile file has as many as bones
+  std::vector<std::string> prefixes = {"", "DEF-"};
+  for (const std::string_view candidate : Split(rig.hip)) {
+    const std::string thigh = OnSide(candidate, rig, true);
+    for (const std::string& name : names) {
+      if (!name.ends_with(thigh) || prefixes.size() == kMost) continue;
+      std::string prefix = name.substr(0, name.size() - thigh.size());
+      if (IsPrefix(prefix) && std::ranges::find(prefixes, prefix) == prefixes.end())
+        prefixes.push_back(std::move(prefix));
+    }
+  }
+  return prefixes;
+}
+
+// How much speaks for a rig: first the bones without which nobody dances, then any others.
+std::pair<int, size_t> Score(const HumanBones& found) {
+  int needed = found.Find("head") >= 0 || found.Find("neck") >= 0 ? 1 : 0;
+  for (const char* side : {"left_", "right_"}) {
+    for (const char* bone : {"hip", "knee", "ankle", "shoulder", "elbow", "wrist"})
+      needed += found.Find(std::string(side) + bone) >= 0 ? 1 : 0;
+  }
+  return {needed, found.bones.size()};
+}
+
+std::vector<int> Chain(const HumanBones& found, const char* name, bool first_bare) {
+  std::vector<int> chain;
+  for (int number = 1;; ++number) {
+    const int bone = found.Find(Numbered(name, number, first_bare));
+    if (bone < 0) return chain;
+    chain.push_back(bone);
+  }
+}
+
+}  // namespace
+
+int HumanBones::Find(const std::string& bone) const {
+  const auto found = bones.find(bone);
+  return found == bones.end() ? -1 : found->second;
+}
+
+std::vector<int> HumanBones::Spine() const { return Chain(*this, "spine", false); }
+std::vector<int> HumanBones::Neck() const { return Chain(*this, "neck", true); }
+
+HumanBones FindHumanBones(const std::vector<std::string>& names) {
+  const Names index(names);
+  HumanBones best{.rig = kHumanIk.name, .bones = {}};
+  for (const Rig& rig : kRigs) {
+    for (const std::string& prefix : PrefixesOf(rig, names)) {
+      HumanBones found = FindIn(rig, prefix, index);
+      if (Score(found) > Score(best)) best = std::move(found);
+    }
+  }
+  return best;
+}
+
+const std::vector<std::string>& AllHumanBones() {
+  static const std::vector<std::string> bones = [] {
+    std::vector<std::string> all = {"pelvis"};
+    for (int number = 1; number <= kMostSpines; ++number)
+      all.push_back(Numbered("spine", number, false));
+    for (int number = 1; number <= kMostNecks; ++number)
+      all.push_back(Numbered("neck", number, true));
+    all.emplace_back("head");
+    for (const char* side : {"left_", "right_"}) {
+      for (const auto& [bone, column] : kSide) all.push_back(side + std::string(bone));
+    }
+    return all;
+  }();
+  return bones;
+}
+
+std::string NameInRig(std::string_view rig_name, const std::string& bone) {
+  const Rig& rig = *std::ranges::find(kRigs, rig_name, &Rig::name);
+  const auto nth = [](std::string_view names, size_t number) {
+    const std::vector<std::string_view> split = Split(names);
+    return number < split.size() ? std::string(split[number]) : std::string();
+  };
+  for (int number = 1; number <= kMostSpines; ++number) {
+    const auto index = static_cast<size_t>(number) - 1;
+    if (bone == Numbered("spine", number, false)) return nth(rig.spine, index);
+    if (bone == Numbered("neck", number, true)) return nth(rig.neck, index);
+  }
+  for (const auto& [name, column] : kMiddle) {
+    if (bone == name) return nth(rig.*column, 0);
+  }
+  const bool left = bone.starts_with("left_");
+  for (const auto& [name, column] : kSide) {
+    if (bone == (left ? "left_" : "right_") + std::string(name))
+      return OnSide(nth(rig.*column, 0), rig, left);
+  }
+  return "";
+}
+
+}  // namespace choreo

@@ -1,0 +1,219 @@
+#include "model/fit/transfer.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "model/motion/kinematics.h"
+#include "model/motion/leg.h"
+#include "model/motion/limb.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+// Metres, of SMPL's body: a hand that is nearer touches, one that is farther is free.
+constexpr double kTouches = 0.12, kFree = 0.32;
+
+const Skeleton& Smpl() { return Skeleton::Smpl24(); }
+
+Eigen::Vector3d Col(const Eigen::Matrix3Xd& places, int joint) { return places.col(joint); }
+
+Eigen::Vector3d MiddleOfHips(const Skeleton& skeleton, const Eigen::Matrix3Xd& places) {
+  return (places.col(skeleton.left_hip) + places.col(skeleton.right_hip)) / 2;
+}
+
+double LegHeight(const Skeleton& skeleton) {
+  const auto drop = [&](int knee, int ankle) {
+    return -skeleton.offsets(1, knee) - skeleton.offsets(1, ankle);
+  };
+  return (drop(skeleton.left_knee, skeleton.feet[0]) +
+          drop(skeleton.right_knee, skeleton.feet[2])) /
+         2;
+}
+
+Eigen::Matrix3d Between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double share) {
+  return Eigen::Quaterniond(a).slerp(share, Eigen::Quaterniond(b)).toRotationMatrix();
+}
+
+/// Which of SMPL's global rotations a character's joint takes.
+class Takes {
+ public:
+  explicit Takes(const Skeleton& character) {
+    int spines = 0, necks = 0;
+    for (const std::string& name : character.joint_names) {
+      spines += name.starts_with("spine") ? 1 : 0;
+      necks += name.starts_with("neck") ? 1 : 0;
+    }
+    int spine = 0, neck = 0;
+    for (const std::string& name : character.joint_names) {
+      if (name.starts_with("spine")) {
+        takes_.push_back(Along({"pelvis", "spine1", "spine2", "spine3"}, ++spine, spines));
+      } else if (name.starts_with("neck")) {
+        takes_.push_back(Along({"neck", "head"}, neck++, necks));
+      } else {
+        takes_.push_back({Smpl().Find(name), Smpl().Find(name), 0});
+      }
+    }
+  }
+
+  Eigen::Matrix3d Of(size_t joint, const JointPlacement& smpl) const {
+    const Take& take = takes_[joint];
+    return take.share == 0
+               ? smpl.rotations[take.from]
+               : Between(smpl.rotations[take.from], smpl.rotations[take.to], take.share);
+  }
+
+ private:
+  struct Take {
+    int from, to;
+    double share;
+  };
+  // The point `part` of `parts` of the way along a chain.
+  static Take Along(const std::vector<std::string>& chain, int part, int parts) {
+    const double way = static_cast<double>(part) * static_cast<double>(chain.size() - 1) / parts;
+    const auto below = static_cast<size_t>(way);
+    const size_t above = std::min(below + 1, chain.size() - 1);
+    return {Smpl().Find(chain[below]), Smpl().Find(chain[above]), way - std::floor(way)};
+  }
+
+  std::vector<Take> takes_;
+};
+
+/// Moves hands to where SMPL's are, seen from what they touch.
+class Hands {
+ public:
+  Hands(const Skeleton& character, double size) : character_(character), size_(size) {
+    for (const Hinge& hinge : Hinges(character)) {
+      for (size_t side = 0; side < 2; ++side) {
+        const int elbow = side == 0 ? character.left_elbow : character.right_elbow;
+        if (hinge.joint == elbow) hinges_[side] = hinge.axis;
+      }
+    }
+    for (size_t side = 0; side < 2; ++side) {
+      const std::string wrist = side == 0 ? "left_wrist" : "right_wrist";
+      ours_[side] = Smpl().Find(wrist);
+      theirs_[side] = character.Find(wrist);
+    }
+    for (const char* anchor : {"head", "left_hip", "right_hip", "left_knee", "right_knee"}) {
+      if (character.Find(anchor) >= 0)
+        anchors_.push_back({Smpl().Find(anchor), character.Find(anchor)});
+    }
+  }
+
+  void Place(const Eigen::Matrix3Xd& smpl, const JointPlacement& placement, Pose* pose) const {
+    for (size_t side = 0; side < 2; ++side) {
+      const int elbow = side == 0 ? character_.left_elbow : character_.right_elbow;
+      const int shoulder = side == 0 ? character_.left_shoulder : character_.right_shoulder;
+      const Eigen::Vector3d way = Way(side, smpl, placement.positions);
+      if (way.isZero()) continue;
+      const Eigen::Vector3d hinge =
+          placement.rotations[static_cast<size_t>(shoulder)] * hinges_[side];
+      const Eigen::Vector3d goal =
+          Col(placement.positions, theirs_[side]) + way - Col(placement.positions, shoulder);
+      PlaceEnd({shoulder, elbow, theirs_[side]}, hinge, character_, placement, goal, pose);
+    }
+  }
+
+ private:
+  struct Anchor {
+    int ours, theirs;
+  };
+
+  // 1 where a hand touches, 0 where it is free, smooth in between.
+  static double Nearness(double distance) {
+    const double u = std::clamp((kFree - distance) / (kFree - kTouches), 0.0, 1.0);
+    return u * u * (3 - 2 * u);
+  }
+
+  Eigen::Vector3d Way(size_t side, const Eigen::Matrix3Xd& smpl,
+                      const Eigen::Matrix3Xd& now) const {
+    const Eigen::Vector3d our_hand = Col(smpl, ours_[side]), hand = Col(now, theirs_[side]);
+    Eigen::Vector3d way = Eigen::Vector3d::Zero();
+    double weights = 0;
+    const auto draw = [&](const Eigen::Vector3d& goal, double weight) {
+      way += weight * (goal - hand);
+      weights += weight;
+    };
+    // The other hand gives way as far.
+    const Eigen::Vector3d apart = our_hand - Col(smpl, ours_[1 - side]);
+    const Eigen::Vector3d middle = (hand + Col(now, theirs_[1 - side])) / 2;
+    draw(middle + size_ * apart / 2, Nearness(apart.norm()));
+    for (const Anchor& anchor : anchors_) {
+      const Eigen::Vector3d from = our_hand - Col(smpl, anchor.ours);
+      draw(Col(now, anchor.theirs) + size_ * from, Nearness(from.norm()));
+    }
+    draw({hand.x(), size_ * our_hand.y(), hand.z()}, Nearness(our_hand.y()));
+    return way / std::max(1.0, weights);
+  }
+
+  const Skeleton& character_;
+  const double size_;
+  Eigen::Vector3d hinges_[2];
+  int ours_[2], theirs_[2];
+  std::vector<Anchor> anchors_;
+};
+
+}  // namespace
+
+double CharacterSize(const Skeleton& character) { return LegHeight(character) / LegHeight(Smpl()); }
+
+Motion CopyTurns(const Motion& smpl, const Skeleton& character) {
+  const double size = CharacterSize(character);
+  const Takes takes(character);
+  const Eigen::Vector3d our_rest = MiddleOfHips(Smpl(), JointPositions(Smpl(), RestPose(Smpl())));
+  const Eigen::Vector3d rest =
+      MiddleOfHips(character, JointPositions(character, RestPose(character)));
+  Motion out{.fps = smpl.fps, .frames = {}};
+  for (const Pose& pose : smpl.frames) {
+    const JointPlacement ours = ForwardKinematics(Smpl(), pose);
+    Pose& copied = out.frames.emplace_back();
+    copied.rotations.resize(3, character.joints());
+    std::vector<Eigen::Matrix3d> turned;
+    for (int joint = 0; joint < character.joints(); ++joint) {
+      turned.push_back(takes.Of(static_cast<size_t>(joint), ours));
+      const int parent = character.parents[static_cast<size_t>(joint)];
+      copied.rotations.col(joint) = LogMap(
+          parent < 0
+              ? turned.back()
+              : Eigen::Matrix3d(turned[static_cast<size_t>(parent)].transpose() * turned.back()));
+    }
+    Eigen::Vector3d hips = size * MiddleOfHips(Smpl(), ours.positions);
+    hips.y() += rest.y() - size * our_rest.y();
+    copied.root_position = hips - MiddleOfHips(character, JointPositions(character, copied));
+  }
+  MakeContinuous(out);
+  return out;
+}
+
+Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied) {
+  const double size = CharacterSize(character);
+  const Eigen::Matrix3Xd our_rest = JointPositions(Smpl(), RestPose(Smpl()));
+  const Eigen::Matrix3Xd rest = JointPositions(character, RestPose(character));
+  const std::array<Leg, 2> our_legs = Leg::Of(Smpl()), legs = Leg::Of(character);
+  const Hands hands(character, size);
+  JointPlacement placement;
+  for (size_t frame = 0; frame < copied.frames.size(); ++frame) {
+    const Eigen::Matrix3Xd ours = JointPositions(Smpl(), smpl.frames[frame]);
+    Pose& pose = copied.frames[frame];
+    ForwardKinematics(character, pose, placement);
+    for (size_t side = 0; side < 2; ++side) {
+      Eigen::Vector3d toes = size * ours.col(our_legs[side].toes);
+      toes.y() += rest(1, legs[side].toes) - size * our_rest(1, our_legs[side].toes);
+      PlaceToes(legs[side], character, placement, toes, &pose);
+    }
+    // Hands on knees find these where they are now.
+    ForwardKinematics(character, pose, placement);
+    hands.Place(ours, placement, &pose);
+  }
+  MakeContinuous(copied);
+  return copied;
+}
+
+Motion TransferToCharacter(const Motion& smpl, const Skeleton& character) {
+  return PlaceLimbs(smpl, character, CopyTurns(smpl, character));
+}
+
+}  // namespace choreo

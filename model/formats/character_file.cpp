@@ -1,0 +1,116 @@
+#include "model/formats/character_file.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/formats/character_contents.h"
+
+namespace choreo {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Of nodes, the names that VRM's extension (0.x or 1.0) gives to them.
+std::vector<std::string> VrmNames(const ordered_json& document, size_t nodes) {
+  std::vector<std::string> names(nodes);
+  const auto name = [&](const std::string& bone, const ordered_json& value) {
+    const auto node = value.find("node");
+    if (node == value.end() || !node->is_number_unsigned() || node->get<uint64_t>() >= nodes)
+      return;
+    names[node->get<size_t>()] = bone;
+  };
+  using Pointer = ordered_json::json_pointer;
+  const Pointer now("/extensions/VRMC_vrm/humanoid/humanBones");
+  const Pointer before("/extensions/VRM/humanoid/humanBones");
+  if (document.contains(now) && document[now].is_object()) {
+    for (const auto& [bone, value] : document[now].items()) {
+      if (value.is_object()) name(bone, value);
+    }
+  } else if (document.contains(before) && document[before].is_array()) {
+    for (const ordered_json& value : document[before]) {
+      if (!value.is_object()) continue;
+      const auto bone = value.find("bone");
+      if (bone != value.end() && bone->is_string()) name(bone->get<std::string>(), value);
+    }
+  }
+  return names;
+}
+
+std::vector<bool> JointsOf(const tinygltf::Model& model) {
+  std::vector<bool> joints(model.nodes.size(), model.skins.empty());
+  for (const tinygltf::Skin& skin : model.skins) {
+    for (const int joint : skin.joints) {
+      GltfAt(model.nodes, joint, "skins.joints");
+      joints[static_cast<size_t>(joint)] = true;
+    }
+  }
+  return joints;
+}
+
+void RequireOneFile(const ordered_json& document) {
+  const auto buffers = document.find("buffers");
+  if (buffers == document.end() || !buffers->is_array() || buffers->empty()) return;
+  if (buffers->front().is_object() && buffers->front().contains("uri")) {
+    throw InvalidArgument("buffers[0].uri",
+                          "its data lie elsewhere; export the character as one file, glTF binary");
+  }
+}
+
+}  // namespace
+
+CharacterFile::CharacterFile(const std::filesystem::path& path) {
+  try {
+    std::string bytes = ReadGlbBytes(path);
+    // Its JSON is checked there, depth included, before it is parsed here.
+    const tinygltf::Model model = ParseGlb(std::string_view(bytes));
+    ordered_json document = ordered_json::parse(SplitGlb(bytes).json, nullptr, false);
+    if (!document.is_object())
+      throw InvalidArgument("", "is no binary glTF: its JSON is no object");
+    RequireOneFile(document);
+    auto contents = std::make_unique<Contents>(Contents{.path = path,
+                                                        .bytes = std::move(bytes),
+                                                        .chunks = {},
+                                                        .document = std::move(document),
+                                                        .nodes = GltfNodes(model),
+                                                        .joints = JointsOf(model)});
+    contents->chunks = SplitGlb(contents->bytes);
+    contents_ = std::move(contents);
+    places();  // is checked
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kNotFound) throw;
+    throw Error(error.code(), path.string(), error.what());
+  }
+}
+
+CharacterFile::~CharacterFile() = default;
+CharacterFile::CharacterFile(CharacterFile&&) noexcept = default;
+
+const std::vector<std::string>& CharacterFile::names() const { return contents_->nodes.names(); }
+int CharacterFile::parent(int node) const {
+  return contents_->nodes.parent(static_cast<size_t>(node));
+}
+const std::vector<bool>& CharacterFile::joints() const { return contents_->joints; }
+
+Eigen::Matrix3Xd CharacterFile::places() const {
+  const GltfNodes& nodes = contents_->nodes;
+  const std::vector<Eigen::Affine3d> world = nodes.Place(nodes.rest());
+  Eigen::Matrix3Xd places(3, std::ssize(world));
+  for (Eigen::Index node = 0; node < places.cols(); ++node)
+    places.col(node) = world[static_cast<size_t>(node)].translation();
+  return places;
+}
+
+HumanBones CharacterFile::FindBones() const {
+  HumanBones vrm = FindHumanBones(VrmNames(contents_->document, names().size()));
+  if (MissingBone(vrm).empty()) return vrm;
+  // A mesh is often called as the bone that it hangs on.
+  std::vector<std::string> joints = names();
+  for (size_t node = 0; node < joints.size(); ++node) {
+    if (!contents_->joints[node]) joints[node].clear();
+  }
+  HumanBones found = FindHumanBones(joints);
+  return MissingBone(found).empty() ? found : FindHumanBones(names());
+}
+
+}  // namespace choreo

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/fit/character_body.h"
+#include "model/fit/human_bones.h"
+#include "model/motion/motion.h"
+
+namespace choreo {
+
+/// A character in a binary glTF file (.glb, .vrm): mesh, skin, materials, whatever extensions. Only
+/// its nodes are looked at. Immutable.
+class CharacterFile {
+ public:
+  /// Throws Error(kNotFound) where the file cannot be opened; Error(kInvalidArgument) whose field
+  /// begins with the path for what is no binary glTF, keeps its data in other files, has nodes
+  /// that are their own ancestors, have two parents, or stand nowhere.
+  explicit CharacterFile(const std::filesystem::path& path);
+  ~CharacterFile();
+  CharacterFile(CharacterFile&&) noexcept;
+
+  const std::vector<std::string>& names() const;  ///< of its nodes; may be empty or there twice
+  int parent(int node) const;                     ///< -1: none
+  Eigen::Matrix3Xd places() const;  ///< [3, nodes] at rest in the world, in the file's unit
+  /// [nodes] Whether a skin hangs on it; all where there is no skin.
+  const std::vector<bool>& joints() const;
+
+  /// What its VRM extension says, else what its nodes' names do, those of joints first. Bones may
+  /// be missing.
+  HumanBones FindBones() const;
+
+  /// Writes the character with the dance as its first animation, "dance", whose extras hold `fps`;
+  /// animations that it has follow. Rotations of the body's nodes, the place of the pelvis, and of
+  /// bones that hang on none of the bones above them. All else stays: JSON as it was, its data byte
+  /// for byte, with the animation's behind it. The dance stands in the file's world as in ours: Y
+  /// up, +Z ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, which
+  /// is of this file.
+  ///
+  /// Throws Error(kInvalidArgument) for a motion without frames, scales that are zero, or
+  /// more than 4 GiB; Error(kInternal) where the file cannot be written.
+  void WriteDance(const std::filesystem::path& out, const CharacterBody& body,
+                  const Motion& motion) const;
+
+ private:
+  struct Contents;
+  std::unique_ptr<const Contents> contents_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,81 @@
+#include "model/formats/gltf_nodes.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "model/motion/pose_limits.h"
+
+namespace choreo {
+namespace {
+
+GltfPlacement ReadPlacement(const tinygltf::Node& node, const std::string& name) {
+  GltfPlacement placement;
+  if (node.matrix.size() == 16) {
+    const Eigen::Affine3d transform(Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()));
+    Eigen::Matrix3d rotation, scaling;
+    transform.computeRotationScaling(&rotation, &scaling);
+    placement.translation = transform.translation();
+    placement.rotation = Eigen::Quaterniond(rotation);
+    placement.scale = scaling.diagonal();
+  }
+  if (node.translation.size() == 3)
+    placement.translation = Eigen::Map<const Eigen::Vector3d>(node.translation.data());
+  if (node.rotation.size() == 4)
+    placement.rotation =
+        Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(node.rotation.data())).normalized();
+  if (node.scale.size() == 3)
+    placement.scale = Eigen::Map<const Eigen::Vector3d>(node.scale.data());
+  if (!placement.Transform().matrix().allFinite())
+    throw InvalidArgument(name, "has a placement that is not finite");
+  return placement;
+}
+
+}  // namespace
+
+GltfNodes::GltfNodes(const tinygltf::Model& model) {
+  const size_t count = model.nodes.size();
+  parents_.assign(count, -1);
+  for (size_t i = 0; i < count; ++i) {
+    const tinygltf::Node& node = model.nodes[i];
+    names_.push_back(node.name);
+    rest_.push_back(ReadPlacement(node, GltfItem("nodes", i)));
+    for (const int child : node.children) {
+      GltfAt(model.nodes, child, "nodes");
+      if (std::exchange(parents_[static_cast<size_t>(child)], static_cast<int>(i)) >= 0)
+        throw InvalidArgument(GltfItem("nodes", static_cast<size_t>(child)), "has two parents");
+    }
+  }
+  // Parents first.
+  for (size_t i = 0; i < count; ++i) {
+    if (parents_[i] < 0) order_.push_back(i);
+  }
+  for (size_t i = 0; i < order_.size(); ++i) {
+    for (const int child : model.nodes[order_[i]].children)
+      order_.push_back(static_cast<size_t>(child));
+  }
+  if (order_.size() != count) throw InvalidArgument("nodes", "some are their own ancestors");
+}
+
+int GltfNodes::Find(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
+}
+
+std::vector<Eigen::Affine3d> GltfNodes::Place(const std::vector<GltfPlacement>& local) const {
+  std::vector<Eigen::Affine3d> world(local.size());
+  for (const size_t node : order_) {
+    world[node] = local[node].Transform();
+    if (parents_[node] >= 0) world[node] = world[static_cast<size_t>(parents_[node])] * world[node];
+    const double distance = world[node].translation().cwiseAbs().maxCoeff();
+    if (!(distance <= kMaxPosition)) {
+      std::ostringstream message;
+      message << "stands at " << distance << " m, further than " << kMaxPosition
+              << " m from the origin";
+      throw InvalidArgument(GltfItem("nodes", node), message.str());
+    }
+  }
+  return world;
+}
+
+}  // namespace choreo
