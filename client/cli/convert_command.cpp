@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "client/cli/bvh_options.h"
+#include "client/cli/character_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
@@ -18,18 +19,23 @@ struct ConvertOptions {
   double fps = 0;
   bool smpl = false;
   BvhOptions bvh;
+  CharacterOptions character;
 };
 
 void Run(const ConvertOptions& options) {
   RequireMotionFile(options.out);
   options.bvh.Check(options.out);
-  RequireOutputs({{"out", options.out}}, {{"in", options.in}});
+  options.character.Check(options.out);
+  RequireOutputs({{"out", options.out}}, {{"in", options.in},
+                                          {"--character", options.character.character},
+                                          {"--map", options.character.map}});
   auto [skeleton, motion] = ReadMotion(options.in);
   if (options.smpl) {
     motion = Retarget(skeleton, motion, Skeleton::Smpl24());
     skeleton = Skeleton::Smpl24();
   }
   if (options.fps > 0) motion = Resample(motion, options.fps);
+  if (options.character.given()) return options.character.Write(options.out, skeleton, motion);
   const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
   options.bvh.Write(options.out, skeleton, motion, contacts);
 }
@@ -51,6 +57,7 @@ void AddConvertCommand(CLI::App& program) {
   command->add_flag("--smpl", options->smpl,
                     "Retarget what has a skeleton of its own to SMPL's 24 joints.");
   options->bvh.AddTo(*command);
+  options->character.AddTo(*command);
   command->callback([options] { Run(*options); });
 }
 

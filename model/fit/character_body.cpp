@@ -213,6 +213,16 @@ std::string MissingBone(const HumanBones& bones) {
 CharacterBody MakeCharacterBody(const HumanBones& bones, const Eigen::Matrix3Xd& places) {
   if (const std::string missing = MissingBone(bones); !missing.empty())
     throw InvalidArgument("bones", "none of them is the " + missing);
+  const auto numbered = [&](const char* name, size_t count) {
+    const auto has = std::ranges::count_if(
+        bones.bones, [&](const auto& bone) { return bone.first.starts_with(name); });
+    if (static_cast<size_t>(has) != count) {
+      throw InvalidArgument("bones", std::string("those of the ") + name +
+                                         " are not numbered one after the other, from below");
+    }
+  };
+  numbered("spine", bones.Spine().size());
+  numbered("neck", bones.Neck().size());
   std::map<int, std::string> taken;
   for (const auto& [bone, node] : bones.bones) {
     const auto [other, is_new] = taken.try_emplace(node, bone);

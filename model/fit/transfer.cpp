@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ namespace {
 
 // Metres, of SMPL's body: a hand that is nearer touches, one that is farther is free.
 constexpr double kTouches = 0.12, kFree = 0.32;
+// Seconds over which a hand is drawn: one that swings past the hips is not to jerk.
+constexpr double kDraws = 0.08;
+constexpr double kNoWay = 1e-6;
 
 const Skeleton& Smpl() { return Skeleton::Smpl24(); }
 
@@ -82,6 +86,28 @@ class Takes {
   std::vector<Take> takes_;
 };
 
+using HandWays = std::array<Eigen::Vector3d, 2>;  // left, right
+
+// Weighed over the frames around, as a Gauss curve does.
+std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
+  const double sigma = kDraws * fps;
+  const int reach = static_cast<int>(3 * sigma);
+  const int frames = static_cast<int>(ways.size());
+  std::vector<HandWays> smooth;
+  for (int frame = 0; frame < frames; ++frame) {
+    HandWays sum = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    double weights = 0;
+    for (int at = std::max(0, frame - reach); at <= std::min(frames - 1, frame + reach); ++at) {
+      const double weight = std::exp(-0.5 * std::pow((at - frame) / std::max(sigma, 1e-9), 2));
+      weights += weight;
+      for (size_t side = 0; side < 2; ++side)
+        sum[side] += weight * ways[static_cast<size_t>(at)][side];
+    }
+    smooth.push_back({sum[0] / weights, sum[1] / weights});
+  }
+  return smooth;
+}
+
 /// Moves hands to where SMPL's are, seen from what they touch.
 class Hands {
  public:
@@ -103,16 +129,20 @@ class Hands {
     }
   }
 
-  void Place(const Eigen::Matrix3Xd& smpl, const JointPlacement& placement, Pose* pose) const {
+  /// How far both are to move from where they are, `now`.
+  HandWays Ways(const Eigen::Matrix3Xd& smpl, const Eigen::Matrix3Xd& now) const {
+    return {Way(0, smpl, now), Way(1, smpl, now)};
+  }
+
+  void Move(const HandWays& ways, const JointPlacement& placement, Pose* pose) const {
     for (size_t side = 0; side < 2; ++side) {
       const int elbow = side == 0 ? character_.left_elbow : character_.right_elbow;
       const int shoulder = side == 0 ? character_.left_shoulder : character_.right_shoulder;
-      const Eigen::Vector3d way = Way(side, smpl, placement.positions);
-      if (way.isZero()) continue;
+      if (ways[side].norm() < kNoWay * size_) continue;
       const Eigen::Vector3d hinge =
           placement.rotations[static_cast<size_t>(shoulder)] * hinges_[side];
       const Eigen::Vector3d goal =
-          Col(placement.positions, theirs_[side]) + way - Col(placement.positions, shoulder);
+          Col(placement.positions, theirs_[side]) + ways[side] - Col(placement.positions, shoulder);
       PlaceEnd({shoulder, elbow, theirs_[side]}, hinge, character_, placement, goal, pose);
     }
   }
@@ -195,6 +225,7 @@ Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied) 
   const std::array<Leg, 2> our_legs = Leg::Of(Smpl()), legs = Leg::Of(character);
   const Hands hands(character, size);
   JointPlacement placement;
+  std::vector<HandWays> ways;
   for (size_t frame = 0; frame < copied.frames.size(); ++frame) {
     const Eigen::Matrix3Xd ours = JointPositions(Smpl(), smpl.frames[frame]);
     Pose& pose = copied.frames[frame];
@@ -205,8 +236,12 @@ Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied) 
       PlaceToes(legs[side], character, placement, toes, &pose);
     }
     // Hands on knees find these where they are now.
-    ForwardKinematics(character, pose, placement);
-    hands.Place(ours, placement, &pose);
+    ways.push_back(hands.Ways(ours, JointPositions(character, pose)));
+  }
+  ways = Smooth(ways, smpl.fps);
+  for (size_t frame = 0; frame < copied.frames.size(); ++frame) {
+    ForwardKinematics(character, copied.frames[frame], placement);
+    hands.Move(ways[frame], placement, &copied.frames[frame]);
   }
   MakeContinuous(copied);
   return copied;

@@ -14,10 +14,10 @@ double CharacterSize(const Skeleton& character);
 /// Turns of the bones, and the place of the hips, scaled by CharacterSize.
 Motion CopyTurns(const Motion& smpl, const Skeleton& character);
 
-/// Puts `copied`'s limbs where they belong, by inverse kinematics (motion/limb.h): toes where
-/// SMPL's are, scaled, as high above the floor as flat feet are there and here; and hands that
-/// touch, or nearly, each other, the head, the thighs or the floor, as far from there as SMPL's,
-/// scaled.
+/// Puts the limbs of `copied`, consecutive frames, where they belong, by inverse kinematics
+/// (motion/limb.h): toes where SMPL's are, scaled, as high above the floor as flat feet are there
+/// and here; and hands that touch, or nearly, each other, the head, the thighs or the floor, as far
+/// from there as SMPL's, scaled.
 Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied);
 
 /// Both. Throws Error(kInvalidArgument) for poses of another joint count than SMPL's.

@@ -1,9 +1,10 @@
 #include "model/formats/character_file.h"
 
-#include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/json_depth.h"
 #include "model/formats/character_contents.h"
 
 namespace choreo {
@@ -37,6 +38,28 @@ std::vector<std::string> VrmNames(const ordered_json& document, size_t nodes) {
   return names;
 }
 
+// Only nodes and the joints of skins: of other parts the parser would refuse what it does not know,
+// such as compressed meshes.
+tinygltf::Model ParseNodes(const ordered_json& document) {
+  ordered_json bare = {{"asset", {{"version", "2.0"}}}};
+  const auto copy = [&](const char* list, std::initializer_list<const char*> members) {
+    const auto all = document.find(list);
+    if (all == document.end()) return;
+    if (!all->is_array()) throw InvalidArgument(list, "is no list");
+    ordered_json& copies = bare[list] = ordered_json::array();
+    for (const ordered_json& one : *all) {
+      if (!one.is_object()) throw InvalidArgument(GltfItem(list, copies.size()), "is no object");
+      ordered_json& copied = copies.emplace_back(ordered_json::object());
+      for (const char* member : members)
+        if (one.contains(member)) copied[member] = one[member];
+    }
+  };
+  copy("nodes", {"name", "children", "translation", "rotation", "scale", "matrix"});
+  copy("skins", {"joints"});
+  const std::string json = bare.dump();
+  return ParseGlb(std::string_view(JoinGlb({.json = json, .binary = {}, .others = {}})));
+}
+
 std::vector<bool> JointsOf(const tinygltf::Model& model) {
   std::vector<bool> joints(model.nodes.size(), model.skins.empty());
   for (const tinygltf::Skin& skin : model.skins) {
@@ -51,7 +74,8 @@ std::vector<bool> JointsOf(const tinygltf::Model& model) {
 void RequireOneFile(const ordered_json& document) {
   const auto buffers = document.find("buffers");
   if (buffers == document.end() || !buffers->is_array() || buffers->empty()) return;
-  if (buffers->front().is_object() && buffers->front().contains("uri")) {
+  if (!buffers->front().is_object()) throw InvalidArgument("buffers[0]", "is no object");
+  if (buffers->front().contains("uri")) {
     throw InvalidArgument("buffers[0].uri",
                           "its data lie elsewhere; export the character as one file, glTF binary");
   }
@@ -62,11 +86,12 @@ void RequireOneFile(const ordered_json& document) {
 CharacterFile::CharacterFile(const std::filesystem::path& path) {
   try {
     std::string bytes = ReadGlbBytes(path);
-    // Its JSON is checked there, depth included, before it is parsed here.
-    const tinygltf::Model model = ParseGlb(std::string_view(bytes));
-    ordered_json document = ordered_json::parse(SplitGlb(bytes).json, nullptr, false);
+    const std::string_view text = SplitGlb(bytes).json;
+    CheckJsonDepth(text, "");
+    ordered_json document = ordered_json::parse(text, nullptr, false);
     if (!document.is_object())
       throw InvalidArgument("", "is no binary glTF: its JSON is no object");
+    const tinygltf::Model model = ParseNodes(document);
     RequireOneFile(document);
     auto contents = std::make_unique<Contents>(Contents{.path = path,
                                                         .bytes = std::move(bytes),

@@ -6,13 +6,13 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "model/formats/bvh.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/glb_parts.h"
 #include "tests/support/mixamo_names.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,61 +20,9 @@ namespace choreo {
 namespace {
 
 using nlohmann::json;
+using testing_support::Glb;
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
-
-// A .glb taken apart by hand: header, JSON chunk, binary chunk.
-struct Glb {
-  json document;
-  std::string binary;
-
-  explicit Glb(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    const auto word = [&](size_t at) {
-      uint32_t value;
-      std::memcpy(&value, bytes.data() + at, 4);
-      return value;
-    };
-    EXPECT_EQ(bytes.substr(0, 4), "glTF");
-    EXPECT_EQ(word(4), 2u);
-    EXPECT_EQ(word(8), bytes.size());
-    const uint32_t length = word(12);
-    document = json::parse(bytes.substr(20, length));
-    binary = bytes.substr(28 + length);
-  }
-
-  void Write(const std::filesystem::path& path) const {
-    std::string text = document.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::ofstream file(path, std::ios::binary);
-    const auto word = [&](size_t value) {
-      const auto narrow = static_cast<uint32_t>(value);
-      file.write(reinterpret_cast<const char*>(&narrow), 4);
-    };
-    file << "glTF";
-    word(2), word(28 + text.size() + binary.size()), word(text.size());
-    file << "JSON" << text;
-    word(binary.size());
-    file << std::string("BIN\0", 4) << binary;
-  }
-
-  // The elements of an accessor of floats.
-  std::vector<float> Floats(int accessor) const {
-    const json& one = document["accessors"][accessor];
-    const json& view = document["bufferViews"][one["bufferView"].get<int>()];
-    std::vector<float> values(view["byteLength"].get<size_t>() / sizeof(float));
-    std::memcpy(values.data(), binary.data() + view.value("byteOffset", size_t{0}),
-                values.size() * sizeof(float));
-    return values;
-  }
-  int Node(const std::string& name) const {
-    const json& nodes = document["nodes"];
-    for (size_t i = 0; i < nodes.size(); ++i)
-      if (nodes[i].value("name", "") == name) return static_cast<int>(i);
-    return -1;
-  }
-};
 
 double WorstJoint(const Motion& a, const Motion& b) {
   EXPECT_EQ(a.frames.size(), b.frames.size());

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Opens our BVH files in Blender. Ends with 77 where there is none.
+# Opens our BVH files, and characters that dance, in Blender. Ends with 77 where there is none.
 #   run.sh BUILD_DIRECTORY
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -12,3 +12,10 @@ for names in smpl mixamo humanik ue; do
   for unit in m cm; do "$bin/choreo" convert "$dance" "$scratch/$names-$unit.bvh" --names $names --unit $unit; done
 done
 blender -b --factory-startup --python-exit-code 1 -P "$here/check_bvh.py" -- "$scratch" | grep -v '^$'
+
+"$bin/write_characters" "$scratch"
+blender -b --factory-startup --python-exit-code 1 -P "$here/metarigs.py" -- "$scratch" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+for name in mixamo child long basic human; do
+  "$bin/choreo" convert "$dance" "$scratch/$name-dances.glb" --character "$scratch/$name.glb"
+done
+blender -b --factory-startup --python-exit-code 1 -P "$here/check_characters.py" -- "$scratch" | grep -v '^$'

@@ -22,7 +22,8 @@ const skins = {};
 gltf.scene.traverse((object) => {
   if (object.isSkinnedMesh) skins[object.material.name] = object;
 });
-assert.deepEqual(Object.keys(skins).sort(), Object.keys(expected.frames[0].skin).sort());
+// Of a character of somebody's own only the joints are told.
+if (expected.frames[0].skin) assert.deepEqual(Object.keys(skins).sort(), Object.keys(expected.frames[0].skin).sort());
 
 const mixer = new THREE.AnimationMixer(gltf.scene);
 mixer.clipAction(clip).play();
@@ -39,10 +40,10 @@ for (const { time, joints, skin } of expected.frames) {
   mixer.setTime(time);
   gltf.scene.updateMatrixWorld(true);
   for (const [name, place] of Object.entries(joints)) {
-    gltf.scene.getObjectByName(name).getWorldPosition(point);
+    gltf.scene.getObjectByName(THREE.PropertyBinding.sanitizeNodeName(name)).getWorldPosition(point);
     compare(`${name} at ${time} s`, place);
   }
-  for (const [material, vertices] of Object.entries(skin)) {
+  for (const [material, vertices] of Object.entries(skin ?? {})) {
     const mesh = skins[material];
     mesh.skeleton.update();
     for (const [index, place] of Object.entries(vertices)) {

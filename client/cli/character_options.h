@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo::cli {
+
+/// `--character` and `--map`: a dance on somebody's own character.
+struct CharacterOptions {
+  std::string character;  ///< .glb or .vrm; empty: none
+  std::string map;        ///< bone_map.h; empty: by names
+
+  void AddTo(CLI::App& command);
+  bool given() const { return !character.empty(); }
+  /// Throws Error(kInvalidArgument) whose field is the option: `--map` alone, a character that is
+  /// no .glb or .vrm, an `out` that is no .glb.
+  void Check(const std::filesystem::path& out) const;
+
+  /// Writes the character with the dance (formats/character_file.h). Where names tell too little,
+  /// writes OUT.map.json and OUT.map.png, a suggestion, and throws Error(kInvalidArgument) naming
+  /// them.
+  void Write(const std::filesystem::path& out, const Skeleton& skeleton,
+             const Motion& motion) const;
+};
+
+}  // namespace choreo::cli

@@ -1,0 +1,184 @@
+#include "model/fit/guess_bones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace choreo {
+namespace {
+
+// Of the body's height.
+constexpr double kBeside = 0.02;      // what stands so far beside the middle belongs to a side
+constexpr double kAboveToes = 0.035;  // ankles are higher
+constexpr size_t kFewest = 10, kMost = 5000;  // nodes of a body: a hostile file has any number
+constexpr size_t kFingers = 3;                // a hand carries so many
+
+class BodyGuess {
+ public:
+  BodyGuess(const std::vector<int>& parents, const Eigen::Matrix3Xd& places,
+            const std::vector<bool>& joints)
+      : parents_(parents), places_(places), children_(parents.size()) {
+    for (int node = 0; node < std::ssize(parents); ++node) {
+      if (!joints[static_cast<size_t>(node)]) continue;
+      nodes_.push_back(node);
+      const int parent = parents[static_cast<size_t>(node)];
+      if (parent >= 0) children_[static_cast<size_t>(parent)].push_back(node);
+    }
+  }
+
+  HumanBones Guess() {
+    if (nodes_.size() < kFewest || parents_.size() > kMost) return {};
+    Measure();
+    const int feet[2] = {Extreme([&](int n) { return Beside(n, 1) ? -Y(n) : kNever; }),
+                         Extreme([&](int n) { return Beside(n, -1) ? -Y(n) : kNever; })};
+    const int hands[2] = {Extreme([&](int n) { return X(n); }),
+                          Extreme([&](int n) { return -X(n); })};
+    const int top = Extreme([&](int n) { return Y(n); });
+    const int pelvis = Common(feet[0], feet[1]), chest = Common(hands[0], hands[1]);
+    if (pelvis < 0 || chest < 0 || !IsBelow(chest, pelvis) || !IsBelow(top, chest)) return {};
+    Set("pelvis", pelvis);
+    const std::vector<int> spine = Path(pelvis, chest);
+    for (size_t i = 0; i < std::min<size_t>(spine.size(), 6); ++i)
+      Set("spine" + std::to_string(i + 1), spine[i]);
+    const std::vector<int> neck = Path(chest, top);
+    if (neck.size() > 1) Set("neck", neck[0]);
+    if (!neck.empty()) Set("head", neck[neck.size() > 1 ? 1 : 0]);
+    for (size_t side = 0; side < 2; ++side) {
+      Leg(Path(pelvis, feet[side]), side == 0 ? 1 : -1);
+      Arm(Path(chest, hands[side]), side == 0 ? 1 : -1);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr double kNever = -1e300;
+
+  double X(int node) const { return places_(0, node) - middle_; }
+  double Y(int node) const { return places_(1, node); }
+  bool Beside(int node, int side) const { return side * X(node) > kBeside * height_; }
+  double Length(int a, int b) const { return (places_.col(a) - places_.col(b)).norm(); }
+
+  void Measure() {
+    double low = Y(nodes_[0]), high = low, left = places_(0, nodes_[0]), right = left;
+    for (const int node : nodes_) {
+      low = std::min(low, Y(node)), high = std::max(high, Y(node));
+      left = std::max(left, places_(0, node)), right = std::min(right, places_(0, node));
+    }
+    height_ = high - low;
+    floor_ = low;
+    middle_ = (left + right) / 2;
+  }
+
+  int Extreme(const std::function<double(int)>& value) const {
+    return *std::ranges::max_element(nodes_, {}, value);
+  }
+
+  std::vector<int> Ancestors(int node) const {  // itself included
+    std::vector<int> out;
+    for (; node >= 0; node = parents_[static_cast<size_t>(node)]) out.push_back(node);
+    return out;
+  }
+  bool IsBelow(int node, int ancestor) const {
+    return std::ranges::count(Ancestors(node), ancestor) > 0;
+  }
+  int Common(int a, int b) const {
+    const std::vector<int> above = Ancestors(a);
+    for (const int node : Ancestors(b)) {
+      if (node != a && node != b && std::ranges::count(above, node) > 0) return node;
+    }
+    return -1;
+  }
+  // From below `ancestor` to `node`.
+  std::vector<int> Path(int ancestor, int node) const {
+    std::vector<int> path;
+    for (; node >= 0 && node != ancestor; node = parents_[static_cast<size_t>(node)])
+      path.push_back(node);
+    std::ranges::reverse(path);
+    return path;
+  }
+
+  void Set(const std::string& bone, int node) { found_.bones[bone] = node; }
+
+  void Leg(std::vector<int> path, int side) {
+    const std::string name = side > 0 ? "left_" : "right_";
+    std::erase_if(path, [&](int node) { return !Beside(node, side); });
+    if (path.size() < 3) return;
+    size_t ankle = 2;
+    if (path.size() > 3) {
+      while (ankle + 1 < path.size() && Y(path[ankle + 1]) - floor_ > kAboveToes * height_) ++ankle;
+    }
+    const double half = (Y(path[0]) + Y(path[ankle])) / 2;
+    const auto* knee = &*std::min_element(
+        path.begin() + 1, path.begin() + static_cast<std::ptrdiff_t>(ankle),
+        [&](int a, int b) { return std::abs(Y(a) - half) < std::abs(Y(b) - half); });
+    Set(name + "hip", path[0]);
+    Set(name + "knee", *knee);
+    Set(name + "ankle", path[ankle]);
+    if (ankle + 1 < path.size()) Set(name + "foot", path[ankle + 1]);
+  }
+
+  void Arm(const std::vector<int>& path, int side) {
+    const std::string name = side > 0 ? "left_" : "right_";
+    if (path.size() < 3) return;
+    const auto hand = std::ranges::find_if(
+        path, [&](int node) { return children_[static_cast<size_t>(node)].size() >= kFingers; });
+    size_t wrist = static_cast<size_t>(hand - path.begin());
+    if (hand == path.end()) wrist = std::min<size_t>(path.size() - 1, 3);
+    if (wrist < 2) return;
+    // Upper arm and forearm are long, and as long as each other.
+    double best = kNever;
+    size_t shoulder = 0, elbow = 1;
+    for (size_t upper = 0; upper + 1 < wrist; ++upper) {
+      for (size_t lower = upper + 1; lower < wrist; ++lower) {
+        const double a = Length(path[upper], path[lower]), b = Length(path[lower], path[wrist]);
+        const double score = a + b - 2 * std::abs(a - b);
+        if (score > best) best = score, shoulder = upper, elbow = lower;
+      }
+    }
+    if (shoulder > 0) Set(name + "collar", path[shoulder - 1]);
+    Set(name + "shoulder", path[shoulder]);
+    Set(name + "elbow", path[elbow]);
+    Set(name + "wrist", path[wrist]);
+  }
+
+  const std::vector<int>& parents_;
+  const Eigen::Matrix3Xd& places_;
+  std::vector<int> nodes_;
+  std::vector<std::vector<int>> children_;
+  double height_ = 0, floor_ = 0, middle_ = 0;
+  HumanBones found_;
+};
+
+// Who looks along -Z has the left side at -X.
+void TurnRound(const Eigen::Matrix3Xd& places, HumanBones* found) {
+  double ahead = 0;
+  for (const std::string side : {"left_", "right_"}) {
+    const int toes = found->Find(side + "foot"), ankle = found->Find(side + "ankle");
+    if (toes >= 0 && ankle >= 0) ahead += places(2, toes) - places(2, ankle);
+  }
+  if (ahead >= 0) return;
+  std::map<std::string, int> turned;
+  for (const auto& [bone, node] : found->bones) {
+    if (bone.starts_with("left_")) {
+      turned["right_" + bone.substr(5)] = node;
+    } else if (bone.starts_with("right_")) {
+      turned["left_" + bone.substr(6)] = node;
+    } else {
+      turned[bone] = node;
+    }
+  }
+  found->bones = std::move(turned);
+}
+
+}  // namespace
+
+HumanBones GuessBones(const std::vector<int>& parents, const Eigen::Matrix3Xd& places,
+                      const std::vector<bool>& joints) {
+  HumanBones found = BodyGuess(parents, places, joints).Guess();
+  TurnRound(places, &found);
+  return found;
+}
+
+}  // namespace choreo

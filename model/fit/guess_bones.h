@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/fit/human_bones.h"
+
+namespace choreo {
+
+/// A rig whose names say nothing, as people mostly build them: a guess from where its joints stand,
+/// for somebody to look at. `parents` (-1: none) and `places` [3, nodes] at rest, Y up; nodes that
+/// are no `joints` are left out. Empty where it looks like no body, and for more than 5,000 nodes.
+/// Pure.
+HumanBones GuessBones(const std::vector<int>& parents, const Eigen::Matrix3Xd& places,
+                      const std::vector<bool>& joints);
+
+}  // namespace choreo

@@ -1,0 +1,353 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+#include "model/fit/transfer.h"
+#include "model/formats/character_file.h"
+#include "model/formats/gltf.h"
+#include "model/formats/gltf_scene.h"
+#include "model/motion/kinematics.h"
+#include "tests/motion/motion_fixtures.h"
+#include "tests/support/character_rigs.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/glb_parts.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+using nlohmann::json;
+using testing_support::CharacterRig;
+using testing_support::ChildBody;
+using testing_support::Glb;
+using testing_support::LongLegs;
+using testing_support::WriteCharacter;
+
+const Skeleton& Smpl() { return Skeleton::Smpl24(); }
+
+class CharacterTest : public testing::Test {
+ protected:
+  // What the character `glb` of this folder dances, written as out.glb.
+  CharacterBody Dance(const std::string& glb) {
+    const CharacterFile file(folder_ / glb);
+    CharacterBody body = MakeCharacterBody(file.FindBones(), file.places());
+    file.WriteDance(folder_ / "out.glb", body, TransferToCharacter(smpl_, body.skeleton));
+    return body;
+  }
+
+  // The same after `change`.
+  CharacterBody DanceChanged(const std::function<void(Glb&)>& change,
+                             const CharacterRig& rig = {}) {
+    WriteCharacter(folder_ / "hero.glb", rig);
+    Glb glb(folder_ / "hero.glb");
+    change(glb);
+    glb.Write(folder_ / "changed.glb");
+    return Dance("changed.glb");
+  }
+
+  // The largest angle, degrees, between a limb's bone in out.glb and in the dance; of the trunk,
+  // between the ways across the hips and the shoulders.
+  double WorstDirection() const {
+    const GltfScene scene(ParseGlb(folder_ / "out.glb"));
+    const HumanBones bones = FindHumanBones(scene.names());
+    EXPECT_EQ(scene.frames(), std::ssize(smpl_.frames));
+    EXPECT_EQ(scene.fps(), smpl_.fps);
+    double worst = 0;
+    for (int64_t frame = 0; frame < scene.frames(); ++frame) {
+      const std::vector<Eigen::Affine3d> now = scene.Frame(frame);
+      const Eigen::Matrix3Xd ours =
+          JointPositions(Smpl(), smpl_.frames[static_cast<size_t>(frame)]);
+      for (const auto& [from, to] : kBones) {
+        const auto at = [&](const char* bone) -> Eigen::Vector3d {
+          return now[static_cast<size_t>(bones.Find(bone))].translation();
+        };
+        const Eigen::Vector3d a = at(to) - at(from);
+        const Eigen::Vector3d b = ours.col(Smpl().Find(to)) - ours.col(Smpl().Find(from));
+        worst = std::max(worst, std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi);
+      }
+    }
+    return worst;
+  }
+
+  static constexpr std::pair<const char*, const char*> kBones[] = {
+      {"left_hip", "left_knee"},         {"left_knee", "left_ankle"},
+      {"right_hip", "right_knee"},       {"right_knee", "right_ankle"},
+      {"left_shoulder", "left_elbow"},   {"left_elbow", "left_wrist"},
+      {"right_shoulder", "right_elbow"}, {"right_elbow", "right_wrist"},
+      {"right_hip", "left_hip"},         {"right_shoulder", "left_shoulder"}};
+
+  TemporaryFolder folder_;
+  // Arms keep away from the body: hands that touch are drawn elsewhere.
+  const Motion smpl_ = [] {
+    Motion motion = fixtures::SmoothMotion(Smpl(), 12, 30, 30);
+    for (Pose& pose : motion.frames) {
+      for (const int shoulder : {Smpl().left_shoulder, Smpl().right_shoulder})
+        pose.rotations.col(shoulder) *= 0.3;
+    }
+    return motion;
+  }();
+};
+
+TEST_F(CharacterTest, EveryRigInEveryRestPoseDancesTheDance) {
+  struct Maker {
+    const char* rig;
+    const char* prefix;
+  };
+  constexpr Maker kMakers[] = {{"Mixamo and HumanIK", "mixamorig:"},
+                               {"VRM", ""},
+                               {"VRoid", "J_Bip_"},
+                               {"Unreal", ""},
+                               {"Rigify", "DEF-"},
+                               {"iClone", "CC_Base_"},
+                               {"Daz Genesis 9", ""},
+                               {"Biped", "Bip01 "},
+                               {"CMU", ""}};
+  struct RestPoses {
+    const char* name;
+    double down;
+    bool rolled;
+  };
+  constexpr RestPoses kRests[] = {
+      {"T-pose", 0, false}, {"A-pose", 50, false}, {"rolled", 30, true}};
+  const std::pair<const char*, Skeleton> bodies[] = {
+      {"child", ChildBody()}, {"adult", Smpl()}, {"long legs", LongLegs()}};
+  // Each maker once with each rest pose, bodies in turn.
+  size_t turn = 0;
+  for (const Maker& maker : kMakers) {
+    for (const RestPoses& rest : kRests) {
+      const auto& [size, body] = bodies[turn++ % 3];
+      WriteCharacter(folder_ / "hero.glb", {.rig = maker.rig,
+                                            .prefix = maker.prefix,
+                                            .body = body,
+                                            .arms_down = rest.down,
+                                            .rolled = rest.rolled});
+      Dance("hero.glb");
+      // Legs of another share of hips and thighs reach feet by other angles.
+      EXPECT_LT(WorstDirection(), body == Smpl() ? 2 : 8)
+          << maker.rig << ", " << rest.name << ", " << size;
+    }
+    ++turn;
+  }
+}
+
+TEST_F(CharacterTest, ArmaturesMayBeTurnedScaledAndFaceAnywhere) {
+  for (const double scale : {0.01, 3.0}) {
+    for (const double facing : {0.0, 90.0, 180.0}) {
+      WriteCharacter(folder_ / "hero.glb",
+                     {.arms_down = 45, .rolled = true, .armature_scale = scale, .facing = facing});
+      Dance("hero.glb");
+      EXPECT_LT(WorstDirection(), 2) << scale << ", " << facing;
+    }
+  }
+}
+
+TEST_F(CharacterTest, AllElseStaysByteForByte) {
+  WriteCharacter(folder_ / "hero.glb", {});
+  Glb hero(folder_ / "hero.glb");
+  json& document = hero.document;
+  document["extensionsUsed"] = {"VENDOR_hair"};
+  document["extensions"]["VENDOR_hair"] = {{"strands", 1e-7}, {"name", "Ünï"}};
+  document["animations"] = {
+      {{"name", "wave"}, {"channels", json::array()}, {"samplers", json::array()}}};
+  document["nodes"][3]["extras"]["spring"] = 3;
+  hero.Write(folder_ / "hero.glb");
+  Dance("hero.glb");
+  Glb out(folder_ / "out.glb");
+  ASSERT_EQ(out.binary.substr(0, hero.binary.size()), hero.binary);
+  EXPECT_EQ(out.document["animations"].size(), 2U);
+  EXPECT_EQ(out.document["animations"][0]["name"], "dance");
+  EXPECT_EQ(out.document["animations"][1], document["animations"][0]);
+  EXPECT_EQ(out.document["buffers"][0]["byteLength"], out.binary.size());
+  for (const char* list : {"accessors", "bufferViews"}) {
+    for (size_t i = 0; i < document[list].size(); ++i)
+      EXPECT_EQ(out.document[list][i], document[list][i]) << list << i;
+  }
+  for (const char* changed : {"animations", "accessors", "bufferViews", "buffers"}) {
+    out.document.erase(changed);
+    document.erase(changed);
+  }
+  EXPECT_EQ(out.document, document);
+}
+
+TEST_F(CharacterTest, TheSameDanceGivesTheSameBytes) {
+  WriteCharacter(folder_ / "hero.glb", {});
+  Dance("hero.glb");
+  const Glb first(folder_ / "out.glb");
+  Dance("hero.glb");
+  const Glb second(folder_ / "out.glb");
+  EXPECT_EQ(first.document, second.document);
+  EXPECT_EQ(first.binary, second.binary);
+}
+
+TEST_F(CharacterTest, VrmsOwnTableGoesBeforeNames) {
+  const auto table = [](const Glb& glb, bool old) {
+    json bones = old ? json::array() : json::object();
+    for (int node = 0; node < 24; ++node) {
+      const std::string bone = NameInRig("VRM", Smpl().joint_names[static_cast<size_t>(node)]);
+      if (bone.empty()) continue;
+      if (old) {
+        bones.push_back({{"bone", bone}, {"node", node}, {"useDefaultValues", true}});
+      } else {
+        bones[bone]["node"] = node;
+      }
+    }
+    (void)glb;
+    return bones;
+  };
+  for (const bool old : {true, false}) {
+    const CharacterBody body = DanceChanged(
+        [&](Glb& glb) {
+          glb.document["extensions"][old ? "VRM" : "VRMC_vrm"]["humanoid"]["humanBones"] =
+              table(glb, old);
+        },
+        {.rig = "", .arms_down = 10});
+    EXPECT_EQ(body.nodes[0], 0);
+    const Glb out(folder_ / "out.glb");
+    EXPECT_TRUE(out.document["extensions"].contains(old ? "VRM" : "VRMC_vrm"));
+  }
+}
+
+// A mesh that is called as a bone, extra joints between and below, a matrix in place of parts.
+TEST_F(CharacterTest, OtherNodesAreLeftAlone) {
+  DanceChanged([](Glb& glb) {
+    json& nodes = glb.document["nodes"];
+    nodes.push_back({{"name", "twist"}, {"children", {18}}});
+    nodes[16]["children"] = {nodes.size() - 1};
+    nodes.push_back({{"name", "mixamorig:Head"}, {"translation", {3, 3, 3}}});
+    const json t = nodes[4]["translation"];
+    nodes[4].erase("translation");
+    nodes[4].erase("rotation");
+    nodes[4]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, t[0], t[1], t[2], 1};
+  });
+  EXPECT_LT(WorstDirection(), 2);
+  const Glb out(folder_ / "out.glb");
+  EXPECT_FALSE(out.document["nodes"][4].contains("matrix"));
+  for (const json& channel : out.document["animations"][0]["channels"])
+    EXPECT_LT(channel["target"]["node"], 24);
+}
+
+TEST_F(CharacterTest, BonesThatHangElsewhereAreMovedAlong) {
+  // The legs have roots of their own.
+  const CharacterBody body = DanceChanged([](Glb& glb) {
+    json& nodes = glb.document["nodes"];
+    json& hips = nodes[0]["children"];
+    const size_t armature = 25;
+    for (const int leg : {1, 2}) {
+      hips.erase(std::find(hips.begin(), hips.end(), leg));
+      nodes[armature]["children"].push_back(leg);
+      for (int axis = 0; axis < 3; ++axis) {
+        nodes[leg]["translation"][axis] = nodes[leg]["translation"][axis].get<double>() +
+                                          nodes[0]["translation"][axis].get<double>();
+      }
+    }
+  });
+  EXPECT_LT(WorstDirection(), 2);
+  const GltfScene scene(ParseGlb(folder_ / "out.glb"));
+  const Motion danced = TransferToCharacter(smpl_, body.skeleton);
+  const std::vector<Eigen::Affine3d> last = scene.Frame(scene.frames() - 1);
+  const Eigen::Matrix3Xd places = JointPositions(body.skeleton, danced.frames.back());
+  for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
+    EXPECT_LT((last[static_cast<size_t>(body.nodes[joint])].translation() -
+               places.col(static_cast<Eigen::Index>(joint)))
+                  .norm(),
+              1e-4);
+  }
+}
+
+TEST_F(CharacterTest, ScalesThatDifferByAxisBendNothingMuch) {
+  DanceChanged([](Glb& glb) { glb.document["nodes"].back()["scale"] = {1.1, 0.95, 1.0}; });
+  EXPECT_LT(WorstDirection(), 15);
+}
+
+TEST_F(CharacterTest, WhatWeCannotReadIsCarriedAlong) {
+  DanceChanged([](Glb& glb) {
+    glb.document["extensionsRequired"] = {"EXT_meshopt_compression"};
+    glb.document["buffers"].push_back({{"byteLength", 1 << 30}});  // where it would be unpacked
+    glb.document["accessors"][0]["sparse"] = {{"count", 3}};
+  });
+  const Glb changed(folder_ / "changed.glb"), out(folder_ / "out.glb");
+  EXPECT_EQ(out.document["buffers"][1], changed.document["buffers"][1]);
+  EXPECT_EQ(out.document["accessors"][0], changed.document["accessors"][0]);
+  // 22 rotations (hands' fingers are no bones of a dance) and the place of the pelvis.
+  EXPECT_EQ(out.document["animations"][0]["channels"].size(), 23U);
+}
+
+TEST_F(CharacterTest, KhronosAndThreeJsAgreeWithUs) {
+  const CharacterBody body =
+      DanceChanged([](Glb&) {}, {.arms_down = 45, .rolled = true, .armature_scale = 0.01});
+  const Motion danced = TransferToCharacter(smpl_, body.skeleton);
+  const CharacterFile file(folder_ / "out.glb");
+  json expected = {{"duration", 29.0 / 30}};
+  for (const size_t frame : {0, 13, 28}) {
+    json joints;
+    const Eigen::Matrix3Xd places = JointPositions(body.skeleton, danced.frames[frame]);
+    for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
+      const Eigen::Vector3d at = places.col(static_cast<Eigen::Index>(joint));
+      joints[file.names()[static_cast<size_t>(body.nodes[joint])]] = {at.x(), at.y(), at.z()};
+    }
+    expected["frames"].push_back({{"time", static_cast<double>(frame) / 30}, {"joints", joints}});
+  }
+  std::ofstream(folder_ / "expected.json") << expected;
+  const Outcome outcome =
+      Shell(std::string(CHOREO_TEST_DATA) + "/web/check_glb.sh '" + (folder_ / "out.glb").string() +
+            "' '" + (folder_ / "expected.json").string() + "'");
+  if (outcome.code == 77) GTEST_SKIP() << outcome.said;
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+}
+
+TEST_F(CharacterTest, RefusesWhatCannotDance) {
+  const auto refuse = [&](const std::string& message, const std::function<void(Glb&)>& change) {
+    SCOPED_TRACE(message);
+    ExpectError(ErrorCode::kInvalidArgument, message, [&] { DanceChanged(change); });
+  };
+  refuse("changed.glb: buffers[0].uri: its data lie elsewhere",
+         [](Glb& glb) { glb.document["buffers"][0]["uri"] = "hero.bin"; });
+  refuse("has two parents", [](Glb& glb) { glb.document["nodes"][24]["children"] = {5}; });
+  refuse("their own ancestors", [](Glb& glb) {
+    glb.document["nodes"][25]["children"] = json::array();
+    glb.document["nodes"][10]["children"] = {0};
+  });
+  refuse("there is no number 99", [](Glb& glb) { glb.document["nodes"][10]["children"] = {99}; });
+  refuse("there is no number 77",
+         [](Glb& glb) { glb.document["skins"][0]["joints"].push_back(77); });
+  refuse("nodes[5]: has a scale of zero", [](Glb& glb) {
+    glb.document["nodes"][5]["scale"] = {1, 0, 1};
+  });
+  refuse("m from the origin", [](Glb& glb) { glb.document["nodes"][0]["translation"][1] = 1e30; });
+  refuse("nodes[3]: is no object", [](Glb& glb) { glb.document["nodes"][3] = 7; });
+  refuse("buffers[0]: is no object", [](Glb& glb) { glb.document["buffers"][0] = 7; });
+  refuse("nodes: is no list", [](Glb& glb) { glb.document["nodes"] = "none"; });
+  refuse("none of them is the pelvis", [](Glb& glb) {
+    glb.document["nodes"] = json::array();
+    glb.document.erase("skins");
+  });
+  refuse("is no binary glTF", [](Glb& glb) { glb.document = json::array(); });
+}
+
+TEST_F(CharacterTest, RefusesFilesThatAreNone) {
+  WriteCharacter(folder_ / "hero.glb", {});
+  std::ifstream file(folder_ / "hero.glb", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const auto refuse = [&](const std::string& message, const std::string& content) {
+    std::ofstream(folder_ / "bad.glb", std::ios::binary) << content;
+    ExpectError(ErrorCode::kInvalidArgument, message, [&] { CharacterFile(folder_ / "bad.glb"); });
+  };
+  refuse("bad.glb: is no binary glTF: bad header", "");
+  refuse("version 1, must be 2", bytes.substr(0, 4) + std::string("\1\0\0\0", 4) + bytes.substr(8));
+  refuse("a chunk of 4294967295 bytes",
+         bytes.substr(0, 12) + std::string(4, '\xff') + bytes.substr(16));
+  refuse("are there", bytes.substr(0, bytes.size() / 2));
+  ExpectError(ErrorCode::kInvalidArgument, "no plain file", [&] { CharacterFile("/dev/zero"); });
+  ExpectError(ErrorCode::kNotFound, "absent.glb", [&] { CharacterFile(folder_ / "absent.glb"); });
+  const CharacterFile hero(folder_ / "hero.glb");
+  const CharacterBody body = MakeCharacterBody(hero.FindBones(), hero.places());
+  ExpectError(ErrorCode::kInvalidArgument, "0 frames",
+              [&] { hero.WriteDance(folder_ / "out.glb", body, {}); });
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.glb"));
+}
+
+}  // namespace
+}  // namespace choreo

@@ -1,0 +1,34 @@
+#include "model/fit/guess_bones.h"
+#include "model/fit/transfer.h"
+#include "model/formats/character_file.h"
+#include "model/motion/kinematics.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/input_file.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace choreo;
+  static const fuzz::InputFile input(".glb"), out(".out.glb");
+  fuzz::MayRefuse([&] {
+    const CharacterFile file(input.Holding(fuzz::Text(data, size)));
+    const Eigen::Matrix3Xd places = file.places();
+    HumanBones bones = file.FindBones();
+    if (!MissingBone(bones).empty()) {
+      std::vector<int> parents;
+      for (int node = 0; node < std::ssize(file.names()); ++node)
+        parents.push_back(file.parent(node));
+      bones = GuessBones(parents, places, file.joints());
+    }
+    const CharacterBody body = MakeCharacterBody(bones, places);
+    const Skeleton& smpl = Skeleton::Smpl24();
+    const Motion dance{.fps = 30, .frames = {RestPose(smpl), RestPose(smpl)}};
+    const auto& written = out.Holding("");
+    file.WriteDance(written, body, TransferToCharacter(dance, body.skeleton));
+    // What we write is a character, too.
+    try {
+      if (CharacterFile(written).names() != file.names()) fuzz::Fail("other nodes came out");
+    } catch (const Error& error) {
+      fuzz::Fail(error.what());
+    }
+  });
+  return 0;
+}
