@@ -20,6 +20,7 @@ demo: programs  ## Install, build, serve, and dance 24 s to a real song; results
 	@scripts/demo.sh $(BUILD)/bin out/demo
 
 studio: programs  ## Install, build, and open the studio in a browser: SONG=file begins with that song
+	@scripts/photo_model.sh $(BUILD)/share/choreo/photo
 	@$(BUILD)/bin/choreo studio $(if $(SONG),"$(SONG)")
 
 test: build  ## Install, build and run every test (a few minutes)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client/cli/choreography.h"
+#include "client/cli/photo_pose.h"
 #include "client/cli/pose_library.h"
 #include "client/convert.h"
 #include "client/edit.h"
@@ -91,8 +92,12 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
       return dance.GenerateUntil(request.generate_until().frame());
     case v1::StreamDanceRequest::kKeyframesComplete:
       return dance.CompleteKeys();
+    case v1::StreamDanceRequest::kAudio:
+      return dance.SendSamples(SamplesOf(request.audio()));
+    case v1::StreamDanceRequest::kEndOfAudio:
+      return dance.EndAudio();
     default:
-      throw InvalidArgument("dance", "music comes from the studio, not from the page");
+      throw InvalidArgument("dance", "beats come from the studio, not from the page");
   }
 }
 
@@ -101,7 +106,9 @@ void Desk::StartDance(uint32_t call, const v1::DanceConfig& request) {
     throw Error(ErrorCode::kResourceExhausted, "dance",
                 std::to_string(kMostDances) + " are in progress, the most");
   client::DanceConfig config = FromProto(request, house_.model().skeleton);
-  const std::shared_ptr<const Song> music = song();
+  // Who sends the music as it sounds is not danced to the song.
+  const bool is_live = config.audio.kind != client::AudioKind::kNone;
+  const std::shared_ptr<const Song> music = is_live ? nullptr : song();
   const bool hears = music && house_.model().takes_music;
   if (music) config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
   if (hears) config.audio = music->audio.format;
@@ -192,6 +199,8 @@ void Desk::Do(const Request& request) {
       return WriteClip(call, request.export_());
     case Request::kOpen:
       return ReadClip(call, request.open());
+    case Request::kLandmarks:
+      return MakePhotoPose(call, request.landmarks());
     default:
       throw InvalidArgument("request", "is none that this studio knows");
   }
@@ -267,6 +276,15 @@ void Desk::ReadClip(uint32_t call, const File& file) {
   }
   Response response;
   *response.mutable_clip() = ToProto(dance);
+  Answer(call, std::move(response));
+}
+
+void Desk::MakePhotoPose(uint32_t call, const File& landmarks) {
+  Response response;
+  LibraryPose* pose = response.mutable_pose();
+  pose->set_id(std::filesystem::path(landmarks.name()).stem().string());
+  *pose->mutable_pose() = client::ToProto(
+      cli::ParseLandmarkPose(landmarks.data(), landmarks.name(), house_.model().skeleton));
   Answer(call, std::move(response));
 }
 

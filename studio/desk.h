@@ -52,6 +52,7 @@ class Desk {
   void ComposeKeys(uint32_t call, const Compose& request);
   void WriteClip(uint32_t call, const Export& request);
   void ReadClip(uint32_t call, const File& file);
+  void MakePhotoPose(uint32_t call, const File& landmarks);
 
   std::shared_ptr<const Song> song() const;
   void Answer(uint32_t call, Response response);

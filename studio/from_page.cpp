@@ -1,6 +1,7 @@
 #include "studio/from_page.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "client/convert.h"
 #include "model/motion/pose_limits.h"
@@ -100,9 +101,17 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
     throw InvalidArgument(field, "must be absent: the studio sees to it");
   };
   if (!config.model().empty()) refuse("config.model");
-  if (config.has_audio_format()) refuse("config.audio_format");
   if (config.music_beats_size() > 0) refuse("config.music_beats");
   if (config.frame_rate() != 0) refuse("config.frame_rate");
+  if (config.has_audio_format()) {
+    const v1::AudioFormat& format = config.audio_format();
+    if (format.encoding() != v1::AUDIO_ENCODING_PCM_F32LE)
+      throw InvalidArgument("config.audio_format.encoding", "must be 32-bit floats");
+    if (format.first_sample() != 0) refuse("config.audio_format.first_sample");
+    out.audio = {client::AudioKind::kPcmFloat, static_cast<int>(format.sample_rate()),
+                 static_cast<int>(format.channels())};
+  }
+  if (config.has_generate_until()) out.generate_until = config.generate_until();
   if (config.has_seed()) out.seed = config.seed();
   if (config.has_temperature()) out.temperature = config.temperature();
   out.style = config.style();
@@ -120,13 +129,24 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   return out;
 }
 
+std::vector<float> SamplesOf(const v1::Audio& audio) {
+  const std::string& bytes = audio.data();
+  if (bytes.size() % sizeof(float) != 0)
+    throw InvalidArgument("audio.data",
+                          std::to_string(bytes.size()) + " bytes are no whole floats");
+  std::vector<float> samples(bytes.size() / sizeof(float));
+  std::memcpy(samples.data(), bytes.data(), bytes.size());
+  return samples;
+}
+
 client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
                                     const Skeleton& skeleton) {
   client::TransitionRequest out;
   out.config = FromProto(request.config(), skeleton);
   out.config.controls = FromProto(request.controls());
   out.frames = request.frames();
-  if (request.has_audio()) throw InvalidArgument("audio", "must be absent: the studio sees to it");
+  if (request.has_audio() || request.config().has_audio_format())
+    throw InvalidArgument("audio", "must be absent: the studio sees to it");
   const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, skeleton.joints())};
   if (request.has_target()) {
     out.target = ToPose(request.target(), skeleton, "target", kMaxWoundRotation);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "client/choreo_client.h"
 #include "client/edit.h"
 #include "studio/studio.pb.h"
@@ -11,10 +13,13 @@ namespace choreo::studio {
 
 client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
 client::Controls FromProto(const v1::Controls& controls);
-/// Without music, which is this program's, and without a model, which is the server's first.
+/// Without beats, which are this program's, and without a model, which is the server's first. Music
+/// comes in floats, if at all.
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);
 client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
                                     const Skeleton& skeleton);
+/// Each piece follows the one before.
+std::vector<float> SamplesOf(const v1::Audio& audio);
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton);
 
 }  // namespace choreo::studio

@@ -29,7 +29,9 @@ std::string ReadBytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-House::House(const client::Options& server, const std::filesystem::path& song) : client_(server) {
+House::House(const client::Options& server, const std::filesystem::path& song,
+             const std::filesystem::path& photo_model)
+    : client_(server), photo_model_(photo_model) {
   const client::ServerDescription description = client_.GetServerInfo();
   model_ = description.models.front();
   most_seconds_ = description.limits.max_audio_s;
@@ -42,6 +44,7 @@ House::House(const client::Options& server, const std::filesystem::path& song) :
     *added->mutable_pose() = client::ToProto(pose.pose);
   }
   welcome_.set_body(BodyAtRest(model_.skeleton));
+  welcome_.set_reads_photos(photo_model_.is_there());
   if (song.empty()) return;
   song_ = std::make_shared<const Song>(HearSong(song, song.string(), most_seconds_));
   welcome_.mutable_song()->set_name(song.filename().string());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "studio/photo_model.h"
 #include "studio/song.h"
 #include "studio/studio.pb.h"
 
@@ -14,14 +15,16 @@ namespace choreo::studio {
 /// What all pages share. Thread-safe: nothing changes after construction.
 class House {
  public:
-  /// Asks the server what it has. `song` may be empty. Throws what the client library, HearSong and
-  /// the library's retargeting do.
-  House(const client::Options& server, const std::filesystem::path& song);
+  /// Asks the server what it has. `song` may be empty, and the folder of the photo model. Throws
+  /// what the client library, HearSong and the library's retargeting do.
+  House(const client::Options& server, const std::filesystem::path& song,
+        const std::filesystem::path& photo_model = {});
 
   const client::Client& client() const { return client_; }
   const client::ModelDescription& model() const { return model_; }
   /// Of music that the server dances to.
   double most_seconds() const { return most_seconds_; }
+  const PhotoModel& photo_model() const { return photo_model_; }
   /// The first message to every page.
   const Welcome& welcome() const { return welcome_; }
   /// That of the command line, or null.
@@ -32,6 +35,7 @@ class House {
   client::ModelDescription model_;
   double most_seconds_ = 0;
   std::shared_ptr<const Song> song_;
+  PhotoModel photo_model_;
   Welcome welcome_;
 };
 

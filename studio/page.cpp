@@ -8,6 +8,7 @@ std::span<const PageFile> PageFiles() {
   static const PageFile kFiles[] = {
       {"/index.html", "text/html; charset=utf-8", EmbeddedIndexHtml()},
       {"/studio.js", "text/javascript; charset=utf-8", EmbeddedStudioJs()},
+      {"/microphone.js", "text/javascript; charset=utf-8", EmbeddedMicrophoneJs()},
       {"/studio.css", "text/css; charset=utf-8", EmbeddedStudioCss()},
   };
   return kFiles;

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "client/cli/control_options.h"
 #include "client/cli/json_fields.h"
 #include "client/cli/key_file.h"
 #include "client/cli/project_file.h"
@@ -165,6 +166,10 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   config.frames = std::llround(seconds * model.fps);
   if (!project.velocities.empty())
     config.controls.velocity_factors = cli::ReadVelocities(project.velocities, "", model.fps);
+  if (!project.path.empty()) {
+    config.controls.root_path =
+        cli::ParsePathFile(project.path, std::string(kName) + ":path", model.fps);
+  }
   client::Audio audio;
   if (song) {
     config.music_beats = cli::BeatsBefore(song->music, seconds);

@@ -18,16 +18,22 @@ struct StudioOptions {
   std::string listen = "127.0.0.1:8765";
 };
 
+std::filesystem::path ProgramFolder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
 void Run(const StudioOptions& options) {
   const Interruption interruption;
   client::Options server = options.server.ForClient();
   std::optional<studio::Keeper> own;
   if (options.server.addresses.empty()) {
-    own.emplace(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod");
+    own.emplace(ProgramFolder() / "choreod");
     server.addresses = {own->address()};
   }
   server.before_retry = [] { Interruption::Check(); };
-  const studio::House house(server, options.song);
+  // Beside the program, built or installed, as scripts/photo_model.sh leaves it.
+  const std::filesystem::path photo_model = ProgramFolder().parent_path() / "share/choreo/photo";
+  const studio::House house(server, options.song, photo_model);
   studio::WebServer web(options.listen, house);
   std::cout << "The studio is open at " << web.url() << "  (Ctrl-C closes it)" << std::endl;
   web.Run([] { return !Interruption::Came(); });

@@ -23,9 +23,11 @@ constexpr std::chrono::milliseconds kAskEvery{100};
 constexpr std::chrono::seconds kPatience{30};      // for a request
 constexpr size_t kLargestBody = size_t{64} << 20;  // of a project with its song
 constexpr const char* kSocketPath = "/studio";
+constexpr std::string_view kPhotoPath = "/photo/";
 // Browsers hold the page to this, whatever it loads.
 constexpr const char* kPolicy =
-    "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; "
     "media-src 'self' blob:; connect-src 'self' blob:; frame-ancestors 'none'";
 
 struct Place {
@@ -55,9 +57,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
  public:
   using Upgrade = std::function<void(beast::tcp_stream, const http::request<http::string_body>&)>;
 
-  Connection(tcp::socket socket, std::string host, ProjectCalls* calls, Upgrade upgrade)
+  Connection(tcp::socket socket, std::string host, const PhotoModel& photo_model,
+             ProjectCalls* calls, Upgrade upgrade)
       : stream_(std::move(socket)),
         host_(std::move(host)),
+        photo_model_(photo_model),
         calls_(*calls),
         upgrade_(std::move(upgrade)) {}
 
@@ -100,6 +104,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (request_.method() != http::verb::get && request_.method() != http::verb::head)
       return Say(http::status::method_not_allowed, "text/plain", "GET alone.\n");
     if (path == "/model") return Say(calls_.Model());
+    if (path.starts_with(kPhotoPath)) {
+      if (const auto part = photo_model_.Read(path.substr(kPhotoPath.size())))
+        return Say(http::status::ok, part->type, part->data);
+    }
     const PageFile* file = FindPageFile(path);
     if (!file) return Say(http::status::not_found, "text/plain", "No such page.\n");
     Say(http::status::ok, file->type, file->data);
@@ -159,6 +167,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   beast::tcp_stream stream_;
   const std::string host_;
+  const PhotoModel& photo_model_;
   ProjectCalls& calls_;
   const Upgrade upgrade_;
   beast::flat_buffer buffer_;
@@ -214,7 +223,7 @@ void WebServer::Accept() {
   acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (!error) {
       std::make_shared<Connection>(
-          std::move(socket), host_, &calls_,
+          std::move(socket), host_, house_.photo_model(), &calls_,
           [this](beast::tcp_stream stream, const http::request<http::string_body>& request) {
             const auto page = std::make_shared<Socket>(std::move(stream), house_);
             sockets_.insert(page);

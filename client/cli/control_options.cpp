@@ -88,9 +88,10 @@ std::vector<NamedFile> ControlOptions::Files() const {
 client::Controls ControlOptions::Read(const client::ModelDescription& model,
                                       const client::ServerDescription& server) const {
   client::Controls controls;
-  if (!path.empty()) {
-    RequireControl("root_path", "--path", model, server);
-    controls.root_path = ParsePathFile(ReadText(path, "path file"), path, model.fps);
+  if (!path.empty() || !path_text.empty()) {
+    RequireControl("root_path", path.empty() ? path_text_name : "--path", model, server);
+    controls.root_path = ParsePathFile(path.empty() ? path_text : ReadText(path, "path file"),
+                                       PathName(), model.fps);
   }
   if (!velocities.empty()) {
     RequireControl("velocity_factors", "--velocity", model, server);
@@ -104,7 +105,7 @@ client::Controls ControlOptions::Read(const client::ModelDescription& model,
 void ControlOptions::RequireBegun(const client::Controls& controls,
                                   const DanceLength& length) const {
   if (const auto& asked = controls.root_path; asked && asked->frames.front() >= length.frames) {
-    throw InvalidArgument(path + ":points[0]",
+    throw InvalidArgument(PathName() + ":points[0]",
                           "the path's first point " + SayBehindEnd(asked->frames.front(), length));
   }
   const auto& asked = controls.velocity_factors;
@@ -137,9 +138,10 @@ Error ControlOptions::InTermsOf(const Error& error) const {
                          : !two_a_point                         ? ""
                          : index % 2 == 0                       ? ".x"
                                                                 : ".z";
-    return {error.code(),
-            path + ":points[" + std::to_string(two_a_point ? index / 2 : index) + "]" + member,
-            message};
+    return {
+        error.code(),
+        PathName() + ":points[" + std::to_string(two_a_point ? index / 2 : index) + "]" + member,
+        message};
   }
   return error;
 }

@@ -30,6 +30,8 @@ client::Controls::RootPath ParsePathFile(std::string_view text, const std::strin
 /// The options of every command that dances.
 struct ControlOptions {
   std::string path;
+  /// The text of a path file that is part of another file, and how errors call it; `path` wins.
+  std::string path_text, path_text_name;
   std::vector<std::string> velocities;  ///< as ReadVelocities (velocity_options.h) takes them
   std::string reference;
 
@@ -44,6 +46,8 @@ struct ControlOptions {
   /// Throws Error(kInvalidArgument) naming the first point of a path or of a velocity file that
   /// begins behind the end of a dance: whoever wrote it meant another one.
   void RequireBegun(const client::Controls& controls, const DanceLength& length) const;
+  /// How errors call the path.
+  const std::string& PathName() const { return path.empty() ? path_text_name : path; }
   /// An error about controls as they were sent in terms of these options; any other as it is.
   Error InTermsOf(const Error& error) const;
 };

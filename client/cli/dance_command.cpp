@@ -64,6 +64,8 @@ void TakeProject(DanceOptions* options) {
   if (!options->seconds) options->seconds = project.seconds;
   if (!options->seed) options->seed = project.seed;
   if (options->style.empty()) options->style = project.style;
+  options->controls.path_text = project.path;
+  options->controls.path_text_name = options->project + ":path";
   // Of several sources the last that speaks of a part counts: those of the command line.
   std::vector<std::string>& velocities = options->controls.velocities;
   velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
@@ -251,9 +253,10 @@ void AddDanceCommand(CLI::App& program) {
               "key at all. "
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
   command
-      ->add_option("--project", options->project,
-                   "A project that `choreo studio` saved: its keys, seed, style, liveliness and "
-                   "the song beside it, as far as nothing else is said here.")
+      ->add_option(
+          "--project", options->project,
+          "A project that `choreo studio` saved: its keys, path, seed, style, liveliness and "
+          "the song beside it, as far as nothing else is said here.")
       ->check(CLI::ExistingFile)
       ->excludes("--keyframes");
   command

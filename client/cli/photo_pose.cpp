@@ -131,9 +131,8 @@ std::vector<Eigen::Matrix3d> SmplRotations(const Numbers& file) {
 
 }  // namespace
 
-Pose ReadLandmarkPose(const std::filesystem::path& path, const Skeleton& skeleton) {
-  const std::string name = path.string();
-  const json file = ParseJson(ReadText(path, "landmark file"), name);
+Pose ParseLandmarkPose(std::string_view text, const std::string& name, const Skeleton& skeleton) {
+  const json file = ParseJson(text, name);
   const json& list = LandmarkList(file, name);
   const size_t count = MediaPipeJointNames().size();
   if (list.size() != count) {
@@ -157,6 +156,10 @@ Pose ReadLandmarkPose(const std::filesystem::path& path, const Skeleton& skeleto
   if ((places.colwise() - places.col(0)).norm() < 0.1)
     throw InvalidArgument(name + ":landmarks", "all stand in one place");
   return FitMediaPipe(places, visibilities, skeleton);
+}
+
+Pose ReadLandmarkPose(const std::filesystem::path& path, const Skeleton& skeleton) {
+  return ParseLandmarkPose(ReadText(path, "landmark file"), path.string(), skeleton);
 }
 
 Pose ReadSmplPose(const std::filesystem::path& path, const Skeleton& skeleton) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -13,6 +15,9 @@ namespace choreo::cli {
 /// MediaPipe Pose's 33 world landmarks, JSON: a list of {"x", "y", "z", "visibility"}, metres, or
 /// an object whose member landmarks, worldLandmarks, poseWorldLandmarks or pose_world_landmarks is
 /// that list. A landmark without visibility is seen.
+Pose ParseLandmarkPose(std::string_view text, const std::string& name, const Skeleton& skeleton);
+
+/// The same of a file.
 Pose ReadLandmarkPose(const std::filesystem::path& path, const Skeleton& skeleton);
 
 /// SMPL's pose as estimators give it, camera's y down: JSON or npz with `pose`, `poses`,

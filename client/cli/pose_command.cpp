@@ -24,6 +24,7 @@ namespace {
 
 struct PoseOptions {
   PoseRecipe recipe;
+  std::string photo;
   double at_s = 0;
   std::string description;
   std::vector<std::string> tags;
@@ -112,6 +113,13 @@ void List(const PoseOptions& options) {
 }
 
 void Run(const PoseOptions& options) {
+  if (!options.photo.empty()) {
+    throw InvalidArgument("--from-photo",
+                          "photos are read in the browser: open `choreo studio` and drop " +
+                              options.photo +
+                              " on its page; what another program saw in it goes with "
+                              "--from-landmarks or --from-smpl");
+  }
   if (!options.png.empty()) RequireExtension("--png", options.png, ".png");
   if (!options.out.empty()) RequireExtension("--out", options.out, ".json");
   RequireOutputs({{"--out", options.out}, {"--png", options.png}}, {});
@@ -151,6 +159,10 @@ void AddPoseCommand(CLI::App& program) {
           ->add_option("--from-landmarks", recipe.from_landmarks,
                        "What MediaPipe Pose saw in a photo: FILE.json of its 33 world landmarks.")
           ->excludes(from);
+  command
+      ->add_option("--from-photo", options->photo,
+                   "Says how: the page of `choreo studio` reads photos.")
+      ->excludes(from);
   command
       ->add_option("--from-smpl", recipe.from_smpl,
                    "What an estimator saw in a photo as a pose of SMPL: FILE.json or FILE.npz of "

@@ -72,6 +72,11 @@ Project ParseProject(const json& file, const std::string& name) {
     project.seed = file["seed"].get<uint64_t>();
   }
   if (file.contains("lively")) project.velocities = Velocities(file["lively"], name + ":lively");
+  if (file.contains("path")) {
+    if (!file["path"].is_object())
+      throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");
+    project.path = file["path"].dump();
+  }
   return project;
 }
 

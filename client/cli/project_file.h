@@ -16,10 +16,11 @@ struct Project {
   std::optional<uint64_t> seed = {};
   std::string style = {};                    ///< empty: as it comes
   std::vector<std::string> velocities = {};  ///< as --velocity takes them; none where all are 1
+  std::string path = {};                     ///< the text of a path file (control_options.h)
 };
 
 /// Reads a project, JSON with `studio`, which is 1, `song`, `seconds`, `seed`, `style`, `lively` (a
-/// factor for each part of the body) and `keyframes`. `name` is the file's. Throws
+/// factor for each part of the body), `path` and `keyframes`. `name` is the file's. Throws
 /// Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
 Project ParseProject(const nlohmann::json& file, const std::string& name);
 

@@ -1,6 +1,6 @@
 import { defineConfig } from 'vite';
 
-// Three files of fixed names: the program embeds them (studio/CMakeLists.txt).
+// Files of fixed names: the program embeds them (studio/CMakeLists.txt).
 export default defineConfig({
   esbuild: { jsx: 'automatic', jsxImportSource: 'preact', legalComments: 'none' },
   build: {

@@ -220,5 +220,12 @@ TEST_F(PhotoPoseTest, WhatCannotBeIsNamed) {
   ExpectError(ErrorCode::kInvalidArgument, "p.pkl", [&] { ReadSmplPose(At("p.pkl"), Body()); });
 }
 
+TEST_F(PhotoPoseTest, APhotoItselfIsForTheStudio) {
+  const Outcome outcome = Choreo("pose --from-photo me.jpg");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--from-photo: photos are read in the browser: open `choreo "
+                                      "studio` and drop me.jpg on its page"));
+}
+
 }  // namespace
 }  // namespace choreo::cli

@@ -67,6 +67,25 @@ TEST_F(ProjectTest, TheCommandLineWins) {
   EXPECT_THAT(Bytes("short.bvh"), HasSubstr("Frames: 90\n"));
 }
 
+TEST_F(ProjectTest, ItsPathLeadsAsAPathFileDoes) {
+  ASSERT_EQ(Dance("--project " + At("p.json"), "anywhere.bvh").code, 0);
+  const json path = {
+      {"points", {{{"frame", 0}, {"x", 0}, {"z", 0}}, {{"frame", 90}, {"x", 1}, {"z", 1}}}}};
+  std::ofstream(folder_ / "path.json") << path.dump();
+  const Outcome spelt =
+      Dance("--project " + At("p.json") + " --path " + At("path.json"), "spelt.bvh");
+  ASSERT_EQ(spelt.code, 0) << spelt.said;
+  project_["path"] = path;
+  const Outcome outcome = Dance("--project " + At("p.json"), "path.bvh");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(Bytes("path.bvh"), Bytes("spelt.bvh"));
+  EXPECT_NE(Bytes("path.bvh"), Bytes("anywhere.bvh"));
+  // The command line wins.
+  project_["path"]["points"][1]["x"] = 2;
+  ASSERT_EQ(Dance("--project " + At("p.json") + " --path " + At("path.json"), "won.bvh").code, 0);
+  EXPECT_EQ(Bytes("won.bvh"), Bytes("spelt.bvh"));
+}
+
 TEST_F(ProjectTest, ASongThatIsNotBesideItIsNamed) {
   project_["song"] = "other.wav";
   ExpectRefused("p.json:song: ");
@@ -94,6 +113,14 @@ TEST_F(ProjectTest, WhatCannotBeIsNamed) {
   with("song", 7, ": 7 is no text");
   with("lively", {{"tail", 1}}, ".tail: is none of trunk");
   with("lively", {{"trunk", 11}}, ".trunk: 11 is not a number from 0 to 10");
+  with("path", 7, ": 7 is no object");
+  with("path", {{"points", json::array()}}, ":points");
+  with("path",
+       {{"points", {{{"frame", 0}, {"x", 0}, {"z", 0}}, {{"frame", 0}, {"x", 1}, {"z", 0}}}}},
+       ":points[1].frame");
+  with("path",
+       {{"points", {{{"frame", 9}, {"x", 2e4}, {"z", 0}}, {{"frame", 12}, {"x", 1}, {"z", 0}}}}},
+       ":points[0].x");
   project_ = good;
   project_["style"] = "foxtrot";
   ExpectRefused("foxtrot");

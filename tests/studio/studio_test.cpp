@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "client/cli/photo_pose.h"
 #include "client/convert.h"
 #include "model/motion/kinematics.h"
 #include "studio/keeper.h"
@@ -25,8 +26,9 @@ using ::testing::HasSubstr;
 /// The studio in this process, open to pages.
 class Opened {
  public:
-  explicit Opened(const std::string& server, const std::filesystem::path& song = {})
-      : house_({.addresses = {server}}, song), web_("127.0.0.1:0", house_) {
+  explicit Opened(const std::string& server, const std::filesystem::path& song = {},
+                  const std::filesystem::path& photo_model = {})
+      : house_({.addresses = {server}}, song, photo_model), web_("127.0.0.1:0", house_) {
     thread_ = std::thread([this] { web_.Run([] { return true; }); });
   }
   ~Opened() {
@@ -239,6 +241,121 @@ TEST_F(StudioTest, WritesAndOpensFiles) {
     for (int i = 0; i < frames.root_positions_size(); ++i)
       EXPECT_NEAR(clip.clip().frames().root_positions(i), frames.root_positions(i), 1e-4) << name;
   }
+}
+
+// What the microphone of a page hears: frames come while it sounds, and the song has no part in it.
+TEST_F(StudioTest, DancesToMusicAsItSounds) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const auto dance = [&](float loudness) {
+    Request config;
+    v1::DanceConfig* asked = config.mutable_dance()->mutable_config();
+    asked->set_seed(7);
+    asked->set_generate_until(0);
+    asked->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+    asked->mutable_audio_format()->set_sample_rate(16000);
+    asked->mutable_audio_format()->set_channels(1);
+    page.Say(2, config);
+    Request grant, piece, end;
+    grant.mutable_dance()->mutable_generate_until()->set_frame(30);
+    page.Say(2, grant);
+    std::vector<float> samples(32000);
+    for (size_t i = 0; i < samples.size(); ++i) samples[i] = i % 8000 < 200 ? loudness : 0;
+    piece.mutable_dance()->mutable_audio()->set_data(samples.data(),
+                                                     samples.size() * sizeof(float));
+    page.Say(2, piece);
+    v1::Frames all;
+    const auto read = [&] {
+      const Response response = page.Read();
+      EXPECT_FALSE(response.has_failure()) << response.failure().message();
+      all.set_count(all.count() + response.dance().frames().count());
+      all.mutable_rotations()->MergeFrom(response.dance().frames().rotations());
+      return !response.has_failure() && !response.dance().has_summary();
+    };
+    while (all.count() < 30 && read()) continue;
+    EXPECT_EQ(all.count(), 30);  // while it sounds
+    end.mutable_dance()->mutable_end_of_audio();
+    page.Say(2, end);
+    page.Say(2, Complete());
+    while (read()) continue;
+    EXPECT_EQ(all.count(), 60);
+    return all.SerializeAsString();
+  };
+  const std::string silent = dance(0);
+  ASSERT_TRUE(page.Ask(SongRequest("clicks.wav", Clicks(2))).has_song());
+  EXPECT_EQ(dance(0), silent);
+  EXPECT_NE(dance(0.5F), silent);
+}
+
+TEST_F(StudioTest, RefusesMusicThatIsNone) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request config;
+  v1::AudioFormat* format = config.mutable_dance()->mutable_config()->mutable_audio_format();
+  format->set_encoding(v1::AUDIO_ENCODING_FILE);
+  page.Say(2, config);
+  EXPECT_THAT(page.Read().failure().message(), HasSubstr("config.audio_format.encoding"));
+  format->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+  format->set_sample_rate(16000);
+  format->set_channels(1);
+  page.Say(3, config);
+  Request piece;
+  piece.mutable_dance()->mutable_audio()->set_data("abc");
+  page.Say(3, piece);
+  Response end = page.Read();
+  while (end.has_dance()) end = page.Read();
+  EXPECT_EQ(end.failure().message(), "audio.data: 3 bytes are no whole floats");
+  // A dance to the song takes no other music.
+  page.Say(4, DanceRequest(40, 1));
+  piece.mutable_dance()->mutable_audio()->set_data("abcd");
+  page.Say(4, piece);
+  end = page.Read();
+  while (end.has_dance()) end = page.Read();
+  EXPECT_THAT(end.failure().message(), HasSubstr("samples"));
+}
+
+TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  std::string landmarks = "[";
+  for (int i = 0; i < 33; ++i) {
+    const std::string number = std::to_string(i);
+    landmarks += (i ? ",{\"x\":" : "{\"x\":") + std::to_string(0.3 * std::sin(i)) +
+                 ",\"y\":" + std::to_string(0.05 * i - 0.8) + ",\"z\":0." + number + "}";
+  }
+  landmarks += "]";
+  Request request;
+  request.mutable_landmarks()->set_name("beach.jpg");
+  request.mutable_landmarks()->set_data(landmarks);
+  const Response seen = page.Ask(request);
+  ASSERT_TRUE(seen.has_pose()) << seen.failure().message();
+  EXPECT_EQ(seen.pose().id(), "beach");
+  const Pose pose = cli::ParseLandmarkPose(landmarks, "beach.jpg", studio.house().model().skeleton);
+  EXPECT_EQ(seen.pose().pose().SerializeAsString(), client::ToProto(pose).SerializeAsString());
+  for (const char* bad : {"", "[]", "{", "[1]", "\xff"}) {
+    request.mutable_landmarks()->set_data(bad);
+    EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("beach.jpg")) << bad;
+  }
+}
+
+TEST_F(StudioTest, ServesWhatReadsPhotosWhereItIs) {
+  const Opened without(server_.address());
+  EXPECT_FALSE(Page(without.port()).welcome().reads_photos());
+  EXPECT_EQ(Get(without.port(), "/photo/pose.js").result_int(), 404U);
+  for (const char* name :
+       {"pose.js", "pose_landmark_full.tflite", "pose_solution_packed_assets.data",
+        "pose_solution_packed_assets_loader.js", "pose_solution_simd_wasm_bin.data",
+        "pose_solution_simd_wasm_bin.js", "pose_solution_simd_wasm_bin.wasm", "pose_web.binarypb",
+        "secret"}) {
+    std::ofstream(folder_ / name) << name;
+  }
+  const Opened studio(server_.address(), {}, folder_.path());
+  EXPECT_TRUE(Page(studio.port()).welcome().reads_photos());
+  const HttpResponse part = Get(studio.port(), "/photo/pose_solution_simd_wasm_bin.wasm");
+  EXPECT_EQ(part.body(), "pose_solution_simd_wasm_bin.wasm");
+  EXPECT_EQ(part["Content-Type"], "application/wasm");
+  EXPECT_EQ(Get(studio.port(), "/photo/secret").result_int(), 404U);
+  EXPECT_EQ(Get(studio.port(), "/photo/../photo/secret").result_int(), 404U);
 }
 
 TEST_F(StudioTest, SaysInWordsWhatCannotBe) {

@@ -3,21 +3,23 @@ import { effect, signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Pose } from './body';
 import { Doll } from './doll';
-import type { LibraryPose } from './generated/studio/studio_pb';
+import { Library } from './library';
 import { Panels } from './panels';
+import { PhotoCard } from './photo_card';
 import { Pictures } from './pictures';
 import { Stage } from './stage';
 import * as studio from './studio';
-import { Timeline, dropPose, frameUnder } from './timeline';
+import { Timeline } from './timeline';
 
 export const stage = signal<Stage | null>(null);
 export const pictures = signal<Pictures | null>(null);
 const marks = signal<{ x: number; y: number }[]>([]);
-const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null);
 export const pictureOf = (pose: Pose) => pictures.value?.of(pose) ?? '';
 
-/// The pose of the chosen key while the playhead rests on it.
+/// The pose that is bent: a photo's, or that of the chosen key while the playhead rests on it.
 function posed(): Pose | null {
+  if (studio.live.value) return null;
+  if (studio.sketch.value && studio.audio.paused) return studio.sketch.value.pose;
   const key = studio.keyOf(studio.selectedKey.value);
   if (!key || !studio.audio.paused) return null;
   const away = Math.abs(studio.audio.currentTime - key.frame / studio.dancer.fps);
@@ -34,14 +36,14 @@ function View() {
       const made = new Stage(canvas.current!, doll, posed, (places) => {
         if (places.length || marks.peek().length) marks.value = places;
       });
-      made.onPosed = (pose) => studio.poseKey(studio.selectedKey.value!, pose);
+      made.onPosed = studio.bend;
       stage.value = made;
     });
   }), []);
   const takes = studio.takes.value;
   return (
     <main class="stage" aria-label="Stage">
-      <canvas ref={canvas} tabIndex={0} role="img" aria-label="The dancer. Drag to look around; drag a handle of a chosen key to pose it." />
+      <canvas ref={canvas} class={studio.drawing.value ? 'drawing' : ''} tabIndex={0} role="img" aria-label="The dancer. Drag to look around; drag a handle of a chosen key to pose it." />
       {takes.length > 0 && marks.value.map(({ x, y }, i) => i <= takes.length && (
         <span class="mark" style={{ left: `${x}px`, top: `${y}px` }} key={i}>
           {i === 0
@@ -49,7 +51,8 @@ function View() {
             : <button onClick={() => studio.keepTake(takes[i - 1])}>Keep {'ABCDEFG'[i]}</button>}
         </span>
       ))}
-      {!studio.moment.value && <Welcome />}
+      {!studio.project.value && !studio.sketch.value && <Welcome />}
+      <PhotoCard />
       <Progress />
     </main>
   );
@@ -60,7 +63,10 @@ function Welcome() {
     <div class="welcome">
       <h1>Drop a song here</h1>
       <p>It is danced to at once, through poses on its beats. Then make it yours: move the poses, bend them, set others.</p>
-      <FileButton label="Choose a song" primary />
+      <div class="row">
+        <FileButton label="Choose a song" primary />
+        {studio.canHear() && <button onClick={() => void studio.startLive()}>Use the microphone</button>}
+      </div>
       <p class="small">WAV, FLAC, Ogg or MP3. Nothing leaves this machine.</p>
     </div>
   );
@@ -68,6 +74,13 @@ function Welcome() {
 
 function Progress() {
   const [there, all] = [studio.danced.value, studio.total.value];
+  if (studio.filming.value !== null) {
+    return (
+      <div class="progress filming" role="status">
+        filming … {Math.round(100 * studio.filming.value)} % <button onClick={studio.leaveFilm}>Leave off</button>
+      </div>
+    );
+  }
   if (!studio.busy.value) return null;
   const share = all ? Math.min(100, Math.round((100 * there) / all)) : 0;
   return <div class="progress" role="status">{there < all && there > 0 ? `dancing … ${share} %` : 'working …'}</div>;
@@ -89,29 +102,35 @@ function FileButton({ label, primary = false }: { label: string; primary?: boole
 }
 
 function Bar() {
-  const { song, moments, present, message, isConnected } = studio;
+  const { shownSong: song, moments, present, message, isConnected, live } = studio;
   const said = message.value;
   return (
     <header>
       <strong class="name">Choreo <span>studio</span></strong>
       <span class="song">
-        {song.value ? `${song.value.name} · ${Math.round(song.value.heard.tempo)} beats a minute` : isConnected.value ? '' : 'connecting …'}
+        {song.value ? `${song.value.name} · ${Math.round(song.value.heard.tempo)} beats a minute` : live.value ? 'live' : isConnected.value ? '' : 'connecting …'}
       </span>
       <nav aria-label="Project">
-        <button class="icon" aria-label="Undo" title="Undo (Ctrl+Z)" disabled={present.value < 1} onClick={studio.undo}>↶</button>
-        <button class="icon" aria-label="Redo" title="Redo (Ctrl+Shift+Z)" disabled={present.value >= moments.value.length - 1} onClick={studio.redo}>↷</button>
+        <button class="icon" aria-label="Undo" title="Undo (Ctrl+Z)" disabled={present.value < 1 || !!live.value} onClick={studio.undo}>↶</button>
+        <button class="icon" aria-label="Redo" title="Redo (Ctrl+Shift+Z)" disabled={present.value >= moments.value.length - 1 || !!live.value} onClick={studio.redo}>↷</button>
         <FileButton label="Open" />
-        <button disabled={!studio.moment.value} onClick={studio.saveProject}>Save</button>
+        {studio.canHear() && <button class="icon live" aria-pressed={!!live.value} aria-label="Dance to the microphone" title="Dance to the microphone"
+          onClick={() => void (live.value ? studio.stopLive() : studio.startLive())}>●</button>}
+        <button disabled={!studio.moment.value || !!live.value} onClick={studio.saveProject}>Save</button>
         <label class="export">
           <span class="hidden">Export the dance</span>
-          <select disabled={!studio.moment.value} value="" onChange={(event) => {
-            void studio.exportAs(event.currentTarget.value);
+          <select disabled={!studio.moment.value || !!live.value} value="" onChange={(event) => {
+            const { value } = event.currentTarget;
+            if (value === 'webm' || value === 'mp4') void (stage.value && studio.exportFilm(value, stage.value));
+            else void studio.exportAs(value);
             event.currentTarget.value = '';
           }}>
             <option value="" disabled>Export …</option>
             <option value="glb">glTF, with the body (.glb)</option>
             <option value="bvh">BVH (.bvh)</option>
             <option value="npz">SMPL, as AMASS (.npz)</option>
+            <option value="mp4">Film, with the song (.mp4)</option>
+            <option value="webm">Film, with the song (.webm)</option>
           </select>
         </label>
       </nav>
@@ -125,49 +144,6 @@ function Bar() {
   );
 }
 
-function Library() {
-  const start = (pose: LibraryPose) => (event: PointerEvent) => {
-    const from = { x: event.clientX, y: event.clientY };
-    const move = ({ clientX: x, clientY: y }: PointerEvent) => {
-      if (carried.value || Math.hypot(x - from.x, y - from.y) > 6) carried.value = { pose, x, y };
-      dropPose.value = carried.value ? frameUnder(x, y) : null;
-    };
-    const end = (last: PointerEvent) => {
-      window.removeEventListener('pointermove', move);
-      window.removeEventListener('pointerup', end);
-      window.removeEventListener('pointercancel', end);
-      const at = carried.value && last.type === 'pointerup' ? dropPose.value : null;
-      if (at !== null) studio.addKey(pose, at);
-      setTimeout(() => (carried.value = null));
-      dropPose.value = null;
-    };
-    window.addEventListener('pointermove', move);
-    window.addEventListener('pointerup', end);
-    window.addEventListener('pointercancel', end);
-  };
-  return (
-    <aside class="library" aria-label="Poses">
-      <h2>Poses</h2>
-      <p class="small">Drag one onto the timeline, or press it to set it at the playhead.</p>
-      <ul>
-        {studio.welcome.value?.poses.map((pose) => (
-          <li key={pose.id}>
-            <button title={pose.description} disabled={!studio.project.value} onPointerDown={start(pose)}
-              onClick={() => !carried.value && studio.addKey(pose, Math.round(studio.audio.currentTime * studio.dancer.fps))}>
-              <img alt="" draggable={false} src={pictureOf({ root: [0, pose.pose!.rootPosition!.y, 0], rotations: pose.pose!.rotations })} />
-              <span>{pose.id.replaceAll('_', ' ')}</span>
-            </button>
-          </li>
-        ))}
-      </ul>
-      {carried.value && (
-        <img class="carried" alt="" style={{ left: `${carried.value.x}px`, top: `${carried.value.y}px` }}
-          src={pictureOf({ root: [0, carried.value.pose.pose!.rootPosition!.y, 0], rotations: carried.value.pose.pose!.rotations })} />
-      )}
-    </aside>
-  );
-}
-
 function useKeyboard() {
   useEffect(() => {
     const press = (event: KeyboardEvent) => {
@@ -175,7 +151,11 @@ function useKeyboard() {
       if (event.defaultPrevented || at.matches('input, select')) return;
       if (event.key === ' ' && !at.matches('button')) studio.togglePlay();
       else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z') event.shiftKey ? studio.redo() : studio.undo();
-      else if (event.key === 'Escape') [studio.selectedKey.value, studio.chosen.value, studio.takes.value] = [null, null, []];
+      else if (event.key === 'Escape') {
+        [studio.selectedKey.value, studio.chosen.value, studio.takes.value] = [null, null, []];
+        studio.dropSketch();
+        studio.drawing.value = false;
+      }
       else if (event.key === 'Delete' && studio.selectedKey.value) studio.removeKey(studio.selectedKey.value);
       else return;
       event.preventDefault();
@@ -194,7 +174,7 @@ export function App() {
       if (files.length) void studio.openFiles(files);
     }}>
       <Bar />
-      <Library />
+      <Library pictureOf={pictureOf} />
       <View />
       <Panels stage={stage.value} />
       <Timeline pictureOf={pictureOf} />

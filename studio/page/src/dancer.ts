@@ -30,7 +30,7 @@ const poseMessage = (pose: Pose, hasPlace = true): Init<typeof PoseSchema> => ({
     : {}),
 });
 
-const keyMessage = (key: Key): Init<typeof KeyframeSchema> => ({
+export const keyMessage = (key: Key): Init<typeof KeyframeSchema> => ({
   id: key.id,
   when: { case: 'frame', value: BigInt(key.frame) },
   pose: poseMessage(key.pose, key.hasPlace),
@@ -151,13 +151,18 @@ export class Dancer {
     return config;
   }
 
-  private controls(project: Project): Init<typeof GenerateTransitionRequestSchema>['controls'] {
-    if (project.lively.every((factor) => factor === 1)) return undefined;
+  controls(project: Project): Init<typeof GenerateTransitionRequestSchema>['controls'] {
+    const { lively, path } = project;
+    const isUsual = lively.every((factor) => factor === 1);
+    if (isUsual && path.length === 0) return undefined;
     return {
-      velocityFactors: {
-        factors: project.lively,
-        parts: [BodyPart.TRUNK, BodyPart.LEFT_ARM, BodyPart.RIGHT_ARM, BodyPart.LEFT_LEG, BodyPart.RIGHT_LEG],
-      },
+      ...(path.length ? { rootPath: { frames: path.map(({ frame }) => BigInt(frame)), points: path.flatMap(({ x, z }) => [x, z]) } } : {}),
+      ...(isUsual ? {} : {
+        velocityFactors: {
+          factors: lively,
+          parts: [BodyPart.TRUNK, BodyPart.LEFT_ARM, BodyPart.RIGHT_ARM, BodyPart.LEFT_LEG, BodyPart.RIGHT_LEG],
+        },
+      }),
     };
   }
 

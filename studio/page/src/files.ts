@@ -1,27 +1,32 @@
 // What is dropped or chosen, and what is saved.
+import { film, height, width } from './film';
+import type { Kind } from './film';
 import { danceFrom, made, push } from './history';
 import { compose } from './keys';
 import { dancer, skeleton, wire } from './link';
 import { Motion } from './motion';
 import { emptyProject } from './project';
 import { fromJson, toJson } from './project_file';
-import { hear, playSilence, songExtensions } from './songs';
-import { message, moment, project, song, tell, welcome, work } from './state';
+import { dropSketch, photoExtensions, readPhoto } from './photos';
+import { audio, hear, playSilence, songExtensions } from './songs';
+import type { Stage } from './stage';
+import { filming, message, moment, project, song, takes, tell, welcome, work } from './state';
 
 const motionExtensions = ['npz', 'bvh', 'glb'];
 /// What the file chooser offers.
-export const accepted = [...songExtensions, 'json', ...motionExtensions].map((extension) => `.${extension}`).join();
+export const accepted = [...songExtensions, 'json', ...motionExtensions, ...photoExtensions].map((extension) => `.${extension}`).join();
 const mostBytes = 200 * 2 ** 20; // what a message to the program holds, and some room
 
 const extensionOf = ({ name }: File) => name.split('.').at(-1)!.toLowerCase();
 
-/// Songs, projects and motion files: a song first, so that a project that comes along is danced to it.
+/// Songs, projects, motion files and photos: a song first, so that a project that comes along is danced to it.
 export const openFiles = (files: File[]) => work(async () => {
   const find = (extensions: string[]) => files.filter((file) => extensions.includes(extensionOf(file)));
-  const [songs, others] = [find(songExtensions), find(['json', ...motionExtensions])];
-  const strange = files.find((file) => !songs.includes(file) && !others.includes(file));
+  const [songs, others, photos] = [find(songExtensions), find(['json', ...motionExtensions]), find(photoExtensions)];
+  const strange = files.find((file) => ![...songs, ...others, ...photos].includes(file));
   if (strange) throw new Error(`${strange.name} is none of the files that the studio knows: ${accepted.replaceAll(',', ' ')}`);
-  if (songs.length > 1 || others.length > 1) throw new Error('One song at a time, and one project or motion.');
+  if (songs.length > 1 || others.length > 1 || photos.length > 1)
+    throw new Error('One song at a time, one photo, and one project or motion.');
   for (const file of songs) {
     tell(`Listening to ${file.name} …`);
     await hear(file.name, await bytesOf(file));
@@ -29,6 +34,7 @@ export const openFiles = (files: File[]) => work(async () => {
   }
   for (const file of others) await openOther(file);
   if (others.length === 0 && songs.length === 1) await compose();
+  for (const file of photos) await readPhoto(file.name, await bytesOf(file));
 });
 
 async function bytesOf(file: File) {
@@ -80,6 +86,34 @@ function download(name: string, data: BlobPart, type = 'application/octet-stream
 const stem = () => (project.value?.song || 'dance').replace(/\.[^.]*$/, '');
 
 export const saveProject = () => download(`${stem()}.json`, toJson(project.value, dancer.fps), 'application/json');
+
+let filmed: AbortController | null = null;
+export const leaveFilm = () => filmed?.abort();
+
+/// Makes a film of the dance, as the camera sees it.
+export const exportFilm = (kind: Kind, stage: Stage) => work(async () => {
+  if (filmed) return;
+  const { song: played } = moment.value;
+  const motion = await made(moment.value);
+  audio.pause();
+  dropSketch();
+  [takes.value, filming.value] = [[], 0];
+  filmed = new AbortController();
+  try {
+    const bytes = await film({
+      kind,
+      motion,
+      song: played,
+      draw: (time) => stage.picture(time, width, height),
+      told: (share) => (filming.value = share),
+      signal: filmed.signal,
+    });
+    download(`${stem()}.${kind}`, bytes as BlobPart, `video/${kind}`);
+  } finally {
+    [filmed, filming.value] = [null, null];
+    stage.leave();
+  }
+});
 
 export const exportAs = (extension: string) => work(async () => {
   const clip = (await made(moment.value)).toClip();

@@ -5,7 +5,7 @@ import { dancer, skeleton } from './link';
 import { Motion } from './motion';
 import type { Project } from './project';
 import { returnTo } from './songs';
-import { busy, chosen, complain, danced, moment, moments, motion, present, project, selectedKey, song, takes, tell, warnings, work } from './state';
+import { busy, chosen, complain, danced, live, moment, moments, motion, present, project, selectedKey, song, takes, tell, warnings, work } from './state';
 import type { Make, Moment, Warning } from './state';
 
 const mostMoments = 60;
@@ -17,6 +17,7 @@ export const total = computed(() => (project.value && dancer ? dancer.frames(pro
 
 /// What is shown at a time.
 export const motionAt = (time: number) => {
+  if (live.value) return live.value.motion;
   const { value } = moment;
   const isThere = !value || value.isReady || value.motion.value.count > time * dancer.fps + 1;
   return isThere ? motion.value : value.before;
@@ -125,6 +126,7 @@ export const change = (what: Partial<Project>) => danceFrom({ ...project.value, 
 export const undo = () => step(-1);
 export const redo = () => step(1);
 function step(by: number) {
+  if (live.value) return;
   const to = present.value + by;
   if (to < 0 || to >= moments.value.length) return;
   takes.value = [];

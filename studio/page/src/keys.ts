@@ -2,11 +2,14 @@
 import { heading, turned } from './body';
 import type { Pose } from './body';
 import type { LibraryPose } from './generated/studio/studio_pb';
+import { onPath } from './floor_path';
 import { danceFrom, edit } from './history';
 import { dancer, wire } from './link';
+import { addLiveKey, changeLiveKey } from './live';
 import { closest, emptyProject, freeId, sorted } from './project';
 import type { Key } from './project';
-import { complain, message, motion, project, selectedKey, song } from './state';
+import { audio } from './songs';
+import { complain, live, message, motion, project, selectedKey, sketch, song } from './state';
 
 const reach = 15; // frames within which a key that finds its place taken looks for another
 
@@ -25,8 +28,8 @@ export async function compose() {
   for (const key of keys) named.push({ ...key, id: freeId(named, key.id) });
   message.value = null;
   const asked = emptyProject(song.value?.name ?? '', seconds);
-  const { lively, style } = project.value ?? asked;
-  danceFrom({ ...asked, lively, style, seed, keys: named }, -1);
+  const { lively, style, path } = project.value ?? asked;
+  danceFrom({ ...asked, lively, style, path, seed, keys: named.map((key) => onPath(path, key)) }, -1);
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.
@@ -41,10 +44,12 @@ function freeFrame(keys: Key[], frame: number): number | null {
 }
 
 /// Sets a pose of the library where the dancer is at that moment, facing as she does.
-export function addKey(pose: LibraryPose, at: number) {
+/// While it is danced live, on a beat to come, or at `at`.
+export function addKey(pose: LibraryPose, at?: number) {
   if (!project.value) return;
+  if (live.value) return addLiveKey(pose, at ?? null);
   const keys = project.value.keys;
-  const frame = freeFrame(keys, at);
+  const frame = freeFrame(keys, at ?? Math.round(audio.currentTime * dancer.fps));
   if (frame === null) return complain(new Error('There is no room for a key here.'));
   const root = pose.pose!.rootPosition!;
   let placed: Pose = { root: [root.x, root.y, root.z], rotations: [...pose.pose!.rotations] };
@@ -53,7 +58,7 @@ export function addKey(pose: LibraryPose, at: number) {
     placed = turned(placed, heading(here));
     placed.root = [here.root[0], root.y, here.root[2]];
   }
-  const key: Key = { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true };
+  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
 }
@@ -61,15 +66,17 @@ export function addKey(pose: LibraryPose, at: number) {
 export const keyOf = (id: string | null) => project.value?.keys.find((key) => key.id === id);
 
 export function moveKey(id: string, to: number) {
+  if (live.value) return changeLiveKey(id, to);
   const key = keyOf(id);
   if (!key) return;
   const others = project.value.keys.filter((other) => other !== key);
   const frame = freeFrame(others, to);
   if (frame === null || frame === key.frame) return;
-  edit({ ...project.value, keys: sorted([...others, { ...key, frame }]) }, [key.frame, frame]);
+  edit({ ...project.value, keys: sorted([...others, onPath(project.value.path, { ...key, frame })]) }, [key.frame, frame]);
 }
 
 export function removeKey(id: string) {
+  if (live.value) return changeLiveKey(id, null);
   const key = keyOf(id);
   if (!key) return;
   selectedKey.value = null;
@@ -81,4 +88,12 @@ export function poseKey(id: string, pose: Pose) {
   if (!key) return;
   const keys = project.value.keys.map((other) => (other === key ? { ...key, pose, hasPlace: true } : other));
   edit({ ...project.value, keys }, [key.frame]);
+}
+
+/// The pose that is bent, where there is one: the photo's, or the chosen key's.
+export const bent = () => sketch.value?.pose ?? keyOf(selectedKey.value)?.pose;
+
+export function bend(pose: Pose) {
+  if (sketch.value) sketch.value = { ...sketch.value, pose };
+  else if (selectedKey.value) poseKey(selectedKey.value, pose);
 }

@@ -9,6 +9,7 @@ import type { Stage } from './stage';
 import * as studio from './studio';
 
 const follows = signal(true);
+const brisk = 2.5; // metres a second, which few keep up while they dance
 const step = 0.02; // metres a press of an arrow key
 
 const ways: Record<string, [number, number, number]> = {
@@ -20,33 +21,26 @@ const ways: Record<string, [number, number, number]> = {
   PageDown: [0, 0, 1],
 };
 
-function KeyPanel({ stage }: { stage: Stage | null }) {
-  const key = studio.keyOf(studio.selectedKey.value);
-  if (!key) {
-    return (
-      <section aria-label="Key">
-        <h2>Key</h2>
-        <p class="small">Press a pose on the timeline to bend it by its hands, feet, hips and head.</p>
-      </section>
-    );
-  }
-  const change = (made: (pose: Pose) => Pose) => () => studio.poseKey(key.id, made(key.pose));
+/// What can be done to the pose that is bent, beside pulling it.
+function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) {
+  const change = (made: (pose: Pose) => Pose) => () => studio.bend(made(pose));
   const nudge = (id: string) => (event: KeyboardEvent) => {
     const way = ways[event.key];
     if (!way) return;
     stage?.nudge(id, new Vector3(...way).multiplyScalar(step));
     event.preventDefault();
   };
+  const key = studio.sketch.value ? null : studio.selectedKey.value;
   return (
-    <section aria-label="Key">
-      <h2>{key.id.replaceAll('_', ' ')} <small>{(key.frame / studio.dancer.fps).toFixed(2)} s</small></h2>
+    <>
       <p class="small">Pull the dots on the body; the ring moves it over the floor.</p>
       <div class="row">
-        <button onClick={change((pose) => studio.skeleton.mirrored(pose))}>Mirror</button>
-        <button onClick={change((pose) => studio.skeleton.grounded(pose))}>To the floor</button>
-        <button aria-label="Turn left" title="Turn left" class="icon" onClick={change((pose) => turned(pose, Math.PI / 12))}>⟲</button>
-        <button aria-label="Turn right" title="Turn right" class="icon" onClick={change((pose) => turned(pose, -Math.PI / 12))}>⟳</button>
-        <button onClick={() => studio.removeKey(key.id)}>Remove</button>
+        <button onClick={change((old) => studio.skeleton.mirrored(old))}>Mirror</button>
+        <button onClick={change((old) => studio.skeleton.grounded(old))}>To the floor</button>
+        <button aria-label="Turn left" title="Turn left" class="icon" onClick={change((old) => turned(old, Math.PI / 12))}>⟲</button>
+        <button aria-label="Turn right" title="Turn right" class="icon" onClick={change((old) => turned(old, -Math.PI / 12))}>⟳</button>
+        {key && <button title="Keep this pose among yours" onClick={() => studio.tell(`Kept among the poses as ${studio.keepPose(key, pose)}.`)}>Keep</button>}
+        {key && <button onClick={() => studio.removeKey(key)}>Remove</button>}
       </div>
       <details>
         <summary>Handles by keyboard</summary>
@@ -57,6 +51,22 @@ function KeyPanel({ stage }: { stage: Stage | null }) {
           ))}
         </div>
       </details>
+    </>
+  );
+}
+
+function KeyPanel({ stage }: { stage: Stage | null }) {
+  const pose = studio.bent();
+  const key = studio.sketch.value ? null : studio.keyOf(studio.selectedKey.value);
+  return (
+    <section aria-label="Key">
+      <h2>
+        {studio.sketch.value ? 'Photo' : key ? key.id.replaceAll('_', ' ') : 'Key'}
+        {key && <small> {(key.frame / studio.dancer.fps).toFixed(2)} s</small>}
+      </h2>
+      {pose
+        ? <PoseTools stage={stage} pose={pose} />
+        : <p class="small">Press a pose on the timeline to bend it by its hands, feet, hips and head.</p>}
     </section>
   );
 }
@@ -122,14 +132,65 @@ function LivelyPanel() {
   );
 }
 
+/// Where the dancer goes: drawn on the floor, walked in a stretch of the dance.
+function PathPanel() {
+  if (!studio.canBeLed()) return null;
+  const { value } = studio.project;
+  const path = value?.path ?? [];
+  const { fps } = studio.dancer;
+  const [from, to] = path.length ? [path[0].frame, path.at(-1)!.frame] : [0, 1];
+  const pace = (studio.lengthOf(path) * fps) / (to - from);
+  const time = (label: string, frame: number, set: (frame: number) => void) => (
+    <label class="time">
+      <span>{label}</span>
+      <input type="number" min="0" max={(value.seconds - 1 / fps).toFixed(1)} step="0.5" value={(frame / fps).toFixed(1)} onChange={(event) => {
+        const seconds = event.currentTarget.valueAsNumber;
+        if (seconds >= 0 && seconds <= value.seconds) set(Math.min(Math.round(seconds * fps), studio.total.value - 1));
+      }} />
+      <span>s</span>
+    </label>
+  );
+  return (
+    <section aria-label="Floor path">
+      <h2>Floor path</h2>
+      {path.length === 0
+        ? <p class="small">Draw where the dancer goes: in the chosen interval, or from the playhead to the end.</p>
+        : <p class={pace > brisk ? 'small off' : 'small'}>{studio.lengthOf(path).toFixed(1)} m, {pace.toFixed(1)} m/s{pace > brisk ? ': faster than people dance. Give it more time.' : ''}</p>}
+      {path.length > 0 && <div class="row">{time('from', from, (frame) => studio.rush(frame, to))}{time('to', to, (frame) => studio.rush(from, frame))}</div>}
+      <div class="row">
+        <button aria-pressed={studio.drawing.value} disabled={!value} onClick={() => (studio.drawing.value = !studio.drawing.value)}>
+          {studio.drawing.value ? 'Draw on the floor …' : path.length ? 'Draw another' : 'Draw a path'}
+        </button>
+        {path.length > 0 && <button onClick={studio.clearPath}>Clear</button>}
+      </div>
+    </section>
+  );
+}
+
+/// What goes on while it is danced to the microphone.
+function LivePanel() {
+  return (
+    <section aria-label="Live">
+      <h2>Live</h2>
+      <meter class="level" min="0" max="1" value={studio.level.value} aria-label="How loud it is" />
+      <p class="small">Press a pose: it is danced on a beat that comes soon. Or drag it to where the timeline is still empty.</p>
+      <div class="row"><button class="primary" onClick={() => void studio.stopLive()}>Stop</button></div>
+      <p class="small">What was heard becomes the song, and the dance stays.</p>
+    </section>
+  );
+}
+
 export function Panels({ stage }: { stage: Stage | null }) {
+  if (studio.live.value) return <aside class="panels" aria-label="Settings"><LivePanel /></aside>;
   return (
     <aside class="panels" aria-label="Settings">
       <KeyPanel stage={stage} />
       <TakesPanel />
+      <PathPanel />
       <StylePanel />
       <LivelyPanel />
       <section aria-label="View">
+        <h2>View</h2>
         <label class="check">
           <input type="checkbox" checked={follows.value} onChange={(event) => {
             follows.value = event.currentTarget.checked;
@@ -137,6 +198,13 @@ export function Panels({ stage }: { stage: Stage | null }) {
           }} />
           The camera follows
         </label>
+        <div class="choices" role="group" aria-label="Onion skin">
+          {(['off', 'keys', 'frames'] as const).map((way) => (
+            <button key={way} aria-pressed={studio.onion.value === way} onClick={() => (studio.onion.value = way)}>
+              {{ off: 'No onion skin', keys: 'Keys', frames: 'Frames' }[way]}
+            </button>
+          ))}
+        </div>
       </section>
     </aside>
   );

@@ -1,5 +1,6 @@
 // What people make: key poses, and how to dance between them.
 import type { Pose } from './body';
+import type { Step } from './floor_path';
 
 /// A key pose. Without a place it asks for the pose alone, wherever the dancer is.
 export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean };
@@ -17,6 +18,8 @@ export type Project = {
   style: string;
   /// How lively each of `parts` is; 1 is as usual.
   lively: number[];
+  /// Where the dancer goes; empty: anywhere.
+  path: Step[];
   /// By frame.
   keys: Key[];
 };
@@ -27,6 +30,7 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   seed: 1,
   style: '',
   lively: parts.map(() => 1),
+  path: [],
   keys: [],
 });
 

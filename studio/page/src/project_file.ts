@@ -1,12 +1,14 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
 import type { Triple } from './body';
 import { closest, emptyProject, parts, sorted } from './project';
+import type { Step } from './floor_path';
 import type { Key, Project } from './project';
 
 const format = 1; // of the file
 const mostSeconds = 3600;
 const mostLively = 10;
 const mostRadians = 2 * Math.PI;
+const most = 1000; // metres from the origin
 
 type Json = Record<string, unknown>;
 /// What a project has to fit.
@@ -24,10 +26,12 @@ export function toJson(project: Project, fps: number): string {
     ),
   }));
   const { song, seconds, seed, style } = project;
+  const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
-  const text = JSON.stringify({ studio: format, song, seconds, seed, style, lively, keyframes }, null, 1);
+  const text = JSON.stringify({ studio: format, song, seconds, seed, style, lively, ...(path.points.length ? { path } : {}), keyframes }, null, 1);
   // A line for each vector, not for each number.
-  return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]') + '\n';
+  return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
+    .replace(/\{\s+"frame": (\d+),\s+"x": (-?[\d.e-]+),\s+"z": (-?[\d.e-]+)\s+\}/g, '{"frame": $1, "x": $2, "z": $3}') + '\n';
 }
 
 const shown = (value: unknown) => (JSON.stringify(value) ?? 'nothing').slice(0, 40);
@@ -67,9 +71,26 @@ function readKey(key: Json, where: string, nth: number, known: Known): Key {
     : Math.round(number(key.time, `${where}.time`, 0, mostSeconds) * known.fps);
   const rotations = numbers(key.rotations, `${where}.rotations`, 3 * known.joints, mostRadians);
   const hasPlace = key.root_position !== undefined;
-  const root = hasPlace ? numbers(key.root_position, `${where}.root_position`, 3, 1000) : [0, 0.9, 0];
+  const root = hasPlace ? numbers(key.root_position, `${where}.root_position`, 3, most) : [0, 0.9, 0];
   const id = typeof key.id === 'string' && key.id ? key.id : `key${nth}`;
   return { id, frame: Math.round(frame), pose: { root: root as Triple, rotations }, hasPlace };
+}
+
+function readPath(path: Json, name: string, known: Known): Step[] {
+  if (typeof path !== 'object' || path === null || !Array.isArray(path.points)) throw new Error(`${name}: path has no list "points".`);
+  const steps = path.points.map((point: Json | null, i): Step => {
+    const at = `${name}: path.points[${i}]`;
+    if (typeof point !== 'object' || point === null) throw new Error(`${at}: ${shown(point)} is no point.`);
+    if ('y' in point) throw new Error(`${at}.y: the studio's paths lie on the floor.`);
+    const frame = Math.round('frame' in point
+      ? number(point.frame, `${at}.frame`, 0, mostSeconds * known.fps)
+      : number(point.time, `${at}.time`, 0, mostSeconds) * known.fps);
+    return { frame, x: number(point.x, `${at}.x`, -most, most), z: number(point.z, `${at}.z`, -most, most) };
+  });
+  if (steps.length < 2) throw new Error(`${name}: path.points: ${steps.length} points, a path has at least 2.`);
+  const back = steps.findIndex((step, i) => i > 0 && step.frame <= steps[i - 1].frame);
+  if (back > 0) throw new Error(`${name}: path.points[${back}] does not stand behind the point before it.`);
+  return steps;
 }
 
 function readKeys(list: unknown[], name: string, known: Known): Key[] {
@@ -99,6 +120,7 @@ export function fromJson(text: string, name: string, known: Known, tell: (words:
   }
   const lively = (json.lively ?? {}) as Json;
   project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, mostLively));
+  if (json.path !== undefined) project.path = readPath(json.path as Json, name, known);
   project.keys = readKeys(json.keyframes as unknown[], name, known);
   return project;
 }

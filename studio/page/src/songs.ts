@@ -3,6 +3,7 @@ import type { SongHeard } from './generated/studio/studio_pb';
 import { wire } from './link';
 import { song } from './state';
 import type { Song } from './state';
+import { wav } from './wav';
 
 export const audio = new Audio();
 
@@ -34,22 +35,7 @@ export async function returnTo(known: Song) {
 
 /// A sound to play a dance to that has no song.
 export function playSilence(seconds: number) {
-  const [rate, header] = [8000, 44];
-  const samples = Math.ceil(seconds * rate);
-  const wav = new DataView(new ArrayBuffer(header + samples));
-  const word = (at: number, text: string) => [...text].forEach((c, i) => wav.setUint8(at + i, c.charCodeAt(0)));
-  word(0, 'RIFF');
-  wav.setUint32(4, header - 8 + samples, true);
-  word(8, 'WAVEfmt ');
-  wav.setUint32(16, 16, true);
-  wav.setUint16(20, 1, true);
-  wav.setUint16(22, 1, true);
-  wav.setUint32(24, rate, true);
-  wav.setUint32(28, rate, true);
-  wav.setUint16(32, 1, true);
-  wav.setUint16(34, 8, true);
-  word(36, 'data');
-  wav.setUint32(40, samples, true);
-  new Uint8Array(wav.buffer).fill(128, header);
-  audio.src = URL.createObjectURL(new Blob([wav], { type: 'audio/wav' }));
+  const rate = 8000;
+  const silence = wav(new Uint8Array(Math.ceil(seconds * rate)), rate, 8);
+  audio.src = URL.createObjectURL(new Blob([silence as BlobPart], { type: 'audio/wav' }));
 }

@@ -4,44 +4,18 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { Figure } from './body';
 import type { Pose } from './body';
 import { Doll } from './doll';
+import { FloorLine } from './floor_line';
 import { floorHandle, handles, pull } from './reach';
 import type { Handle } from './reach';
+import { floorTexture, looks, makeFloor, makeLamp } from './scenery';
+import { Onion } from './onion';
 import * as studio from './studio';
 
 const middle = 0.92; // metres: what the camera looks at
 const apart = 1.25; // metres between takes
+const ground = new THREE.Plane(new THREE.Vector3(0, 1, 0), 0);
+const farthest = 9; // metres from where the camera looks: a path may lead there
 const near = 26; // pixels from a handle that still grab it
-
-const look = {
-  light: { back: '#fbf9f6', floor: '#ece6dc', line: '#d9d0c2', sky: 1.9, lamp: 2.0 },
-  dark: { back: '#16181c', floor: '#23272e', line: '#343a44', sky: 1.3, lamp: 1.7 },
-};
-
-/// A round floor that fades into the background, with lines half a metre apart.
-function floorTexture({ floor, line }: (typeof look)['light']) {
-  const size = 1024;
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = size;
-  const pen = canvas.getContext('2d')!;
-  pen.fillStyle = floor;
-  pen.fillRect(0, 0, size, size);
-  pen.strokeStyle = line;
-  pen.lineWidth = 1.6;
-  for (let at = 0; at <= size; at += size / 24) {
-    pen.strokeRect(at, -2, 0, size + 4);
-    pen.strokeRect(-2, at, size + 4, 0);
-  }
-  const fade = pen.createRadialGradient(size / 2, size / 2, size * 0.16, size / 2, size / 2, size / 2);
-  fade.addColorStop(0, 'rgba(0,0,0,1)');
-  fade.addColorStop(1, 'rgba(0,0,0,0)');
-  pen.globalCompositeOperation = 'destination-in';
-  pen.fillStyle = fade;
-  pen.fillRect(0, 0, size, size);
-  const texture = new THREE.CanvasTexture(canvas);
-  texture.colorSpace = THREE.SRGBColorSpace;
-  texture.anisotropy = 8;
-  return texture;
-}
 
 export class Stage {
   follows = true;
@@ -54,13 +28,16 @@ export class Stage {
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
   private readonly controls: OrbitControls;
-  private readonly lamp = new THREE.DirectionalLight('#fff6e8', 2);
+  private readonly lamp = makeLamp();
   private readonly sky = new THREE.HemisphereLight('#ffffff', '#b8a88f', 1.8);
-  private readonly floor: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshBasicMaterial>;
+  private readonly floor = makeFloor();
   private readonly others: Doll[] = [];
   private readonly ghost: Doll;
+  private readonly onion: Onion;
   private readonly dots = new THREE.Group();
+  private readonly line = new FloorLine();
   private posing: Pose | null = null;
+  private seat: THREE.Vector3 | null = null; // from which somebody got up to draw
   private grabbed: { handle: Handle; plane: THREE.Plane; from: Pose; offset: THREE.Vector3 } | null = null;
   /// How far the sound went while a picture was made, seconds: at most, while it played last.
   lateness = 0;
@@ -75,23 +52,10 @@ export class Stage {
     this.sharpen();
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.floor = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false }));
-    this.floor.rotation.x = -Math.PI / 2;
-    // The shadows lie on the floor, wherever both are: they hide nothing of it.
-    const shade = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.ShadowMaterial({ opacity: 0.22, depthWrite: false }));
-    shade.receiveShadow = true;
-    shade.position.z = 0.001;
-    this.floor.renderOrder = -2;
-    shade.renderOrder = -1;
-    this.floor.add(shade);
-    this.lamp.castShadow = true;
-    this.lamp.shadow.mapSize.set(1024, 1024);
-    this.lamp.shadow.radius = 5;
-    this.lamp.shadow.bias = -0.0005;
-    Object.assign(this.lamp.shadow.camera, { left: -4, right: 4, top: 3, bottom: -3, near: 0.5, far: 12 });
     this.ghost = doll.another().fade('#c9a227', 0.28);
     this.ghost.scene.visible = false;
-    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots);
+    this.onion = new Onion(doll);
+    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots, this.line.scene, this.onion.scene);
     this.makeDots();
     this.camera.position.set(1.5, 1.35, 4.4);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -130,7 +94,7 @@ export class Stage {
 
   private dress(isDark: boolean) {
     this.isDark = isDark;
-    const { back, floor, line, sky, lamp } = look[isDark ? 'dark' : 'light'];
+    const { back, floor, line, sky, lamp } = looks[isDark ? 'dark' : 'light'];
     this.scene.background = new THREE.Color(back);
     this.floor.material.map?.dispose();
     this.floor.material.map = floorTexture({ back, floor, line, sky, lamp });
@@ -182,7 +146,21 @@ export class Stage {
     return caster.ray;
   }
 
+  /// The spot of the floor that is under the pointer; null above the horizon, and too far away.
+  private spot(event: PointerEvent) {
+    const hit = this.ray(event).intersectPlane(ground, new THREE.Vector3());
+    return hit && hit.distanceTo(this.controls.target) < farthest ? { x: hit.x, z: hit.z } : null;
+  }
+
   private grab(event: PointerEvent) {
+    if (studio.drawing.value) {
+      const spot = this.spot(event);
+      if (!spot) return;
+      event.stopImmediatePropagation();
+      this.canvas.setPointerCapture(event.pointerId);
+      this.controls.enabled = false;
+      return this.line.begin(spot);
+    }
     if (!this.posing) return;
     const { left, top } = this.canvas.getBoundingClientRect();
     const places = this.places(this.posing);
@@ -204,12 +182,20 @@ export class Stage {
   }
 
   private drag(event: PointerEvent) {
+    if (this.line.isDrawn) {
+      const spot = this.spot(event);
+      if (spot) this.line.add(spot);
+    }
     if (!this.grabbed) return;
     const hit = this.ray(event).intersectPlane(this.grabbed.plane, new THREE.Vector3());
     if (hit) this.posing = pull(studio.skeleton, this.grabbed.from, this.grabbed.handle, hit.add(this.grabbed.offset));
   }
 
   private release() {
+    if (this.line.isDrawn) {
+      this.controls.enabled = true;
+      return studio.drawPath(this.line.end());
+    }
     if (!this.grabbed) return;
     const changed = this.posing !== this.grabbed.from;
     this.grabbed = null;
@@ -220,26 +206,29 @@ export class Stage {
   private draw() {
     this.resize();
     if (!this.grabbed) this.posing = this.posed();
-    const time = studio.audio.currentTime;
+    const time = studio.now();
     const motion = studio.motionAt(time);
     const { doll } = this;
     doll.scene.visible = !!motion?.count || !!this.posing;
     if (this.posing) doll.take(this.posing);
     else if (motion) doll.follow(motion, time);
     const centre = doll.place().clone();
+    const takes = studio.takes.value;
     const marks = this.drawTakes(time, centre);
     this.drawGhost(time);
+    this.onion.show(time, takes.length > 0);
     this.dots.visible = !!this.posing;
     if (this.posing) {
       for (const [id, place] of this.places(this.posing)) {
         this.dots.getObjectByName(id)!.position.copy(place).setY(id === floorHandle.id ? 0.004 : place.y);
       }
     }
+    const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps);
     this.look(this.middle);
     this.camera.updateMatrixWorld();
     // A picture that would be the same again is not drawn.
-    const seen = [time, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible,
-      studio.selectedKey.value, this.camera.aspect, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
+    const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible, studio.onion.value,
+      studio.selectedKey.value, this.camera.aspect, studio.live.value, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
       ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
     if (seen.every((value, i) => value === this.seen[i])) return;
     this.seen = seen;
@@ -247,6 +236,31 @@ export class Stage {
     this.onPlaced(marks);
     this.lateness = studio.audio.paused ? 0 : Math.max(this.lateness, studio.audio.currentTime - time);
     this.adapt();
+  }
+
+  /// Draws one picture of the dance alone, so many pixels large, for a film: the page's own pictures rest until `leave`.
+  picture(time: number, width: number, height: number): HTMLCanvasElement {
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== 1) {
+      this.renderer.setAnimationLoop(null);
+      this.renderer.setPixelRatio(1);
+      this.renderer.setSize(width, height, false);
+      this.camera.aspect = width / height;
+      this.camera.updateProjectionMatrix();
+      for (const part of [this.ghost.scene, this.dots, this.line.scene, this.onion.scene]) part.visible = false;
+    }
+    const motion = studio.motionAt(time);
+    if (motion) this.doll.follow(motion, time);
+    this.look(this.doll.place());
+    this.renderer.render(this.scene, this.camera);
+    return this.canvas;
+  }
+
+  leave() {
+    for (const part of [this.line.scene, this.onion.scene]) part.visible = true;
+    this.seen = [];
+    this.sharpen();
+    this.renderer.setAnimationLoop(() => this.draw());
   }
 
   /// As many pixels as the screen has, be it slow.
@@ -297,11 +311,12 @@ export class Stage {
   }
 
   private look(at: THREE.Vector3) {
-    if (this.follows && !this.grabbed) {
+    if (this.follows && !this.grabbed && !studio.drawing.value) {
       const step = new THREE.Vector3(at.x, middle, at.z).sub(this.controls.target).multiplyScalar(0.12);
       this.controls.target.add(step);
       this.camera.position.add(step);
     }
+    this.sit();
     this.controls.update();
     // All dancers fit into the picture.
     const width = 2 * this.camera.position.distanceTo(this.controls.target) * Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect;
@@ -313,6 +328,20 @@ export class Stage {
     this.lamp.target.position.copy(this.controls.target);
     this.lamp.position.copy(this.controls.target).add(new THREE.Vector3(1.6, 4.2, 2.6));
     this.floor.position.set(this.controls.target.x - (this.controls.target.x % 0.5), 0, this.controls.target.z - (this.controls.target.z % 0.5));
+  }
+
+  /// Who draws on the floor looks at it from above, and comes back to where they sat.
+  private sit() {
+    const { position } = this.camera;
+    const { target } = this.controls;
+    if (studio.drawing.value) {
+      this.seat ??= position.clone().sub(target);
+      const aside = this.seat.clone().setY(0).setLength(3.2);
+      position.lerp(aside.setY(5.2).add(target), 0.25);
+    } else if (this.seat) {
+      const goal = this.seat.clone().add(target);
+      if (position.lerp(goal, 0.25).distanceTo(goal) < 0.02) this.seat = null;
+    }
   }
 
   private resize() {

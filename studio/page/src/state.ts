@@ -1,6 +1,7 @@
 // What the studio knows: signals, which everything that is shown follows.
 import { computed, signal } from '@preact/signals';
 import type { Signal } from '@preact/signals';
+import type { Pose } from './body';
 import type { Watch } from './dancer';
 import type { Welcome, SongHeard } from './generated/studio/studio_pb';
 import type { Motion } from './motion';
@@ -24,6 +25,12 @@ export type Moment = {
 /// What may look other than wished, and where.
 export type Warning = { frame: number; text: string };
 export type Song = { name: string; url: string; bytes: Uint8Array; heard: SongHeard };
+/// A picture, and the landmarks that were seen in it, 0 to 1 along its sides.
+export type Photo = { url: string; width: number; height: number; marks: { x: number; y: number; visibility: number }[] };
+/// A pose that was seen in a photo and is no key yet.
+export type Sketch = { id: string; pose: Pose; photo: Photo };
+/// A dance to the microphone in progress; `beats` that were heard, seconds.
+export type Live = { project: Project; motion: Motion; beats: number[] };
 export type Take = { seed: number; motion: Motion };
 
 export const welcome = signal<Welcome | null>(null);
@@ -39,10 +46,18 @@ export const selectedKey = signal<string | null>(null);
 /// The interval that is chosen: the frames of the keys around it.
 export const chosen = signal<[number, number] | null>(null);
 export const takes = signal<Take[]>([]);
+/// What is seen through beside the dancer: nothing, the keys around, or the frames around.
+export const onion = signal<'off' | 'keys' | 'frames'>('off');
+/// How much of a film is made, 0 to 1; null while none is.
+export const filming = signal<number | null>(null);
+export const live = signal<Live | null>(null);
+export const sketch = signal<Sketch | null>(null);
 
 export const moment = computed(() => moments.value[present.value]);
-export const project = computed(() => moment.value?.project);
-export const motion = computed(() => moment.value?.motion.value);
+export const project = computed(() => live.value?.project ?? moment.value?.project);
+export const motion = computed(() => live.value?.motion ?? moment.value?.motion.value);
+/// The song on the timeline.
+export const shownSong = computed(() => (live.value ? null : song.value));
 export const warnings = computed(() => moment.value?.warnings.value ?? []);
 
 export const tell = (text: string) => (message.value = { text, isError: false });

@@ -4,12 +4,17 @@ import { finish } from './history';
 import { compose } from './keys';
 import { whenThere } from './link';
 import { audio, returnTo, takeSong } from './songs';
-import { complain, moment, song, tell, welcome, work } from './state';
+import { stopLive } from './live';
+import { complain, live, moment, song, tell, welcome, work } from './state';
 
 export * from './files';
+export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_path';
 export { change, motionAt, redo, total, undo } from './history';
 export * from './keys';
+export { forgetPose, keepPose, ownPoses } from './own_poses';
+export { dropSketch } from './photos';
 export { dancer, skeleton } from './link';
+export { level, liveBeats, now, startLive, stopLive } from './live';
 export { audio } from './songs';
 export * from './state';
 export { keepTake, tryTakes } from './takes';
@@ -33,10 +38,17 @@ whenThere((said, isFirst) => {
 });
 
 export const togglePlay = () => {
+  if (live.value) return void stopLive();
   if (!audio.paused) return audio.pause();
   if (audio.ended) audio.currentTime = 0;
   void audio.play().catch(complain);
 };
+
+/// Whether the model hears music at all.
+export const canHear = () => !!welcome.value?.model && !welcome.value.model.takesNoMusic;
+
+/// Whether the model can be led over the floor.
+export const canBeLed = () => welcome.value?.model?.controls.includes(Control.ROOT_PATH) ?? false;
 
 /// Whether the model lets parts of the body be made livelier.
 export const canBeLively = () => welcome.value?.model?.controls.includes(Control.VELOCITY_FACTORS) ?? false;

@@ -24,13 +24,14 @@ const x = (seconds: number) => edge + seconds * zoom.value;
 const clock = (seconds: number) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')}`;
 const seconds = () => studio.project.value?.seconds ?? 0;
 
+const beats = () => (studio.live.value ? studio.liveBeats.value : studio.song.value?.heard.beats ?? []);
+
 /// The nearest beat's frame, if one is near on the screen.
 function snapped(time: number): number {
-  const heard = studio.song.value?.heard;
   const at = Math.min(Math.max(time, 0), seconds());
   let best = at;
   let away = snap / zoom.value;
-  for (const beat of [...(heard?.suggested ?? []), ...(heard?.beats ?? [])]) {
+  for (const beat of [...(studio.shownSong.value?.heard.suggested ?? []), ...beats()]) {
     if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
   }
   return Math.round(best * studio.dancer.fps);
@@ -50,7 +51,7 @@ const seek = (time: number) => (studio.audio.currentTime = Math.min(Math.max(tim
 
 function Wave() {
   const box = useRef<HTMLDivElement>(null);
-  const { value } = studio.song;
+  const { value } = studio.shownSong;
   useEffect(() => {
     if (!value) return;
     const style = getComputedStyle(document.documentElement);
@@ -89,12 +90,12 @@ function Scrubber() {
     else return;
     event.preventDefault();
   };
-  const heard = studio.song.value?.heard;
+  const heard = studio.shownSong.value?.heard;
   return (
     <div class="scrubber" role="slider" tabIndex={0} aria-label="Playhead" aria-valuemin={0} aria-valuemax={Math.round(seconds())}
       aria-valuenow={0} onPointerDown={slide} onPointerMove={slide} onKeyDown={press}>
       <Wave />
-      {heard?.beats.map((beat) => <i class="beat" key={beat} style={{ left: `${x(beat)}px` }} />)}
+      {beats().map((beat) => <i class="beat" key={beat} style={{ left: `${x(beat)}px` }} />)}
       {heard?.suggested.map((beat) => <i class="suggested" key={`s${beat}`} style={{ left: `${x(beat)}px` }} />)}
     </div>
   );
@@ -120,6 +121,7 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
   const isSelected = studio.selectedKey.value === item.id;
   const frame = carriedKey.value?.id === item.id ? carriedKey.value.frame : item.frame;
   const choose = () => {
+    if (studio.live.value) return;
     studio.selectedKey.value = item.id;
     studio.audio.pause();
     seek(item.frame / fps);
@@ -148,13 +150,13 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
     chip.addEventListener('pointercancel', end);
   };
   const press = (event: KeyboardEvent) => {
-    const beats = studio.song.value?.heard.beats.map((beat) => Math.round(beat * fps)) ?? [];
+    const frames = beats().map((beat) => Math.round(beat * fps));
     if (event.key === 'Enter') choose();
     else if (event.key === 'Delete' || event.key === 'Backspace') studio.removeKey(item.id);
     else if (event.key === 'ArrowRight')
-      studio.moveKey(item.id, event.shiftKey ? item.frame + 1 : beats.find((beat) => beat > item.frame) ?? item.frame + 15);
+      studio.moveKey(item.id, event.shiftKey ? item.frame + 1 : frames.find((beat) => beat > item.frame) ?? item.frame + 15);
     else if (event.key === 'ArrowLeft')
-      studio.moveKey(item.id, event.shiftKey ? item.frame - 1 : beats.findLast((beat) => beat < item.frame) ?? item.frame - 15);
+      studio.moveKey(item.id, event.shiftKey ? item.frame - 1 : frames.findLast((beat) => beat < item.frame) ?? item.frame - 15);
     else return;
     event.preventDefault();
   };
@@ -192,8 +194,8 @@ function Transport({ time }: { time: preact.Ref<HTMLElement> }) {
   const turn = (by: number) => (zoom.value = Math.min(200, Math.max(8, zoom.value * by)));
   return (
     <div class="transport">
-      <button class="play" aria-label={isPlaying.value ? 'Pause' : 'Play'} title="Space" disabled={!studio.moment.value} onClick={studio.togglePlay}>
-        {isPlaying.value ? '❚❚' : '▶'}
+      <button class="play" aria-label={studio.live.value ? 'Stop' : isPlaying.value ? 'Pause' : 'Play'} title="Space" disabled={!studio.project.value} onClick={studio.togglePlay}>
+        {studio.live.value ? '■' : isPlaying.value ? '❚❚' : '▶'}
       </button>
       <output ref={time as preact.Ref<HTMLOutputElement>} class="clock">0:00.0</output>
       <div class="choices" role="group" aria-label="Speed">
@@ -205,7 +207,7 @@ function Transport({ time }: { time: preact.Ref<HTMLElement> }) {
       </div>
       <button aria-pressed={loops.value} onClick={() => (loops.value = !loops.value)} title="Loop the chosen interval, or all of it">Loop</button>
       <span class="space" />
-      <button disabled={!studio.song.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.complain)}
+      <button disabled={!studio.shownSong.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.complain)}
         title="Other poses of the library on the song's beats">New poses</button>
       <div class="choices" role="group" aria-label="Zoom">
         <button class="icon" aria-label="Show more of the song" onClick={() => turn(0.7)}>−</button>
@@ -226,14 +228,15 @@ function usePlayhead(line: preact.RefObject<HTMLElement>, time: preact.RefObject
       if (!studio.project.value) return;
       const [from, to] = studio.chosen.value?.map((frame) => frame / studio.dancer.fps) ?? [0, seconds() - 0.05];
       if (loops.value && !audio.paused && (audio.currentTime >= to || audio.currentTime < from - 0.1)) audio.currentTime = from;
-      const at = x(audio.currentTime);
+      const now = studio.now();
+      const at = x(now);
       line.current!.style.transform = `translateX(${at}px)`;
-      time.current!.textContent = clock(audio.currentTime);
+      time.current!.textContent = clock(now);
       const scrubber = content!.querySelector('.scrubber')!;
-      scrubber.setAttribute('aria-valuenow', audio.currentTime.toFixed(1));
+      scrubber.setAttribute('aria-valuenow', now.toFixed(1));
       const view = content!.parentElement!;
       const isSeen = at > view.scrollLeft && at < view.scrollLeft + view.clientWidth * 0.9;
-      if (!audio.paused && !isSeen) view.scrollLeft = at - view.clientWidth * 0.1;
+      if ((!audio.paused || studio.live.value) && !isSeen) view.scrollLeft = at - view.clientWidth * 0.1;
     };
     tick();
     const over = () => {
@@ -256,12 +259,12 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
   }, []);
   usePlayhead(line, time);
   // A short song fills the width, a long one keeps its keys apart.
-  const length = seconds();
+  const length = studio.live.value ? 0 : seconds();
   useEffect(() => {
     if (length) zoom.value = Math.min(130, Math.max(48, (box.current!.parentElement!.clientWidth - 2 * edge) / length));
   }, [length]);
   const shown = studio.project.value;
-  const there = studio.danced.value / (shown ? studio.dancer.fps : 1);
+  const there = (studio.live.value?.motion.count ?? studio.danced.value) / (shown ? studio.dancer.fps : 1);
   return (
     <section class="timeline" aria-label="Timeline">
       <Transport time={time} />
@@ -270,8 +273,8 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
           <Scrubber />
           <div class="lane" role="group" aria-label="Key poses">
             {shown && <div class="danced" style={{ left: `${edge}px`, width: `${there * zoom.value}px` }} />}
-            {shown && <Intervals />}
-            {shown && <Warnings />}
+            {shown && !studio.live.value && <Intervals />}
+            {shown && !studio.live.value && <Warnings />}
             {shown?.keys.map((key) => <KeyChip key={key.id} item={key} pictureOf={pictureOf} />)}
             {dropPose.value !== null && shown && <i class="drop" style={{ left: `${x(dropPose.value / studio.dancer.fps)}px` }} />}
           </div>

@@ -2,96 +2,20 @@
 // and the server lost on the way.
 //   node studio.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
+import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { join } from 'node:path';
+import { check, clicks, close, launch, open, passed, patience, takePictures, visit } from './harness.mjs';
 
-const { chromium } = createRequire(new URL('../../../studio/page/package.json', import.meta.url))('playwright-core');
 const [program, pictures] = process.argv.slice(2);
-const patience = 120000; // software rendering on a busy machine
 const seconds = 12;
 mkdirSync(pictures, { recursive: true });
 
-/// A click every half second over a soft tone, as a WAV file.
-function clicks(seconds) {
-  const rate = 22050;
-  const wav = Buffer.alloc(44 + 2 * rate * seconds);
-  wav.write('RIFF');
-  wav.writeUInt32LE(wav.length - 8, 4);
-  wav.write('WAVEfmt ', 8);
-  [[16, 4], [1, 2], [1, 2], [rate, 4], [2 * rate, 4], [2, 2], [16, 2]].reduce((at, [value, bytes]) => wav.writeUIntLE(value, at, bytes), 16);
-  wav.write('data', 36);
-  wav.writeUInt32LE(wav.length - 44, 40);
-  for (let i = 0; i < rate * seconds; ++i) {
-    const since = i % (rate / 2);
-    const value = 2000 * Math.sin(i * 0.06) + 20000 * Math.exp(-since / 200) * Math.sin(since * 0.5);
-    wav.writeInt16LE(Math.round(value), 44 + 2 * i);
-  }
-  return wav;
-}
-
-/// The studio program, and where its page is.
-async function open(listen) {
-  const studio = spawn(program, ['studio', '--listen', listen], { stdio: ['ignore', 'pipe', 'inherit'] });
-  const url = await new Promise((resolve, reject) => {
-    studio.stdout.on('data', (data) => resolve(/http:\S+/.exec(data)[0]));
-    studio.on('exit', (code) => reject(new Error(`choreo studio ended: ${code}`)));
-  });
-  studio.removeAllListeners('exit');
-  return { studio, url };
-}
-
-let { studio, url } = await open('127.0.0.1:0');
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required'],
-});
-
-let passed = 0;
-const check = async (what, body) => {
-  await body();
-  ++passed;
-  console.log(`ok: ${what}`);
-};
+let { studio, url } = await open(program, '127.0.0.1:0');
+const browser = await launch();
 
 try {
-  const page = await browser.newPage({ viewport: { width: 1000, height: 700 }, colorScheme: 'light', acceptDownloads: true });
-  page.setDefaultTimeout(patience);
-  const strangers = [];
-  const errors = [];
-  page.on('request', (request) => {
-    if (!request.url().startsWith(url) && !/^(blob|data):/.test(request.url())) strangers.push(request.url());
-  });
-  page.on('pageerror', (error) => errors.push(error.message));
-  await page.goto(url);
-  // The page's policy forbids what waitForFunction does.
-  const until = async (condition, argument) => {
-    for (const end = Date.now() + patience; Date.now() < end; await page.waitForTimeout(50)) {
-      const value = await page.evaluate(condition, argument);
-      if (value) return value;
-    }
-    throw new Error(`in vain: ${condition}`);
-  };
-  const settle = () => until(() => window.choreo?.busy.value === 0 && window.choreo.moment.value?.isReady);
-  const message = () => page.evaluate(() => window.choreo.message.value);
-  const frames = () => page.evaluate(() => {
-    const motion = window.choreo.motion.value;
-    return Array.from({ length: motion.count }, (_, frame) => JSON.stringify(motion.pose(frame)));
-  });
-  /// Pixels a second of the timeline.
-  const scale = () => page.evaluate(() => {
-    const [a, b] = [...document.querySelectorAll('.key')].map((key) => [key.getBoundingClientRect().x, key.dataset.frame / 30]);
-    return (b[0] - a[0]) / (b[1] - a[1]);
-  });
-  const give = (...files) => page.locator('input[type=file]').first().setInputFiles(
-    files.map(([name, content]) => ({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) })));
-  const drop = (name, base64, bytes = 0) => page.evaluate(([name, base64, bytes]) => {
-    const content = bytes ? new Uint8Array(bytes) : Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const dropped = new DataTransfer();
-    dropped.items.add(new File([content], name));
-    document.querySelector('.page').dispatchEvent(new DragEvent('drop', { dataTransfer: dropped, bubbles: true, cancelable: true }));
-  }, [name, base64, bytes]);
+  const { page, strangers, errors, until, settle, message, frames, scale, give, drop, download } = await visit(browser, url);
   const changed = (before, after) => after.flatMap((pose, i) => (pose === before[i] ? [] : [i]));
 
   await check('a page with landmarks and names', async () => {
@@ -194,10 +118,6 @@ try {
     assert.ok(changed(before, await frames()).length > 100);
   });
 
-  const download = async (act) => {
-    const [file] = await Promise.all([page.waitForEvent('download'), act()]);
-    return file.path();
-  };
   await check('a project is saved, readable, opened again, and danced by the command line, too', async () => {
     const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
     const keys = await page.evaluate(() => window.choreo.project.value.keys.length);
@@ -245,7 +165,7 @@ try {
     const refused = [
       ['noise.wav', 'no sound', /noise\.wav/],
       ['empty.wav', '', /empty\.wav/],
-      ['photo.png', 'x', /photo\.png is none of the files that the studio knows: \.mp3/],
+      ['letter.txt', 'x', /letter\.txt is none of the files that the studio knows: \.mp3/],
       ['broken.json', '{', /broken\.json is no JSON/],
       ['list.json', '[]', /list\.json has no list "keyframes"/],
       ['newer.json', '{"studio": 2, "keyframes": []}', /newer\.json is of format 2; this studio knows 1/],
@@ -288,7 +208,7 @@ try {
     studio.kill('SIGKILL');
     await ended;
     await until(() => window.choreo.message.value?.isError && window.choreo.busy.value === 0);
-    ({ studio } = await open(new URL(url).host));
+    ({ studio } = await open(program, new URL(url).host));
     await until((count) => window.choreo.busy.value === 0 && window.choreo.isConnected.value && window.choreo.motion.value.count === count, 30 * seconds);
     assert.deepEqual(await message(), { text: 'The studio program is there again.', isError: false });
   });
@@ -328,20 +248,9 @@ try {
     window.choreo.stage.value.sharpen();
   });
   await page.locator('.key').nth(2).click();
-  for (const colorScheme of ['light', 'dark']) {
-    for (const [width, height] of [[390, 844], [1600, 900]]) {
-      await page.setViewportSize({ width, height });
-      await page.emulateMedia({ colorScheme });
-      await page.waitForTimeout(2500);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
-      assert.ok(!wide, `at ${width} pixels the page is wider than the window`);
-      await page.screenshot({ path: join(pictures, `${width}-${colorScheme}.png`), fullPage: width < 900, timeout: patience });
-    }
-  }
+  await takePictures(page, (name) => join(pictures, name));
 } finally {
   await browser.close();
-  studio.kill('SIGINT');
 }
-const code = await new Promise((resolve) => studio.on('exit', resolve));
-assert.equal(code, 0, 'Ctrl-C should end the studio in order');
+await close(studio);
 console.log(`${passed} passed, 0 failed`);

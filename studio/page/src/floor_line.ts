@@ -1,0 +1,66 @@
+// The path on the stage's floor: drawn with the pointer, shown as a line with a dot for each second.
+import * as THREE from 'three';
+import type { Step } from './floor_path';
+
+type Spot = { x: number; z: number };
+
+const width = 0.035; // metres
+const height = 0.006; // above the floor, so that it is not hidden by it
+const close = 0.03; // metres between spots of a stroke
+
+export class FloorLine {
+  readonly scene = new THREE.Group();
+  private stroke: Spot[] | null = null;
+  private shown: unknown = null;
+  private readonly paint = new THREE.MeshBasicMaterial({ color: '#c4491f', transparent: true, opacity: 0.85, side: THREE.DoubleSide, depthWrite: false });
+
+  begin(spot: Spot) {
+    this.stroke = [spot];
+  }
+  /// Whether a stroke is under way.
+  get isDrawn() {
+    return this.stroke !== null;
+  }
+  add(spot: Spot) {
+    const last = this.stroke?.at(-1);
+    if (last && Math.hypot(last.x - spot.x, last.z - spot.z) > close) this.stroke = [...this.stroke!, spot];
+  }
+  end(): Spot[] {
+    const done = this.stroke ?? [];
+    this.stroke = null;
+    return done;
+  }
+
+  /// Shows the stroke under way, or else the path; what it returns is another thing once it looks otherwise.
+  show(path: Step[], fps: number): unknown {
+    const next = this.stroke ?? path;
+    if (next === this.shown) return next;
+    this.shown = next;
+    for (const part of this.scene.children) (part as THREE.Mesh).geometry.dispose();
+    this.scene.clear();
+    if (next.length < 2) return next;
+    this.scene.add(new THREE.Mesh(ribbon(next), this.paint));
+    if (this.stroke) return next;
+    const dot = new THREE.CircleGeometry(0.05, 20).rotateX(-Math.PI / 2);
+    for (const { x, z } of path.filter((step, i) => i === 0 || Math.floor(step.frame / fps) > Math.floor(path[i - 1].frame / fps))) {
+      const mark = new THREE.Mesh(dot, this.paint);
+      mark.position.set(x, height, z);
+      this.scene.add(mark);
+    }
+    return next;
+  }
+}
+
+/// A flat band along the spots.
+function ribbon(spots: Spot[]): THREE.BufferGeometry {
+  const corners = spots.flatMap(({ x, z }, i) => {
+    const [a, b] = [spots[Math.max(0, i - 1)], spots[Math.min(spots.length - 1, i + 1)]];
+    const length = Math.hypot(b.x - a.x, b.z - a.z) || 1;
+    const [sx, sz] = [((b.z - a.z) / length) * width * 0.5, ((a.x - b.x) / length) * width * 0.5];
+    return [x + sx, height, z + sz, x - sx, height, z - sz];
+  });
+  const made = new THREE.BufferGeometry();
+  made.setAttribute('position', new THREE.Float32BufferAttribute(corners, 3));
+  made.setIndex(spots.slice(1).flatMap((_, i) => [2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 3, 2 * i + 2]));
+  return made;
+}

@@ -1,0 +1,64 @@
+// Key poses to choose from: those of the library, and one's own.
+import { signal } from '@preact/signals';
+import type { Pose } from './body';
+import type { LibraryPose } from './generated/studio/studio_pb';
+import * as studio from './studio';
+import { dropPose, frameUnder } from './timeline';
+
+const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null);
+
+/// Follows the pointer with a pose until it is dropped on the timeline, or elsewhere.
+const carry = (pose: LibraryPose) => (event: PointerEvent) => {
+  const from = { x: event.clientX, y: event.clientY };
+  const move = ({ clientX: x, clientY: y }: PointerEvent) => {
+    if (carried.value || Math.hypot(x - from.x, y - from.y) > 6) carried.value = { pose, x, y };
+    dropPose.value = carried.value ? frameUnder(x, y) : null;
+  };
+  const end = (last: PointerEvent) => {
+    window.removeEventListener('pointermove', move);
+    window.removeEventListener('pointerup', end);
+    window.removeEventListener('pointercancel', end);
+    const at = carried.value && last.type === 'pointerup' ? dropPose.value : null;
+    if (at !== null) studio.addKey(pose, at);
+    setTimeout(() => (carried.value = null));
+    dropPose.value = null;
+  };
+  window.addEventListener('pointermove', move);
+  window.addEventListener('pointerup', end);
+  window.addEventListener('pointercancel', end);
+};
+
+const standing = ({ pose }: LibraryPose): Pose => ({ root: [0, pose!.rootPosition!.y, 0], rotations: pose!.rotations });
+
+type Props = { pictureOf: (pose: Pose) => string };
+
+function Item({ pose, isOwn, pictureOf }: Props & { pose: LibraryPose; isOwn: boolean }) {
+  return (
+    <li>
+      <button title={pose.description} disabled={!studio.project.value} onPointerDown={carry(pose)}
+        onClick={() => !carried.value && studio.addKey(pose)}>
+        <img alt="" draggable={false} src={pictureOf(standing(pose))} />
+        <span>{pose.id.replaceAll('_', ' ')}</span>
+      </button>
+      {isOwn && <button class="icon forget" aria-label={`Forget ${pose.id}`} title="Forget this pose" onClick={() => studio.forgetPose(pose.id)}>×</button>}
+    </li>
+  );
+}
+
+export function Library({ pictureOf }: Props) {
+  const poses = studio.welcome.value?.poses ?? [];
+  const own = studio.welcome.value ? studio.ownPoses(studio.skeleton.joints) : [];
+  return (
+    <aside class="library" aria-label="Poses">
+      <h2>Poses</h2>
+      <p class="small">Drag one onto the timeline, or press it to set it at the playhead. Drop a photo to make your own.</p>
+      <ul>
+        {own.map((pose) => <Item key={`own ${pose.id}`} pose={pose} isOwn pictureOf={pictureOf} />)}
+        {poses.map((pose) => <Item key={pose.id} pose={pose} isOwn={false} pictureOf={pictureOf} />)}
+      </ul>
+      {carried.value && (
+        <img class="carried" alt="" style={{ left: `${carried.value.x}px`, top: `${carried.value.y}px` }} src={pictureOf(standing(carried.value.pose))} />
+      )}
+    </aside>
+  );
+}

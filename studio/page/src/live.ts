@@ -1,0 +1,189 @@
+// Live: the dance to the microphone, while it sounds. Afterwards what was heard is the song, and the dance stays.
+import { computed, signal } from '@preact/signals';
+import { AudioEncoding } from './generated/choreo/v1/choreography_pb';
+import type { LibraryPose } from './generated/studio/studio_pb';
+import { keyMessage } from './dancer';
+import { push } from './history';
+import { dancer, skeleton, wire } from './link';
+import { listen } from './microphone';
+import type { Microphone } from './microphone';
+import { Motion } from './motion';
+import { closest, emptyProject, freeId, sorted } from './project';
+import type { Key } from './project';
+import { dropSketch } from './photos';
+import { audio, hear } from './songs';
+import { chosen, complain, live, message, moment, selectedKey, takes, tell, work } from './state';
+import type { Live } from './state';
+import { wav } from './wav';
+
+const lookAhead = 0.3; // seconds: what is nearer is danced already
+const ahead = 1; // seconds until a pose that is pressed, at least
+const spare = 0.07; // seconds for a piece of sound, and the way to the program and back
+const shownAhead = 8; // seconds of the timeline behind now
+const longest = 590; // seconds: songs may be ten minutes long
+const name = 'microphone.wav';
+
+let call = 0;
+let microphone: Microphone | null = null;
+let pieces: Float32Array[] = [];
+let samples = 0;
+let rate = 48000;
+let last = 0; // when the last piece came, ms
+let granted = 0;
+let latency = 0; // seconds of music that the model hears ahead
+let ended: (() => void) | null = null;
+
+/// How loud it is, 0 to 1.
+export const level = signal(0);
+
+const say = (value: Extract<Parameters<typeof wire.say>[1], { case: 'dance' }>['value']) => wire.say(call, { case: 'dance', value });
+
+const heardSeconds = () => samples / rate;
+
+/// Where we are: in the song, or in what the microphone hears, so far behind it that the frames are there.
+export function now(): number {
+  if (!live.value) return audio.currentTime;
+  if (samples === 0) return 0;
+  const since = Math.min(0.05, (performance.now() - last) / 1000);
+  return Math.max(0, heardSeconds() + since - latency - spare);
+}
+
+const update = (what: Partial<Live>) => {
+  if (live.value) live.value = { ...live.value, ...what };
+};
+
+export const startLive = () => work(async () => {
+  if (live.value) return;
+  audio.pause();
+  dropSketch();
+  [message.value, selectedKey.value, chosen.value, takes.value] = [null, null, null, []];
+  [pieces, samples, granted, latency] = [[], 0, 0, 0];
+  const asked = emptyProject(name, shownAhead);
+  const { style, lively, seed } = moment.value?.project ?? asked;
+  const early: Float32Array[] = [];
+  microphone = await listen((piece) => (live.value ? take(piece) : early.push(piece)), () => void stopLive());
+  rate = microphone.rate;
+  const motion = new Motion(skeleton.joints, dancer.fps);
+  live.value = { project: { ...asked, style, lively, seed }, motion, beats: [] };
+  call = wire.open(
+    { case: 'dance', value: { request: { case: 'config', value: {
+      seed: BigInt(seed), style, generateUntil: 0n,
+      audioFormat: { encoding: AudioEncoding.PCM_F32LE, sampleRate: rate, channels: 1 },
+    } } } },
+    { heard: ({ response }) => response.case === 'dance' && hearOf(response.value.response, motion), failed },
+  );
+  const controls = dancer.controls(live.value.project);
+  if (controls) say({ request: { case: 'controls', value: controls } });
+  early.forEach(take);
+});
+
+function failed(error: Error) {
+  complain(error);
+  ended?.();
+  if (microphone) void stopLive();
+}
+
+type Said = Extract<Parameters<Parameters<typeof wire.open>[1]['heard']>[0]['response'], { case: 'dance' }>['value']['response'];
+
+function hearOf(said: Said, motion: Motion) {
+  if (said.case === 'header') latency = said.value.latencyFrames / said.value.frameRate;
+  else if (said.case === 'frames') motion.append(said.value);
+  else if (said.case === 'summary') ended?.();
+  else if (said.case === 'event') {
+    const { event, time } = said.value;
+    if (event.case === 'beat') update({ beats: [...live.value!.beats, time] });
+    else if (event.case === 'warning') tell(event.value.message);
+    else if (event.case === 'keyframeRejected') {
+      const { id, reason } = event.value;
+      if (live.value) keep(live.value.project.keys.filter((key) => key.id !== id));
+      tell(`${id} came too late: ${reason}`);
+    }
+  }
+}
+
+/// A piece of what sounds: what may be danced, then the sound itself.
+function take(piece: Float32Array) {
+  if (!live.value || !microphone) return;
+  pieces.push(piece);
+  samples += piece.length;
+  last = performance.now();
+  level.value = Math.max(level.value * 0.9, ...piece.map(Math.abs));
+  granted = Math.round((heardSeconds() + lookAhead) * dancer.fps);
+  say({ request: { case: 'generateUntil', value: { frame: BigInt(granted) } } });
+  say({ request: { case: 'audio', value: { data: new Uint8Array(piece.buffer, piece.byteOffset, piece.byteLength) } } });
+  if (live.value.project.seconds < heardSeconds() + shownAhead - 1)
+    update({ project: { ...live.value.project, seconds: Math.floor(heardSeconds()) + shownAhead } });
+  if (heardSeconds() > longest) void stopLive();
+}
+
+/// Lets go of the microphone: what it heard is the song from now on, and the dance to it stays.
+export const stopLive = () => work(async () => {
+  if (!microphone || !live.value) return;
+  microphone.stop();
+  microphone = null;
+  const { project, motion } = live.value;
+  const keys = project.keys.filter(({ frame }) => frame < granted);
+  const isWhole = await new Promise<boolean>((resolve) => {
+    ended = () => resolve(true);
+    for (const key of project.keys.filter((some) => !keys.includes(some))) say({ request: { case: 'removeKeyframe', value: { id: key.id } } });
+    say({ request: { case: 'endOfAudio', value: {} } });
+    say({ request: { case: 'keyframesComplete', value: {} } });
+    setTimeout(() => resolve(false), 10000);
+  });
+  ended = null;
+  wire.end(call);
+  const all = new Float32Array(samples);
+  let at = 0;
+  for (const piece of pieces) {
+    all.set(piece, at);
+    at += piece.length;
+  }
+  pieces = [];
+  live.value = null;
+  if (motion.count === 0) throw new Error('Nothing was heard that could be danced to.');
+  await hear(name, wav(all, rate, 16));
+  push({ ...project, seconds: samples / rate, keys }, motion, async () => motion);
+  if (!isWhole) tell('The end of the dance did not come.');
+});
+
+const keep = (keys: Key[]) => update({ project: { ...live.value!.project, keys: sorted(keys) } });
+const earliest = () => granted + 3;
+
+/// Beats to come, as those that were heard go on.
+const coming = computed(() => {
+  const beats = live.value?.beats ?? [];
+  if (beats.length < 3) return [];
+  const period = (beats.at(-1)! - beats.at(-3)!) / 2;
+  return Array.from({ length: Math.min(64, Math.ceil(shownAhead / period) + 4) }, (_, i) => beats.at(-1)! + (i + 1) * period);
+});
+
+/// Those that were heard, and those that should follow.
+export const liveBeats = computed(() => [...(live.value?.beats ?? []), ...coming.value]);
+
+/// Asks for a pose: at a frame, or on a beat that comes soon. Wherever the dancer is then.
+export function addLiveKey(pose: LibraryPose, wanted: number | null) {
+  const { keys } = live.value!.project;
+  const soon = heardSeconds() + ahead;
+  let frame = Math.max(earliest(), wanted ?? Math.round((coming.value.find((beat) => beat >= soon) ?? soon) * dancer.fps));
+  while (keys.some((key) => Math.abs(key.frame - frame) < closest)) frame += closest;
+  const { x, y, z } = pose.pose!.rootPosition!;
+  const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false };
+  say({ request: { case: 'keyframe', value: keyMessage(key) } });
+  keep([...keys, key]);
+}
+
+/// A key that is still ahead goes to another frame, or away where `to` is null.
+export function changeLiveKey(id: string, to: number | null) {
+  const { keys } = live.value!.project;
+  const key = keys.find((some) => some.id === id);
+  if (!key || key.frame < earliest()) return tell('This pose is danced already.');
+  const others = keys.filter((some) => some !== key);
+  if (to === null) {
+    say({ request: { case: 'removeKeyframe', value: { id } } });
+    return keep(others);
+  }
+  const moved = { ...key, frame: Math.max(earliest(), to) };
+  if (others.some(({ frame }) => Math.abs(frame - moved.frame) < closest)) return;
+  say({ request: { case: 'keyframe', value: keyMessage(moved) } });
+  keep([...others, moved]);
+}

@@ -1,0 +1,37 @@
+// The microphone: what it hears, piece by piece.
+
+/// Of what it heard so far. `stop` lets go of it.
+export type Microphone = { rate: number; stop: () => void };
+
+const refusals: Record<string, string> = {
+  NotAllowedError: 'The browser does not let this page use the microphone.',
+  NotFoundError: 'There is no microphone.',
+  NotReadableError: 'The microphone is in use elsewhere.',
+};
+
+/// Listens until it is stopped. `lost` is called where it is unplugged.
+export async function listen(heard: (piece: Float32Array) => void, lost: () => void): Promise<Microphone> {
+  if (!navigator.mediaDevices) throw new Error('Browsers give the microphone to pages of this machine alone: open the studio as http://127.0.0.1.');
+  // As it sounds: what is made for speech takes the music away.
+  const wanted = { echoCancellation: false, noiseSuppression: false, autoGainControl: false };
+  const stream = await navigator.mediaDevices.getUserMedia({ audio: wanted }).catch((error: DOMException) => {
+    throw new Error(refusals[error.name] ?? `The microphone cannot be opened: ${error.message}`);
+  });
+  const context = new AudioContext();
+  const stop = () => {
+    for (const track of stream.getTracks()) track.stop();
+    if (context.state !== 'closed') void context.close();
+  };
+  try {
+    await context.audioWorklet.addModule('/microphone.js');
+    const node = new AudioWorkletNode(context, 'microphone', { numberOfOutputs: 0 });
+    node.port.onmessage = ({ data }) => heard(data as Float32Array);
+    context.createMediaStreamSource(stream).connect(node);
+    stream.getTracks()[0].onended = lost;
+    await context.resume();
+  } catch (error) {
+    stop();
+    throw error;
+  }
+  return { rate: context.sampleRate, stop };
+}

@@ -1,0 +1,53 @@
+// Poses that people made themselves: this browser remembers them, beside those of the library.
+import { create } from '@bufbuild/protobuf';
+import { signal } from '@preact/signals';
+import type { Pose } from './body';
+import { LibraryPoseSchema } from './generated/studio/studio_pb';
+import type { LibraryPose } from './generated/studio/studio_pb';
+import { complain } from './state';
+
+const place = 'choreo poses';
+const most = 200;
+type Kept = { id: string; height: number; rotations: number[] };
+
+const asLibrary = ({ id, height, rotations }: Kept): LibraryPose =>
+  create(LibraryPoseSchema, { id, description: 'Yours', pose: { rootPosition: { x: 0, y: height, z: 0 }, rotations } });
+
+const isNumber = (value: unknown) => typeof value === 'number' && Number.isFinite(value);
+const isKept = (value: unknown): value is Kept => {
+  const kept = value as Kept | null;
+  return typeof kept?.id === 'string' && isNumber(kept.height) && Array.isArray(kept.rotations) && kept.rotations.every(isNumber);
+};
+
+function read(): Kept[] {
+  try {
+    const all: unknown = JSON.parse(localStorage.getItem(place) ?? '[]');
+    return Array.isArray(all) ? all.filter(isKept) : [];
+  } catch {
+    return [];
+  }
+}
+
+const kept = signal(read());
+
+/// Those that fit a body of so many joints.
+export const ownPoses = (joints: number) => kept.value.filter(({ rotations }) => rotations.length === 3 * joints).map(asLibrary);
+
+function keep(all: Kept[]) {
+  kept.value = all;
+  try {
+    localStorage.setItem(place, JSON.stringify(all));
+  } catch {
+    complain(new Error('This browser remembers no poses: they are gone with this page.'));
+  }
+}
+
+/// Keeps a pose under a free name; it stands at the origin.
+export function keepPose(name: string, pose: Pose) {
+  let id = name;
+  for (let i = 2; kept.value.some((other) => other.id === id); ++i) id = `${name}_${i}`;
+  keep([{ id, height: pose.root[1], rotations: pose.rotations }, ...kept.value].slice(0, most));
+  return id;
+}
+
+export const forgetPose = (id: string) => keep(kept.value.filter((other) => other.id !== id));

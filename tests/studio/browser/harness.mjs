@@ -1,0 +1,115 @@
+// What the studio's tests in a browser share: the studio, the browser, and what people do on the page.
+import { spawn } from 'node:child_process';
+import { createRequire } from 'node:module';
+
+const { chromium } = createRequire(new URL('../../../studio/page/package.json', import.meta.url))('playwright-core');
+export const patience = 120000; // software rendering on a busy machine
+
+/// A click every half second over a soft tone, as a WAV file.
+export function clicks(seconds) {
+  const rate = 22050;
+  const wav = Buffer.alloc(44 + 2 * rate * seconds);
+  wav.write('RIFF');
+  wav.writeUInt32LE(wav.length - 8, 4);
+  wav.write('WAVEfmt ', 8);
+  [[16, 4], [1, 2], [1, 2], [rate, 4], [2 * rate, 4], [2, 2], [16, 2]].reduce((at, [value, bytes]) => wav.writeUIntLE(value, at, bytes), 16);
+  wav.write('data', 36);
+  wav.writeUInt32LE(wav.length - 44, 40);
+  for (let i = 0; i < rate * seconds; ++i) {
+    const since = i % (rate / 2);
+    const value = 2000 * Math.sin(i * 0.06) + 20000 * Math.exp(-since / 200) * Math.sin(since * 0.5);
+    wav.writeInt16LE(Math.round(value), 44 + 2 * i);
+  }
+  return wav;
+}
+
+/// The studio program, and where its page is.
+export async function open(program, listen) {
+  const studio = spawn(program, ['studio', '--listen', listen], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const url = await new Promise((resolve, reject) => {
+    studio.stdout.on('data', (data) => resolve(/http:\S+/.exec(data)[0]));
+    studio.on('exit', (code) => reject(new Error(`choreo studio ended: ${code}`)));
+  });
+  studio.removeAllListeners('exit');
+  process.on('exit', () => studio.kill()); // a test that fails leaves nothing behind
+  return { studio, url };
+}
+
+export const launch = (...args) => chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required', ...args],
+});
+
+export let passed = 0;
+export const check = async (what, body) => {
+  await body();
+  ++passed;
+  console.log(`ok: ${what}`);
+};
+
+/// Opens the page, and knows how to use it.
+export async function visit(browser, url, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1000, height: 700 }, colorScheme: 'light', acceptDownloads: true, ...options });
+  page.setDefaultTimeout(patience);
+  const strangers = [];
+  const errors = [];
+  page.on('request', (request) => {
+    if (!request.url().startsWith(url) && !/^(blob|data):/.test(request.url())) strangers.push(request.url());
+  });
+  page.on('pageerror', (error) => errors.push(error.stack ?? error.message));
+  await page.goto(url);
+  // The page's policy forbids what waitForFunction does.
+  const until = async (condition, argument) => {
+    for (const end = Date.now() + patience; Date.now() < end; await page.waitForTimeout(50)) {
+      const value = await page.evaluate(condition, argument);
+      if (value) return value;
+    }
+    throw new Error(`in vain: ${condition}`);
+  };
+  const settle = () => until(() => window.choreo?.busy.value === 0 && window.choreo.moment.value?.isReady);
+  const message = () => page.evaluate(() => window.choreo.message.value);
+  const frames = () => page.evaluate(() => {
+    const motion = window.choreo.motion.value;
+    return Array.from({ length: motion.count }, (_, frame) => JSON.stringify(motion.pose(frame)));
+  });
+  /// Pixels a second of the timeline.
+  const scale = () => page.evaluate(() => {
+    const [a, b] = [...document.querySelectorAll('.key')].map((key) => [key.getBoundingClientRect().x, key.dataset.frame / 30]);
+    return (b[0] - a[0]) / (b[1] - a[1]);
+  });
+  const give = (...files) => page.locator('input[type=file]').first().setInputFiles(
+    files.map(([name, content]) => ({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(content) })));
+  const drop = (name, base64, bytes = 0) => page.evaluate(([name, base64, bytes]) => {
+    const content = bytes ? new Uint8Array(bytes) : Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const dropped = new DataTransfer();
+    dropped.items.add(new File([content], name));
+    document.querySelector('.page').dispatchEvent(new DragEvent('drop', { dataTransfer: dropped, bubbles: true, cancelable: true }));
+  }, [name, base64, bytes]);
+  const download = async (act) => {
+    const [file] = await Promise.all([page.waitForEvent('download', { timeout: 3 * patience }), act()]);
+    return file.path();
+  };
+  return { page, strangers, errors, until, settle, message, frames, scale, give, drop, download };
+}
+
+/// Pictures of the page as phones and wide screens have it, light and dark.
+export async function takePictures(page, place) {
+  for (const colorScheme of ['light', 'dark']) {
+    for (const [width, height] of [[390, 844], [1600, 900]]) {
+      await page.setViewportSize({ width, height });
+      await page.emulateMedia({ colorScheme });
+      await page.waitForTimeout(2500);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+      if (wide) throw new Error(`at ${width} pixels the page is wider than the window`);
+      await page.screenshot({ path: place(`${width}-${colorScheme}.png`), fullPage: width < 900, timeout: patience });
+    }
+  }
+}
+
+/// Ctrl-C ends the studio in order.
+export async function close(studio) {
+  const ended = new Promise((resolve) => studio.on('exit', resolve));
+  studio.kill('SIGINT');
+  const code = await ended;
+  if (code !== 0) throw new Error(`Ctrl-C should end the studio in order; it ended with ${code}`);
+}

@@ -1,0 +1,100 @@
+// The studio's live mode: Chromium's microphone is a WAV file, the dance streams, poses are asked for, and what was heard becomes the song.
+//   node live.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
+import assert from 'node:assert/strict';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { check, clicks, close, launch, open, passed, takePictures, visit } from './harness.mjs';
+
+const [program, pictures] = process.argv.slice(2);
+mkdirSync(pictures, { recursive: true });
+const file = join(pictures, 'microphone.wav');
+writeFileSync(file, clicks(60));
+
+const { studio, url } = await open(program, '127.0.0.1:0');
+const browser = await launch('--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}`);
+try {
+  const { page, strangers, errors, until, settle, message } = await visit(browser, url);
+
+  await check('the microphone is danced to while it sounds', async () => {
+    await page.getByRole('button', { name: 'Use the microphone' }).click();
+    await until(() => window.choreo.live.value?.motion.count > 90);
+    const { now, there } = await page.evaluate(() => ({ now: window.choreo.now(), there: window.choreo.motion.value.count / 30 }));
+    console.log(`    at ${now.toFixed(2)} s there are ${there.toFixed(2)} s of dance`);
+    const moved = await page.evaluate(() => {
+      const { motion } = window.choreo.live.value;
+      return Math.max(...motion.pose(20).rotations.map((value, i) => Math.abs(value - motion.pose(motion.count - 1).rotations[i])));
+    });
+    assert.ok(moved > 0.1, 'she stands still');
+    assert.ok((await page.evaluate(() => window.choreo.level.value)) > 0.1);
+  });
+
+  await check('a pose that is pressed comes soon, and is hit', async () => {
+    await page.locator('.library li button').nth(3).click();
+    const { frame, id } = await page.evaluate(() => window.choreo.project.value.keys[0]);
+    await takePictures(page, (name) => join(pictures, `live-${name}`));
+    await page.setViewportSize({ width: 1000, height: 700 });
+    await until((frame) => window.choreo.motion.value.count > frame, frame);
+    const off = await page.evaluate(([frame, id]) => {
+      const asked = window.choreo.project.value.keys.find((key) => key.id === id).pose.rotations;
+      const danced = window.choreo.motion.value.pose(frame).rotations;
+      // Of the root the way it faces is asked for, too.
+      return Math.max(...asked.map((value, i) => Math.abs(value - danced[i])));
+    }, [frame, id]);
+    assert.ok(off < 0.01, `${off} rad off`);
+  });
+
+  await check('one that is ahead is moved and taken back', async () => {
+    await page.locator('.library li button').nth(5).click();
+    const id = await page.evaluate(() => window.choreo.project.value.keys.at(-1).id);
+    const chip = page.locator(`.key[data-key="${id}"]`);
+    await chip.press('Shift+ArrowRight');
+    await chip.press('Delete');
+    assert.equal(await page.locator(`.key[data-key="${id}"]`).count(), 0);
+    assert.equal(await message(), null);
+  });
+
+  await check('what was heard becomes the song, and the dance stays', async () => {
+    await page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Stop' }).click();
+    await until(() => !window.choreo.live.value && window.choreo.song.value);
+    await settle();
+    const { name, heard, count, keys } = await page.evaluate(() => ({
+      name: window.choreo.song.value.name,
+      heard: window.choreo.song.value.heard.seconds,
+      count: window.choreo.motion.value.count,
+      keys: window.choreo.project.value.keys.length,
+    }));
+    assert.equal(name, 'microphone.wav');
+    assert.ok(Math.abs(heard - count / 30) < 0.2, `${heard} s of sound, ${count / 30} s of dance`);
+    assert.equal(keys, 1);
+    assert.equal((await message())?.isError ?? false, false);
+  });
+
+  await check('it goes on as any dance: another pose is set in it', async () => {
+    await page.evaluate(() => (window.choreo.audio.currentTime = 2));
+    await page.locator('.library li button').nth(8).click();
+    await settle();
+    assert.equal(await page.locator('.key').count(), 2);
+  });
+
+  await check('nothing left this machine, and nothing broke', async () => {
+    assert.deepEqual(strangers, []);
+    assert.deepEqual(errors, []);
+  });
+} finally {
+  await browser.close();
+}
+
+const deaf = await launch();
+try {
+  const { page, until, message } = await visit(deaf, url);
+  await check('a microphone that is not to be had is told in words', async () => {
+    await page.getByRole('button', { name: 'Use the microphone' }).click();
+    await until(() => window.choreo.message.value?.isError);
+    assert.match((await message()).text, /microphone/);
+    assert.equal(await page.evaluate(() => window.choreo.live.value), null);
+  });
+} finally {
+  await deaf.close();
+}
+await close(studio);
+console.log(`${passed} passed, 0 failed`);

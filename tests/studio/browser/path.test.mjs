@@ -1,0 +1,134 @@
+// A way over the floor in the studio: drawn with the mouse, danced, saved, danced by the command line, cleared.
+//   node path.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { check, clicks, close, launch, open, passed, takePictures, visit } from './harness.mjs';
+
+const [program, pictures] = process.argv.slice(2);
+const seconds = 8;
+mkdirSync(pictures, { recursive: true });
+
+const { studio, url } = await open(program, '127.0.0.1:0');
+const browser = await launch();
+try {
+  const { page, strangers, errors, until, settle, message, frames, give, download } = await visit(browser, url);
+  await page.getByRole('button', { name: 'Choose a song' }).waitFor();
+  await give(['clicks.wav', clicks(seconds)]);
+  await page.locator('.key').first().waitFor();
+  await settle();
+  const panel = page.getByRole('region', { name: 'Floor path' });
+
+  /// Draws over the stage from left to right; where the pointer was on the floor is the program's to find.
+  const draw = async (points) => {
+    await page.waitForTimeout(1500); // the camera goes up
+    const box = await page.locator('.stage canvas').boundingBox();
+    const at = ([x, y]) => [box.x + box.width * x, box.y + box.height * y];
+    await page.mouse.move(...at(points[0]));
+    await page.mouse.down();
+    for (const point of points.slice(1)) await page.mouse.move(...at(point), { steps: 8 });
+    await page.mouse.up();
+    await settle();
+  };
+  /// How far the dance is from its path, metres, at most and in the mean, behind the path's first second.
+  const away = () => page.evaluate(() => {
+    const { path } = window.choreo.project.value;
+    const off = path.filter(({ frame }) => frame >= path[0].frame + 30).map(({ frame, x, z }) => {
+      const [rx, , rz] = window.choreo.motion.value.pose(frame).root;
+      return Math.hypot(rx - x, rz - z);
+    });
+    return { most: Math.max(...off), mean: off.reduce((a, b) => a + b) / off.length };
+  });
+
+  await check('a path drawn on the floor is danced, and keys stand on it', async () => {
+    await page.evaluate(() => (window.choreo.audio.currentTime = 0));
+    await panel.getByRole('button', { name: 'Draw a path' }).click();
+    await draw([[0.5, 0.55], [0.85, 0.6], [0.75, 0.9], [0.15, 0.85]]);
+    const { path, keys } = await page.evaluate(() => window.choreo.project.value);
+    assert.ok(path.length >= 10);
+    assert.equal(path.at(-1).frame, 30 * seconds - 1);
+    const { most, mean } = await away();
+    console.log(`    the dance is ${(100 * mean).toFixed(0)} cm off its path in the mean, ${(100 * most).toFixed(0)} at most`);
+    assert.ok(most < 0.3);
+    const off = keys.map(({ frame, pose }) => {
+      const next = path.findIndex((step) => step.frame >= frame);
+      const [a, b] = [path[Math.max(0, next - 1)], path[next]];
+      return Math.min(Math.hypot(a.x - pose.root[0], a.z - pose.root[2]), Math.hypot(b.x - pose.root[0], b.z - pose.root[2]));
+    });
+    assert.ok(Math.max(...off) < 0.4, `${off}`);
+    assert.ok(!(await page.evaluate(() => window.choreo.warnings.value.some(({ text }) => /path/.test(text)))));
+  });
+
+  await check('it is saved, opened again, and danced by the command line frame for frame', async () => {
+    const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
+    assert.equal(JSON.parse(text).path.points.length, await page.evaluate(() => window.choreo.project.value.path.length));
+    await give(['clicks.json', text]);
+    await settle();
+    const here = readFileSync(await download(() => page.getByLabel('Export the dance').selectOption('bvh')), 'utf8');
+    writeFileSync(join(pictures, 'clicks.wav'), clicks(seconds));
+    writeFileSync(join(pictures, 'path.json'), text);
+    execFileSync(program, ['dance', '--project', join(pictures, 'path.json'), '--out', join(pictures, 'path.bvh')], { stdio: 'ignore' });
+    assert.ok(readFileSync(join(pictures, 'path.bvh'), 'utf8') === here, 'the command line dances it otherwise');
+  });
+
+  await takePictures(page, (name) => join(pictures, `path-${name}`));
+  await page.setViewportSize({ width: 1000, height: 700 });
+
+  await check('in too little time it is told: beside the path, and where it is on the timeline', async () => {
+    await panel.getByLabel('to').fill('1');
+    await panel.getByLabel('to').press('Tab');
+    await settle();
+    await panel.getByText('faster than people dance').waitFor();
+    await until(() => window.choreo.warnings.value.some(({ text }) => /m\/s/.test(text)));
+    assert.ok((await page.locator('.warning').count()) > 0);
+    await page.keyboard.press('Control+z');
+  });
+
+  await check('a slip of the hand is no path, and a path is cleared', async () => {
+    const count = await page.evaluate(() => window.choreo.project.value.path.length);
+    await panel.getByRole('button', { name: 'Draw another' }).click();
+    await draw([[0.5, 0.85], [0.505, 0.85]]);
+    assert.match((await message()).text, /a path is at least 0\.3 m/);
+    assert.equal(await page.evaluate(() => window.choreo.project.value.path.length), count);
+    await panel.getByRole('button', { name: 'Clear' }).click();
+    await settle();
+    assert.equal(await page.evaluate(() => window.choreo.project.value.path.length), 0);
+  });
+
+  await check('an interval alone is led elsewhere, and what is before it stays', async () => {
+    const before = await frames();
+    await page.locator('.interval').nth(1).click();
+    const [from] = await page.evaluate(() => window.choreo.chosen.value);
+    await panel.getByRole('button', { name: 'Draw a path' }).click();
+    await draw([[0.45, 0.6], [0.62, 0.7]]);
+    const after = await frames();
+    const touched = after.flatMap((pose, i) => (pose === before[i] ? [] : [i]));
+    assert.ok(touched.length > 10);
+    assert.ok(touched[0] > from, `${touched[0]} is danced anew`);
+  });
+
+  await check('paths in files that cannot be are refused in words', async () => {
+    const key = { id: 'a', time: 1, rotations: Array(24).fill([0, 0, 0]) };
+    for (const [path, words] of [
+      [7, /path has no list "points"/],
+      [{ points: [] }, /path\.points: 0 points/],
+      [{ points: [{ frame: 3, x: 0, z: 0 }, { frame: 3, x: 1, z: 0 }] }, /path\.points\[1\] does not stand behind/],
+      [{ points: [{ frame: 3, x: 'far', z: 0 }, { frame: 9, x: 1, z: 0 }] }, /path\.points\[0\]\.x: "far" is not a number/],
+    ]) {
+      await page.evaluate(() => (window.choreo.message.value = null));
+      await give(['path.json', JSON.stringify({ studio: 1, path, keyframes: [key] })]);
+      await until(() => window.choreo.message.value?.isError);
+      assert.match((await message()).text, words);
+    }
+  });
+
+  await check('nothing left this machine, and nothing broke', async () => {
+    assert.deepEqual(strangers, []);
+    assert.deepEqual(errors, []);
+  });
+} finally {
+  await browser.close();
+}
+await close(studio);
+console.log(`${passed} passed, 0 failed`);
