@@ -223,8 +223,9 @@ TEST_F(PhotoPoseTest, WhatCannotBeIsNamed) {
 TEST_F(PhotoPoseTest, APhotoItselfIsForTheStudio) {
   const Outcome outcome = Choreo("pose --from-photo me.jpg");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("--from-photo: photos are read in the browser: open `choreo "
-                                      "studio` and drop me.jpg on its page"));
+  EXPECT_THAT(outcome.said,
+              testing::HasSubstr("--from-photo: photos are read in the browser: open `choreo "
+                                 "studio` and drop me.jpg on its page"));
 }
 
 }  // namespace

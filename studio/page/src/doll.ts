@@ -1,5 +1,5 @@
 // The body, as the program draws it in its pictures: a glTF skin whose bones have the joints' names.
-import { Color, Mesh, MeshStandardMaterial, Object3D, Quaternion } from 'three';
+import { Color, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Quaternion } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { clone } from 'three/examples/jsm/utils/SkeletonUtils.js';
 import { toQuaternion } from './body';
@@ -32,11 +32,17 @@ export class Doll {
   /// A ghost: one colour, seen through.
   fade(colour: string, opacity: number) {
     const material = new MeshStandardMaterial({ color: new Color(colour), transparent: true, opacity, roughness: 1, depthWrite: false });
-    this.scene.traverse((part) => {
-      if (!(part instanceof Mesh)) return;
-      part.material = material;
+    // Only what is nearest is seen: no limb through another one.
+    const nearest = new MeshBasicMaterial({ colorWrite: false, transparent: true });
+    const parts: Mesh[] = [];
+    this.scene.traverse((part) => part instanceof Mesh && parts.push(part));
+    for (const part of parts) {
       part.castShadow = false;
-    });
+      const mask = part.clone(false);
+      [mask.material, mask.renderOrder] = [nearest, -0.5];
+      part.parent!.add(mask);
+      part.material = material;
+    }
     return this;
   }
 

@@ -10,7 +10,7 @@ import { fromJson, toJson } from './project_file';
 import { dropSketch, photoExtensions, readPhoto } from './photos';
 import { audio, hear, playSilence, songExtensions } from './songs';
 import type { Stage } from './stage';
-import { filming, message, moment, project, song, takes, tell, welcome, work } from './state';
+import { filming, live, message, moment, project, song, takes, tell, welcome, work } from './state';
 
 const motionExtensions = ['npz', 'bvh', 'glb'];
 /// What the file chooser offers.
@@ -25,6 +25,7 @@ export const openFiles = (files: File[]) => work(async () => {
   const [songs, others, photos] = [find(songExtensions), find(['json', ...motionExtensions]), find(photoExtensions)];
   const strange = files.find((file) => ![...songs, ...others, ...photos].includes(file));
   if (strange) throw new Error(`${strange.name} is none of the files that the studio knows: ${accepted.replaceAll(',', ' ')}`);
+  if (live.value && photos.length < files.length) throw new Error('Stop the live dance first.');
   if (songs.length > 1 || others.length > 1 || photos.length > 1)
     throw new Error('One song at a time, one photo, and one project or motion.');
   for (const file of songs) {
@@ -104,7 +105,7 @@ export const exportFilm = (kind: Kind, stage: Stage) => work(async () => {
       kind,
       motion,
       song: played,
-      draw: (time) => stage.picture(time, width, height),
+      draw: (time) => stage.picture(motion, time, width, height),
       told: (share) => (filming.value = share),
       signal: filmed.signal,
     });

@@ -3,6 +3,7 @@ import { computed, signal } from '@preact/signals';
 import { AudioEncoding } from './generated/choreo/v1/choreography_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { keyMessage } from './dancer';
+import { drawing } from './floor_path';
 import { push } from './history';
 import { dancer, skeleton, wire } from './link';
 import { listen } from './microphone';
@@ -12,7 +13,7 @@ import { closest, emptyProject, freeId, sorted } from './project';
 import type { Key } from './project';
 import { dropSketch } from './photos';
 import { audio, hear } from './songs';
-import { chosen, complain, live, message, moment, selectedKey, takes, tell, work } from './state';
+import { chosen, complain, isConnected, live, message, moment, selectedKey, takes, tell, work } from './state';
 import type { Live } from './state';
 import { wav } from './wav';
 
@@ -20,6 +21,7 @@ const lookAhead = 0.3; // seconds: what is nearer is danced already
 const ahead = 1; // seconds until a pose that is pressed, at least
 const spare = 0.07; // seconds for a piece of sound, and the way to the program and back
 const shownAhead = 8; // seconds of the timeline behind now
+const lastWait = 10000; // ms for the end of the dance
 const longest = 590; // seconds: songs may be ten minutes long
 const name = 'microphone.wav';
 
@@ -32,6 +34,7 @@ let last = 0; // when the last piece came, ms
 let granted = 0;
 let latency = 0; // seconds of music that the model hears ahead
 let ended: (() => void) | null = null;
+let isLost = false; // the call, before its end
 
 /// How loud it is, 0 to 1.
 export const level = signal(0);
@@ -57,7 +60,7 @@ export const startLive = () => work(async () => {
   audio.pause();
   dropSketch();
   [message.value, selectedKey.value, chosen.value, takes.value] = [null, null, null, []];
-  [pieces, samples, granted, latency] = [[], 0, 0, 0];
+  [pieces, samples, granted, latency, isLost, drawing.value] = [[], 0, 0, 0, false, false];
   const asked = emptyProject(name, shownAhead);
   const { style, lively, seed } = moment.value?.project ?? asked;
   const early: Float32Array[] = [];
@@ -79,6 +82,7 @@ export const startLive = () => work(async () => {
 
 function failed(error: Error) {
   complain(error);
+  isLost = true;
   ended?.();
   if (microphone) void stopLive();
 }
@@ -123,12 +127,12 @@ export const stopLive = () => work(async () => {
   microphone = null;
   const { project, motion } = live.value;
   const keys = project.keys.filter(({ frame }) => frame < granted);
-  const isWhole = await new Promise<boolean>((resolve) => {
+  const isWhole = !isLost && await new Promise<boolean>((resolve) => {
     ended = () => resolve(true);
     for (const key of project.keys.filter((some) => !keys.includes(some))) say({ request: { case: 'removeKeyframe', value: { id: key.id } } });
     say({ request: { case: 'endOfAudio', value: {} } });
     say({ request: { case: 'keyframesComplete', value: {} } });
-    setTimeout(() => resolve(false), 10000);
+    setTimeout(() => resolve(false), lastWait);
   });
   ended = null;
   wire.end(call);
@@ -141,10 +145,16 @@ export const stopLive = () => work(async () => {
   pieces = [];
   live.value = null;
   if (motion.count === 0) throw new Error('Nothing was heard that could be danced to.');
+  if (isLost) await connected();
   await hear(name, wav(all, rate, 16));
   push({ ...project, seconds: samples / rate, keys }, motion, async () => motion);
-  if (!isWhole) tell('The end of the dance did not come.');
+  if (!isWhole) tell('The dance ended early; what came of it stays.');
 });
+
+/// The program may be on its way back.
+async function connected() {
+  for (let i = 0; i < 120 && !isConnected.value; ++i) await new Promise((resolve) => setTimeout(resolve, 500));
+}
 
 const keep = (keys: Key[]) => update({ project: { ...live.value!.project, keys: sorted(keys) } });
 const earliest = () => granted + 3;

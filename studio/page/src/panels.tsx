@@ -158,7 +158,11 @@ function PathPanel() {
         : <p class={pace > brisk ? 'small off' : 'small'}>{studio.lengthOf(path).toFixed(1)} m, {pace.toFixed(1)} m/s{pace > brisk ? ': faster than people dance. Give it more time.' : ''}</p>}
       {path.length > 0 && <div class="row">{time('from', from, (frame) => studio.rush(frame, to))}{time('to', to, (frame) => studio.rush(from, frame))}</div>}
       <div class="row">
-        <button aria-pressed={studio.drawing.value} disabled={!value} onClick={() => (studio.drawing.value = !studio.drawing.value)}>
+        <button aria-pressed={studio.drawing.value} disabled={!value} onClick={() => {
+          studio.drawing.value = !studio.drawing.value;
+          // On a phone the floor is further up.
+          if (studio.drawing.value) document.querySelector('.stage')!.scrollIntoView({ block: 'nearest' });
+        }}>
           {studio.drawing.value ? 'Draw on the floor …' : path.length ? 'Draw another' : 'Draw a path'}
         </button>
         {path.length > 0 && <button onClick={studio.clearPath}>Clear</button>}

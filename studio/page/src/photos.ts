@@ -8,9 +8,10 @@ import { message, selectedKey, sketch, takes, tell, welcome, work } from './stat
 const photoTypes: Record<string, string> = { jpg: 'image/jpeg', jpeg: 'image/jpeg', png: 'image/png', webp: 'image/webp' };
 export const photoExtensions = Object.keys(photoTypes);
 // It was made for videos: the first look at somebody may take the front for the back, the second knows better.
-const looks = 3;
+const looks = 2;
 const mostPixels = 1280; // of a side: what lies beyond is not looked at
 
+let isLooking = false;
 let detector: Promise<Detector> | null = null;
 
 /// Its files come from the program, not with the page: they are large.
@@ -64,6 +65,8 @@ async function look(canvas: HTMLCanvasElement): Promise<Results | null> {
 export const readPhoto = (name: string, bytes: Uint8Array) => work(async () => {
   if (!welcome.value?.readsPhotos)
     throw new Error(`${name}: photos need @mediapipe/pose, which is not here. \`make studio\` fetches it where there is npm; start the studio anew then.`);
+  if (isLooking) throw new Error('One photo after the other.');
+  isLooking = true;
   tell(`Looking for somebody in ${name} …`);
   const url = URL.createObjectURL(new Blob([bytes as BlobPart], { type: photoTypes[name.split('.').at(-1)!.toLowerCase()] }));
   try {
@@ -88,6 +91,8 @@ export const readPhoto = (name: string, bytes: Uint8Array) => work(async () => {
   } catch (error) {
     URL.revokeObjectURL(url);
     throw error;
+  } finally {
+    isLooking = false;
   }
 });
 

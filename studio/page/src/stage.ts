@@ -5,6 +5,7 @@ import { Figure } from './body';
 import type { Pose } from './body';
 import { Doll } from './doll';
 import { FloorLine } from './floor_line';
+import type { Motion } from './motion';
 import { floorHandle, handles, pull } from './reach';
 import type { Handle } from './reach';
 import { floorTexture, looks, makeFloor, makeLamp } from './scenery';
@@ -239,7 +240,7 @@ export class Stage {
   }
 
   /// Draws one picture of the dance alone, so many pixels large, for a film: the page's own pictures rest until `leave`.
-  picture(time: number, width: number, height: number): HTMLCanvasElement {
+  picture(motion: Motion, time: number, width: number, height: number): HTMLCanvasElement {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== 1) {
       this.renderer.setAnimationLoop(null);
@@ -249,8 +250,7 @@ export class Stage {
       this.camera.updateProjectionMatrix();
       for (const part of [this.ghost.scene, this.dots, this.line.scene, this.onion.scene]) part.visible = false;
     }
-    const motion = studio.motionAt(time);
-    if (motion) this.doll.follow(motion, time);
+    this.doll.follow(motion, time);
     this.look(this.doll.place());
     this.renderer.render(this.scene, this.camera);
     return this.canvas;

@@ -3,7 +3,7 @@ import { spawn } from 'node:child_process';
 import { createRequire } from 'node:module';
 
 const { chromium } = createRequire(new URL('../../../studio/page/package.json', import.meta.url))('playwright-core');
-export const patience = 120000; // software rendering on a busy machine
+export const patience = 300000; // software rendering on a busy machine
 
 /// A click every half second over a soft tone, as a WAV file.
 export function clicks(seconds) {

@@ -10,10 +10,10 @@ mkdirSync(pictures, { recursive: true });
 const file = join(pictures, 'microphone.wav');
 writeFileSync(file, clicks(60));
 
-const { studio, url } = await open(program, '127.0.0.1:0');
+let { studio, url } = await open(program, '127.0.0.1:0');
 const browser = await launch('--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}`);
 try {
-  const { page, strangers, errors, until, settle, message } = await visit(browser, url);
+  const { page, strangers, errors, until, settle, message, give } = await visit(browser, url);
 
   await check('the microphone is danced to while it sounds', async () => {
     await page.getByRole('button', { name: 'Use the microphone' }).click();
@@ -74,6 +74,21 @@ try {
     await page.locator('.library li button').nth(8).click();
     await settle();
     assert.equal(await page.locator('.key').count(), 2);
+  });
+
+  await check('where the program is lost, what was danced stays', async () => {
+    await page.getByRole('button', { name: 'Dance to the microphone' }).click();
+    await until(() => window.choreo.live.value?.motion.count > 45);
+    await give(['song.wav', clicks(2)]);
+    await until(() => window.choreo.message.value?.text === 'Stop the live dance first.');
+    const ended = new Promise((resolve) => studio.on('exit', resolve));
+    studio.kill('SIGKILL');
+    await ended;
+    await until(() => window.choreo.message.value?.text.includes('gone'));
+    ({ studio } = await open(program, new URL(url).host));
+    await until(() => !window.choreo.live.value && window.choreo.busy.value === 0);
+    assert.equal((await message()).text, 'The dance ended early; what came of it stays.');
+    assert.ok((await page.evaluate(() => window.choreo.motion.value.count)) > 45);
   });
 
   await check('nothing left this machine, and nothing broke', async () => {

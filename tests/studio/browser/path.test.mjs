@@ -108,6 +108,22 @@ try {
     assert.ok(touched[0] > from, `${touched[0]} is danced anew`);
   });
 
+  await check('a finger draws, too', async () => {
+    await page.keyboard.press('Escape');
+    await panel.getByRole('button', { name: 'Clear' }).click();
+    await settle();
+    await panel.getByRole('button', { name: 'Draw a path' }).click();
+    await page.waitForTimeout(1500);
+    const box = await page.locator('.stage canvas').boundingBox();
+    const session = await page.context().newCDPSession(page);
+    const touch = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y]) => ({ x: box.x + box.width * x, y: box.y + box.height * y })) });
+    await touch('touchStart', [0.4, 0.6]);
+    for (const x of [0.45, 0.5, 0.55, 0.6]) await touch('touchMove', [x, 0.7]);
+    await touch('touchEnd');
+    await settle();
+    assert.ok((await page.evaluate(() => window.choreo.project.value.path.length)) >= 2);
+  });
+
   await check('paths in files that cannot be are refused in words', async () => {
     const key = { id: 'a', time: 1, rotations: Array(24).fill([0, 0, 0]) };
     for (const [path, words] of [
