@@ -17,6 +17,12 @@ void RequireCount(const std::string& field, int count, int wanted) {
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
 }
 
+void RequireWithin(const std::string& field, uint32_t value, uint32_t from, uint32_t to) {
+  if (value >= from && value <= to) return;
+  throw InvalidArgument(field, std::to_string(value) + ", must be " + std::to_string(from) +
+                                   " to " + std::to_string(to));
+}
+
 Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field,
             double max_rotation) {
   if (pose.encoding() > v1::ROTATION_ENCODING_AXIS_ANGLE)
@@ -107,6 +113,8 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
     const v1::AudioFormat& format = config.audio_format();
     if (format.encoding() != v1::AUDIO_ENCODING_PCM_F32LE)
       throw InvalidArgument("config.audio_format.encoding", "must be 32-bit floats");
+    RequireWithin("config.audio_format.sample_rate", format.sample_rate(), 8000, 192000);
+    RequireWithin("config.audio_format.channels", format.channels(), 1, 8);
     if (format.first_sample() != 0) refuse("config.audio_format.first_sample");
     out.audio = {client::AudioKind::kPcmFloat, static_cast<int>(format.sample_rate()),
                  static_cast<int>(format.channels())};

@@ -35,6 +35,8 @@ PhotoModel::PhotoModel(std::filesystem::path folder)
 
 std::optional<PhotoModel::File> PhotoModel::Read(std::string_view name) const {
   if (!is_there_ || std::ranges::find(kFiles, name) == std::end(kFiles)) return std::nullopt;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(folder_ / name, error)) return std::nullopt;
   std::ifstream file(folder_ / name, std::ios::binary);
   if (!file) return std::nullopt;
   return File{TypeOf(name), {std::istreambuf_iterator<char>(file), {}}};

@@ -297,7 +297,14 @@ TEST_F(StudioTest, RefusesMusicThatIsNone) {
   EXPECT_THAT(page.Read().failure().message(), HasSubstr("config.audio_format.encoding"));
   format->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
   format->set_sample_rate(16000);
+  format->set_channels(0);
+  page.Say(2, config);
+  EXPECT_EQ(page.Read().failure().message(), "config.audio_format.channels: 0, must be 1 to 8");
   format->set_channels(1);
+  format->set_sample_rate(4'000'000'000);
+  page.Say(2, config);
+  EXPECT_THAT(page.Read().failure().message(), HasSubstr("config.audio_format.sample_rate: "));
+  format->set_sample_rate(16000);
   page.Say(3, config);
   Request piece;
   piece.mutable_dance()->mutable_audio()->set_data("abc");

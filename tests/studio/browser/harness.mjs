@@ -56,7 +56,10 @@ export async function visit(browser, url, options = {}) {
   page.on('request', (request) => {
     if (!request.url().startsWith(url) && !/^(blob|data):/.test(request.url())) strangers.push(request.url());
   });
-  page.on('pageerror', (error) => errors.push(error.stack ?? error.message));
+  page.on('pageerror', (error) => {
+    errors.push(error.stack ?? error.message);
+    console.log(`    broke: ${errors.at(-1)}`);
+  });
   await page.goto(url);
   // The page's policy forbids what waitForFunction does.
   const until = async (condition, argument) => {
