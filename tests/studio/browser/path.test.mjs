@@ -89,6 +89,7 @@ try {
     const count = await page.evaluate(() => window.choreo.project.value.path.length);
     await panel.getByRole('button', { name: 'Draw another' }).click();
     await draw([[0.5, 0.85], [0.505, 0.85]]);
+    await until(() => window.choreo.message.value);
     assert.match((await message()).text, /a path is at least 0\.3 m/);
     assert.equal(await page.evaluate(() => window.choreo.project.value.path.length), count);
     await panel.getByRole('button', { name: 'Clear' }).click();
