@@ -113,6 +113,11 @@ void ServerConfig::Validate() const {
   CheckAddress("--listen", listen);
   if (!metrics.empty()) CheckAddress("--metrics", MetricsAddress());
   for (const auto& path : checkpoints) RequireRegularFile("--checkpoint", path);
+  if (!models.empty() && !checkpoints.empty()) {
+    throw InvalidArgument("--models",
+                          "and --checkpoint exclude each other; put the checkpoint "
+                          "into the folder");
+  }
   ParseEngineKind(engine, "--engine");
   CheckKernels(kernels);
   // Whether they are there is told when they are used; `auto` is whatever is there.

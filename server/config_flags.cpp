@@ -16,6 +16,10 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                  "Model to serve, a .safetensors file; give several for several models, the "
                  "default first. Without it, the models that ship.")
       ->envname("CHOREO_CHECKPOINT");
+  app.add_option("--models", config.models,
+                 "Folder of models to serve instead: each .safetensors file in it, "
+                 "default.safetensors first. SIGHUP has it read again while dances go on.")
+      ->envname("CHOREO_MODELS");
   app.add_option("--device", config.device,
                  "Where to compute: auto (a GPU if this build and machine have one), cpu, or "
                  "cuda:N[,N...].")

@@ -12,6 +12,12 @@ namespace {
 /// Within so many seconds a transition's frames are to be made, if it can be done.
 constexpr double kTransitionSeconds = 10;
 
+double LoadOf(const std::map<const Scheduler*, double>& frames_per_second) {
+  double load = 0;
+  for (const auto& [model, frames] : frames_per_second) load += model->LoadOf(frames);
+  return load;
+}
+
 std::string Percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
 }  // namespace
@@ -32,8 +38,10 @@ void FrameBudget::TakeTransition(const void* call, const Scheduler& model,
 void FrameBudget::Take(const void* call, Charge charge) {
   const std::lock_guard lock(mutex_);
   const auto require = [&](const std::string* address, double most) {
-    const double taken = Load(nullptr, address);
-    const double load = Load(&charge, address);
+    Frames frames = FramesOf(address);
+    const double taken = LoadOf(frames);
+    frames[charge.model] += charge.frames_per_second;
+    const double load = LoadOf(frames);
     if (taken == 0 || load <= most) return;
     throw Error(ErrorCode::kResourceExhausted, "",
                 "the engines are busy: " + (address ? *address + " has " : "calls have ") +
@@ -52,27 +60,19 @@ void FrameBudget::GiveBack(const void* call) noexcept {
   charges_.erase(call);
 }
 
-double FrameBudget::load(const Scheduler& model) const {
+std::map<std::string, double> FrameBudget::loads() const {
   const std::lock_guard lock(mutex_);
-  return model.LoadOf(FramesOf(model, nullptr));
-}
-
-double FrameBudget::Load(const Charge* more, const std::string* address) const {
-  double load = 0;
-  for (const auto& model : models_) {
-    double frames = FramesOf(*model, address);
-    if (more && more->model == model.get()) frames += more->frames_per_second;
-    load += model->LoadOf(frames);
+  std::map<std::string, double> loads;
+  for (const auto& [model, frames] : FramesOf(nullptr)) {
+    loads[model->model().name] += model->LoadOf(frames);
   }
-  return load;
+  return loads;
 }
 
-double FrameBudget::FramesOf(const Scheduler& model, const std::string* address) const {
-  double frames = 0;
+FrameBudget::Frames FrameBudget::FramesOf(const std::string* address) const {
+  Frames frames;
   for (const auto& [call, charge] : charges_) {
-    if (charge.model == &model && (!address || charge.address == *address)) {
-      frames += charge.frames_per_second;
-    }
+    if (!address || charge.address == *address) frames[charge.model] += charge.frames_per_second;
   }
   return frames;
 }

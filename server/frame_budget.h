@@ -1,10 +1,8 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
 
 #include "model/engine/scheduler.h"
 
@@ -19,12 +17,11 @@ struct FrameShares {
 /// The engines' time, promised to calls as they come: each is charged with the frames that it will
 /// take, at what frames cost now (Scheduler::LoadOf), until it gives them back. So a crowd that
 /// comes at once is served as far as the engines can, and the rest is told so before it begins.
-/// Models share the devices, so the times of all are one. Thread-safe.
+/// Models share the devices, so the times of all are one; a model that calls are charged with
+/// outlives them. Thread-safe.
 class FrameBudget {
  public:
-  /// The models outlive it.
-  FrameBudget(const std::vector<std::unique_ptr<Scheduler>>& models, const FrameShares& shares)
-      : models_(models), shares_(shares) {}
+  explicit FrameBudget(const FrameShares& shares) : shares_(shares) {}
 
   /// A dance: it goes on as fast as it is played, whenever its music comes. Throws
   /// Error(kResourceExhausted) where that is more than is left. Who is alone is always taken: slow
@@ -37,8 +34,8 @@ class FrameBudget {
   /// Also for calls that took nothing.
   void GiveBack(const void* call) noexcept;
 
-  /// The share of the engines' time that is promised of this model.
-  double load(const Scheduler& model) const;
+  /// The share of the engines' time that is promised, by the name of the model.
+  std::map<std::string, double> loads() const;
   const FrameShares& shares() const { return shares_; }
 
  private:
@@ -49,11 +46,11 @@ class FrameBudget {
   };
 
   void Take(const void* call, Charge charge);
-  // With mutex_ held: of all models, or of calls from one address.
-  double Load(const Charge* more, const std::string* address) const;
-  double FramesOf(const Scheduler& model, const std::string* address) const;
+  using Frames = std::map<const Scheduler*, double>;  // a second
 
-  const std::vector<std::unique_ptr<Scheduler>>& models_;
+  // With mutex_ held: of all calls, or of those from one address.
+  Frames FramesOf(const std::string* address) const;
+
   const FrameShares shares_;
   mutable std::mutex mutex_;
   std::map<const void*, Charge> charges_;  // by call. Lock: mutex_

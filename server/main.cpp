@@ -3,8 +3,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <iostream>
+#include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "model/core/error.h"
 #include "model/core/threads.h"
@@ -14,6 +18,7 @@
 #include "server/config.h"
 #include "server/listener.h"
 #include "server/log.h"
+#include "server/model_folder.h"
 #include "server/server.h"
 
 namespace choreo {
@@ -21,7 +26,7 @@ namespace {
 
 /// Stops these from ending the process: from here on they wait for sigwait. Threads inherit it.
 // Also lets a log whose reader is gone be a log that nobody reads.
-sigset_t BlockStopSignals() {
+sigset_t BlockSignals() {
   signal(SIGPIPE, SIG_IGN);
   sigset_t signals;
   sigemptyset(&signals);
@@ -46,10 +51,8 @@ void WarnOfUnheeded(const ServerConfig& config, const StepEngine& engine) {
   }
 }
 
-std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
+ModelFolder::Loader MakeLoader(const ServerConfig& config) {
   const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
-  std::vector<std::filesystem::path> checkpoints = config.checkpoints;
-  if (checkpoints.empty()) checkpoints = ShippedCheckpoints();
   // One small network does not keep several cores busy: each gets a worker, with its share of the
   // slots.
   std::vector<Device> workers = devices;
@@ -60,22 +63,51 @@ std::vector<Server::Engines> LoadModels(const ServerConfig& config) {
     workers.assign(static_cast<size_t>(count), devices.front());
     slots = (config.Slots() + count - 1) / count;
   }
-  std::vector<Server::Engines> models;
-  for (const auto& path : checkpoints) {
-    models.push_back(
-        MakeEngines(path, workers, slots, ParseEngineKind(config.engine), config.kernels));
-    for (const auto& engine : models.back()) WarmUp(*engine);
-    const StepEngine& engine = *models.back().front();
+  return [&config, workers, slots](const std::filesystem::path& path) {
+    Server::Engines engines =
+        MakeEngines(path, workers, slots, ParseEngineKind(config.engine), config.kernels);
+    for (const auto& engine : engines) WarmUp(*engine);
+    const StepEngine& engine = *engines.front();
     spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...) of {} slots",
                  path.string(), engine.model().name, engine.model().fingerprint, workers.size(),
                  engine.device(), slots);
     WarnOfUnheeded(config, engine);
-  }
-  return models;
+    return engines;
+  };
 }
 
+/// Reads the folder of models again whenever somebody asks, on a thread of its own: loading takes
+/// seconds, in which signals are heard. Who asks meanwhile is served by one more look.
+class Reloader {
+ public:
+  Reloader(ModelFolder& folder, Server& server)
+      : thread_([this, &folder, &server](const std::stop_token& stop) {
+          std::unique_lock lock(mutex_);
+          while (wake_.wait(lock, stop, [this] { return asked_; })) {
+            asked_ = false;
+            lock.unlock();
+            folder.Reload(server, [&stop] { return stop.stop_requested(); });
+            lock.lock();
+          }
+        }) {}
+
+  void Ask() {
+    const std::lock_guard lock(mutex_);
+    asked_ = true;
+    wake_.notify_one();
+  }
+  /// Of what is asked nothing more is done.
+  void Stop() { thread_.request_stop(); }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool asked_ = false;   // lock: mutex_
+  std::jthread thread_;  // last: it uses the above
+};
+
 void Run(const ServerConfig& config) {
-  const sigset_t stop_signals = BlockStopSignals();
+  const sigset_t signals = BlockSignals();
   const BlasInfo blas = DetectBlas();
   const std::string warning = RequireFastBlas(blas);
   if (!warning.empty()) spdlog::warn("{}", warning);
@@ -84,16 +116,30 @@ void Run(const ServerConfig& config) {
   spdlog::info("BLAS {}", blas.name);
 
   RaiseDescriptorLimit();
-  Server server(config, LoadModels(config));
+  const ModelFolder::Loader load = MakeLoader(config);
+  ModelFolder folder(config.models, load);
+  const bool has_folder = !config.models.empty();
+  std::vector<Server::Engines> models;
+  if (has_folder) {
+    models = folder.Load();
+  } else {
+    for (const auto& path : config.checkpoints.empty() ? ShippedCheckpoints() : config.checkpoints)
+      models.push_back(load(path));
+  }
+  Server server(config, std::move(models));
+  Reloader reloader(folder, server);
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
   // Whoever starts a choreod waits for this line.
   std::cout << "choreod listens on " << host << ':' << server.port() << std::endl;
 
   int signal = 0;
-  sigwait(&stop_signals, &signal);
+  while (sigwait(&signals, &signal) == 0 && signal == SIGHUP && has_folder) reloader.Ask();
   spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
                config.drain_seconds);
-  pthread_sigmask(SIG_UNBLOCK, &stop_signals, nullptr);
+  reloader.Stop();
+  // Whoever has models read anew does not mean to end the calls that are left.
+  if (has_folder) ::signal(SIGHUP, SIG_IGN);
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   server.Drain(config.drain_seconds);
 }
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -74,8 +75,9 @@ class Figures final : public prometheus::Collectable {
   std::vector<MetricFamily> Collect() const override {
     Families out;
     AddCalls(out);
-    AddModels(out);
-    AddHistograms(out);
+    const std::map<std::string, Models::Figures> models = serving_.models.figures();
+    AddModels(models, out);
+    AddHistograms(models, out);
     return out.Take();
   }
 
@@ -98,7 +100,7 @@ class Figures final : public prometheus::Collectable {
     out.Begin("streams_limit", "Calls that may be in progress.", MetricType::Gauge);
     out.Add(calls.limits().calls);
     double load = 0;
-    for (const auto& model : serving_.models) load += serving_.frames.load(*model);
+    for (const auto& [model, share] : serving_.frames.loads()) load += share;
     out.Begin("utilisation",
               "The larger of streams / limit and of all load / --max-load; at 1 calls are refused.",
               MetricType::Gauge);
@@ -114,9 +116,9 @@ class Figures final : public prometheus::Collectable {
     out.Add(serving_.tally.key_error_m.snapshot());
   }
 
-  void AddModels(Families& out) const {
+  void AddModels(const std::map<std::string, Models::Figures>& models, Families& out) const {
     out.Begin("model_info", "1 for each model and device.", MetricType::Gauge);
-    for (const auto& model : serving_.models) {
+    for (const Models::Use& model : serving_.models.served()) {
       std::vector<std::string> devices = model->devices();
       std::ranges::sort(devices);
       devices.erase(std::unique(devices.begin(), devices.end()), devices.end());
@@ -129,9 +131,8 @@ class Figures final : public prometheus::Collectable {
     }
     out.Begin("load", "Share of the engines' time that is promised to calls in progress.",
               MetricType::Gauge);
-    for (const auto& model : serving_.models) {
-      out.Add(serving_.frames.load(*model), {{"model", model->model().name}});
-    }
+    std::map<std::string, double> loads = serving_.frames.loads();
+    for (const auto& [model, figures] : models) out.Add(loads[model], {{"model", model}});
     struct Figure {
       const char* name;
       const char* help;
@@ -157,13 +158,13 @@ class Figures final : public prometheus::Collectable {
     };
     for (const Figure& figure : kFigures) {
       out.Begin(figure.name, figure.help, figure.type);
-      for (const auto& model : serving_.models) {
-        out.Add(figure.of(model->stats()), {{"model", model->model().name}});
+      for (const auto& [model, figures] : models) {
+        out.Add(figure.of(figures.stats), {{"model", model}});
       }
     }
   }
 
-  void AddHistograms(Families& out) const {
+  static void AddHistograms(const std::map<std::string, Models::Figures>& models, Families& out) {
     using Histograms = Scheduler::Histograms;
     struct Figure {
       const char* name;
@@ -179,8 +180,8 @@ class Figures final : public prometheus::Collectable {
     };
     for (const Figure& figure : kFigures) {
       out.Begin(figure.name, figure.help, MetricType::Histogram);
-      for (const auto& model : serving_.models) {
-        out.Add(model->histograms().*figure.of, {{"model", model->model().name}});
+      for (const auto& [model, figures] : models) {
+        out.Add(figures.histograms.*figure.of, {{"model", model}});
       }
     }
   }

@@ -12,6 +12,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "model/core/error.h"
@@ -76,14 +77,12 @@ void TellOfSecurity(const ServerConfig& config, const Tokens& tokens) {
                                : "not asked for");
 }
 
-void TellOfTime(const Serving& serving) {
-  for (const auto& model : serving.models) {
-    constexpr int kDances = 64;
-    const double load = model->LoadOf(kDances * model->model().fps);
-    if (load <= 0) continue;  // nobody has measured
-    spdlog::info("model \"{}\": {} dances at once take {:.1f} % of its engines' time",
-                 model->model().name, kDances, 100 * load);
-  }
+void TellOfTime(const Scheduler& model) {
+  constexpr int kDances = 64;
+  const double load = model.LoadOf(kDances * model.model().fps);
+  if (load <= 0) return;  // nobody has measured
+  spdlog::info("model \"{}\": {} dances at once take {:.1f} % of its engines' time",
+               model.model().name, kDances, 100 * load);
 }
 
 /// Takes gRPC's reflection from one server: linked in, it is in all.
@@ -98,20 +97,11 @@ class WithoutReflection final : public grpc::ServerBuilderOption {
 };
 
 std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engines> models,
-                                                       const ServerConfig& config) {
-  if (models.empty()) throw InvalidArgument("models", "a server needs at least one");
+                                                       const Scheduler::Options& options) {
   std::vector<std::unique_ptr<Scheduler>> schedulers;
   for (auto& engines : models) {
-    schedulers.push_back(std::make_unique<Scheduler>(
-        std::move(engines),
-        Scheduler::Options{.max_waiting = config.max_waiting,
-                           .max_sleep = Milliseconds(config.max_sleep_seconds)}));
-    const std::string& name = schedulers.back()->model().name;
-    for (size_t i = 0; i + 1 < schedulers.size(); ++i) {
-      if (schedulers[i]->model().name == name) {
-        throw InvalidArgument("models", "two have the name \"" + name + '"');
-      }
-    }
+    schedulers.push_back(std::make_unique<Scheduler>(std::move(engines), options));
+    TellOfTime(*schedulers.back());
   }
   return schedulers;
 }
@@ -120,7 +110,9 @@ std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engin
 
 struct Server::Impl {
   Impl(const ServerConfig& config, std::vector<Engines> models)
-      : serving(MakeSchedulers(std::move(models), config), LimitsOf(config), SharesOf(config),
+      : scheduling{.max_waiting = config.max_waiting,
+                   .max_sleep = Milliseconds(config.max_sleep_seconds)},
+        serving(MakeSchedulers(std::move(models), scheduling), LimitsOf(config), SharesOf(config),
                 config.tokens, static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving, config.max_sleep_seconds),
@@ -145,10 +137,10 @@ struct Server::Impl {
     server = builder.BuildAndStart();
     if (!server) throw Error(ErrorCode::kUnavailable, "", "gRPC could not start");
     UpdateHealth();
-    TellOfTime(serving);
     TellOfSecurity(config, serving.tokens);
     watch.emplace(kWatchInterval, [this] {
       serving.calls.EndIdle();
+      serving.models.FreeUnused();
       UpdateHealth();
     });
     if (serving.tokens.needed()) {
@@ -163,20 +155,27 @@ struct Server::Impl {
     });
   }
 
-  // SERVING unless it drains or an engine is broken; of each model, and of all together.
+  // SERVING unless it drains or an engine is broken; of each model, and of all together. A model
+  // that is served no more is NOT_SERVING.
   void UpdateHealth() {
     const std::lock_guard lock(health_mutex);
     const std::string name = v1::Choreography::service_full_name();
     bool all = !drained;
-    for (const auto& scheduler : serving.models) {
+    std::set<std::string> told = {"", name};
+    for (const Models::Use& scheduler : serving.models.served()) {
       const int failures = scheduler->stats().failures;
       const bool works = failures < kBroken;
       all &= works;
-      if (TellHealth(name + '/' + scheduler->model().name, works && !drained) && !works) {
+      const std::string of_model = name + '/' + scheduler->model().name;
+      told.insert(of_model);
+      if (TellHealth(of_model, works && !drained) && !works) {
         spdlog::error(
             "model \"{}\": its engine has failed {} times in a row; health says NOT_SERVING",
             scheduler->model().name, failures);
       }
+    }
+    for (const auto& [former, serves] : health) {
+      if (!told.contains(former)) TellHealth(former, false);
     }
     TellHealth("", all);
     TellHealth(name, all);
@@ -191,6 +190,7 @@ struct Server::Impl {
     return true;
   }
 
+  const Scheduler::Options scheduling;
   Serving serving;
   ChoreographyService service;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
@@ -214,16 +214,15 @@ int Server::port() const { return impl_->listener.port(); }
 
 int Server::metrics_port() const { return impl_->metrics ? impl_->metrics->port() : 0; }
 
-int Server::transitions() const {
-  int count = 0;
-  for (const auto& scheduler : impl_->serving.models) {
-    const Scheduler::Stats stats = scheduler->stats();
-    count += stats.active + stats.waiting + stats.parked;
-  }
-  return count;
-}
+int Server::transitions() const { return impl_->serving.models.transitions(); }
 
 int Server::calls() const { return impl_->serving.calls.count(); }
+
+void Server::SetModels(const std::vector<std::string>& names, std::vector<Engines> fresh) {
+  if (impl_->drained) return;
+  impl_->serving.models.Set(names, MakeSchedulers(std::move(fresh), impl_->scheduling));
+  impl_->UpdateHealth();
+}
 
 void Server::Drain(double seconds) {
   if (impl_->drained.exchange(true)) return;
@@ -250,10 +249,9 @@ void Server::Drain(double seconds) {
                           (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
   uint64_t frames = 0;
   uint64_t steps = 0;
-  for (const auto& scheduler : impl_->serving.models) {
-    const Scheduler::Stats stats = scheduler->stats();
-    frames += stats.frames;
-    steps += stats.steps;
+  for (const auto& [model, figures] : impl_->serving.models.figures()) {
+    frames += figures.stats.frames;
+    steps += figures.stats.steps;
   }
   spdlog::info("served {} calls ({} refused) with {} frames in {} steps", calls.total(),
                calls.refused(), frames, steps);

@@ -73,7 +73,7 @@ void ChoreographyService::Describe(v1::GetServerInfoResponse* response) const {
   FillLimits(serving_.calls.limits(), limits);
   limits->set_max_sleep_s(max_sleep_s_);
   int slots = 0;
-  for (const auto& scheduler : serving_.models) {
+  for (const Models::Use& scheduler : serving_.models.served()) {
     FromModel(scheduler->model(), response->add_models());
     slots += scheduler->stats().slots;
     for (const std::string& device : scheduler->devices()) {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "model/engine/scheduler.h"
 #include "server/call_registry.h"
 #include "server/frame_budget.h"
+#include "server/models.h"
 #include "server/music_file.h"
 #include "server/tally.h"
 #include "server/task_pool.h"
@@ -24,21 +24,17 @@ struct Serving {
           int64_t file_music_bytes, int io_threads)
       : models(std::move(schedulers)),
         calls(limits),
-        frames(models, shares),
+        frames(shares),
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
         decoding(io_threads),
         tasks(io_threads) {}
 
-  /// The first model for an empty name, and for "controllers" where none is called so. Throws
-  /// Error(kNotFound) that lists the models.
-  Scheduler& FindModel(const std::string& name, const std::string& field) const;
-
   /// A seed for those who name none.
   static uint64_t FreshSeed();
 
-  const std::vector<std::unique_ptr<Scheduler>> models;  ///< one each; never empty
+  Models models;
   CallRegistry calls;
   FrameBudget frames;
   Tokens tokens;

@@ -141,11 +141,11 @@ class DanceSession final : public CallSession<Response, DanceStream>,
 
   void Configure(const v1::DanceConfig& message) {
     if (scheduler_) throw InvalidArgument("config", "came before; it comes once");
-    Scheduler& scheduler = serving_.FindModel(message.model(), "config.model");
-    const ModelInfo& model = scheduler.model();
+    const Models::Use found = serving_.models.Find(message.model(), "config.model");
+    const ModelInfo& model = found->model();
     const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
-    serving_.frames.TakeDance(this, scheduler, address());
-    scheduler_ = &scheduler;
+    serving_.frames.TakeDance(this, *found, address());
+    scheduler_ = found;
     encoding_ = message.encoding();
     seed_ = config.seed;
     finds_beats_ = config.music_beats.empty();
@@ -153,7 +153,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     const bool exact =
         !config.continuation || config.continuation->fingerprint == model.fingerprint;
     SendHeader(model, message, config, config.FirstFrame(), exact);
-    Adopt(std::make_shared<DanceStream>(scheduler, config, shared_from_this()));
+    Adopt(std::make_shared<DanceStream>(*scheduler_, config, shared_from_this()));
   }
 
   void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
@@ -208,7 +208,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   }
 
   // Of the configuration; written before the stream is there.
-  Scheduler* scheduler_ = nullptr;
+  Models::Use scheduler_;  // whatever is served meanwhile, the dance keeps its model
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
   std::optional<v1::AudioFormat> audio_;

@@ -37,20 +37,20 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
       Request message;
       ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
-      Scheduler& scheduler = serving_.FindModel(message.config().model(), "config.model");
-      GroupRequest request = ToGroupRequest(message, scheduler.model(), Serving::FreshSeed());
+      scheduler_ = serving_.models.Find(message.config().model(), "config.model");
+      GroupRequest request = ToGroupRequest(message, scheduler_->model(), Serving::FreshSeed());
       // What is out of range is named once the music is there.
       const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
-      serving_.frames.TakeTransition(this, scheduler, address(), request.candidates * frames);
+      serving_.frames.TakeTransition(this, *scheduler_, address(), request.candidates * frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
-        return Begin(scheduler, message, std::move(request));
+        return Begin(message, std::move(request));
       }
-      serving_.decoding.Post([session = shared_from_this(), hold = std::move(hold), &scheduler,
+      serving_.decoding.Post([session = shared_from_this(), hold = std::move(hold),
                               message = std::move(message),
                               request = std::move(request)]() mutable {
         session->Guard([&] {
           session->AddMusic(message.audio(), &request);
-          session->Begin(scheduler, message, std::move(request));
+          session->Begin(message, std::move(request));
         });
         hold.reset();
       });
@@ -71,7 +71,7 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
 
   void OnWarning(const DanceWarning& warning) override {
     Response response;
-    FromEvent(warning, model_->fps, response.mutable_event());
+    FromEvent(warning, scheduler_->model().fps, response.mutable_event());
     outbox().Send(std::move(response));
   }
 
@@ -83,14 +83,14 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
       v1::Candidate* candidate = summary->add_candidates();
       candidate->set_candidate(static_cast<uint32_t>(report.candidate));
       FromReport(report.quality, candidate->mutable_report());
-      FromContinuation(report.continuation, *model_, seed_, audio_ ? &*audio_ : nullptr,
+      FromContinuation(report.continuation, scheduler_->model(), seed_, audio_ ? &*audio_ : nullptr,
                        candidate->mutable_continuation());
       frames += report.quality.frames;
       for (const KeyReport& key : report.quality.keys) {
         serving_.tally.key_error_m.Add(key.arrival.raw_error_m);
       }
     }
-    FillTiming(static_cast<double>(frames) / model_->fps, summary->mutable_timing());
+    FillTiming(static_cast<double>(frames) / scheduler_->model().fps, summary->mutable_timing());
     outbox().Send(std::move(response));
     End(grpc::Status::OK);
   }
@@ -109,10 +109,9 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
   }
 
-  void Begin(Scheduler& scheduler, const Request& message, GroupRequest request) {
-    const ModelInfo& model = scheduler.model();
+  void Begin(const Request& message, GroupRequest request) {
+    const ModelInfo& model = scheduler_->model();
     request.Validate(model);
-    model_ = &model;
     encoding_ = message.config().encoding();
     if (message.config().has_audio_format()) audio_ = message.config().audio_format();
     seed_ = request.seed;
@@ -128,11 +127,11 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     SendHeader(model, message.config(), config,
                continuation ? continuation->frame : request.first_frame,
                !continuation || continuation->fingerprint == model.fingerprint);
-    Adopt(std::make_shared<TransitionGroup>(scheduler, request, shared_from_this()));
+    Adopt(std::make_shared<TransitionGroup>(*scheduler_, request, shared_from_this()));
   }
 
   // Written before the group is there. Nothing of the message itself: it may go before the group.
-  const ModelInfo* model_ = nullptr;
+  Models::Use scheduler_;  // whatever is served meanwhile, the transition keeps its model
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   std::optional<v1::AudioFormat> audio_;
   uint64_t seed_ = 0;

@@ -16,6 +16,13 @@ class Histogram {
     std::vector<double> bounds;    ///< ascending; a value on one counts below it
     std::vector<uint64_t> counts;  ///< one more than bounds: the last is above all of them
     double sum = 0;                ///< of the values
+
+    /// Takes in what another one of the same bounds has counted.
+    Snapshot& operator+=(const Snapshot& other) {
+      for (size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
+      sum += other.sum;
+      return *this;
+    }
   };
 
   explicit Histogram(std::vector<double> bounds)

@@ -26,6 +26,17 @@ TEST(ServerConfigTest, DefaultsAreValid) {
   EXPECT_EQ(line.config->MaxStreamsOfPeer(), 56);
 }
 
+TEST(ServerConfigTest, AFolderOfModelsExcludesCheckpoints) {
+  const CommandLine line = Parse({"--models", "somewhere"});
+  ASSERT_TRUE(line.config);
+  EXPECT_EQ(line.config->models, "somewhere");
+  const std::string path = testing::TempDir() + "choreod_config_test.safetensors";
+  std::ofstream(path) << "content";
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Parse({"--models", "somewhere", "--checkpoint", path.c_str()}).exit_code, 2);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("exclude each other"), std::string::npos);
+}
+
 TEST(ServerConfigTest, FlagsGoBeforeFileBeforeEnvironment) {
   const std::string path = testing::TempDir() + "choreod_config_test.toml";
   std::ofstream(path) << "slots = 3\nmax-streams = 4\nio-threads = 5\n";

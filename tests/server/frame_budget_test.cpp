@@ -39,9 +39,9 @@ class FrameBudgetTest : public ::testing::Test {
 };
 
 TEST_F(FrameBudgetTest, ACrowdIsTakenAsFarAsTheEnginesHold) {
-  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.9});
+  FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 18);
-  EXPECT_NEAR(budget.load(*models[0]), 0.9, 1e-9);
+  EXPECT_NEAR(budget.loads()["fake"], 0.9, 1e-9);
   budget.GiveBack(&calls[3]);
   budget.GiveBack(&calls[3]);
   budget.TakeDance(&calls[100], *models[0], "a");
@@ -49,13 +49,13 @@ TEST_F(FrameBudgetTest, ACrowdIsTakenAsFarAsTheEnginesHold) {
 }
 
 TEST_F(FrameBudgetTest, ModelsShareTheTime) {
-  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.9});
+  FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
   for (int i = 0; i < 9; ++i) budget.TakeDance(&calls[i], *models[0], "a");
   EXPECT_EQ(TakeDances(budget, *models[1], "a", calls + 100), 9);
 }
 
 TEST_F(FrameBudgetTest, OneAddressDoesNotTakeItAll) {
-  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.45});
+  FrameBudget budget({.of_all = 0.9, .of_peer = 0.45});
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
   ExpectError(ErrorCode::kResourceExhausted,
               "a has 45 % of their time, with this one it would be 50 %, of at most 45 %",
@@ -64,11 +64,11 @@ TEST_F(FrameBudgetTest, OneAddressDoesNotTakeItAll) {
 }
 
 TEST_F(FrameBudgetTest, TransitionsAreChargedWithTheirFramesAndWithHalfAtMost) {
-  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.9});
+  FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
   budget.TakeTransition(&calls[0], *models[0], "a", 600);  // as two dances for ten seconds
-  EXPECT_NEAR(budget.load(*models[0]), 0.1, 1e-9);
+  EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
   budget.TakeTransition(&calls[1], *models[0], "a", 1'000'000);
-  EXPECT_NEAR(budget.load(*models[0]), 0.55, 1e-9);
+  EXPECT_NEAR(budget.loads()["fake"], 0.55, 1e-9);
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 7);
   EXPECT_THROW(budget.TakeTransition(&calls[2], *models[0], "a", 1'000'000), Error);
 }
@@ -78,7 +78,7 @@ TEST_F(FrameBudgetTest, WhoIsAloneIsTakenHoweverSlowTheEnginesAre) {
   engines.push_back(std::make_unique<FakeEngine>());
   engines.back()->set_cost({.alone = 1, .together = 1, .slots = 1});
   models.push_back(std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{}));
-  FrameBudget budget(models, {.of_all = 0.9, .of_peer = 0.8});
+  FrameBudget budget({.of_all = 0.9, .of_peer = 0.8});
   EXPECT_EQ(TakeDances(budget, *models[2], "a", calls), 1);
   EXPECT_THROW(budget.TakeDance(&calls[99], *models[0], "b"), Error);
   budget.GiveBack(&calls[0]);
@@ -86,9 +86,9 @@ TEST_F(FrameBudgetTest, WhoIsAloneIsTakenHoweverSlowTheEnginesAre) {
 }
 
 TEST_F(FrameBudgetTest, AboveOneNobodyIsRefused) {
-  FrameBudget budget(models, {.of_all = 1.1, .of_peer = 1.1});
+  FrameBudget budget({.of_all = 1.1, .of_peer = 1.1});
   for (const char& call : calls) budget.TakeDance(&call, *models[0], "a");
-  EXPECT_NEAR(budget.load(*models[0]), 10, 1e-9);
+  EXPECT_NEAR(budget.loads()["fake"], 10, 1e-9);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-#include <poll.h>
-#include <sys/resource.h>
+#include <signal.h>
 
 #include <atomic>
 #include <fstream>
@@ -8,7 +7,10 @@
 
 #include "server/listener.h"
 #include "tests/server/fixture.h"
+#include "tests/server/http2.h"
+#include "tests/server/real_time.h"
 #include "tests/server/silent_connections.h"
+#include "tests/support/setting.h"
 
 /// Clients that speak HTTP/2 to do harm, and those who are served meanwhile.
 namespace choreo {
@@ -16,90 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A connection that says whatever it wants.
-class Http2 {
- public:
-  explicit Http2(int port) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    Send("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + Frame(kSettings, 0, 0, ""));
-  }
-  ~Http2() { close(fd_); }
-  Http2(const Http2&) = delete;
-  Http2& operator=(const Http2&) = delete;
-
-  static constexpr int kData = 0, kHeaders = 1, kReset = 3, kSettings = 4;
-
-  static std::string Frame(int type, int flags, uint32_t stream, const std::string& payload) {
-    std::string frame;
-    for (int shift = 16; shift >= 0; shift -= 8)
-      frame += static_cast<char>(payload.size() >> shift);
-    frame += static_cast<char>(type);
-    frame += static_cast<char>(flags);
-    for (int shift = 24; shift >= 0; shift -= 8) frame += static_cast<char>(stream >> shift);
-    return frame + payload;
-  }
-  /// The headers of a call, in HPACK's words that need no table and no Huffman code.
-  static std::string Call(uint32_t stream, const std::string& method) {
-    const auto text = [](const std::string& value) {
-      return static_cast<char>(value.size()) + value;
-    };
-    const std::string block =
-        std::string("\x83\x86\x04", 3) + text("/choreo.v1.Choreography/" + method) + '\x01' +
-        text("x") + "\x0f\x10" + text("application/grpc") + '\0' + text("te") + text("trailers");
-    constexpr int kEndHeaders = 4;
-    return Frame(kHeaders, kEndHeaders, stream, block);
-  }
-
-  /// False once the server has closed the connection.
-  bool Send(const std::string& bytes) {
-    for (size_t sent = 0; sent < bytes.size();) {
-      const ssize_t count = send(fd_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-      if (count <= 0) return false;
-      sent += static_cast<size_t>(count);
-    }
-    return true;
-  }
-  /// Reads what has come, and drops it.
-  void Drain() {
-    char bytes[65536];
-    while (recv(fd_, bytes, sizeof bytes, MSG_DONTWAIT) > 0) {
-    }
-  }
-  /// Whether a call's end comes (its trailers, or a reset) within ten seconds, or the connection's.
-  bool Ends(uint32_t stream) {
-    std::string got;
-    const auto until = Clock::now() + std::chrono::seconds(10);
-    while (Clock::now() < until) {
-      pollfd waited{.fd = fd_, .events = POLLIN, .revents = 0};
-      if (poll(&waited, 1, 100) != 1) continue;
-      char bytes[65536];
-      const ssize_t count = recv(fd_, bytes, sizeof bytes, 0);
-      if (count <= 0) return true;
-      got.append(bytes, static_cast<size_t>(count));
-      while (got.size() >= 9) {
-        const auto at = [&](size_t i) { return static_cast<unsigned char>(got[i]); };
-        const size_t length = size_t{at(0)} << 16 | size_t{at(1)} << 8 | at(2);
-        if (got.size() < 9 + length) break;
-        const uint32_t of =
-            uint32_t{at(5)} << 24 | uint32_t{at(6)} << 16 | uint32_t{at(7)} << 8 | at(8);
-        const bool ends_stream = (at(4) & 1) != 0 && at(3) == kHeaders;
-        if (of == stream && (ends_stream || at(3) == kReset)) return true;
-        got.erase(0, 9 + length);
-      }
-    }
-    return false;
-  }
-
- private:
-  const int fd_;
-};
-
-int64_t ResidentBytes() {
-  std::ifstream statm("/proc/self/statm");
+int64_t ResidentBytes(const std::string& process) {
+  std::ifstream statm("/proc/" + process + "/statm");
   int64_t total = 0, resident = 0;
   statm >> total >> resident;
   return resident * sysconf(_SC_PAGESIZE);
@@ -131,7 +51,7 @@ class HostileTest : public ServerTest {
 // call ends as one whose first message does not come.
 TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
   Start(16, [](ServerConfig& config) { config.first_message_seconds = 1; });
-  const int64_t before = ResidentBytes();
+  const int64_t before = ResidentBytes("self");
   Http2 client(server->port());
   const std::string begun = std::string("\0\xff\xff\xff\xff", 5) + std::string(1000, 'x');
   uint32_t stream = 1;
@@ -140,7 +60,7 @@ TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
     stream += 2;
   }
   EXPECT_TRUE(client.Ends(stream - 2));
-  const int64_t grown = ResidentBytes() - before;
+  const int64_t grown = ResidentBytes("self") - before;
   EXPECT_LT(grown, 64 << 20);
   SlowestDanceDuring([] {});
   std::cout << "memory grew by " << (grown >> 10) << " KiB\n";
@@ -150,26 +70,63 @@ TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
 TEST_F(HostileTest, OthersAreServedBesideRapidResets) {
   // They come from the address of the others here, who would share its places.
   Start(16, [](ServerConfig& config) { config.max_streams_of_peer = 65'536; });
-  constexpr int kCalls = 20'000, kAtOnce = 100;
-  const int64_t before = ResidentBytes();
-  const double slowest = SlowestDanceDuring([&] {
-    Http2 client(server->port());
-    uint32_t stream = 1;
-    for (int i = 0; i < kCalls; i += kAtOnce) {
-      std::string bytes;
-      for (int k = 0; k < kAtOnce; ++k, stream += 2) {
-        bytes += Http2::Call(stream, "StreamDance") +
-                 Http2::Frame(Http2::kReset, 0, stream, std::string("\0\0\0\x08", 4));
-      }
-      if (!client.Send(bytes)) return;
-      client.Drain();
-    }
-  });
+  constexpr int kCalls = 20'000;
+  const int64_t before = ResidentBytes("self");
+  const double slowest = SlowestDanceDuring([&] { Http2(server->port()).Reset(kCalls); });
   ExpectIdle();
-  const int64_t grown = ResidentBytes() - before;
+  const int64_t grown = ResidentBytes("self") - before;
   EXPECT_LT(grown, 256 << 20);
   std::cout << kCalls << " calls reset: the slowest dance of the others took " << slowest
             << " s, memory grew by " << (grown >> 20) << " MiB\n";
+}
+
+// The same where the server has a tenth of a core, so that calls wait to be ended; beside a dance
+// in real time that behaves. CHOREO_FAULT_CALLS makes it longer (scripts/faults.sh).
+TEST_F(HostileTest, ADanceGoesOnBesideRapidResetsWithoutCpu) {
+  const int calls = Setting("CHOREO_FAULT_CALLS", 2'000);
+  const cli::LocalServer starved(FAKE_CHOREOD);
+  const int port = std::stoi(starved.address().substr(starved.address().rfind(':') + 1));
+  const std::string process = std::to_string(starved.process());
+  std::jthread starve([&](const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds kRuns{10}, kStands{90};
+    while (!stop.stop_requested()) {
+      kill(starved.process(), SIGSTOP);
+      std::this_thread::sleep_for(kStands);
+      kill(starved.process(), SIGCONT);
+      std::this_thread::sleep_for(kRuns);
+    }
+  });
+  const auto behaved = StubOfAnotherAddress(port);
+  constexpr int kGrants = 50;
+  DanceInRealTime(*behaved, Config(), kGrants);  // gRPC sets things up at its first call
+  const std::vector<double> alone = DanceInRealTime(*behaved, Config(), kGrants).lateness;
+  const int64_t before = ResidentBytes(process);
+  std::atomic<bool> over = false;
+  std::jthread harm([&] {
+    Http2(port).Reset(calls);
+    over = true;
+  });
+  std::vector<double> beside;
+  int64_t most = before;
+  std::jthread look([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      most = std::max(most, ResidentBytes(process));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  do {
+    const RealTimeDance dance = DanceInRealTime(*behaved, Config(), kGrants);
+    EXPECT_TRUE(dance.answer.status.ok()) << dance.answer.status.error_message();
+    beside.insert(beside.end(), dance.lateness.begin(), dance.lateness.end());
+  } while (!over);
+  look.request_stop();
+  look.join();
+  std::cout << calls << " calls reset of a server with a tenth of a core: memory grew by "
+            << (most - before) / calls << " bytes a call, " << ((most - before) >> 20)
+            << " MiB in all; frames of a dance beside them p50 " << Milliseconds(beside, 0.5)
+            << " ms and p99 " << Milliseconds(beside, 0.99)
+            << " ms behind their grants, without p50 " << Milliseconds(alone, 0.5) << " ms and p99 "
+            << Milliseconds(alone, 0.99) << " ms\n";
 }
 
 TEST_F(HostileTest, ConnectionsThatSayNothingHoldUpNobody) {

@@ -209,6 +209,27 @@ TEST_F(InfoTest, HealthTellsOfEachModel) {
   server.reset();  // it looks at `fails`
 }
 
+TEST_F(InfoTest, HealthTellsOfModelsThatComeAndGo) {
+  Start(1, {}, {"first"});
+  const auto health = [this](const std::string& model) {
+    const std::string name = v1::Choreography::service_full_name() + ("/" + model);
+    return CallRaw(channel, "/grpc.health.v1.Health/Check", WireField(1, name), false);
+  };
+  const std::string serving("\x08\x01", 2), not_serving("\x08\x02", 2);
+  EXPECT_EQ(health("first"), serving);
+  std::vector<Server::Engines> fresh(1);
+  fresh[0].push_back(std::make_unique<ProbedEngine>(1, "second", probe));
+  server->SetModels({"first", "second"}, std::move(fresh));
+  EXPECT_EQ(health("second"), serving);
+  server->SetModels({"second"}, {});
+  EXPECT_EQ(health("first"), not_serving);
+  EXPECT_EQ(health("second"), serving);
+  EXPECT_THROW(server->SetModels({}, {}), Error);
+  EXPECT_THROW(server->SetModels({"first"}, {}), Error);
+  EXPECT_THROW(server->SetModels({"second", "second"}, {}), Error);
+  EXPECT_EQ(health("second"), serving);
+}
+
 TEST_F(InfoTest, ReflectionCanBeSwitchedOff) {
   Start(1, [](ServerConfig& config) { config.reflection = false; });
   const grpc::Status status =

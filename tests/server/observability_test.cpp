@@ -108,6 +108,27 @@ TEST_F(MetricsTest, TellWhatGoesOn) {
   client.Cancel();
 }
 
+// A counter that fell would be a jump for whoever asks its rate.
+TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
+  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  const auto dance = [&] {
+    DanceClient client(stub());
+    client.Send(Config());
+    client.SendKeyframe(Key("a", 20));
+    EXPECT_TRUE(client.Finish().status.ok());
+  };
+  dance();
+  std::vector<Server::Engines> fresh(1);
+  fresh[0].push_back(std::make_unique<ProbedEngine>(8, "fake", probe));
+  server->SetModels({"fake"}, std::move(fresh));
+  dance();
+  const std::string of_fake = R"({model="fake"})";
+  ExpectEventually([&] { return Figure("choreo_slots" + of_fake) == 8; }, "the former one is gone");
+  EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 42);
+  EXPECT_EQ(Figure("choreo_step_seconds_count" + of_fake), 42);
+  EXPECT_EQ(Figure("choreo_load" + of_fake), 0);
+}
+
 // An alert on a rate sees the first failure only where the series was there before.
 TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
   Start(16, [](ServerConfig& config) { config.metrics = "0"; });

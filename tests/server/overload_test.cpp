@@ -1,11 +1,10 @@
-#include <algorithm>
-#include <atomic>
 #include <iostream>
 #include <mutex>
 #include <thread>
 
 #include "model/engine/warm_up.h"
 #include "tests/server/fixture.h"
+#include "tests/server/real_time.h"
 #include "tests/support/setting.h"
 
 /// Four times the dances that an engine has time for. CHOREO_FAULT_SECONDS makes it longer.
@@ -17,8 +16,6 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kFrameTime{2};  // of the engine, for each frame
 constexpr int kHolds = 16;             // real-time dances that it has time for: 16 x 30 x 2 ms
-constexpr milliseconds kGrant{100};
-constexpr int64_t kFramesOfGrant = 3;
 constexpr int kGrantsOfDance = 40;
 
 /// Takes so long for each frame, whatever the machine is.
@@ -48,27 +45,9 @@ class OverloadTest : public ServerTest {
     Connect(std::make_unique<Server>(config, std::move(models)));
   }
 
-  static double Milliseconds(std::vector<double>& lateness, double share) {
-    std::ranges::sort(lateness);
-    return 1e3 * lateness.at(static_cast<size_t>(share * static_cast<double>(lateness.size() - 1)));
-  }
-
   // A dance in real time; false where it was refused, as it should be.
   bool DanceInTime(Seen* seen, milliseconds* come_back) {
-    DanceClient client(stub());
-    v1::DanceConfig config = Config();
-    config.set_frames(kGrantsOfDance * kFramesOfGrant);
-    client.Send(config);
-    std::vector<double> lateness;
-    Clock::time_point due = Clock::now();
-    for (int64_t granted = kFramesOfGrant; granted <= config.frames(); granted += kFramesOfGrant) {
-      std::this_thread::sleep_until(due);
-      client.SendGenerateUntil(granted);
-      if (!client.ReadFrames(granted)) break;
-      lateness.push_back(std::chrono::duration<double>(Clock::now() - due).count());
-      due += kGrant;
-    }
-    const Answer& answer = client.Finish();
+    const auto [answer, lateness] = DanceInRealTime(stub(), Config(), kGrantsOfDance);
     const std::lock_guard lock(mutex_);
     if (answer.status.ok()) {
       ++seen->admitted;

@@ -1,0 +1,135 @@
+#include "server/model_folder.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/core/pem.h"
+
+namespace choreo {
+namespace {
+
+constexpr const char* kFlag = "--models";
+constexpr const char* kDefault = "default.safetensors";
+
+int64_t Nanoseconds(const timespec& time) {
+  return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> ModelFolder::List() const {
+  std::vector<std::filesystem::path> files;
+  try {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      const std::filesystem::path& path = entry.path();
+      if (path.extension() == ".safetensors" && path.filename().string().front() != '.') {
+        files.push_back(path);
+      }
+    }
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw InvalidArgument(kFlag, folder_.string() + ": " + error.code().message());
+  }
+  if (files.empty()) {
+    throw InvalidArgument(kFlag, folder_.string() + ": no .safetensors file is in it");
+  }
+  std::ranges::sort(files, {}, [](const std::filesystem::path& path) {
+    return std::pair(path.filename() != kDefault, path);
+  });
+  return files;
+}
+
+ModelFolder::Stamp ModelFolder::StampOf(const std::filesystem::path& file) {
+  struct stat status;
+  if (stat(file.c_str(), &status) != 0) {
+    throw InvalidArgument(kFlag, file.string() + ": " + std::generic_category().message(errno));
+  }
+  return {.device = status.st_dev,
+          .inode = status.st_ino,
+          .bytes = status.st_size,
+          .written_ns = Nanoseconds(status.st_mtim),
+          .changed_ns = Nanoseconds(status.st_ctim)};
+}
+
+Server::Engines ModelFolder::LoadFile(const std::filesystem::path& file, Files* files) const {
+  RequireRegularFile(kFlag, file);
+  const Stamp stamp = StampOf(file);  // before: what is written meanwhile counts the next time
+  Server::Engines engines = load_(file);
+  const ModelInfo& model = engines.front()->model();
+  for (const auto& [other, served] : *files) {
+    if (served.model == model.name) {
+      throw InvalidArgument(kFlag, file.string() + ": its model \"" + model.name +
+                                       "\" comes from " + other.filename().string());
+    }
+  }
+  files->emplace(file, Served{stamp, model.name, model.fingerprint, model.card});
+  return engines;
+}
+
+std::vector<Server::Engines> ModelFolder::Load() {
+  std::vector<Server::Engines> models;
+  for (const auto& file : List()) models.push_back(LoadFile(file, &served_));
+  return models;
+}
+
+void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
+  try {
+    Files files;
+    std::vector<std::string> names;
+    std::vector<Server::Engines> fresh;
+    for (const auto& file : List()) {
+      if (stopped()) return;
+      if (std::optional<Server::Engines> engines = Look(file, &files)) {
+        fresh.push_back(std::move(*engines));
+      }
+      if (const auto now = files.find(file); now != files.end()) names.push_back(now->second.model);
+    }
+    if (names.empty()) throw InvalidArgument(kFlag, folder_.string() + ": no file can be used");
+    const size_t count = fresh.size();
+    server.SetModels(names, std::move(fresh));
+    served_ = std::move(files);
+    spdlog::info("{} of {} models are new; \"{}\" is the default", count, names.size(),
+                 names.front());
+  } catch (const std::exception& error) {
+    spdlog::error("{}; all models are served as before", error.what());
+  }
+}
+
+std::optional<Server::Engines> ModelFolder::Look(const std::filesystem::path& file,
+                                                 Files* files) const {
+  const auto before = served_.find(file);
+  const auto is_taken = [&] {
+    return std::ranges::any_of(
+        *files, [&](const auto& other) { return other.second.model == before->second.model; });
+  };
+  try {
+    if (before != served_.end() && StampOf(file) == before->second.stamp && !is_taken()) {
+      files->insert(*before);
+      return std::nullopt;
+    }
+    Server::Engines engines = LoadFile(file, files);
+    const Served& now = files->at(file);
+    const bool is_served = std::ranges::any_of(served_, [&](const auto& other) {
+      const Served& then = other.second;
+      return std::tie(then.model, then.fingerprint, then.card) ==
+             std::tie(now.model, now.fingerprint, now.card);
+    });
+    if (is_served) return std::nullopt;
+    return engines;
+  } catch (const std::exception& error) {
+    const bool goes_on = before != served_.end() && !is_taken();
+    spdlog::error("{}; {}", error.what(),
+                  goes_on ? "its model \"" + before->second.model + "\" is served as before"
+                          : "nothing is served of it");
+    if (goes_on) files->insert(*before);
+    return std::nullopt;
+  }
+}
+
+}  // namespace choreo

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/server.h"
+
+namespace choreo {
+
+/// A folder of checkpoints, each of which is a model of a server: its .safetensors files, but for
+/// those whose names begin with a dot. default.safetensors comes first, the others by name. Not
+/// thread-safe.
+class ModelFolder {
+ public:
+  /// Loads a checkpoint and makes engines that are ready to dance.
+  using Loader = std::function<Server::Engines(const std::filesystem::path&)>;
+
+  ModelFolder(std::filesystem::path folder, Loader load)
+      : folder_(std::move(folder)), load_(std::move(load)) {}
+
+  /// All models, for a start. Throws what the loader throws, Error(kInvalidArgument, "--models")
+  /// for a folder that has none or cannot be read, and for two files with models of one name.
+  std::vector<Server::Engines> Load();
+
+  /// Looks again: loads the files that are new or have changed since, and tells the server what it
+  /// serves now. A file that cannot be used is logged as an error and tried again the next time;
+  /// until then the model that it had before goes on, as all do where the folder has none or cannot
+  /// be read. Once `stopped` it loads nothing more, and the server is told nothing.
+  void Reload(Server& server, const std::function<bool()>& stopped);
+
+ private:
+  /// Of a file that is another one, or was written since.
+  struct Stamp {
+    dev_t device = 0;
+    ino_t inode = 0;
+    off_t bytes = 0;
+    int64_t written_ns = 0, changed_ns = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+  /// What is served of a file.
+  struct Served {
+    Stamp stamp;
+    std::string model, fingerprint, card;
+  };
+  using Files = std::map<std::filesystem::path, Served>;
+
+  std::vector<std::filesystem::path> List() const;
+  static Stamp StampOf(const std::filesystem::path& file);
+  /// Loads it, and notes in `files` what it has. Throws where a model of that name is there.
+  Server::Engines LoadFile(const std::filesystem::path& file, Files* files) const;
+  /// What is served of it from now on, noted in `files`; engines where that is not served already.
+  std::optional<Server::Engines> Look(const std::filesystem::path& file, Files* files) const;
+
+  const std::filesystem::path folder_;
+  const Loader load_;
+  Files served_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,173 @@
+#include <atomic>
+#include <functional>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "server/read_message.h"
+#include "tests/server/fixture.h"
+#include "tests/server/http2.h"
+#include "tests/server/raw_call.h"
+#include "tests/server/real_time.h"
+#include "tests/server/silent_connections.h"
+#include "tests/support/setting.h"
+
+/// One client that takes all that it can get of something, beside nine that dance in real time from
+/// another address. CHOREO_FAULT_SECONDS makes it longer.
+namespace choreo {
+namespace {
+
+constexpr int kDancers = 9;
+
+/// What the greedy one knows.
+struct Victim {
+  int port;
+  std::shared_ptr<grpc::Channel> channel;
+  v1::Choreography::Stub* stub;
+  std::function<bool()> over;
+};
+
+/// How it is greedy.
+struct Greed {
+  const char* name;
+  void (*take)(const Victim& victim);
+};
+
+v1::DanceConfig ConfigOf(int frames) {
+  v1::DanceConfig config;
+  config.set_seed(1);
+  config.set_frames(frames);
+  config.set_encoding(v1::ROTATION_ENCODING_MATRIX);
+  return config;
+}
+
+// Dances that are never over, one more whenever one is refused.
+void TakeCalls(const Victim& victim) {
+  std::vector<std::unique_ptr<DanceClient>> dances;
+  while (!victim.over()) {
+    auto dance = std::make_unique<DanceClient>(*victim.stub);
+    dance->Send(ConfigOf(1000));
+    dance->SendGenerateUntil(1);
+    if (dance->ReadFrames(1)) dances.push_back(std::move(dance));
+  }
+}
+
+// Calls that say nothing.
+void TakeTurns(const Victim& victim) {
+  std::vector<std::unique_ptr<DanceClient>> calls;
+  for (; !victim.over(); calls.resize(std::min<size_t>(calls.size(), 200))) {
+    calls.push_back(std::make_unique<DanceClient>(*victim.stub));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+// All candidates of the longest transitions.
+void TakeSlots(const Victim& victim) {
+  std::vector<std::jthread> callers;
+  for (int i = 0; i < 8; ++i) {
+    callers.emplace_back([&victim] {
+      v1::GenerateTransitionRequest request;
+      *request.mutable_config() = ConfigOf(0);
+      request.set_frames(1800);
+      request.set_candidates(32);
+      while (!victim.over()) {
+        grpc::ClientContext context;
+        context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(500));
+        const auto reader = victim.stub->GenerateTransition(&context, request);
+        v1::GenerateTransitionResponse response;
+        while (reader->Read(&response)) {
+        }
+        reader->Finish();
+      }
+    });
+  }
+}
+
+// As many frames as there can be, of which none is read.
+void TakeFrames(const Victim& victim) {
+  std::vector<std::unique_ptr<DanceClient>> dances;
+  for (int i = 0; i < 32; ++i) {
+    dances.push_back(std::make_unique<DanceClient>(*victim.stub));
+    dances.back()->Send(ConfigOf(18'000));
+    dances.back()->SendKeyframesComplete();
+  }
+  while (!victim.over()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+// Music files that never come whole.
+void TakeMemory(const Victim& victim) {
+  const std::string piece(4 << 20, 'x');
+  std::vector<std::unique_ptr<DanceClient>> dances;
+  while (!victim.over()) {
+    auto dance = std::make_unique<DanceClient>(*victim.stub);
+    v1::DanceConfig config = ConfigOf(0);
+    config.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
+    dance->Send(config);
+    if (dances.size() > 24) dances.erase(dances.begin());
+    for (int i = 0; i < 4; ++i) dance->SendAudio(piece, int64_t{i} * std::ssize(piece));
+    dances.push_back(std::move(dance));
+  }
+}
+
+// The largest messages, of what would be the most objects.
+void TakeObjects(const Victim& victim) {
+  const std::string pose = WireField(v1::History::kPosesFieldNumber, "");
+  std::string poses;
+  while (poses.size() + 64 < static_cast<size_t>(kMaxMessageBytes)) poses += pose;
+  const std::string request = WireField(1, WireField(v1::DanceConfig::kHistoryFieldNumber, poses));
+  while (!victim.over()) RawCall(victim.channel, "StreamDance", request);
+}
+
+void TakeConnections(const Victim& victim) {
+  while (!victim.over()) {
+    const SilentConnections silent("127.0.0.1:" + std::to_string(victim.port), 200);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+void TakeResets(const Victim& victim) {
+  while (!victim.over()) Http2(victim.port).Reset(1'000);
+}
+
+class GreedyTest : public ServerTest, public testing::WithParamInterface<Greed> {};
+
+TEST_P(GreedyTest, NineDanceOn) {
+  Start(/*slots=*/128);
+  const int seconds = Setting("CHOREO_FAULT_SECONDS", 2);
+  std::mutex mutex;
+  std::vector<double> lateness;  // lock: mutex
+  std::atomic<bool> over = false;
+  const Victim victim{server->port(), channel, &stub(), [&over] { return over.load(); }};
+  std::thread greedy([&] { GetParam().take(victim); });
+  {
+    std::vector<std::jthread> dancers;
+    for (int i = 0; i < kDancers; ++i) {
+      dancers.emplace_back([&] {
+        const auto own = StubOfAnotherAddress(server->port());
+        const RealTimeDance dance = DanceInRealTime(*own, Config(), seconds * 10);
+        EXPECT_TRUE(dance.answer.status.ok()) << dance.answer.status.error_message();
+        EXPECT_EQ(dance.answer.Join().count, seconds * 10 * kFramesOfGrant);
+        const std::lock_guard lock(mutex);
+        lateness.insert(lateness.end(), dance.lateness.begin(), dance.lateness.end());
+      });
+    }
+  }
+  over = true;
+  greedy.join();
+  std::cout << "beside one who takes " << GetParam().name << " nine dance on: frames p50 "
+            << Milliseconds(lateness, 0.5) << " ms and p99 " << Milliseconds(lateness, 0.99)
+            << " ms behind their grants\n";
+  ExpectIdle();
+}
+
+INSTANTIATE_TEST_SUITE_P(Beside, GreedyTest,
+                         testing::Values(Greed{"Nothing", [](const Victim&) {}},
+                                         Greed{"Calls", TakeCalls}, Greed{"Turns", TakeTurns},
+                                         Greed{"Slots", TakeSlots}, Greed{"Frames", TakeFrames},
+                                         Greed{"Memory", TakeMemory}, Greed{"Objects", TakeObjects},
+                                         Greed{"Connections", TakeConnections},
+                                         Greed{"Resets", TakeResets}),
+                         [](const auto& of) { return of.param.name; });
+
+}  // namespace
+}  // namespace choreo
