@@ -1,5 +1,6 @@
 #include "server/server.h"
 
+#include <grpc/grpc.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -117,6 +118,9 @@ struct Server::Impl {
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving, config.max_sleep_seconds),
         listener(config.listen) {
+    // Never taken back: the last grpc_shutdown of a process can wait ten seconds for gRPC's
+    // threads.
+    [[maybe_unused]] static const bool kept = (grpc_init(), true);
     grpc::EnableDefaultHealthCheckService(true);  // of every server in this process
     grpc::ServerBuilder builder;
     if (!config.reflection) builder.SetOption(std::make_unique<WithoutReflection>());

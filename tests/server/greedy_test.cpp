@@ -1,12 +1,12 @@
 #include <atomic>
 #include <functional>
 #include <iostream>
+#include <latch>
 #include <mutex>
 #include <thread>
 
 #include "server/read_message.h"
 #include "tests/server/fixture.h"
-#include "tests/server/http2.h"
 #include "tests/server/raw_call.h"
 #include "tests/server/real_time.h"
 #include "tests/server/silent_connections.h"
@@ -100,7 +100,7 @@ void TakeMemory(const Victim& victim) {
   std::vector<std::unique_ptr<DanceClient>> dances;
   while (!victim.over()) {
     auto dance = std::make_unique<DanceClient>(*victim.stub);
-    v1::DanceConfig config = ConfigOf(0);
+    v1::DanceConfig config = ConfigOf(100);
     config.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
     dance->Send(config);
     if (dances.size() > 24) dances.erase(dances.begin());
@@ -119,14 +119,8 @@ void TakeObjects(const Victim& victim) {
 }
 
 void TakeConnections(const Victim& victim) {
-  while (!victim.over()) {
-    const SilentConnections silent("127.0.0.1:" + std::to_string(victim.port), 200);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-}
-
-void TakeResets(const Victim& victim) {
-  while (!victim.over()) Http2(victim.port).Reset(1'000);
+  const SilentConnections silent("127.0.0.1:" + std::to_string(victim.port), 400);
+  while (!victim.over()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 class GreedyTest : public ServerTest, public testing::WithParamInterface<Greed> {};
@@ -138,12 +132,18 @@ TEST_P(GreedyTest, NineDanceOn) {
   std::vector<double> lateness;  // lock: mutex
   std::atomic<bool> over = false;
   const Victim victim{server->port(), channel, &stub(), [&over] { return over.load(); }};
-  std::thread greedy([&] { GetParam().take(victim); });
+  std::latch dancing(kDancers);
+  std::thread greedy([&] {
+    dancing.wait();
+    GetParam().take(victim);
+  });
   {
     std::vector<std::jthread> dancers;
     for (int i = 0; i < kDancers; ++i) {
       dancers.emplace_back([&] {
         const auto own = StubOfAnotherAddress(server->port());
+        DanceInRealTime(*own, Config(), 1);
+        dancing.arrive_and_wait();
         const RealTimeDance dance = DanceInRealTime(*own, Config(), seconds * 10);
         EXPECT_TRUE(dance.answer.status.ok()) << dance.answer.status.error_message();
         EXPECT_EQ(dance.answer.Join().count, seconds * 10 * kFramesOfGrant);
@@ -165,8 +165,7 @@ INSTANTIATE_TEST_SUITE_P(Beside, GreedyTest,
                                          Greed{"Calls", TakeCalls}, Greed{"Turns", TakeTurns},
                                          Greed{"Slots", TakeSlots}, Greed{"Frames", TakeFrames},
                                          Greed{"Memory", TakeMemory}, Greed{"Objects", TakeObjects},
-                                         Greed{"Connections", TakeConnections},
-                                         Greed{"Resets", TakeResets}),
+                                         Greed{"Connections", TakeConnections}),
                          [](const auto& of) { return of.param.name; });
 
 }  // namespace

@@ -59,19 +59,22 @@ class Http2 {
     }
     return true;
   }
-  /// Begins so many calls and resets each at once, as fast as they can be sent.
-  void Reset(int calls) {
+  /// Begins so many calls and resets each at once, as fast as they can be sent; how many were sent
+  /// before the server closed the connection.
+  int Reset(int calls) {
     constexpr int kAtOnce = 100;
     uint32_t stream = 1;
-    for (int i = 0; i < calls; i += kAtOnce) {
+    int begun = 0;
+    for (; begun < calls; begun += kAtOnce) {
       std::string bytes;
       for (int k = 0; k < kAtOnce; ++k, stream += 2) {
         bytes +=
             Call(stream, "StreamDance") + Frame(kReset, 0, stream, std::string("\0\0\0\x08", 4));
       }
-      if (!Send(bytes)) return;
+      if (!Send(bytes)) break;
       Drain();
     }
+    return begun;
   }
   /// Reads what has come, and drops it.
   void Drain() {

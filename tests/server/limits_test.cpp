@@ -132,6 +132,24 @@ TEST_F(LimitsTest, CompressedRequestsAreRefused) {
   ExpectIdle();
 }
 
+// It is told to go (GOAWAY) and goes once its dance is over; the next call has another connection.
+TEST_F(LimitsTest, AnOldConnectionTakesNoNewCalls) {
+  Start(16, [](ServerConfig& config) { config.max_connection_seconds = 0.2; });
+  DanceClient dance(stub());
+  v1::DanceConfig config = Config();
+  config.set_frames(60);
+  dance.Send(config);
+  dance.SendGenerateUntil(30);
+  ASSERT_TRUE(dance.ReadFrames(30));
+  ExpectEventually([&] { return channel->GetState(false) != GRPC_CHANNEL_READY; }, "it is told");
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(5);
+  EXPECT_TRUE(Generate(request).status.ok());
+  EXPECT_EQ(dance.Finish().Join().count, 60);
+  EXPECT_TRUE(dance.answer().status.ok());
+}
+
 // As gRPC's SETTINGS say: HTTP/2, RFC 9113, 6.5.
 TEST_F(LimitsTest, AConnectionHasSoManyCalls) {
   Start(16, [](ServerConfig& config) { config.max_streams = 7; });

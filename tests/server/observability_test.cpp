@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "client/cli/local_server.h"
@@ -127,6 +130,42 @@ TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
   EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 42);
   EXPECT_EQ(Figure("choreo_step_seconds_count" + of_fake), 42);
   EXPECT_EQ(Figure("choreo_load" + of_fake), 0);
+}
+
+// Each series of a query, with the labels that it is summed by.
+TEST_F(MetricsTest, TheDashboardAsksForWhatThereIs) {
+  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  const std::string all = Metrics();
+  std::ifstream file(std::filesystem::path(SOURCE_FOLDER) / "docker/grafana.json");
+  const nlohmann::json dashboard = nlohmann::json::parse(file);
+  const auto expect_label = [&](const std::string& series, const std::string& label) {
+    const size_t at = all.find('\n' + series + '{');
+    EXPECT_THAT(all.substr(at, all.find('\n', at + 1) - at), HasSubstr(label + "=\""))
+        << series << " has no label " << label;
+  };
+  int asked = 0;
+  for (const auto& panel : dashboard.at("panels")) {
+    for (const auto& target : panel.at("targets")) {
+      const std::string query = target.at("expr");
+      SCOPED_TRACE(query);
+      std::string series;
+      const std::regex names("choreo_[a-z_]+");
+      for (auto at = std::sregex_iterator(query.begin(), query.end(), names);
+           at != std::sregex_iterator(); ++at, ++asked) {
+        series = at->str();
+        EXPECT_TRUE(all.find('\n' + series + '{') != all.npos ||
+                    all.find('\n' + series + ' ') != all.npos)
+            << "nobody exports " << series;
+      }
+      std::smatch by;
+      if (!std::regex_search(query, by, std::regex("by *\\(([a-z_, ]+)\\)"))) continue;
+      std::stringstream labels(by[1].str());
+      for (std::string label; std::getline(labels >> std::ws, label, ',');) {
+        if (label != "le") expect_label(series, label);
+      }
+    }
+  }
+  EXPECT_GT(asked, 20);
 }
 
 // An alert on a rate sees the first failure only where the series was there before.

@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <grpcpp/create_channel_posix.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -67,6 +69,8 @@ inline std::unique_ptr<v1::Choreography::Stub> StubOfAnotherAddress(int port) {
   EXPECT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&own), sizeof own), 0);
   EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&server), sizeof server), 0);
   fcntl(fd, F_SETFL, O_NONBLOCK);
+  const int at_once = 1;  // as gRPC's own connections
+  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
   return v1::Choreography::NewStub(grpc::CreateInsecureChannelFromFd("choreod", fd));
 }
 
