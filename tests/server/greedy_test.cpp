@@ -31,6 +31,8 @@ struct Victim {
 struct Greed {
   const char* name;
   void (*take)(const Victim& victim);
+
+  friend void PrintTo(const Greed& greed, std::ostream* out) { *out << greed.name; }
 };
 
 v1::DanceConfig ConfigOf(int frames) {
