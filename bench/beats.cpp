@@ -60,10 +60,12 @@ Live Hear(const std::vector<float>& mono) {
   Live live;
   int transitions = 0, with = 0;
   const auto begin = std::chrono::steady_clock::now();
-  for (int64_t from = 0; from < feed.ready(); from += kTransition, ++transitions)
+  for (int64_t from = 0; from + kTransition <= feed.ready(); from += kTransition, ++transitions) {
     with += !music.Around(from, from + kTransition).empty();
+    for (int64_t frame = from; frame < from + kTransition; ++frame) music.Of(frame);
+  }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  for (const MusicBeat& beat : music.known()) live.beats.push_back(beat.seconds);
+  live.beats = music.told();
   live.certain = static_cast<double>(with) / transitions;
   live.milliseconds = 1000 * spent.count() / transitions;
   return live;

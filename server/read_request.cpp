@@ -24,9 +24,9 @@ int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string&
                                    ", " + std::to_string(most) + "]");
 }
 
-void CheckBeat(double beat, const std::string& field) {
-  if (beat >= 0 && beat <= kMaxAudioSeconds) return;
-  throw InvalidArgument(field, Show(beat) + " s is not in [0, " + Show(kMaxAudioSeconds) + "]");
+void CheckBeat(double beat, double most, const std::string& field) {
+  if (beat >= 0 && beat <= most) return;
+  throw InvalidArgument(field, Show(beat) + " s is not in [0, " + Show(most) + "]");
 }
 
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
@@ -69,7 +69,8 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
   continuation.audio_from_sample = message.audio_from_sample();
   if (message.has_last_beat()) {
     continuation.last_beat = message.last_beat();
-    CheckBeat(message.last_beat(), field + ".last_beat");
+    // Beats go on behind the music's end, as far as the transition that was told of them.
+    CheckBeat(message.last_beat(), kMaxDanceFrames / model.fps, field + ".last_beat");
   }
   if (message.stage_size() > 0) {
     CheckSize(message.stage_size(), 2, "[x, z]", field + ".stage");
@@ -264,7 +265,7 @@ std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times
         field, std::to_string(times.size()) + " beats, the limit is " + std::to_string(kMostBeats));
   }
   for (int i = 0; i < times.size(); ++i) {
-    CheckBeat(times[i], At(field, i));
+    CheckBeat(times[i], kMaxAudioSeconds, At(field, i));
     if (i > 0 && times[i] <= times[i - 1]) {
       throw InvalidArgument(At(field, i), Show(times[i]) + " s is not after the beat before it, " +
                                               Show(times[i - 1]) + " s");

@@ -70,10 +70,8 @@ void DanceChain::SetControls(const ControlRequest& request, const std::string& f
 void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::string& field) {
   Change([&](Timeline& timeline) {
     const int64_t from = timeline.Frontier(field);
-    const auto ahead = std::ranges::lower_bound(seconds, Seconds(from));
-    beats_.Give({ahead, seconds.end()}, from, field);
-    if (ahead == seconds.begin()) return;
-    Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), ahead - seconds.begin(), from));
+    if (const int64_t late = beats_.Give(seconds, from, field); late > 0)
+      Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from));
   });
 }
 
@@ -233,7 +231,7 @@ void DanceChain::Post(const DanceEvent& event) {
 void DanceChain::PostContinuation() {
   Continuation continuation{next_frame_, history_, model_.fingerprint};
   if (audio_) continuation.audio_from_sample = ResumeSample(config_, next_frame_, model_);
-  continuation.last_beat = beats_.Last(next_frame_);
+  continuation.last_beat = beats_.last();
   continuation.stage = stage_;
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);
@@ -244,7 +242,7 @@ void DanceChain::Summarise() {
   over_ = true;
   if (const auto warning = controls_.BehindEnd(next_frame_)) Post(*warning);
   std::vector<double> beats;
-  for (const MusicBeat& beat : beats_.known()) beats.push_back(beat.seconds * model_.fps);
+  for (const double second : beats_.told()) beats.push_back(second * model_.fps);
   const QualityReport report = meter_.Report(beats);
   if (const auto warning = controls_.SpeedsMissed(report)) Post(*warning);
   mailbox_.Post([report](DanceSink& sink) { sink.OnSummary(report); });

@@ -62,7 +62,6 @@ class DanceChain::Job : public ScheduledTransition {
         if (failure != nullptr && !retired_) {
           chain_->Fail(*failure);
         } else {
-          chain_->beats_.Cut(chain_->next_frame_);
           chain_->timeline_.Finish();
           if (danced() > 0) chain_->PostContinuation();
           chain_->Advance(/*inherits=*/true);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <utility>
 
 #include "model/audio/pulse.h"
@@ -13,6 +13,7 @@ namespace choreo {
 namespace {
 
 constexpr double kOnsetOverMedian = 2;  // an onset is so much above what the music mostly has
+constexpr double kPauseSeconds = 1.5;   // from beat to beat, and the music pauses
 
 // Whether the music rose in the frame of a beat or in the one before.
 bool HasOnset(const AudioFeed& audio, int64_t frame) {
@@ -24,19 +25,34 @@ bool HasOnset(const AudioFeed& audio, int64_t frame) {
   return here > kOnsetOverMedian * *median;
 }
 
+// How far a beat is from the nearer one beside it; 0 where it stands alone.
+double StepAt(const std::vector<double>& seconds, size_t i) {
+  double step = std::numeric_limits<double>::infinity();
+  if (i > 0) step = seconds[i] - seconds[i - 1];
+  if (i + 1 < seconds.size()) step = std::min(step, seconds[i + 1] - seconds[i]);
+  return step > kPauseSeconds ? 0 : step;
+}
+
 }  // namespace
 
 MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
                        const AudioFeed* audio)
-    : fps_(fps), audio_(audio), hears_(audio != nullptr && given.empty()), count_(given.size()) {
-  if (hears_ && last) known_.push_back({*last, MusicBeat::Source::kPredicted});
+    : fps_(fps),
+      audio_(audio),
+      hears_(audio != nullptr && given.empty()),
+      count_(given.size()),
+      last_(last) {
   Replace(given, MusicBeat::Source::kGiven);
 }
 
-void MusicBeats::Replace(const std::vector<double>& seconds, MusicBeat::Source source) {
+void MusicBeats::Replace(std::span<const double> seconds, MusicBeat::Source source) {
   if (seconds.empty()) return;
-  std::erase_if(known_, [&](const MusicBeat& beat) { return beat.seconds >= seconds.front(); });
+  const double begin = seconds.front();
+  std::erase_if(known_, [begin](const MusicBeat& beat) { return beat.seconds >= begin; });
+  std::erase_if(spans_, [begin](const Span& span) { return span.begin >= begin; });
+  for (Span& span : spans_) span.end = std::min(span.end, begin);
   for (const double second : seconds) known_.push_back({second, source});
+  spans_.push_back({begin, seconds.back()});
 }
 
 void MusicBeats::Find(const std::vector<double>& seconds) {
@@ -45,75 +61,73 @@ void MusicBeats::Find(const std::vector<double>& seconds) {
   Replace(seconds, MusicBeat::Source::kFound);
 }
 
-void MusicBeats::Give(std::vector<double> seconds, int64_t from, const std::string& field) {
-  if (seconds.empty()) return;
+int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const std::string& field) {
   if (count_ + seconds.size() > kMostBeats) {
     throw InvalidArgument(field, "bring the dance's beats to " +
                                      std::to_string(count_ + seconds.size()) + ", the limit is " +
                                      std::to_string(kMostBeats));
   }
   count_ += seconds.size();
-  given_.push_back({from, std::move(seconds)});
-}
-
-void MusicBeats::Cut(int64_t frame) {
-  const double end = static_cast<double>(frame) / fps_;
-  std::erase_if(known_, [end](const MusicBeat& beat) {
-    return beat.source == MusicBeat::Source::kPredicted && beat.seconds >= end;
-  });
-}
-
-bool MusicBeats::HearsFrom(int64_t frame) const {
-  // What is known ahead was given.
-  return hears_ && (known_.empty() || known_.back().seconds < static_cast<double>(frame) / fps_);
+  const auto ahead = std::ranges::lower_bound(seconds, Seconds(from));
+  if (ahead != seconds.end()) given_.push_back({from, {ahead, seconds.end()}});
+  return ahead - seconds.begin();
 }
 
 std::vector<double> MusicBeats::Around(int64_t from, int64_t to) {
   for (; !given_.empty() && given_.front().from <= from; given_.pop_front())
     Replace(given_.front().seconds, MusicBeat::Source::kGiven);
-  if (HearsFrom(from)) return Predict(from, to);
+  std::vector<MusicBeat> beats = known_;
+  if (hears_) Predict(from, to, &beats);
   std::vector<double> seconds;
-  for (const MusicBeat& beat : known_) seconds.push_back(beat.seconds);
+  for (const MusicBeat& beat : beats) seconds.push_back(beat.seconds);
+
+  ahead_.clear();
+  std::optional<double> last = last_;
+  const auto behind =
+      static_cast<size_t>(std::ranges::lower_bound(seconds, Seconds(from)) - seconds.begin());
+  // Where beats were told before, the last one before this transition may have been left out.
+  for (size_t i = last && behind > 0 ? behind - 1 : behind; i < beats.size(); ++i) {
+    if (last && seconds[i] - *last <= 0.5 * StepAt(seconds, i)) continue;  // told a little earlier
+    ahead_.push_back(beats[i]);
+    last = seconds[i];
+  }
   return BeatsAround(seconds, fps_, from, static_cast<int>(to - from));
 }
 
-std::vector<double> MusicBeats::Predict(int64_t from, int64_t to) {
-  const Pulse pulse = HearPulse(audio_->Onsets(from));
-  if (!pulse.Certain()) return {};
-  std::vector<double> beats;
-  const auto frames = static_cast<double>(to - from);
-  // One before the first frame, one behind the last. The last row heard is that before `from`.
-  double beat = pulse.next - 1;
-  while (beat >= 0) beat -= pulse.period;
-  for (;; beat += pulse.period) {
-    beats.push_back(beat);
-    if (beat >= frames) return beats;
-    const double second = (static_cast<double>(from) + beat) / fps_;
-    // The transition before may have put a beat here already.
-    const bool near = !known_.empty() && second - known_.back().seconds < 0.5 * pulse.period / fps_;
-    if (beat >= 0 && !near)
-      known_.push_back({second, MusicBeat::Source::kPredicted, pulse.confidence});
-  }
+bool MusicBeats::IsGiven(double seconds, double slack) const {
+  return std::ranges::any_of(spans_, [=](const Span& span) {
+    return seconds > span.begin - slack && seconds < span.end + slack;
+  });
 }
 
-std::vector<MusicBeat> MusicBeats::Of(int64_t frame) const {
-  const auto from = [this](int64_t of) {
-    return std::ranges::lower_bound(known_, static_cast<double>(of) / fps_, {},
-                                    &MusicBeat::seconds);
-  };
-  std::vector<MusicBeat> beats(from(frame), from(frame + 1));
-  for (MusicBeat& beat : beats) {
+void MusicBeats::Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const {
+  const Pulse pulse = HearPulse(audio_->Onsets(from));
+  if (!pulse.Certain()) return;
+  const auto frames = static_cast<double>(to - from);
+  const double slack = 0.5 * pulse.period / fps_;
+  // From one before the history's last frame to one behind the last. The last row heard is that
+  // before `from`.
+  double at = pulse.next - 1;
+  while (at > -1) at -= pulse.period;
+  for (bool is_behind = false; !is_behind; at += pulse.period) {
+    is_behind = at >= frames;
+    const double second = (static_cast<double>(from) + at) / fps_;
+    if (!IsGiven(second, slack))
+      beats->push_back({second, MusicBeat::Source::kPredicted, pulse.confidence});
+  }
+  std::ranges::stable_sort(*beats, {}, &MusicBeat::seconds);
+}
+
+std::vector<MusicBeat> MusicBeats::Of(int64_t frame) {
+  std::vector<MusicBeat> beats;
+  for (; !ahead_.empty() && ahead_.front().seconds < Seconds(frame + 1); ahead_.pop_front()) {
+    MusicBeat& beat = beats.emplace_back(ahead_.front());
     if (beat.source == MusicBeat::Source::kPredicted && HasOnset(*audio_, frame))
       beat.source = MusicBeat::Source::kHeard;
+    told_.push_back(beat.seconds);
+    last_ = beat.seconds;
   }
   return beats;
-}
-
-std::optional<double> MusicBeats::Last(int64_t frame) const {
-  const auto behind =
-      std::ranges::lower_bound(known_, static_cast<double>(frame) / fps_, {}, &MusicBeat::seconds);
-  if (!hears_ || behind == known_.begin()) return std::nullopt;
-  return std::prev(behind)->seconds;
 }
 
 }  // namespace choreo

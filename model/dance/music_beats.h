@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,57 +29,69 @@ struct MusicBeat {
   double confidence = 1;  ///< of the pulse that it was predicted by, 0 to 1; 1 otherwise
 };
 
-/// Where the music of a dance beats. Beats are given or found; a dance that is given none asks the
-/// music for its pulse (HearPulse) at the begin of each transition: the 12 s before its first
-/// frame, and nothing behind, say where its beats are. So beats are a function of the ordered
-/// messages and of the samples, not of when these come. Not thread-safe.
+/// Where the music of a dance beats. Beats are given or found; where none are, a dance that is
+/// given none beforehand asks the music for its pulse (HearPulse) at the begin of each transition:
+/// the 12 s before its first frame, and nothing behind, say where its beats are. So the beats of a
+/// transition are a function of the ordered messages and of the samples before it; those of the
+/// transitions before it leave nothing behind but last(). Not thread-safe.
 class MusicBeats {
  public:
   /// `audio`: of the dance, or null, when there is nothing to hear. `last`: of a dance that goes
-  /// on, the last beat before its first frame, as Last had it.
+  /// on, last() at its first frame.
   MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
              const AudioFeed* audio);
 
   /// In the whole music; in place of all, and nothing is heard any more.
   void Find(const std::vector<double>& seconds);
 
-  /// From the first of them on in place of what was known, for transitions that begin at `from` or
-  /// later; `from` never shrinks from call to call. Behind the last of them beats are heard again.
+  /// Ascending. From the first of them to the last they hold in place of what was given or heard,
+  /// and none given before lies behind them, for transitions that begin at `from` or later; `from`
+  /// never shrinks from call to call. Those before `from` are late, and left out; returns how many.
   /// Throws Error(kInvalidArgument) beyond kMostBeats.
-  void Give(std::vector<double> seconds, int64_t from, const std::string& field);
-  /// The transition that was told of beats at `frame` and behind it stops there.
-  void Cut(int64_t frame);
+  int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field);
 
-  /// Those of the transition of the frames [from, to), as TransitionRequest::beats. In order of
-  /// time, once each. Rows before `from` must be ready.
+  /// A transition of the frames [from, to) begins: its beats as TransitionRequest::beats. In order
+  /// of time. Rows before `from` must be ready.
   std::vector<double> Around(int64_t from, int64_t to);
 
-  /// Those of a frame whose row is ready, and whose transition began.
-  std::vector<MusicBeat> Of(int64_t frame) const;
+  /// What is told with a frame of that transition whose row is ready; each frame is asked for once,
+  /// in order. Every beat is told once: that which one transition puts before its boundary and the
+  /// next one behind it, too, and that which either leaves to the other, which comes with the first
+  /// frame behind it.
+  std::vector<MusicBeat> Of(int64_t frame);
 
-  /// The last one before `frame`, in seconds, which a dance that is to go on from there has to
-  /// know; none where nothing is heard.
-  std::optional<double> Last(int64_t frame) const;
+  /// The last one told, in seconds: all that a dance which is to go on from here has to know.
+  const std::optional<double>& last() const { return last_; }
 
-  /// All so far, ascending.
-  const std::vector<MusicBeat>& known() const { return known_; }
+  /// All that were told, seconds, ascending.
+  const std::vector<double>& told() const { return told_; }
 
  private:
+  // What one Give said.
   struct Given {
     int64_t from;
     std::vector<double> seconds;
   };
+  // Seconds in which only given beats count.
+  struct Span {
+    double begin, end;
+  };
 
-  bool HearsFrom(int64_t frame) const;
-  void Replace(const std::vector<double>& seconds, MusicBeat::Source source);
-  std::vector<double> Predict(int64_t from, int64_t to);
+  double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
+  void Replace(std::span<const double> seconds, MusicBeat::Source source);
+  bool IsGiven(double seconds, double slack) const;
+  void Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const;
 
   double fps_;
   const AudioFeed* audio_;
   bool hears_;
-  std::vector<MusicBeat> known_;
-  std::deque<Given> given_;  // not yet in known_
-  size_t count_ = 0;         // of all that was given
+  std::vector<MusicBeat> known_;  // given or found, for the transition and those behind it
+  std::vector<Span> spans_;
+  std::deque<Given> given_;      // not yet in known_
+  size_t count_ = 0;             // of all that was given
+  std::deque<MusicBeat> ahead_;  // of the transition, still to be told
+  std::optional<double> last_;
+  std::vector<double> told_;
 };
 
 }  // namespace choreo

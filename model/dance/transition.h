@@ -85,7 +85,7 @@ struct Continuation {
   std::string fingerprint;  ///< of the model and build that danced
   /// First sample that who goes on from here has to hear; none: nobody says.
   std::optional<int64_t> audio_from_sample = {};
-  std::optional<double> last_beat = {};       ///< MusicBeats::Last at this frame
+  std::optional<double> last_beat = {};       ///< MusicBeats::last at this frame
   std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, its height unread
 };
 

@@ -15,26 +15,46 @@ namespace {
 // Of a song that beats every half second.
 double Off(double seconds) { return std::abs(seconds - 0.5 * std::round(2 * seconds)); }
 
+// 22 050 Hz.
+std::vector<float> Drum(double seconds, double period) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> noise(-0.01F, 0.01F);
+  std::vector<float> samples(static_cast<size_t>(22050 * seconds));
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const double t = static_cast<double>(i) / 22050, since = std::fmod(t + period, period);
+    samples[i] =
+        static_cast<float>(0.6 * std::exp(-40 * since) * std::sin(560 * since)) + noise(random);
+  }
+  return samples;
+}
+
 TEST(MusicBeats, ALiveDanceHearsThem) {
   const auto scheduler = FakeScheduler();
-  const Recording recording = Perform(*scheduler, LiveDance(41, 20));
-  ASSERT_TRUE(recording.summary);
-  ASSERT_FALSE(recording.beats.empty());
-  EXPECT_LT(recording.beats.front().seconds, 6);
-  size_t heard = 0, late = 0;
-  for (size_t i = 0; i < recording.beats.size(); ++i) {
-    const MusicBeat& beat = recording.beats[i];
-    EXPECT_LT(Off(beat.seconds), 0.07) << beat.seconds;
-    EXPECT_GT(beat.confidence, 0);
-    if (i > 0) {
-      EXPECT_NEAR(beat.seconds - recording.beats[i - 1].seconds, 0.5, 0.07);
+  for (const bool keyed : {true, false}) {
+    Dance dance = LiveDance(41, 20);
+    if (!keyed) {  // then each fourth beat is on a boundary
+      dance.keys.clear();
+      dance.samples = Drum(20, 0.5);
     }
-    heard += beat.source == MusicBeat::Source::kHeard;
-    late += beat.seconds >= 8;
+    const Recording recording = Perform(*scheduler, dance);
+    ASSERT_TRUE(recording.summary);
+    ASSERT_FALSE(recording.beats.empty());
+    EXPECT_LT(recording.beats.front().seconds, keyed ? 6 : 7);  // with a transition, at 6 s
+    size_t heard = 0, late = 0;
+    for (size_t i = 0; i < recording.beats.size(); ++i) {
+      const MusicBeat& beat = recording.beats[i];
+      EXPECT_LT(Off(beat.seconds), 0.07) << beat.seconds;
+      EXPECT_GT(beat.confidence, 0);
+      if (i > 0) {
+        EXPECT_NEAR(beat.seconds - recording.beats[i - 1].seconds, 0.5, 0.07);
+      }
+      heard += beat.source == MusicBeat::Source::kHeard;
+      late += beat.seconds >= 8;
+    }
+    EXPECT_GE(late, 23U);
+    EXPECT_GT(heard, recording.beats.size() / 2);
+    EXPECT_TRUE(recording.summary->beat_hit_rate);
   }
-  EXPECT_GE(late, 23U);
-  EXPECT_GT(heard, recording.beats.size() / 2);
-  EXPECT_TRUE(recording.summary->beat_hit_rate);
 }
 
 // What is told is what is danced to.
@@ -142,6 +162,63 @@ TEST(MusicBeats, AreBoundedAndComeBeforeTheKeysAreComplete) {
   ExpectError(ErrorCode::kInvalidArgument, "music_beats[1].times", [&] { stream.GiveBeats({1}); });
   stream.KeysComplete();
   ExpectError(ErrorCode::kInvalidArgument, "music_beats[1].times", [&] { stream.GiveBeats({1}); });
+}
+
+// Whatever the tempo, and wherever the dance is cut into transitions, also into those of which only
+// a part is danced: on a boundary, too.
+TEST(MusicBeats, AreToldOnceEach) {
+  for (int bpm = 60; bpm <= 145; bpm += 5) {
+    const double period = 60.0 / bpm;
+    const double step = bpm < 70 ? period / 2 : period;  // so slow a pulse is counted by halves
+    AudioFeed feed(22050, 1, 0);
+    feed.Push(Drum(30, period), 0, [] {});
+    feed.Finish();
+    for (const bool cut : {false, true}) {
+      SCOPED_TRACE(std::to_string(bpm) + (cut ? ", cut" : ", whole"));
+      std::mt19937 random(static_cast<uint32_t>(bpm));
+      MusicBeats music(30, {}, std::nullopt, &feed);
+      for (int64_t from = 0, to = 0; from < 900; from = to) {
+        const int64_t frames = cut ? 1 + static_cast<int64_t>(random() % 100) : 60;
+        to = from + (cut ? 1 + static_cast<int64_t>(random()) % frames : frames);
+        music.Around(from, from + frames);
+        for (int64_t frame = from; frame < to; ++frame) music.Of(frame);
+      }
+      std::vector<double> told = music.told();
+      std::erase_if(told, [](double second) { return second < 8; });
+      ASSERT_GT(told.size(), 20U);
+      for (size_t i = 1; i < told.size(); ++i)
+        EXPECT_NEAR(told[i] - told[i - 1], step, 0.1 * step) << "before " << told[i];
+    }
+  }
+}
+
+// Until the first one given and behind the last: what was said ahead silences nothing before it.
+TEST(MusicBeats, AreHeardBesideThoseGiven) {
+  AudioFeed feed(22050, 1, 0);
+  feed.Push(Song(22050, 20), 0, [] {});
+  feed.Finish();
+  MusicBeats music(30, {}, std::nullopt, &feed);
+  EXPECT_EQ(music.Give(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
+  EXPECT_EQ(music.Give(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
+  std::vector<MusicBeat> beats;
+  for (int64_t from = 224; from < 524; from += 60) {
+    music.Around(from, from + 60);
+    for (int64_t frame = from; frame < from + 60; ++frame)
+      for (const MusicBeat& beat : music.Of(frame)) beats.push_back(beat);
+  }
+  std::vector<double> given;
+  for (size_t i = 0; i < beats.size(); ++i) {
+    if (beats[i].source == MusicBeat::Source::kGiven) {
+      given.push_back(beats[i].seconds);
+    } else {
+      EXPECT_LT(Off(beats[i].seconds), 0.07) << beats[i].seconds;
+    }
+    if (i == 0) continue;
+    EXPECT_NEAR(beats[i].seconds - beats[i - 1].seconds, 0.5, 0.3) << beats[i].seconds;
+  }
+  EXPECT_EQ(given, (std::vector<double>{11.7, 12.2, 12.4, 12.9}));
+  EXPECT_LT(beats.front().seconds, 8.1);
+  EXPECT_GT(beats.back().seconds, 16.5);
 }
 
 // Only what lies before a transition says where it beats.

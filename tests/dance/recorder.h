@@ -25,6 +25,7 @@ struct Recording {
   std::vector<DanceWarning> warnings;
   std::vector<MusicBeat> beats;
   std::vector<Continuation> continuations;
+  std::vector<size_t> beats_before;  ///< each continuation
   std::optional<QualityReport> summary;
   std::optional<Error> error;
   bool in_order = true;     ///< no gap between frames
@@ -63,6 +64,7 @@ class Recorder : public DanceSink {
     std::lock_guard lock(mutex_);
     Note();
     recording_.continuations.push_back(continuation);
+    recording_.beats_before.push_back(recording_.beats.size());
     changed_.notify_all();
   }
   void OnSummary(const QualityReport& report) override {

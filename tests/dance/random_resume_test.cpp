@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <random>
+#include <vector>
+
+#include "tests/dance/dances.h"
+
+/// Live dances of messages in random order, taken up again wherever they can be.
+namespace choreo {
+namespace {
+
+constexpr int64_t kFrames = 420;
+
+using Message = std::function<void(DanceStream&)>;
+
+/// What clients say that make mistakes.
+Message Tried(Message message) {
+  return [message = std::move(message)](DanceStream& stream) {
+    try {
+      message(stream);
+    } catch (const Error&) {  // a key too near to another one, or one that nobody knows
+    }
+  };
+}
+
+Message RandomMessage(int64_t granted, std::mt19937& random) {
+  const auto ahead = [&](int64_t least, int64_t most) {
+    const auto range = static_cast<uint32_t>(most - least + 1);
+    return std::max<int64_t>(0, granted + least + static_cast<int64_t>(random() % range));
+  };
+  const std::string id(1, static_cast<char>('a' + random() % 8));
+  switch (random() % 8) {
+    case 0:
+    case 1: {
+      const Key key{id, std::min(ahead(-10, 120), kFrames - 1), RandomPose(random), {}};
+      return [key](DanceStream& stream) { SendKey(stream, key); };
+    }
+    case 2:
+      return [id](DanceStream& stream) { stream.RemoveKey(id); };
+    case 3: {
+      ControlRequest request;
+      request.velocity_factors.emplace().values = {0.5F +
+                                                   0.01F * static_cast<float>(random() % 100)};
+      return [request](DanceStream& stream) { stream.SetControls(request); };
+    }
+    default: {
+      std::vector<double> beats{static_cast<double>(ahead(-10, 200)) / 30};
+      for (auto more = random() % 8; more > 0; --more) beats.push_back(beats.back() + 0.45);
+      return [beats](DanceStream& stream) { stream.GiveBeats(beats); };
+    }
+  }
+}
+
+std::vector<Message> RandomMessages(std::mt19937& random) {
+  constexpr std::array<int64_t, 6> kStrides{1, 2, 5, 9, 20, 60};
+  std::vector<Message> messages;
+  for (int64_t granted = 0; granted < kFrames;) {
+    for (auto more = random() % 3; more > 0; --more)
+      messages.push_back(Tried(RandomMessage(granted, random)));
+    granted = std::min(kFrames, granted + kStrides[random() % kStrides.size()]);
+    messages.push_back([granted](DanceStream& stream) { stream.GenerateUntil(granted); });
+  }
+  return messages;
+}
+
+Recording Play(Scheduler& scheduler, const Dance& dance, const DanceConfig& config,
+               const std::vector<Message>& messages) {
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(scheduler, config, sink);
+  for (const Message& message : messages) message(stream);
+  SendSong(stream, dance, config.audio->first_sample);
+  stream.HalfClose();
+  return sink->WaitForEnd();
+}
+
+void ExpectTheRestOf(const Recording& whole, size_t place, const Recording& rest) {
+  ASSERT_TRUE(rest.summary) << rest.error->what();
+  EXPECT_TRUE(SameDance(whole, rest));
+  const size_t told = whole.beats_before[place];
+  ASSERT_EQ(rest.beats.size(), whole.beats.size() - told);
+  for (size_t i = 0; i < rest.beats.size(); ++i) {
+    EXPECT_EQ(rest.beats[i].seconds, whole.beats[told + i].seconds);
+    EXPECT_EQ(rest.beats[i].source, whole.beats[told + i].source);
+    EXPECT_EQ(rest.beats[i].confidence, whole.beats[told + i].confidence);
+  }
+  ASSERT_EQ(rest.continuations.size(), whole.continuations.size() - place - 1);
+  for (size_t i = 0; i < rest.continuations.size(); ++i) {
+    const Continuation& expected = whole.continuations[place + 1 + i];
+    EXPECT_EQ(rest.continuations[i].frame, expected.frame);
+    EXPECT_EQ(rest.continuations[i].last_beat, expected.last_beat);
+    EXPECT_EQ(rest.continuations[i].audio_from_sample, expected.audio_from_sample);
+  }
+}
+
+TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
+  std::vector<std::unique_ptr<StepEngine>> engines;
+  engines.push_back(std::make_unique<ControlledEngine>());
+  Scheduler scheduler(std::move(engines), Scheduler::Options{64, 64});
+  size_t resumes = 0, heard = 0, given = 0;
+  for (uint32_t seed = 1; seed <= 30; ++seed) {
+    std::mt19937 random(seed);
+    Dance dance = LiveDance(seed, 15);
+    dance.config.generate_until = 0;
+    dance.config.end_frame = kFrames;
+    const std::vector<Message> messages = RandomMessages(random);
+    const Recording whole = Play(scheduler, dance, dance.config, messages);
+    ASSERT_TRUE(whole.summary) << whole.error->what();
+    EXPECT_EQ(std::ranges::adjacent_find(whole.beats, std::greater_equal(), &MusicBeat::seconds),
+              whole.beats.end())
+        << "told twice, seed " << seed;
+    for (const MusicBeat& beat : whole.beats)
+      ++(beat.source == MusicBeat::Source::kGiven ? given : heard);
+    for (size_t place = 0; place + 1 < whole.continuations.size(); ++place) {
+      const Continuation& continuation = whole.continuations[place];
+      SCOPED_TRACE("seed " + std::to_string(seed) + " from " + std::to_string(continuation.frame));
+      DanceConfig config = dance.config;
+      config.continuation = continuation;
+      config.audio->first_sample = *continuation.audio_from_sample;
+      ExpectTheRestOf(whole, place, Play(scheduler, dance, config, messages));
+      ++resumes;
+    }
+  }
+  std::cout << resumes << " resumes of 30 dances with " << heard << " beats heard and " << given
+            << " given\n";
+  EXPECT_GT(resumes, 300U);
+  EXPECT_GT(heard, 200U);
+  EXPECT_GT(given, 300U);
+}
+
+}  // namespace
+}  // namespace choreo
