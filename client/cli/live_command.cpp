@@ -108,6 +108,8 @@ void Run(const LiveCommand& options) {
                                          " s is not behind what is settled already, --look-ahead " +
                                          InFull(options.look_ahead_s) + " s");
   }
+  // Before a server is started: whoever names the wrong file is told at once.
+  const std::unique_ptr<live::Sound> sound = OpenSound(options);
   const Connection connection(options.server);
   const client::ModelDescription& model = connection.model(options.model);
   live::LiveOptions dance;
@@ -120,7 +122,9 @@ void Run(const LiveCommand& options) {
   dance.most_keys = connection.server().limits.max_keyframes;
   const double most = connection.server().limits.max_audio_s;
   dance.seconds = std::min(options.seconds.value_or(most), most);
-  const DanceLength length{std::llround(dance.seconds * model.fps), model.fps};
+  // A song that ends before ends the dance.
+  const double longest = std::min(dance.seconds, sound->seconds());
+  const DanceLength length{std::max<int64_t>(1, std::llround(longest * model.fps)), model.fps};
   dance.keys = ReadDanceKeys(KeySources(options.keys), length, model.skeleton).poses;
   const std::vector<LibraryPose> poses = PosesToDance(model.skeleton);
   for (const LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;
@@ -134,7 +138,6 @@ void Run(const LiveCommand& options) {
     vmc.emplace(options.vmc, model.skeleton);
     observer.show = [&vmc](const Pose& pose, double seconds) { vmc->Send(pose, seconds); };
   }
-  const std::unique_ptr<live::Sound> sound = OpenSound(options);
   std::optional<live::MidiClock> midi;
   if (!options.midi_clock.empty()) midi.emplace(options.midi_clock);
   const Interruption interruption;
@@ -166,16 +169,18 @@ void AddLiveCommand(CLI::App& program) {
       "Each pose is danced on the first beat that is a second ahead. At a terminal, letters stand "
       "for poses of the library. Ends with the music, with Ctrl-C, or after the server's longest "
       "music.");
-  command
-      ->add_option(
-          "song", options->song,
-          "WAV, FLAC, Ogg or MP3 file to take for what sounds. Without one a microphone or "
-          "line in is listened to.")
-      ->check(CLI::ExistingFile);
+  CLI::Option* song =
+      command
+          ->add_option(
+              "song", options->song,
+              "WAV, FLAC, Ogg or MP3 file to take for what sounds. Without one a microphone or "
+              "line in is listened to.")
+          ->check(CLI::ExistingFile);
   AddSongStart(*command, options->song_start_s);
   command
       ->add_option("--input", options->input,
                    "Microphone or line in, by its name in ALSA; `arecord -L` lists them.")
+      ->excludes(song)
       ->capture_default_str();
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses that are known from the beginning, as `choreo dance` takes them; seconds "

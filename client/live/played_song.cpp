@@ -18,6 +18,9 @@ class PlayedSong final : public Sound {
 
   int sample_rate() const override { return song_.sample_rate; }
   int channels() const override { return song_.channels; }
+  double seconds() const override {
+    return static_cast<double>(song_.samples() - first_) / song_.sample_rate;
+  }
 
   std::span<const float> Next() override {
     using Clock = std::chrono::steady_clock;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@ class Sound {
   virtual ~Sound() = default;
   virtual int sample_rate() const = 0;  ///< Hz
   virtual int channels() const = 0;
+  /// How long it lasts; infinity: until somebody ends it.
+  virtual double seconds() const { return std::numeric_limits<double>::infinity(); }
   /// The next interleaved samples, once they have sounded; blocks until then. Valid until the next
   /// call. None: it is over. Throws Error(kUnavailable) for a device that is lost.
   virtual std::span<const float> Next() = 0;

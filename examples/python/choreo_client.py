@@ -92,7 +92,8 @@ class Requests:
             again.CopyFrom(request)
             if again.HasField("config"):
                 again.config.continuation.CopyFrom(continuation)
-                again.config.audio_format.first_sample = continuation.audio_from_sample
+                if again.config.HasField("audio_format"):
+                    again.config.audio_format.first_sample = continuation.audio_from_sample
             elif again.HasField("audio"):
                 early = max(0, continuation.audio_from_sample - again.audio.first_sample)
                 again.audio.data = again.audio.data[2 * early :]

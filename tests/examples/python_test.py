@@ -23,7 +23,7 @@ except ImportError:
     print("skipped: there is no grpcio here (scripts/install_packages.sh test)")
     sys.exit(int(os.environ.get("CHOREO_SKIP_CODE", 77)))
 
-from choreo_client import choreography, connect, field_violations, pose
+from choreo_client import Requests, choreography, connect, field_violations, pose
 from music import PCM, RATE, clicks
 
 
@@ -107,6 +107,20 @@ class PythonTest(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertRegex(done.stdout, r"goes on from frame \d+\n")
             self.assertEqual(json.loads(resumed.read_text()), json.loads(whole.read_text()))
+
+    def test_a_dance_without_music_goes_on_from_a_continuation(self):
+        def source():
+            yield {"config": choreography.DanceConfig(seed=3, frames=90)}
+            wanted = pose(self.info().models[0].skeleton, {"left_shoulder": [0, 0, 1]})
+            yield {"keyframe": choreography.Keyframe(id="up", frame=40, pose=wanted)}
+            yield {"keyframes_complete": choreography.KeyframesComplete()}
+
+        said = Requests(source())
+        answers = list(self.server.StreamDance(said.all()))
+        whole = [number for answer in answers for number in answer.frames.rotations]
+        continuation = next(answer.continuation for answer in answers if answer.HasField("continuation"))
+        rest = [number for answer in self.server.StreamDance(said.since(continuation)) for number in answer.frames.rotations]
+        self.assertEqual(rest, whole[len(whole) * continuation.frame // 90 :])
 
     def test_a_missing_song_is_named(self):
         done = program("stream_dance.py", "--song", "/absent/song.mp3")

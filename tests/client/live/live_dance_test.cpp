@@ -26,6 +26,7 @@ namespace choreo {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// Clicks that wait for nobody.
 class HastySound final : public live::Sound {
@@ -297,9 +298,23 @@ TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
   EXPECT_THAT(live(At("song.wav") + " -k none -k a.json").said,
               HasSubstr("--keyframes: none stands beside a.json"));
   EXPECT_EQ(live(At("song.wav") + " -k none").code, 0);
+  EXPECT_THAT(live(At("song.wav") + " --input default").said, HasSubstr("song excludes --input"));
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [{"time": 2, "pose": "kick"}]})";
+  EXPECT_THAT(live(At("song.wav") + " -k " + At("keys.json")).said,
+              HasSubstr("keys.json:keyframes[0].time: key \"key1\" at 2 s lies behind the dance's "
+                        "end: its last frame is at 0.97 s"));
   const OscReceiver taken;
   EXPECT_THAT(live(At("song.wav") + " --osc " + std::to_string(taken.port())).said,
               HasSubstr("--osc: port "));
+}
+
+// Nothing else is done for what can't be danced to.
+TEST_F(CommandTest, ALiveDanceReadsItsSongBeforeItAsksForAServer) {
+  std::ofstream(folder_ / "empty.wav").close();
+  const Outcome outcome = Choreo("live " + At("empty.wav") + " --server 127.0.0.1:1");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("empty.wav: "));
+  EXPECT_THAT(outcome.said, Not(HasSubstr("127.0.0.1")));
 }
 
 }  // namespace
