@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What live dances are worth: starts a choreod and prints up to three tables.
+"""What live dances are worth: starts a choreod and prints up to four tables.
 
-    live.py BIN_DIRECTORY [--songs SONG...] [--tables beats latency notice] [--data FOLDER --splits JSON] [--seconds 40]
+    live.py BIN_DIRECTORY [--songs SONG...] [--tables beats songs latency notice] [--data FOLDER --splits JSON] [--seconds 40]
 
 beats: how often dancers hit the beats of songs that are sent as PCM, whose beats are predicted while they play, against the same
 songs sent as files. A dancer's beats are the maxima of the mean joint speed, as in the server's report. Both are scored, from second 10 on,
@@ -9,12 +9,15 @@ by the tempo map beside the song (SONG.beats, seconds, one a line), or where the
 each by the beats that its own server told it. Chance is what the live dances hit of beats that are shifted by a random time. Songs are
 heard from their second 30 on.
 
+songs: how far apart two live dances are, that differ in their song alone: the mean distance of the joints, over all pairs of songs.
+
 latency: keys each 1, 2, 4 s come 3 s ahead and are changed 1 s ahead, and music plays in real time, in pieces of 0.1 s; frames are
 granted as far ahead of what plays as the table says. Lateness is behind the piece that holds the sample a frame needs.
 
 notice: what it costs that keys come late (live_notice.py), on clips that choreo-lab prepared, as /recordings/dancedb; only with --data.
 """
 import argparse
+import itertools
 import json
 import pathlib
 import queue
@@ -35,6 +38,7 @@ from music import PCM, RATE, clicks  # noqa: E402
 FPS = 30
 FROM_SECOND = 10  # the tracker has locked by then
 SKIPPED = 30  # of each song: many begin softly
+TABLES = ["beats", "songs", "latency", "notice"]
 POSES = sorted((ROOT / "client" / "poses").glob("*.json"))
 
 
@@ -170,6 +174,21 @@ def beats_table(server, songs, seconds, shift):
             print(f"| {name} | {whole:.2f} | {live:.2f} | {live / whole:.2f} | {chance} | {' | '.join(rest)} |", flush=True)
 
 
+# ------------------------------------------------------------------------------------------------------------------ songs
+
+
+def songs_table(server, songs, seconds):
+    print("\n| live dances, one seed | songs apart cm, least | median | most |")
+    print("|---|---|---|---|")
+    for keyed in (False, True):
+        apart = []
+        for seed in (1, 2, 3):
+            danced = [dance(server, PCM, samples_of(song, seconds), seconds, seed, keyed)[0] for song in songs]
+            apart += [100 * numpy.linalg.norm(one - other, axis=-1).mean() for one, other in itertools.combinations(danced, 2)]
+        figures = " | ".join(f"{value:.2f}" for value in numpy.percentile(apart, (0, 50, 100)))
+        print(f"| {'keys each 2 s' if keyed else 'no keys'} | {figures} |", flush=True)
+
+
 # ---------------------------------------------------------------------------------------------------------------- latency
 
 
@@ -237,7 +256,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--songs", nargs="*", default=[])
-    parser.add_argument("--tables", nargs="+", default=["beats", "latency", "notice"], choices=["beats", "latency", "notice"])
+    parser.add_argument("--tables", nargs="+", default=TABLES, choices=TABLES)
     parser.add_argument("--data", type=pathlib.Path, help="folder of prepared clips")
     parser.add_argument("--splits", type=pathlib.Path, help="which of them are held out, JSON")
     parser.add_argument("--split", default="validation")
@@ -248,6 +267,8 @@ def main():
     try:
         if "beats" in options.tables:
             beats_table(server, options.songs, options.seconds, options.shift)
+        if "songs" in options.tables and len(options.songs) > 1:
+            songs_table(server, options.songs, options.seconds)
         if "latency" in options.tables:
             latency_table(server)
         if "notice" in options.tables and options.data:

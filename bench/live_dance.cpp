@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "client/cli/pose_library.h"
+#include "model/core/error.h"
 
 namespace choreo::bench {
 namespace {
@@ -52,6 +53,7 @@ void Lateness::Add(const Lateness& other) {
   first_ms.insert(first_ms.end(), other.first_ms.begin(), other.first_ms.end());
   all_ms.insert(all_ms.end(), other.all_ms.begin(), other.all_ms.end());
   missed += other.missed;
+  refused_ms.insert(refused_ms.end(), other.refused_ms.begin(), other.refused_ms.end());
 }
 
 double Percentile(std::vector<double>& values, double share) {
@@ -102,6 +104,7 @@ Lateness DanceLive(const client::Client& client, const client::Audio& song,
   double fps = 30;
   int latency = 0;
   std::vector<Clock::time_point> arrivals;
+  Lateness lateness;
   try {
     while (const std::optional<client::Message> message = dance->Next()) {
       if (const auto* header = std::get_if<client::Header>(&*message)) {
@@ -111,13 +114,15 @@ Lateness DanceLive(const client::Client& client, const client::Audio& song,
         arrivals.insert(arrivals.end(), block->poses.size(), Clock::now());
       }
     }
-  } catch (...) {
+  } catch (const Error& error) {
+    const std::chrono::duration<double, std::milli> told = Clock::now() - start;
     player.join();
-    throw;
+    if (error.code() != ErrorCode::kResourceExhausted || !arrivals.empty()) throw;
+    lateness.refused_ms.push_back(told.count());
+    return lateness;
   }
   player.join();
 
-  Lateness lateness;
   for (size_t frame = 0; frame < arrivals.size(); ++frame) {
     const double needs_s = (static_cast<double>(frame) + latency) / fps;
     // Behind its end, the song's end is what is waited for.

@@ -23,6 +23,7 @@ struct Lateness {
   std::vector<double> first_ms;  ///< of first frames
   std::vector<double> all_ms;    ///< of all frames
   int missed = 0;
+  std::vector<double> refused_ms;  ///< of dances that were refused: until they were told
 
   void Add(const Lateness& other);
 };
@@ -36,7 +37,8 @@ client::Audio ClickSong(double seconds, int sample_rate, int channels);
 /// Key poses of the library each `key_each_s`, the last one 0.1 s before the song's end.
 void SendKeys(client::RemoteDance& dance, double seconds, double key_each_s);
 
-/// One dance to all of `song` (kPcmFloat). Blocks until its last frame came.
+/// One dance to all of `song` (kPcmFloat). Blocks until its last frame came, or the song is over
+/// where the server was full.
 Lateness DanceLive(const client::Client& client, const client::Audio& song,
                    const LiveRequest& request);
 

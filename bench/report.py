@@ -3,7 +3,8 @@
 
     report.py FOLDER ROOT
 
-FOLDER holds engine.json (engine_bench's medians), peer.json (peer_torch.py's), and what `load` printed: load.md, paper.md.
+FOLDER holds engine.json (engine_bench's medians), peer.json (peer_torch.py's), and what `load` printed: load.md with the server's defaults,
+room.md with room for many dances, paper.md with the model of paper F's size.
 Figures are kept in ROOT/bench/figures.json; ROOT/bench/notes.md says what eats the rest.
 """
 import json
@@ -43,14 +44,16 @@ def table_rows(text, first_column):
     return rows
 
 
-def load_figures(text, paper):
+def load_figures(text, room, paper):
     figures = {}
     for line in text.splitlines():
         if "idle streams:" in line:
             figures["load/idle KiB"] = float(line.split(":")[1].split()[0])
-    for row in table_rows(text, "streams"):
-        figures[f"load/live/{row[0]}/first p99 ms"] = float(row[2])
-        figures[f"load/live/{row[0]}/p99 ms"] = float(row[5])
+    for where, of in (("live", text), ("room", room)):
+        for streams, addresses, *_, first, _, _, late, _, _, _, _ in table_rows(of, "streams"):
+            if addresses == "1":
+                figures[f"load/{where}/{streams}/first p99 ms"] = float(first)
+                figures[f"load/{where}/{streams}/p99 ms"] = float(late)
     for row in table_rows(text, "dances at once,"):
         figures[f"load/closed/{row[0]}"] = float(row[2])
     for row in table_rows(paper, "dances at once,"):
@@ -110,7 +113,7 @@ def bars(figures, gpu):
     packed, bare = served[1], served[2]
     best = {name: max(figures[f"paper/{name}/{n}"] for n in STREAMS) for name in ("peer", served[3])}
     live = sorted((int(name.split("/")[2]), value) for name, value in figures.items()
-                  if name.startswith("load/live/") and name.endswith("/p99 ms") and "first" not in name)
+                  if name.startswith("load/room/") and name.endswith("/p99 ms") and "first" not in name)
     within = max((streams for streams, p99 in live if p99 < LIVE_LATENESS), default=0)
     rows = [
         ("`paper`, 1 stream ÷ eager PyTorch (float32)", figures[f"paper/{packed}/1"] / figures["paper/peer/1"], 8, 15, "x"),
@@ -166,8 +169,8 @@ def main(folder, root):
     folder, root = Path(folder), Path(root)
     engine = json.loads((folder / "engine.json").read_text())
     peer = json.loads((folder / "peer.json").read_text())
-    load, paper = ((folder / name).read_text() if (folder / name).exists() else "" for name in ("load.md", "paper.md"))
-    figures = engine_figures(engine) | load_figures(load, paper)
+    load, room, paper = ((folder / name).read_text() if (folder / name).exists() else "" for name in ("load.md", "room.md", "paper.md"))
+    figures = engine_figures(engine) | load_figures(load, room, paper)
     for model in ("paper",):
         for name in ("peer", "peer-bf16"):
             for n, rate in peer[model]["frames_a_second" + ("_bf16" if "bf16" in name else "")].items():
@@ -185,8 +188,11 @@ def main(folder, root):
     lines += bars(figures, context.get("gpu", ""))
     lines += ["## The engine beside its limits", ""] + network_tables(figures) + memory_lines(figures, engine)
     if load:
-        lines += ["## Through gRPC", "", "`load`: the clients, up to hundreds of threads, are on the same cores as the server. A frame is late by what it comes after the music that "
-                  "it waits for by its model's latency (`latency_frames`, whole frames): below 0 where small chunks allow it sooner. `default`:", "", load.strip(), ""]
+        lines += ["## Through gRPC", "", "`load`: the clients, up to hundreds of threads, are on the same cores as the server, which has its defaults. A frame is late by what it "
+                  "comes after the music that it waits for by its model's latency (`latency_frames`, whole frames): below 0 where small chunks allow it sooner. `default`:", "",
+                  load.strip(), ""]
+    if room:
+        lines += ["Where far more are admitted than the defaults allow (`CHOREO_MAX_STREAMS=1024`), to see what the machine holds:", "", room.strip(), ""]
     if paper:
         lines += ["`paper` (random weights):", "", paper.strip(), ""]
     lines += ["## What eats the rest", "", (root / "bench/notes.md").read_text().strip(), "", "```", "make bench", "```"]

@@ -119,6 +119,8 @@ class Soak {
       try {
         const Lateness lateness =
             DanceLive(client, song_, {.seed = round * 100 + static_cast<uint32_t>(number)});
+        if (!lateness.refused_ms.empty())
+          throw Error(ErrorCode::kResourceExhausted, "", "the server is full");
         const std::lock_guard lock(mutex_);
         ++danced_;
         if (minute < options_.minutes / 3) first_.Add(lateness);
