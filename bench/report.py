@@ -46,7 +46,7 @@ def table_rows(text, first_column):
 
 def load_figures(text, room, paper):
     figures = {}
-    for line in text.splitlines():
+    for line in room.splitlines():
         if "idle streams:" in line:
             figures["load/idle KiB"] = float(line.split(":")[1].split()[0])
     for where, of in (("live", text), ("room", room)):

@@ -44,8 +44,8 @@ bool Seen::Admit(const Message& message) {
     return warnings_.emplace(warning->message, warning->frame).second;
   }
   if (const auto* beat = std::get_if<Beat>(&message)) {
-    if (beat->frame <= last_beat_) return false;
-    last_beat_ = beat->frame;
+    if (beat->time_s <= last_beat_s_) return false;
+    last_beat_s_ = beat->time_s;
   }
   return true;
 }

@@ -37,7 +37,7 @@ class Seen {
   std::multiset<KeyPlace> expected_;  // rejections that the present server is still to repeat
   std::set<KeyPlace> reached_;
   std::set<std::pair<std::string, int64_t>> warnings_;
-  int64_t last_beat_ = -1;
+  double last_beat_s_ = -1;
 };
 
 }  // namespace choreo::client

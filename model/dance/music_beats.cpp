@@ -48,9 +48,9 @@ MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::option
 void MusicBeats::Replace(std::span<const double> seconds, MusicBeat::Source source) {
   if (seconds.empty()) return;
   const double begin = seconds.front();
-  std::erase_if(known_, [begin](const MusicBeat& beat) { return beat.seconds >= begin; });
-  std::erase_if(spans_, [begin](const Span& span) { return span.begin >= begin; });
-  for (Span& span : spans_) span.end = std::min(span.end, begin);
+  known_.erase(std::ranges::lower_bound(known_, begin, {}, &MusicBeat::seconds), known_.end());
+  while (!spans_.empty() && spans_.back().begin >= begin) spans_.pop_back();
+  if (!spans_.empty()) spans_.back().end = std::min(spans_.back().end, begin);
   for (const double second : seconds) known_.push_back({second, source});
   spans_.push_back({begin, seconds.back()});
 }

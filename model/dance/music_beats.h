@@ -72,7 +72,7 @@ class MusicBeats {
     int64_t from;
     std::vector<double> seconds;
   };
-  // Seconds in which only given beats count.
+  // Seconds in which only given beats count; one begins where the one before has ended, or later.
   struct Span {
     double begin, end;
   };

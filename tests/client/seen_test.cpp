@@ -49,6 +49,7 @@ TEST(SeenTest, TellsKeysBeatsAndWarningsOnce) {
   }
   EXPECT_TRUE(seen.Admit(Message(KeyReached{.id = "a", .frame = 60})));
   EXPECT_TRUE(seen.Admit(Message(Beat{.frame = 13, .time_s = 0.43})));
+  EXPECT_TRUE(seen.Admit(Message(Beat{.frame = 13, .time_s = 0.44})));  // of who gives them so
 }
 
 TEST(SeenTest, HidesTheRejectionsThatAResumptionBringsAboutAndNoOthers) {
