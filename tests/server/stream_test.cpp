@@ -1,5 +1,8 @@
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include "model/motion/kinematics.h"
@@ -138,6 +141,25 @@ TEST_F(StreamTest, AnotherFingerprintIsRefusedUnlessAllowed) {
 
   request.mutable_config()->mutable_continuation()->set_skeleton("spider8");
   EXPECT_EQ(Dance({request}).status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+}
+
+// Beats go on where the longest music has ended.
+TEST_F(StreamTest, TheLastBeatOfAContinuationMayLieBehindAllMusic) {
+  Start();
+  const Answer whole = MusicDance(21, 1 << 20);
+  ASSERT_FALSE(whole.continuations.empty());
+  v1::StreamDanceRequest request;
+  *request.mutable_config() = Config();
+  request.mutable_config()->set_frames(60);
+  v1::Continuation& from = *request.mutable_config()->mutable_continuation();
+  from = whole.continuations[0];
+  from.set_last_beat(601.5);
+  EXPECT_TRUE(Dance({request}).status.ok());
+  for (const double beat : {-1.0, 3601.0, std::numeric_limits<double>::quiet_NaN()}) {
+    from.set_last_beat(beat);
+    EXPECT_THAT(Dance({request}).status.error_message(),
+                testing::HasSubstr("config.continuation.last_beat: "));
+  }
 }
 
 TEST_F(StreamTest, LateKeysAreRejectedByEvent) {
