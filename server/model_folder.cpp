@@ -11,6 +11,7 @@
 
 #include "model/core/error.h"
 #include "model/core/pem.h"
+#include "model/core/printable.h"
 
 namespace choreo {
 namespace {
@@ -92,12 +93,12 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
     }
     if (names.empty()) throw InvalidArgument(kFlag, folder_.string() + ": no file can be used");
     const size_t count = fresh.size();
-    server.SetModels(names, std::move(fresh));
+    if (!server.SetModels(names, std::move(fresh))) return;
     served_ = std::move(files);
     spdlog::info("{} of {} models are new; \"{}\" is the default", count, names.size(),
                  names.front());
   } catch (const std::exception& error) {
-    spdlog::error("{}; all models are served as before", error.what());
+    spdlog::error("{}; all models are served as before", Printable(error.what()));
   }
 }
 
@@ -124,7 +125,7 @@ std::optional<Server::Engines> ModelFolder::Look(const std::filesystem::path& fi
     return engines;
   } catch (const std::exception& error) {
     const bool goes_on = before != served_.end() && !is_taken();
-    spdlog::error("{}; {}", error.what(),
+    spdlog::error("{}; {}", Printable(error.what()),
                   goes_on ? "its model \"" + before->second.model + "\" is served as before"
                           : "nothing is served of it");
     if (goes_on) files->insert(*before);

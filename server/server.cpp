@@ -222,10 +222,11 @@ int Server::transitions() const { return impl_->serving.models.transitions(); }
 
 int Server::calls() const { return impl_->serving.calls.count(); }
 
-void Server::SetModels(const std::vector<std::string>& names, std::vector<Engines> fresh) {
-  if (impl_->drained) return;
+bool Server::SetModels(const std::vector<std::string>& names, std::vector<Engines> fresh) {
+  if (impl_->drained) return false;
   impl_->serving.models.Set(names, MakeSchedulers(std::move(fresh), impl_->scheduling));
   impl_->UpdateHealth();
+  return true;
 }
 
 void Server::Drain(double seconds) {

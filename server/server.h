@@ -37,10 +37,10 @@ class Server {
 
   /// Served from now on, the first one as the default: by name models of `fresh`, which are new or
   /// take the place of one of that name, and models that are served already. Calls in progress
-  /// keep what they began with; a model is freed once nobody is left who dances it. Nothing happens
-  /// after Drain. Throws Error(kInvalidArgument), and changes nothing, for no names, a name twice,
-  /// one that no model has, and engines that do not go together.
-  void SetModels(const std::vector<std::string>& names, std::vector<Engines> fresh);
+  /// keep what they began with; a model is freed once nobody is left who dances it. False, and
+  /// nothing happens, after Drain. Throws Error(kInvalidArgument), and changes nothing, for no
+  /// names, a name twice, one that no model has, and engines that do not go together.
+  bool SetModels(const std::vector<std::string>& names, std::vector<Engines> fresh);
 
   /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on; those in progress may
   /// go on for `seconds`, then end as UNAVAILABLE; streams at a transition, if one comes in the

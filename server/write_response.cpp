@@ -150,7 +150,7 @@ void FromReport(const QualityReport& report, v1::QualityReport* out) {
 
 void FromEvent(const DanceEvent& event, double fps, v1::Event* out) {
   if (const auto* beat = std::get_if<MusicBeat>(&event)) {
-    out->set_frame(std::llround(beat->seconds * fps));
+    out->set_frame(beat->frame);
     out->set_time(beat->seconds);
     out->mutable_beat()->set_source(ToSource(beat->source));
     out->mutable_beat()->set_confidence(beat->confidence);

@@ -110,8 +110,12 @@ void LiveDance::Follow(const Cue& cue, double now) {
   }
   const auto pose = options_.poses.find(cue.pose);
   if (pose == options_.poses.end()) return Note("there is no pose \"" + cue.pose + "\"");
-  const double ahead = std::max(std::min(cue.ahead_s.value_or(options_.ahead_s), kMostAheadSeconds),
-                                options_.look_ahead_s + kLeastAheadSeconds);
+  const double asked = cue.ahead_s.value_or(options_.ahead_s);
+  if (!(asked >= 0 && asked <= kMostAheadSeconds)) {
+    return Note(cue.pose + ": " + std::to_string(asked) + " s ahead is not in [0, " +
+                std::to_string(std::lround(kMostAheadSeconds)) + "]");
+  }
+  const double ahead = std::max(asked, options_.look_ahead_s + kLeastAheadSeconds);
   BeatClock clock;
   {
     const std::lock_guard lock(mutex_);

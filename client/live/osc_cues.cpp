@@ -41,7 +41,7 @@ class OscCues final : public Cues {
     if (has_ahead) {
       const auto ahead =
           static_cast<double>(lo_hires_val(static_cast<lo_type>(given[1]), values[1]));
-      if (!std::isfinite(ahead)) return 0;
+      // An impossible time is told as an unknown pose is, by who takes the cue.
       cue.ahead_s = ahead;
     }
     if (!cue.pose.empty()) static_cast<OscCues*>(self)->cues_.push_back(std::move(cue));

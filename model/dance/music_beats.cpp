@@ -26,7 +26,7 @@ bool HasOnset(const AudioFeed& audio, int64_t frame) {
 }
 
 // How far a beat is from the nearer one beside it; 0 where it stands alone.
-double StepAt(const std::vector<double>& seconds, size_t i) {
+double StepAt(std::span<const double> seconds, size_t i) {
   double step = std::numeric_limits<double>::infinity();
   if (i > 0) step = seconds[i] - seconds[i - 1];
   if (i + 1 < seconds.size()) step = std::min(step, seconds[i + 1] - seconds[i]);
@@ -42,23 +42,29 @@ MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::option
       hears_(audio != nullptr && given.empty()),
       count_(given.size()),
       last_(last) {
-  Replace(given, MusicBeat::Source::kGiven);
+  if (!given.empty()) Replace(given.front(), given, MusicBeat::Source::kGiven);
 }
 
-void MusicBeats::Replace(std::span<const double> seconds, MusicBeat::Source source) {
-  if (seconds.empty()) return;
-  const double begin = seconds.front();
-  known_.erase(std::ranges::lower_bound(known_, begin, {}, &MusicBeat::seconds), known_.end());
-  while (!spans_.empty() && spans_.back().begin >= begin) spans_.pop_back();
-  if (!spans_.empty()) spans_.back().end = std::min(spans_.back().end, begin);
+void MusicBeats::Replace(double begin, std::span<const double> seconds, MusicBeat::Source source) {
+  const auto at = [&](double time) {
+    return std::ranges::lower_bound(known_, time, {}, &MusicBeat::seconds);
+  };
+  // A beat that was given a little earlier is the first of these.
+  double step = StepAt(seconds, 0);
+  if (const auto before = at(begin); step == 0 && before - known_.begin() > 1)
+    step = (before - 1)->seconds - (before - 2)->seconds;
+  known_.erase(at(begin - 0.5 * step), known_.end());
+  const double first = seconds.front();
+  while (!spans_.empty() && spans_.back().begin >= first) spans_.pop_back();
+  if (!spans_.empty()) spans_.back().end = std::min(spans_.back().end, first);
   for (const double second : seconds) known_.push_back({second, source});
-  spans_.push_back({begin, seconds.back()});
+  spans_.push_back({first, seconds.back()});
 }
 
 void MusicBeats::Find(const std::vector<double>& seconds) {
   hears_ = false;
   known_.clear();
-  Replace(seconds, MusicBeat::Source::kFound);
+  if (!seconds.empty()) Replace(seconds.front(), seconds, MusicBeat::Source::kFound);
 }
 
 int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const std::string& field) {
@@ -69,13 +75,13 @@ int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const st
   }
   count_ += seconds.size();
   const auto ahead = std::ranges::lower_bound(seconds, Seconds(from));
-  if (ahead != seconds.end()) given_.push_back({from, {ahead, seconds.end()}});
+  if (ahead != seconds.end()) given_.push_back({from, seconds.front(), {ahead, seconds.end()}});
   return ahead - seconds.begin();
 }
 
 std::vector<double> MusicBeats::Around(int64_t from, int64_t to) {
   for (; !given_.empty() && given_.front().from <= from; given_.pop_front())
-    Replace(given_.front().seconds, MusicBeat::Source::kGiven);
+    Replace(given_.front().begin, given_.front().seconds, MusicBeat::Source::kGiven);
   std::vector<MusicBeat> beats = known_;
   if (hears_) Predict(from, to, &beats);
   std::vector<double> seconds;
@@ -124,6 +130,7 @@ std::vector<MusicBeat> MusicBeats::Of(int64_t frame) {
     MusicBeat& beat = beats.emplace_back(ahead_.front());
     if (beat.source == MusicBeat::Source::kPredicted && HasOnset(*audio_, frame))
       beat.source = MusicBeat::Source::kHeard;
+    beat.frame = std::min<int64_t>(frame, std::llround(beat.seconds * fps_));
     told_.push_back(beat.seconds);
     last_ = beat.seconds;
   }

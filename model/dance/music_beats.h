@@ -27,6 +27,7 @@ struct MusicBeat {
   double seconds = 0;
   Source source = Source::kGiven;
   double confidence = 1;  ///< of the pulse that it was predicted by, 0 to 1; 1 otherwise
+  int64_t frame = 0;      ///< once told: the nearest that had been danced
 };
 
 /// Where the music of a dance beats. Beats are given or found; where none are, a dance that is
@@ -45,9 +46,10 @@ class MusicBeats {
   void Find(const std::vector<double>& seconds);
 
   /// Ascending. From the first of them to the last they hold in place of what was given or heard,
-  /// and none given before lies behind them, for transitions that begin at `from` or later; `from`
-  /// never shrinks from call to call. Those before `from` are late, and left out; returns how many.
-  /// Throws Error(kInvalidArgument) beyond kMostBeats.
+  /// and none given before lies behind them or less than half a beat before the first, for
+  /// transitions that begin at `from` or later; `from` never shrinks from call to call. Those
+  /// before `from` are late, and left out; returns how many. Throws Error(kInvalidArgument) beyond
+  /// kMostBeats.
   int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field);
 
   /// A transition of the frames [from, to) begins: its beats as TransitionRequest::beats. In order
@@ -70,7 +72,8 @@ class MusicBeats {
   // What one Give said.
   struct Given {
     int64_t from;
-    std::vector<double> seconds;
+    double begin;                 // its first beat, late or not
+    std::vector<double> seconds;  // those that are not late
   };
   // Seconds in which only given beats count; one begins where the one before has ended, or later.
   struct Span {
@@ -78,7 +81,7 @@ class MusicBeats {
   };
 
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
-  void Replace(std::span<const double> seconds, MusicBeat::Source source);
+  void Replace(double begin, std::span<const double> seconds, MusicBeat::Source source);
   bool IsGiven(double seconds, double slack) const;
   void Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const;
 

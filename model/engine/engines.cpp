@@ -14,6 +14,7 @@
 
 #include "model/controllers/checkpoint.h"
 #include "model/core/error.h"
+#include "model/core/printable.h"
 #include "model/core/threads.h"
 #include "model/engine/build_identity.h"
 #include "model/engine/continuous_flow_engine.h"
@@ -226,6 +227,29 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
   };
 }
 
+constexpr uintmax_t kMostBytes = uintmax_t{1} << 30;  // of a checkpoint
+constexpr size_t kMostNameBytes = 64;                 // of a model: metrics and logs repeat it
+
+void CheckName(const std::string& name, const std::filesystem::path& path) {
+  if (!name.empty() && name.size() <= kMostNameBytes && Printable(name) == name) return;
+  throw InvalidArgument(
+      path.string(), "the model's name, \"" + Printable(name.substr(0, kMostNameBytes)) +
+                         "\", is not 1 to " + std::to_string(kMostNameBytes) + " printable bytes");
+}
+
+// Loads, and says in every error which file it is about.
+template <typename LoadIt>
+auto Naming(const std::filesystem::path& path, LoadIt load) {
+  try {
+    return load();
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).find(path.string()) != std::string_view::npos) throw;
+    throw Error(error.code(), path.string(), error.what());
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::kResourceExhausted, path.string(), "there is no memory for it");
+  }
+}
+
 Factory Load(const std::filesystem::path& path, const Device& device, EngineKind kind,
              const std::string& kernel_name) {
   const c10::InferenceMode inference;
@@ -233,6 +257,12 @@ Factory Load(const std::filesystem::path& path, const Device& device, EngineKind
   at::globalContext().setAllowTF32CuBLAS(false);
   at::globalContext().setAllowTF32CuDNN(false);
   at::globalContext().setDeterministicCuDNN(true);
+  // Whoever may put a file there must not take the memory of who serves.
+  std::error_code none;
+  if (const auto bytes = std::filesystem::file_size(path, none); !none && bytes > kMostBytes) {
+    throw InvalidArgument(path.string(), std::to_string(bytes) + " bytes, the limit is " +
+                                             std::to_string(kMostBytes));
+  }
   const Safetensors content = ReadSafetensors(path);
   if (HoldsControllers(content)) return LoadControllers(content, path);
   if (HoldsContinuousFlow(content))
@@ -262,8 +292,9 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
   std::vector<std::unique_ptr<StepEngine>> engines;
   for (const Device& device : devices) {
     const auto [here, is_new] = loaded.try_emplace(device);
-    if (is_new) here->second = Load(path, device, kind, kernels);
+    if (is_new) here->second = Naming(path, [&] { return Load(path, device, kind, kernels); });
     engines.push_back(here->second(slots));
+    CheckName(engines.back()->model().name, path);
   }
   return engines;
 }

@@ -193,6 +193,36 @@ TEST(MusicBeats, AreToldOnceEach) {
 }
 
 // Until the first one given and behind the last: what was said ahead silences nothing before it.
+// A program that says its grid again and again, each time a few milliseconds elsewhere, as a MIDI
+// clock is heard, tells of the same beats.
+TEST(MusicBeats, AGridThatIsSaidAgainIsToldOnce) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> jitter(-0.005, 0.005);
+  for (const int64_t lead : {0, 6, 20}) {
+    MusicBeats beats(30, {}, {}, nullptr);
+    std::vector<MusicBeat> told;
+    for (int64_t from = 0; from < 600; from += 9) {
+      std::vector<double> grid;
+      const double off = jitter(random);
+      for (int beat = 1; beat < 40; ++beat) {
+        if (0.5 * beat > static_cast<double>(from) / 30) grid.push_back(0.5 * beat + off);
+      }
+      if (!grid.empty()) beats.Give(grid, from + lead, "music_beats");
+      beats.Around(from, from + 9);
+      for (int64_t frame = from; frame < from + 9; ++frame) {
+        for (const MusicBeat& beat : beats.Of(frame)) {
+          told.push_back(beat);
+          EXPECT_LE(beat.frame, frame) << "it has been danced";
+          EXPECT_NEAR(static_cast<double>(beat.frame), 30 * beat.seconds, 1);
+        }
+      }
+    }
+    for (size_t i = 1; i < told.size(); ++i)
+      EXPECT_NEAR(told[i].seconds - told[i - 1].seconds, 0.5, 0.02) << lead;
+    EXPECT_NEAR(static_cast<double>(told.size()), 38, 1.1) << lead;
+  }
+}
+
 TEST(MusicBeats, AreHeardBesideThoseGiven) {
   AudioFeed feed(22050, 1, 0);
   feed.Push(Song(22050, 20), 0, [] {});
@@ -216,7 +246,7 @@ TEST(MusicBeats, AreHeardBesideThoseGiven) {
     if (i == 0) continue;
     EXPECT_NEAR(beats[i].seconds - beats[i - 1].seconds, 0.5, 0.3) << beats[i].seconds;
   }
-  EXPECT_EQ(given, (std::vector<double>{11.7, 12.2, 12.4, 12.9}));
+  EXPECT_EQ(given, (std::vector<double>{11.7, 12.4, 12.9})) << "12.2 gives way";
   EXPECT_LT(beats.front().seconds, 8.1);
   EXPECT_GT(beats.back().seconds, 16.5);
 }

@@ -1,6 +1,9 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "model/core/error.h"
+#include "model/core/safetensors.h"
 #include "model/dance/transition_batch.h"
 #include "model/engine/engines.h"
 #include "model/engine/packed/kernels.h"
@@ -55,6 +58,32 @@ double LargestDifference(const std::vector<StepOutput>& a, const std::vector<Ste
         std::max(most, (a[i].pose.root_position - b[i].pose.root_position).cwiseAbs().maxCoeff());
   }
   return most;
+}
+
+// Logs and metrics repeat the name; whoever may put a file in a folder must not fill them, nor the
+// memory. Every error says which file it is about.
+TEST_F(ContinuousFlowEngineTest, IsRefusedUnderANameThatNobodyCanPrintAndBeyondAGigabyte) {
+  const auto refused = [&](const std::string& why) {
+    try {
+      MakeEngine(path_, {}, 1);
+      ADD_FAILURE() << "loaded";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(path_.string()));
+      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+    }
+  };
+  for (const std::string& name : {std::string(), std::string("a\nb"), std::string(65, 'x')}) {
+    WriteRandomContinuousFlow(path_, {.name = name, .width = 24, .layers = 1, .heads = 2},
+                              Skeleton::Smpl24(), 3);
+    refused("is not 1 to 64 printable bytes");
+  }
+  Safetensors content = ReadSafetensors(path_);
+  content.tensors.at("velocity_covariance").data.front() = NAN;
+  content.metadata["hash"] = ContentHash(content, "hash");
+  WriteSafetensors(path_, content);
+  refused("is no covariance");
+  std::filesystem::resize_file(path_, (uintmax_t{1} << 30) + 1);  // sparse
+  refused("1073741825 bytes, the limit is 1073741824");
 }
 
 TEST_F(ContinuousFlowEngineTest, TellsWhatItTakes) {

@@ -234,6 +234,8 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
       lo_send(to.get(), "/choreo/key", "s", "kick");
       lo_send(to.get(), "/choreo/key", "sf", "nobody", 1.0F);
       lo_send(to.get(), "/choreo/key", "i", 5);
+      for (const float never : {1e9F, -5.0F, NAN})
+        lo_send(to.get(), "/choreo/key", "sf", "dab", never);
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
   });
@@ -243,6 +245,8 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
   performer.join();
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("there is no pose \"nobody\""));
+  for (const std::string never : {"1000000000", "-5", "nan"})
+    EXPECT_THAT(outcome.said, testing::ContainsRegex("dab: " + never + "[.0]* s ahead is not in"));
   EXPECT_THAT(outcome.said,
               testing::ContainsRegex(" [1-9][0-9]* taken, [1-9][0-9]* danced, 0 ref"));
 }
