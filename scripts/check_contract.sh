@@ -10,7 +10,7 @@ known=$(ctest --test-dir "$1" -N | sed -n 's/  # GetParam.*//; s/^ *Test *#[0-9]
 skipped=$([[ -z $report ]] || grep -oE '<testcase name="[^"]*".* status="notrun"' "$report" | sed 's/  # GetParam[^"]*//; s/<testcase name="//; s/".*//' || true)
 missing=0
 count=0
-# Names stand in backticks in the last column of a table; a test's begins with a capital, or a * in its place, and has a dot.
+# Names stand in backticks behind the first column of a table; a test's begins with a capital, or a * in its place, and has a dot.
 while read -r name; do
   count=$((count + 1))
   if [[ $name == make\ * ]]; then
@@ -29,7 +29,7 @@ while read -r name; do
     fi
   fi
   missing=1
-done < <(sed -n 's/^|.*|\(.*\)|$/\1/p' "$page" | grep -oE '`([A-Z*][^` ]*\.[^` ]*|make [a-z]+)`' | tr -d '`')
+done < <(sed -n 's/^|[^|]*|\(.*\)|$/\1/p' "$page" | grep -oE '`([A-Z*][^` ]*\.[^` ]*|make [a-z]+)`' | tr -d '`')
 if ((count == 0)); then
   echo "$page: names no test" >&2
   exit 1
