@@ -143,7 +143,7 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   powers_ = register_buffer("variance_powers", torch::zeros({6}));
   SetPowers({});
   usual_ = register_buffer("usual_pose", torch::zeros({dimensions}));
-  home_ = register_buffer("usual_variance", torch::zeros({dimensions}));
+  usual_variance_ = register_buffer("usual_variance", torch::zeros({dimensions}));
   mixing_ = register_buffer("mixing", torch::eye(dimensions));
   spread_ = register_buffer("spread", torch::ones({dimensions}));
   velocity_ = register_buffer("velocity_spread", torch::ones({dimensions}));
@@ -212,7 +212,7 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Varia
   Eigen::VectorXd pose(covariance.rows());
   pose << usual.pose.root_position, usual.pose.rotations.reshaped();
   set(usual_, pose);
-  set(home_, usual.variance);
+  set(usual_variance_, usual.variance);
   set(mixing_, mixing);
   set(spread_, spread);
   set(velocity_, MotionPrior(covariance).VelocitySpread());
@@ -248,7 +248,7 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
   const Eigen::VectorXd pose = ToEigen(usual_);
   UsualPose usual{
       .pose = {pose.head<3>(), pose.tail(pose.size() - 3).reshaped(3, pose.size() / 3 - 1)},
-      .variance = ToEigen(home_)};
+      .variance = ToEigen(usual_variance_)};
   EnergyPrior energy(config_.styles.size());
   const Eigen::MatrixXd measured = ToEigen(energy_);
   energy.SetNumbers({measured.data(), static_cast<size_t>(measured.size())});

@@ -48,7 +48,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
 
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
-  torch::Tensor covariance_, powers_, usual_, home_, mixing_, spread_, velocity_, energy_;
+  torch::Tensor covariance_, powers_, usual_, usual_variance_, mixing_, spread_, velocity_, energy_;
   torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
       condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;

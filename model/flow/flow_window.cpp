@@ -77,19 +77,19 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   if (!whole) free_ = prior.Bridges(request.frames, 0);
   Eigen::VectorXd way = displacement_;  // to the key or to the usual pose
   if (const Pose& usual = prior.usual().pose; !whole && usual.rotations.cols() == joints) {
-    Eigen::VectorXd home(dimensions);
+    Eigen::VectorXd back(dimensions);
     Eigen::Vector3d place = usual.root_position;
     if (request.StageCounts()) {
       stage_ = prior.StageBridges(request.frames);
       place.x() += request.stage->x();
       place.z() += request.stage->z();
     }
-    home.head<3>() = place - last.root_position;
+    back.head<3>() = place - last.root_position;
     for (int j = 0; j < joints; ++j)
-      home.segment<3>(3 + 3 * j) =
+      back.segment<3>(3 + 3 * j) =
           RotationDifference(last.rotations.col(j), usual.rotations.col(j));
     for (int d = 0; d < dimensions; ++d) {
-      if (!keyed_[static_cast<size_t>(d)]) way[d] = home[d];
+      if (!keyed_[static_cast<size_t>(d)]) way[d] = back[d];
     }
   }
 

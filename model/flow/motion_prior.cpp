@@ -87,7 +87,8 @@ Eigen::VectorXd MotionPrior::Scales(
   return scales;
 }
 
-MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key, double home) const {
+MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key,
+                                      double usual_variance) const {
   const Eigen::Index lags = covariance_.cols();
   const auto velocity = [&](int lag) { return lag < lags ? covariance_(dimension, lag) : 0.0; };
   const auto sum = [&](int lag) {  // of lags 1 to `lag`
@@ -106,7 +107,7 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key, dou
   // The velocity p frames before the last one, and the displacement over i frames.
   const auto with_past = [&](int i, int p) { return sum(i + p) - sum(p); };
 
-  const int known = kPast + (to_key > 0 || home > 0 ? 1 : 0);
+  const int known = kPast + (to_key > 0 || usual_variance > 0 ? 1 : 0);
   Eigen::MatrixXd observed(known, known), shared(frames, known), own(frames, frames);
   for (int p = 0; p < kPast; ++p) {
     for (int q = 0; q < kPast; ++q) observed(p, q) = velocity(std::abs(p - q));
@@ -118,12 +119,12 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key, dou
     observed(kPast, kPast) = both(to_key, to_key) + kJitter * velocity(0);
     for (int i = 0; i < frames; ++i) shared(i, kPast) = both(i + 1, to_key);
   }
-  if (home > 0) {
+  if (usual_variance > 0) {
     // Stationary about it: so the way there goes with the way of i frames by half of its variance.
     const auto half = [&](int i) { return 0.5 * variance[static_cast<size_t>(i)]; };
     for (int p = 0; p < kPast; ++p) observed(p, kPast) = observed(kPast, p) = half(p) - half(p + 1);
     // Nobody goes beyond it for being off it.
-    observed(kPast, kPast) = std::max(home, half(longest));
+    observed(kPast, kPast) = std::max(usual_variance, half(longest));
     for (int i = 0; i < frames; ++i) shared(i, kPast) = half(i + 1);
   }
   for (int i = 0; i < frames; ++i) {
@@ -170,8 +171,8 @@ MotionPrior::Made MotionPrior::Bridges(int frames, int to_key) const {
     std::vector<Bridge> bridges;
     for (int d = 0; d < dimensions(); ++d) {
       // Nobody has a usual place but on a stage, nor a usual way to face.
-      const bool home = to_key == 0 && d != 0 && d != 2 && d != 4;
-      bridges.push_back(Make(d, frames, to_key, home ? HomeOf(d) : 0));
+      const bool returns = to_key == 0 && d != 0 && d != 2 && d != 4;
+      bridges.push_back(Make(d, frames, to_key, returns ? UsualVariance(d) : 0));
     }
     return bridges;
   });
@@ -180,7 +181,7 @@ MotionPrior::Made MotionPrior::Bridges(int frames, int to_key) const {
 MotionPrior::Made MotionPrior::StageBridges(int frames) const {
   return Cached({frames, kStaged}, [&] {
     std::vector<Bridge> bridges;
-    for (int d = 0; d < 3; ++d) bridges.push_back(Make(d, frames, 0, HomeOf(d)));
+    for (int d = 0; d < 3; ++d) bridges.push_back(Make(d, frames, 0, UsualVariance(d)));
     return bridges;
   });
 }

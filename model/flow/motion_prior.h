@@ -101,9 +101,9 @@ class MotionPrior {
  private:
   using Made = std::shared_ptr<const std::vector<Bridge>>;
   Made Cached(std::pair<int, int> key, const std::function<std::vector<Bridge>()>& make) const;
-  // `home`: variance about the usual pose, which a window without a key comes back to; 0: none.
-  Bridge Make(int dimension, int frames, int to_key, double home) const;
-  double HomeOf(int dimension) const {
+  // `usual_variance`: about the usual pose, which a window without a key comes back to; 0: none.
+  Bridge Make(int dimension, int frames, int to_key, double usual_variance) const;
+  double UsualVariance(int dimension) const {
     return usual_.variance.size() > 0 ? usual_.variance[dimension] : 0;
   }
 
