@@ -24,7 +24,7 @@ namespace {
   for (const auto& [bone, node] :
        GuessBones(parents, character.places(), character.joints()).bones) {
     const bool taken =
-        std::ranges::any_of(found.bones, [&](const auto& o) { return o.second == node; });
+        std::ranges::any_of(found.bones, [n = node](const auto& o) { return o.second == n; });
     if (!taken) found.bones.try_emplace(bone, node);
   }
   const std::filesystem::path stem = std::filesystem::path(out).replace_extension();
