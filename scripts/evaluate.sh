@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures the checkpoint that ships on test clips and writes docs/figures/*.json, and what docs/results.md and README.md quote of them.
+# Measures the checkpoint that ships on test clips and writes docs/figures/*.json, and what docs/results.md quotes of them.
 #   scripts/evaluate.sh BIN_DIRECTORY RECORDINGS [EVAL_OPTION...]
 # RECORDINGS holds dancedb/ and splits.json (docs/training.md). Five minutes of one core.
 set -euo pipefail

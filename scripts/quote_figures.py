@@ -6,7 +6,7 @@
 
 Two kinds of quotation, each up to <!-- end -->:
     <!-- table: FILE TABLE | COLUMN | COLUMN ... -->    all rows of a table, and what is wanted of them (wanted.json); COLUMN=VALUE
-                                                        leaves only rows that have it
+                                                        leaves only rows that have it, "wanted" those of which something is wanted
     <!-- figure: FILE TABLE | ROW | COLUMN -->          one figure; ROW is the row's first column
 """
 import json
@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FIGURES = ROOT / "docs/figures"
-PAGES = ("README.md", "docs/results.md")
+PAGES = ("docs/results.md",)
 WANTED = json.loads((FIGURES / "wanted.json").read_text())
 
 
@@ -45,10 +45,11 @@ def table(place, *columns):
     file, name = place.split()
     wanted = WANTED.get(name, {})
     only = dict(column.split("=") for column in columns if re.fullmatch(r"\w+=\w+", column))
-    columns = [column for column in columns if not re.fullmatch(r"\w+=\w+", column)]
+    only_wanted = "wanted" in columns
+    columns = [column for column in columns if column != "wanted" and not re.fullmatch(r"\w+=\w+", column)]
     lines = [columns + (["wanted"] if wanted else [])]
     for row in rows_of(file, name):
-        if any(row.get(column) != value for column, value in only.items()):
+        if any(row.get(column) != value for column, value in only.items()) or (only_wanted and row[columns[0]] not in wanted):
             continue
         lines.append([cell(row, column) for column in columns] + ([wanted.get(row[columns[0]], "")] if wanted else []))
     lines.insert(1, ["---"] * len(lines[0]))

@@ -11,12 +11,12 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$root"
 
-echo "== What docs/results.md and README.md quote is what docs/figures say"
+echo "== What docs/results.md quotes is what docs/figures say"
 scripts/quote_figures.py --check
 
 if [[ -n ${CHOREO_RECORDINGS:-} ]]; then
   echo "== The figures can be measured again"
-  pages=(docs/figures docs/results.md README.md)
+  pages=(docs/figures docs/results.md)
   # A change that nobody has committed is no figure to hold others against.
   git diff --exit-code --stat HEAD -- "${pages[@]}" || {
     echo "verify.sh: commit the pages above first, or take them back" >&2
