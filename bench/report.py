@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Writes docs/performance.md from one run of the benchmarks, and compares with the committed figures.
+"""Writes docs/performance.md and bench/figures.json from one run of the benchmarks, and compares with the committed figures.
 
     report.py FOLDER ROOT
 
 FOLDER holds engine.json (engine_bench's medians), peer.json (peer_torch.py's), and what `load` printed: load.md with the server's defaults,
 room.md with room for many dances, paper.md with the model of paper F's size.
-Figures are kept in ROOT/bench/figures.json; ROOT/bench/notes.md says what eats the rest.
+The page is what is to be reached, and ROOT/bench/notes.md, which says what eats the rest; figures.json has everything.
 """
 import json
 import sys
@@ -72,39 +72,33 @@ def kinds_of(figures):
     return kinds
 
 
-def network_tables(figures):
-    lines = []
-    for model, of in (("paper", "paper F's size, random weights"),):
-        lines += [f"`{model}` ({of}), frames a second:", "",
-                  "| products | streams | packed engine | bare products | packed ÷ bare | eager PyTorch | packed ÷ eager | torch engine |",
-                  "|---|---|---|---|---|---|---|---|"]
-        for precision, packed, bare, peer in kinds_of(figures):
-            for n in STREAMS:
-                rate, limit, eager = (figures[f"{model}/{what}/{n}"] for what in (packed, bare, peer))
-                torch = f"{figures[f'{model}/torch/{n}']:,.0f}" if precision == "float32" else ""
-                lines.append(f"| {precision} | {n} | {rate:,.0f} | {limit:,.0f} | {rate / limit:.2f} | {eager:,.0f} | "
-                             f"{rate / eager:.1f}x | {torch} |")
-        lines.append("")
-    lines += [f"`default` (the model that ships), a transition of {FRAMES_OF_PLAN} frames, ms:", "",
-              "| products | packed engine | to beats | bare products | packed ÷ bare | torch engine |", "|---|---|---|---|---|---|"]
-    for precision, packed, bare, _ in kinds_of(figures):
-        took, to_beats, limit = (1e3 / figures[name] for name in (f"default/admission/{packed}", f"default/to_beats/{packed}", f"default/{bare}"))
-        torch = f"{1e3 / figures['default/admission/torch']:.1f}" if precision == "float32" else ""
-        lines.append(f"| {precision} | {took:.1f} | {to_beats:.1f} | {limit:.1f} | {limit / took:.2f} | {torch} |")
-    return lines + [""]
+def tables_of(text):
+    """All tables of a text, each a list of rows by the names of its columns."""
+    tables, names = [], None
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if not line.startswith("|"):
+            names = None
+        elif names is None:
+            names, of = [], ""
+            for cell in cells:  # "frames p50 ms | p99 | max": of frames, all three
+                of = cell.removesuffix("p50 ms") if cell.endswith("p50 ms") else of
+                names.append(of + cell if cell in ("p95", "p99", "max") else cell)
+            tables.append([])
+        elif not line.startswith("|---"):
+            tables[-1].append(dict(zip(names, cells)))
+    return tables
 
 
-def memory_lines(figures, report):
-    lines = []
-    for precision, packed, bare, _ in kinds_of(figures):
+def memory_figures(figures, report):
+    """What one stream reaches of what memory lets through: every frame reads every weight."""
+    reached = {}
+    for _, packed, bare, _ in kinds_of(figures):
         for run in report["benchmarks"]:
             if run["run_name"] == f"paper/{bare}/1" and run.get("aggregate_name") == "median":
                 weights = run["bytes_per_second"] / run["items_per_second"]
-                limit = figures["memory"] / weights
-                lines.append(f"One stream of `paper` in {precision}: a frame reads {weights / 1e6:,.0f} MB of weights, memory gives "
-                             f"{figures['memory'] / 1e9:.1f} GB/s, that is {limit:.0f} frames a second; reached: "
-                             f"{100 * figures[f'paper/{packed}/1'] / limit:.0f} %.")
-    return lines + [""]
+                reached[f"paper/{packed}/1 ÷ what memory gives"] = figures[f"paper/{packed}/1"] * weights / figures["memory"]
+    return reached
 
 
 def bars(figures, gpu):
@@ -171,41 +165,40 @@ def main(folder, root):
     peer = json.loads((folder / "peer.json").read_text())
     load, room, paper = ((folder / name).read_text() if (folder / name).exists() else "" for name in ("load.md", "room.md", "paper.md"))
     figures = engine_figures(engine) | load_figures(load, room, paper)
-    for model in ("paper",):
-        for name in ("peer", "peer-bf16"):
-            for n, rate in peer[model]["frames_a_second" + ("_bf16" if "bf16" in name else "")].items():
-                figures[f"{model}/{name}/{n}"] = rate
+    for name in ("peer", "peer-bf16"):
+        for n, rate in peer["paper"]["frames_a_second" + ("_bf16" if "bf16" in name else "")].items():
+            figures[f"paper/{name}/{n}"] = rate
+    figures |= memory_figures(figures, engine)
     context = engine["context"]
     lines = ["# Performance", "",
-             "Written by `make bench` but for the last section; do not edit. Engines: frames a second of CPU time on **one thread**, medians of 5 interleaved "
-             "repetitions. The engines' frames are whole: windows, noise and poses included; eager PyTorch (`bench/peer_torch.py`, the same checkpoint) and the "
-             "bare products (oneDNN, on weights that it packed) have the network alone. Compare figures of one run only: a busy neighbour shares "
-             "caches and memory.", "",
+             "`make bench` writes this page. Engines are measured on **one thread**: frames a second of CPU time, medians of 5 interleaved repetitions. Their frames are "
+             "whole, with windows, noise and poses; eager PyTorch (`bench/peer_torch.py`, the same checkpoint) and the bare products (oneDNN) have the network alone. "
+             "Servers have their defaults, and share the cores with up to hundreds of clients. Compare figures of one run only: a busy neighbour shares caches and "
+             "memory.", "",
              f"Kernels {context['kernels']}; BLAS {context['blas']}; PyTorch {peer['torch']}; largest difference between the packed engine in float32 and eager "
              f"PyTorch {peer['paper']['largest_difference']:.1g}. Load of the machine when it began: "
              f"{context['load_avg'][0]:.1f} on {context['num_cpus']} cores.", "",
              "## What is to be reached", ""]
-    lines += bars(figures, context.get("gpu", ""))
-    lines += ["## The engine beside its limits", ""] + network_tables(figures) + memory_lines(figures, engine)
-    if load:
-        lines += ["## Through gRPC", "", "`load`: the clients, up to hundreds of threads, are on the same cores as the server, which has its defaults. A frame is late by what it "
-                  "comes after the music that it waits for by its model's latency (`latency_frames`, whole frames): below 0 where small chunks allow it sooner. `default`:", "",
-                  load.strip(), ""]
-    if room:
-        lines += ["Where far more are admitted than the defaults allow (`CHOREO_MAX_STREAMS=1024`), to see what the machine holds:", "", room.strip(), ""]
-    if paper:
-        lines += ["`paper` (random weights):", "", paper.strip(), ""]
-    lines += ["## What eats the rest", "", (root / "bench/notes.md").read_text().strip(), "", "```", "make bench", "```"]
+    lines += bars(figures, context.get("gpu", "")) + [(root / "bench/notes.md").read_text().strip()]
     committed = root / "bench/figures.json"
     if committed.exists():
-        before = json.loads(committed.read_text())
+        before = json.loads(committed.read_text())["figures"]
         print("ratio to the committed figures:")
         for name in sorted(figures):
             if before.get(name):
                 print(f"  {name:32} {figures[name] / before[name]:.2f}")
-    committed.write_text(json.dumps(figures, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
+    tables = {name: tables_of(text) for name, text in (("load", load), ("load, with room for many", room), ("load, paper", paper))}
+    committed.write_text(as_json(figures, tables))
     (root / "docs/performance.md").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
+
+
+def as_json(figures, tables):
+    """A figure a line, a row of a table a line."""
+    rows = ["[\n   " + ",\n   ".join(json.dumps(row, ensure_ascii=False) for row in table) + "\n  ]" for of in tables.values() for table in of]
+    names = [f"{name}, {at + 1}" for name, of in tables.items() for at in range(len(of))]
+    body = ",\n".join(f"  {json.dumps(name)}: {table}" for name, table in zip(names, rows))
+    return f'{{"figures": {json.dumps(figures, indent=1, sort_keys=True, ensure_ascii=False)},\n "tables": {{\n{body}\n }}\n}}\n'
 
 
 if __name__ == "__main__":
