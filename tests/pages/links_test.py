@@ -1,0 +1,55 @@
+#!/usr/bin/python3
+"""Links and pictures of pages lead somewhere; pages and pictures are no longer than somebody in a hurry reads."""
+
+import re
+import unittest
+
+from pages import ROOT, anchors, links, pages
+
+# References, which are looked up and not read: rows, one entry after the other, or written by a program.
+LOOKED_UP = {"docs/api.md", "docs/contract.md", "docs/decisions.md", "docs/reliability.md"}
+# Five minutes, and what a start page may take of them.
+WORDS, START_WORDS = 900, 450
+# Not yet as short as they should be.
+LONGER = {"docs/operations.md": 1100, "docs/poses.md": 1100, "docs/studio.md": 1250}
+PICTURES = 1_000_000
+
+
+class PagesTest(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        for page in pages():
+            text = (ROOT / page).read_text()
+            for link in links(text):
+                if "://" in link or link.startswith("mailto:"):
+                    continue
+                with self.subTest(page=page, link=link):
+                    path, _, anchor = link.partition("#")
+                    target = (ROOT / page).parent / path if path else ROOT / page
+                    self.assertTrue(target.exists(), "there is no such file")
+                    self.assertTrue(target.resolve().is_relative_to(ROOT), "leads out of the repository")
+                    if anchor:
+                        self.assertIn(anchor, anchors(target.read_text()))
+
+    def test_every_page_is_led_to(self):
+        led_to = {((ROOT / page).parent / link.partition("#")[0]).resolve() for page in pages() for link in links((ROOT / page).read_text())}
+        for page in pages():
+            if page not in ("README.md", "bench/notes.md"):  # which is part of performance.md
+                self.assertTrue({ROOT / page, (ROOT / page).parent} & led_to, f"no page leads to {page}")
+
+    def test_every_picture_is_shown(self):
+        led_to = {((ROOT / page).parent / link).resolve() for page in pages() for link in links((ROOT / page).read_text())}
+        for picture in (ROOT / "docs/images").iterdir():
+            self.assertIn(picture, led_to, f"no page shows {picture.name}")
+
+    def test_pages_are_read_in_five_minutes(self):
+        for page in pages():
+            if page not in LOOKED_UP:
+                words = len(re.sub("<!--.*?-->", "", (ROOT / page).read_text()).split())
+                limit = START_WORDS if page == "README.md" else LONGER.get(page, WORDS)
+                self.assertLessEqual(words, limit, f"{page} is too long")
+
+    def test_pictures_take_less_than_a_megabyte(self):
+        self.assertLess(sum(picture.stat().st_size for picture in (ROOT / "docs/images").iterdir()), PICTURES)
+
+
+unittest.main()
