@@ -18,7 +18,7 @@ import time
 import unittest
 import wave
 
-from pages import ROOT, fences, pages
+from pages import ROOT, fences, pages, without_fences
 
 try:
     import numpy
@@ -29,6 +29,8 @@ except ImportError:
 STAND_IN = pathlib.Path(__file__).resolve().parent / "stand_in.py"
 PROGRAMS = "choreo choreod choreo-lab make cmake docker node npm python3 curl".split()
 ORDINARY = "cd cp mkdir token= scripts/ tests/ ./ build/ /usr/bin/python3".split()
+# Whose options are not ours, though pages name them.
+OTHERS = ("bench/live.py", "ctest", "engine_bench", "fit_test", "load ", "npm", "perf", "soak")
 SECONDS = 16  # of the song: pages dance to a part of it
 
 
@@ -142,6 +144,21 @@ class CommandsTest(unittest.TestCase):
                     done = reader.runs(page, script)
                     self.assertEqual(done.returncode, 0, f"{script}\n{done.stdout[-1000:]}{done.stderr[-1000:]}")
             print(f"{page}: {len(blocks)} blocks, {time.monotonic() - begun:.1f} s", flush=True)
+
+    def test_options_in_the_text_exist(self):
+        """Those in `code` between the commands, of whichever program."""
+        helps = [subprocess.run([BIN / "choreod", "--help"], capture_output=True, text=True, check=True).stdout]
+        for program in ("choreo", "choreo-lab"):
+            said = subprocess.run([BIN / program, "--help"], capture_output=True, text=True, check=True).stdout
+            for name in re.findall(r"^  (\w+)  ", said[said.index("Subcommands:"):], flags=re.M):
+                helps.append(subprocess.run([BIN / program, name, "--help"], capture_output=True, text=True, check=True).stdout)
+        known = set(re.findall(r"--[a-z][\w-]*", "".join(helps)))
+        for page in PAGES:
+            for code in re.findall(r"`([^`\n]+)`", without_fences((ROOT / page).read_text())):
+                if not code.startswith(OTHERS):
+                    for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", code):
+                        with self.subTest(page=page, code=code):
+                            self.assertTrue(option in known, "no program has it")
 
 
 BIN = pathlib.Path(sys.argv.pop(1)).resolve()
