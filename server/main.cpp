@@ -24,7 +24,11 @@
 namespace choreo {
 namespace {
 
-/// Stops these from ending the process: from here on they wait for sigwait. Threads inherit it.
+pthread_t waits_for_signals;
+
+/// Stops these from ending the process: from here on they wait for sigwait, on this thread. Threads
+/// that begin later inherit it; those that libraries began before main don't, so they hand on what
+/// reaches them.
 // Also lets a log whose reader is gone be a log that nobody reads.
 sigset_t BlockSignals() {
   signal(SIGPIPE, SIG_IGN);
@@ -34,6 +38,9 @@ sigset_t BlockSignals() {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  waits_for_signals = pthread_self();
+  for (const int one : {SIGTERM, SIGINT, SIGHUP})
+    signal(one, [](int reached) { pthread_kill(waits_for_signals, reached); });
   return signals;
 }
 
@@ -137,8 +144,9 @@ void Run(const ServerConfig& config) {
   spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
                config.drain_seconds);
   reloader.Stop();
+  for (const int one : {SIGTERM, SIGINT}) ::signal(one, SIG_DFL);
   // Whoever has models read anew does not mean to end the calls that are left.
-  if (has_folder) ::signal(SIGHUP, SIG_IGN);
+  ::signal(SIGHUP, has_folder ? SIG_IGN : SIG_DFL);
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   server.Drain(config.drain_seconds);
 }

@@ -348,7 +348,10 @@ class ReloadedChoreodTest : public testing::Test {
     if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
     Put("default");
     ::setenv("CHOREO_MODELS", models.path().c_str(), 1);
+    // As where nobody says so: OpenBLAS has begun threads before choreod's main.
+    ::setenv("OPENBLAS_NUM_THREADS", "2", 1);
     server.emplace(CHOREOD_PROGRAM);
+    ::unsetenv("OPENBLAS_NUM_THREADS");
     ::unsetenv("CHOREO_MODELS");
   }
 
@@ -428,6 +431,15 @@ TEST_F(ReloadedChoreodTest, ReadsItsFolderAgainWhereItIsHungUp) {
                    }),
              wanted);
   ExpectSame(Dance(""), free);
+}
+
+// Of a process's threads the kernel may choose any that takes a signal.
+TEST_F(ReloadedChoreodTest, HearsASignalWhicheverThreadItReaches) {
+  Put("free");
+  const std::string tasks = "/proc/" + std::to_string(server->process()) + "/task";
+  for (const auto& task : std::filesystem::directory_iterator(tasks))
+    tgkill(server->process(), std::stoi(task.path().filename()), SIGHUP);
+  Await({"default", "free"});
 }
 
 TEST_F(ReloadedChoreodTest, LeavesWithZeroWhileItIsHungUp) {
