@@ -33,11 +33,14 @@ prepare() {  # prepare SET: what it is written in, and what its headers have wro
 train() {  # train FOLDER OPTION...
   local folder=$run/$1
   shift
-  [[ -f $folder/finished ]] && return
+  if [[ -f $folder/finished ]]; then
+    echo "$folder is finished"
+    return
+  fi
   "$lab" train --preset default --name "$name" --splits "$recordings/splits.json" --batch 48 --tempo 0.3 --run "$folder" --resume "$@"
   touch "$folder/finished"
 }
-of() { printf -- "--data\n$run/data/%s\n" "$@"; }  # of SET...
+of() { printf -- '--data\n%s\n' "${@/#/$run/data/}"; }  # of SET...
 
 for set in "${sets[@]}"; do prepare "$set"; done
 mapfile -t data < <(of "${sets[@]}")

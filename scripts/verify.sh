@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, the studio in a
-# browser, Blender, faults, libFuzzer, the container, a build without the service, and the tests under sanitizers.
+# What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, training from
+# recordings, the studio in a browser, Blender, faults, libFuzzer, the container, a build without the service, and the tests under sanitizers.
 # CHOREO_RECORDINGS names the folder of recordings that figures are measured on (scripts/evaluate.sh). Without it nothing is measured,
 # which the last line says.
 #   scripts/verify.sh BUILD_DIRECTORY
@@ -41,6 +41,9 @@ if "$scratch/consumer/first_dance" 127.0.0.1:1 2>"$scratch/said"; then
   exit 1
 fi
 grep -q "127.0.0.1:1" "$scratch/said"
+
+echo "== A model of one's own, from recordings"
+tests/lab/train_script.sh "$build"
 
 echo "== The studio in a browser"
 scripts/install_packages.sh browser
