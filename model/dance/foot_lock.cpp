@@ -15,9 +15,11 @@ constexpr double kLiftedToes = 0.07;     // the model has lifted the foot
 constexpr double kStillSpeed = 0.6;      // m/s: a foot that the model moves slower stands
 constexpr double kSameSpot = 0.03;       // metres that need no step of their own
 constexpr double kFarthestReach = 1.02;  // of the leg's length: a toe drawn two centimetres
+constexpr double kStraightest = 0.99;    // of the leg's length: a step reaches out no farther
 constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metres
 constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
 constexpr int kFewestStepFrames = 4;
+constexpr int kHalvings = 12;
 constexpr double kLandsAhead = 0.1;  // seconds before the key, which a landing would jolt
 
 double SmoothStep(double u) { return u * u * (3 - 2 * u); }
@@ -108,24 +110,41 @@ bool FootLock::WantsToStep(const Foot& foot, const Eigen::Vector3d& raw, double 
 // Where a foot in the air is: on its way from where it left to where the model has it, or to where
 // it lands; higher the farther it goes.
 Eigen::Vector3d FootLock::Move(Foot* foot, const Eigen::Vector3d& raw) {
-  const double u =
-      std::min(1.0, static_cast<double>(next_ - foot->start + 1) / std::max(1, foot->duration));
-  const Eigen::Vector3d goal = foot->last_step && foot->landing ? *foot->landing : raw;
-  Eigen::Vector3d at = foot->from + SmoothStep(u) * (goal - foot->from);
+  const bool lands = foot->last_step && foot->landing;
+  const Eigen::Vector3d goal = lands ? *foot->landing : raw;
   const double arc = std::min(kHighestArc, kArc + kArcPerMetre * Apart(goal, foot->from));
   const double model_lift = std::max(0.0, raw.y() - rest_height_ - kLowToes);
-  // A quick step, between keys that stand close together, is a low one. It leaves the floor and
-  // comes down softly: a parabola would jolt the knee, half of the times on a key. It is higher
-  // where the model lifts the foot, and never lower.
-  const double shape = foot->duration / (kStepSeconds * fps_) * 8 * std::pow(u * (1 - u), 1.5);
-  at.y() = std::max(at.y() + std::max(0.0, arc - model_lift) * shape, rest_height_ + arc * shape);
-  if (!(foot->last_step && foot->landing)) at.y() = std::max(at.y(), rest_height_);
+  const auto at = [&](double u) {
+    Eigen::Vector3d place = foot->from + SmoothStep(u) * (goal - foot->from);
+    // A quick step, between keys that stand close together, is a low one. It leaves the floor and
+    // comes down softly: a parabola would jolt the knee, half of the times on a key. It is higher
+    // where the model lifts the foot, and never lower.
+    const double shape = foot->duration / (kStepSeconds * fps_) * 8 * std::pow(u * (1 - u), 1.5);
+    place.y() =
+        std::max(place.y() + std::max(0.0, arc - model_lift) * shape, rest_height_ + arc * shape);
+    if (!lands) place.y() = std::max(place.y(), rest_height_);
+    return place;
+  };
+  const auto reaches = [&](double u) {
+    return Reach(foot->leg, placement_, at(u)) <= kStraightest;
+  };
+  double u =
+      std::min(1.0, static_cast<double>(next_ - foot->start + 1) / std::max(1, foot->duration));
+  if (lands && !reaches(u)) {
+    // The body is not there yet: the foot waits in the air, as long as there is time.
+    double most = u;
+    u = std::clamp(1 - static_cast<double>(frames_ - 1 - next_) / step_frames_, 0.0, u);
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (u + most);
+      (reaches(middle) ? u : most) = middle;
+    }
+  }
   // A step comes down where the floor is; a foot that the model moves by itself stands once it is
   // slow. A key that has the foot in the air, or leaves it open, takes it from the model's hand.
   const bool low = goal.y() < rest_height_ + (foot->landing ? kLiftedToes : kLowToes);
   const bool comes_down = foot->duration > 0 || Apart(raw, foot->raw) < kStillSpeed / fps_;
   foot->planted = u == 1 && low && comes_down && (!foot->last_step || foot->landing);
-  return at;
+  return at(u);
 }
 
 // A planted foot stays, settles onto the floor, and at the end shifts the little that the key asks.
@@ -157,6 +176,9 @@ Pose FootLock::Apply(const Pose& steered) {
       Lift(&foot, step_frames_);
     }
     foot.at = foot.planted ? Stand(foot) : Move(&foot, raw);
+    // The body may not be where the step leads yet.
+    if (!foot.planted || foot.last_step)
+      foot.at = WithinReach(foot.leg, placement_, foot.at, kStraightest);
     foot.raw = raw;
     // On the key itself the steered pose is the key: nothing may touch it.
     if (ends_on_key_ && next_ == frames_ - 1) {

@@ -1,6 +1,7 @@
 #include "model/motion/leg.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/motion/limb.h"
 
@@ -26,6 +27,21 @@ double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vecto
   const Eigen::Vector3d ankle = toes - (at(leg.toes) - at(leg.ankle));
   return (ankle - at(leg.hip)).norm() /
          ((at(leg.knee) - at(leg.hip)).norm() + (at(leg.ankle) - at(leg.knee)).norm());
+}
+
+Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
+                            const Eigen::Vector3d& toes, double most) {
+  const Eigen::Vector3d now = placement.positions.col(leg.toes), way = toes - now;
+  const Eigen::Vector3d from =
+      placement.positions.col(leg.ankle) - placement.positions.col(leg.hip);
+  const double length = from.norm() / Reach(leg, placement, now);
+  const double farthest = std::max(most * length, from.norm());
+  if ((from + way).norm() <= farthest) return toes;
+  // |from + share way| = farthest; the root that is not behind.
+  const double a = way.squaredNorm(), b = from.dot(way);
+  const double c = from.squaredNorm() - farthest * farthest;
+  const double share = (std::sqrt(std::max(0.0, b * b - a * c)) - b) / a;
+  return now + std::clamp(share, 0.0, 1.0) * way;
 }
 
 void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,

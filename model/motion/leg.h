@@ -23,6 +23,11 @@ struct Leg {
 /// thigh and shin: below 1 the ankle of `placement` could be put where `toes` asks for it.
 double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vector3d& toes);
 
+/// `toes`, or where the leg is as straight as `most` (a Reach) on the way there from where
+/// `placement` has the toes; they stay where that is farther already.
+Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
+                            const Eigen::Vector3d& toes, double most);
+
 /// Turns hip and knee so that the toes come to `toes`, the foot keeping its global rotation
 /// (limb.h: PlaceEnd); a straight knee bends forward. `toes` stands in the frame of `pose`.
 void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,

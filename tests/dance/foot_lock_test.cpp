@@ -170,6 +170,26 @@ TEST(FootLock, NoKneeSnapsThatWasStraight) {
   }
 }
 
+// The body comes late, in the last third of a second: feet wait for it in the air.
+TEST(FootLock, AStepReachesNoFartherThanTheLeg) {
+  const int frames = 60, late = 50;
+  for (const double way : {0.4, 0.7, 0.9}) {
+    FootLock lock(Body(), kFps, frames, Standing(), Target{At(way), {}});
+    const double soft = Flexion(Leg::Of(Body())[0], At(0));
+    for (int t = 0; t < frames; ++t) {
+      const double there = std::max(0.0, (t + 1.0 - late) / (frames - late));
+      const Pose now = lock.Apply(At(way * there * there * (3 - 2 * there)));
+      if (t + 1 == late) {
+        EXPECT_FALSE(lock.contacts()[1] == 1 && lock.contacts()[3] == 1);
+      }
+      for (const Leg& leg : Leg::Of(Body())) {
+        EXPECT_GT(Flexion(leg, now), std::min(soft, 12.0)) << way << " m, frame " << t;
+      }
+    }
+    EXPECT_EQ(lock.contacts(), Contacts({1, 1, 1, 1})) << way;
+  }
+}
+
 TEST(FootLock, AFootThatTheModelLiftsIsTheModels) {
   const int frames = 60;
   Pose lifted = At(0);

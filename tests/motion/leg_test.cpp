@@ -151,6 +151,29 @@ TEST(Leg, OutOfReachItStretchesTowardsTheGoal) {
   EXPECT_LT((wanted - got).norm(), 1e-6);
 }
 
+TEST(Leg, WithinReachIsOnTheWayThere) {
+  const Skeleton& body = Skeleton::Smpl24();
+  const Leg leg = Leg::Of(body)[0];
+  Pose pose = RestPose(body);
+  pose.rotations.col(leg.knee).x() = 0.8;
+  JointPlacement placement;
+  ForwardKinematics(body, pose, placement);
+  const Eigen::Vector3d toes = placement.positions.col(leg.toes);
+  const Eigen::Vector3d near = toes + Eigen::Vector3d(0.02, 0, 0.01);
+  EXPECT_EQ(WithinReach(leg, placement, near, 0.99), near);
+  for (const Eigen::Vector3d& far : {Eigen::Vector3d(1, -0.2, 0.3), Eigen::Vector3d(0, -2, 0)}) {
+    const Eigen::Vector3d at = WithinReach(leg, placement, toes + far, 0.99);
+    EXPECT_NEAR(Reach(leg, placement, at), 0.99, 1e-9);
+    EXPECT_LT((at - toes).cross(far).norm(), 1e-9);
+    EXPECT_GT((at - toes).dot(far), 0);
+  }
+  // Who stretches more already may go on so, and no farther.
+  const double stretched = Reach(leg, placement, toes);
+  EXPECT_NEAR(Reach(leg, placement,
+                    WithinReach(leg, placement, toes + Eigen::Vector3d(0, -1, 0), 0.5 * stretched)),
+              stretched, 1e-9);
+}
+
 TEST(Leg, ASkeletonWithoutLegsIsKnown) {
   EXPECT_TRUE(Leg::In(Body()));
   Skeleton other = Body();
