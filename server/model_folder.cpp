@@ -46,6 +46,10 @@ std::vector<std::filesystem::path> ModelFolder::List() const {
   return files;
 }
 
+bool ModelFolder::Has(const Files& files, const std::string& model) {
+  return std::ranges::any_of(files, [&](const auto& one) { return one.second.model == model; });
+}
+
 ModelFolder::Stamp ModelFolder::StampOf(const std::filesystem::path& file) {
   struct stat status;
   if (stat(file.c_str(), &status) != 0) {
@@ -81,15 +85,25 @@ std::vector<Server::Engines> ModelFolder::Load() {
 
 void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
   try {
+    const std::vector<std::filesystem::path> listed = List();
     Files files;
-    std::vector<std::string> names;
+    Faults faults;
     std::vector<Server::Engines> fresh;
-    for (const auto& file : List()) {
+    for (const auto& file : listed) {
       if (stopped()) return;
-      if (std::optional<Server::Engines> engines = Look(file, &files)) {
+      if (std::optional<Server::Engines> engines = Look(file, &files, &faults)) {
         fresh.push_back(std::move(*engines));
       }
-      if (const auto now = files.find(file); now != files.end()) names.push_back(now->second.model);
+    }
+    GoOn(faults, &files);
+    std::vector<std::string> names;
+    for (const auto& file : listed) {
+      // Where another file has taken its model over, that stands in its place.
+      const Files& from = files.contains(file) ? files : served_;
+      const auto at = from.find(file);
+      if (at != from.end() && std::ranges::find(names, at->second.model) == names.end()) {
+        names.push_back(at->second.model);
+      }
     }
     if (names.empty()) throw InvalidArgument(kFlag, folder_.string() + ": no file can be used");
     const size_t count = fresh.size();
@@ -102,15 +116,12 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
   }
 }
 
-std::optional<Server::Engines> ModelFolder::Look(const std::filesystem::path& file,
-                                                 Files* files) const {
-  const auto before = served_.find(file);
-  const auto is_taken = [&] {
-    return std::ranges::any_of(
-        *files, [&](const auto& other) { return other.second.model == before->second.model; });
-  };
+std::optional<Server::Engines> ModelFolder::Look(const std::filesystem::path& file, Files* files,
+                                                 Faults* faults) const {
   try {
-    if (before != served_.end() && StampOf(file) == before->second.stamp && !is_taken()) {
+    const auto before = served_.find(file);
+    if (before != served_.end() && StampOf(file) == before->second.stamp &&
+        !Has(*files, before->second.model)) {
       files->insert(*before);
       return std::nullopt;
     }
@@ -124,12 +135,19 @@ std::optional<Server::Engines> ModelFolder::Look(const std::filesystem::path& fi
     if (is_served) return std::nullopt;
     return engines;
   } catch (const std::exception& error) {
-    const bool goes_on = before != served_.end() && !is_taken();
-    spdlog::error("{}; {}", Printable(error.what()),
+    faults->emplace(file, error.what());
+    return std::nullopt;
+  }
+}
+
+void ModelFolder::GoOn(const Faults& faults, Files* files) const {
+  for (const auto& [file, fault] : faults) {
+    const auto before = served_.find(file);
+    const bool goes_on = before != served_.end() && !Has(*files, before->second.model);
+    spdlog::error("{}; {}", Printable(fault),
                   goes_on ? "its model \"" + before->second.model + "\" is served as before"
                           : "nothing is served of it");
     if (goes_on) files->insert(*before);
-    return std::nullopt;
   }
 }
 

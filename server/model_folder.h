@@ -32,8 +32,9 @@ class ModelFolder {
 
   /// Looks again: loads the files that are new or have changed since, and tells the server what it
   /// serves now. A file that cannot be used is logged as an error and tried again the next time;
-  /// until then the model that it had before goes on, as all do where the folder has none or cannot
-  /// be read. Once `stopped` it loads nothing more, and the server is told nothing.
+  /// until then the model that it had before goes on, unless another file has one of that name. All
+  /// go on where the folder has none or cannot be read. Once `stopped` it loads nothing more, and
+  /// the server is told nothing.
   void Reload(Server& server, const std::function<bool()>& stopped);
 
  private:
@@ -51,13 +52,20 @@ class ModelFolder {
     std::string model, fingerprint, card;
   };
   using Files = std::map<std::filesystem::path, Served>;
+  using Faults = std::map<std::filesystem::path, std::string>;
 
   std::vector<std::filesystem::path> List() const;
   static Stamp StampOf(const std::filesystem::path& file);
+  static bool Has(const Files& files, const std::string& model);
   /// Loads it, and notes in `files` what it has. Throws where a model of that name is there.
   Server::Engines LoadFile(const std::filesystem::path& file, Files* files) const;
-  /// What is served of it from now on, noted in `files`; engines where that is not served already.
-  std::optional<Server::Engines> Look(const std::filesystem::path& file, Files* files) const;
+  /// Notes in `files` what it has, or in `faults` why it cannot be used; engines where these are
+  /// not served already.
+  std::optional<Server::Engines> Look(const std::filesystem::path& file, Files* files,
+                                      Faults* faults) const;
+  /// Of files at fault, notes what is served of them as before; once all others have been looked
+  /// at, which have the right of way.
+  void GoOn(const Faults& faults, Files* files) const;
 
   const std::filesystem::path folder_;
   const Loader load_;

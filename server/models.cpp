@@ -105,6 +105,10 @@ void Models::FreeUnused() {
     ended.push_back(std::move(*at));
     at = former_.erase(at);
   }
+  std::erase_if(past_, [this](const auto& model) {
+    const auto has_name = [&](const Entry& entry) { return entry.name() == model.first; };
+    return std::ranges::none_of(served_, has_name) && std::ranges::none_of(former_, has_name);
+  });
 }
 
 Models::Use Models::Find(const std::string& name, const std::string& field) const {

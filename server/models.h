@@ -39,7 +39,7 @@ class Models {
   /// Error(kNotFound) that lists the models.
   Use Find(const std::string& name, const std::string& field) const;
   std::vector<Use> served() const;
-  /// By name, of all that have ever been served.
+  /// By name. One that has gone is in it until nobody dances it any more.
   std::map<std::string, Figures> figures() const;
   /// Transitions that hold a slot, wait for one, or have lost theirs while they slept.
   int transitions() const;
@@ -55,7 +55,7 @@ class Models {
   };
 
   mutable std::mutex mutex_;             // guards all below
-  std::map<std::string, Figures> past_;  // of schedulers that have ended
+  std::map<std::string, Figures> past_;  // of schedulers that have ended, but not their models
   std::vector<Entry> served_;
   std::vector<Entry> former_;
 };

@@ -252,14 +252,8 @@ void Server::Drain(double seconds) {
   impl_->listener.Stop();
   impl_->server->Shutdown(std::chrono::system_clock::now() +
                           (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
-  uint64_t frames = 0;
-  uint64_t steps = 0;
-  for (const auto& [model, figures] : impl_->serving.models.figures()) {
-    frames += figures.stats.frames;
-    steps += figures.stats.steps;
-  }
-  spdlog::info("served {} calls ({} refused) with {} frames in {} steps", calls.total(),
-               calls.refused(), frames, steps);
+  spdlog::info("served {} calls ({} refused) with {} frames", calls.total(), calls.refused(),
+               impl_->serving.tally.frames.load());
 }
 
 }  // namespace choreo

@@ -1,29 +1,45 @@
-// A choreod with a fake engine that takes controls: takes the settings of choreod, says where it
-// listens, and serves until SIGTERM.
-#include <signal.h>
-#include <unistd.h>
+// A choreod with a fake engine that takes controls: its settings and its life are choreod's, its
+// checkpoints are not. A file of a line is one that takes as long to load as the file that the line
+// names takes to be read.
+#include <spdlog/spdlog.h>
 
-#include <iostream>
+#include <exception>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <string>
 
-#include "server/server.h"
+#include "server/log.h"
+#include "server/serve.h"
 #include "tests/support/fake_engine.h"
 
-int main(int argc, char** argv) {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+namespace {
 
-  const choreo::CommandLine command_line = choreo::ParseCommandLine(argc, argv);
+choreo::Server::Engines Load(const std::filesystem::path& path) {
+  std::string slow;
+  if (std::getline(std::ifstream(path), slow)) {
+    std::ifstream file(slow);
+    const std::string read(std::istreambuf_iterator<char>(file), {});
+  }
+  choreo::Server::Engines engines;
+  engines.push_back(std::make_unique<choreo::ControlledEngine>());
+  return engines;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  choreo::CommandLine command_line = choreo::ParseCommandLine(argc, argv);
   if (!command_line.config) return command_line.exit_code;
-  std::vector<choreo::Server::Engines> models(1);
-  models[0].push_back(std::make_unique<choreo::ControlledEngine>());
-  choreo::Server server(*command_line.config, std::move(models));
-  std::cout << "choreod listens on 127.0.0.1:" << server.port() << std::endl;
-  // Whoever waited for that line may have stopped reading; the log goes elsewhere.
-  dup2(STDERR_FILENO, STDOUT_FILENO);
-  int signal = 0;
-  sigwait(&signals, &signal);
-  return 0;
+  choreo::ServerConfig& config = *command_line.config;
+  if (config.checkpoints.empty()) config.checkpoints = {"/dev/null"};  // which loads at once
+  choreo::StartLog(config.log_level, config.log_format == "json");
+  choreo::HoldSignals();
+  try {
+    choreo::Serve(config, Load);
+    return 0;
+  } catch (const std::exception& error) {
+    spdlog::critical("{}", error.what());
+    return 1;
+  }
 }

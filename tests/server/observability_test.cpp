@@ -132,6 +132,25 @@ TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
   EXPECT_EQ(Figure("choreo_load" + of_fake), 0);
 }
 
+// Who looks at them is not told for ever of what was served once, nor does the list grow.
+TEST_F(MetricsTest, OfAModelThatHasGoneEndWithItsLastDance) {
+  Start(16, [](ServerConfig& config) { config.metrics = "0"; }, {"fake", "other"});
+  DanceClient client(stub());
+  v1::DanceConfig config = Config();
+  config.set_model("other");
+  client.Send(config);
+  client.SendGenerateUntil(10);
+  ASSERT_TRUE(client.ReadFrames(10));
+  server->SetModels({"fake"}, {});
+  EXPECT_THAT(Metrics(), HasSubstr(R"(choreo_frames_total{model="other"})"));
+  client.SendKeyframe(Key("a", 20));
+  ASSERT_TRUE(client.Finish().status.ok());
+  ExpectEventually([&] { return Metrics().find("other") == std::string::npos; },
+                   "no series names it any more");
+  EXPECT_EQ(Figure("choreo_sent_frames_total"), 21) << "calls are counted all the same";
+  EXPECT_EQ(Figure(R"(choreo_frames_total{model="fake"})"), 0);
+}
+
 // Each series of a query, with the labels that it is summed by.
 TEST_F(MetricsTest, TheDashboardAsksForWhatThereIs) {
   Start(16, [](ServerConfig& config) { config.metrics = "0"; });
@@ -280,6 +299,18 @@ TEST_F(LogTest, AsJsonEachLineIsAnObject) {
   EXPECT_EQ(calls[0].at("span_id"), "00f067aa0ba902b7");
   EXPECT_EQ(calls[1].at("status"), "NOT_FOUND");
   EXPECT_FALSE(calls[1].contains("trace_id"));
+}
+
+// Linux has file names of any bytes.
+TEST_F(LogTest, AsJsonWhatIsNoUtf8IsReplaced) {
+  const auto before = spdlog::default_logger();
+  testing::internal::CaptureStderr();
+  StartLog("info", true);
+  spdlog::error("models/\xff\xc3(\"\n.safetensors");
+  StartLog("info", false);
+  spdlog::set_default_logger(before);
+  const auto object = nlohmann::json::parse(testing::internal::GetCapturedStderr());
+  EXPECT_EQ(object.at("message"), "models/\uFFFD\uFFFD(\"\n.safetensors");
 }
 
 // Whoever can connect can make gRPC write: it writes ten lines in ten seconds, and how many more

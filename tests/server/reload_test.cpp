@@ -230,6 +230,24 @@ TEST_F(ReloadTest, ModelsComeAndGo) {
   ExpectAlive(1);
 }
 
+// Whatever their names, and whichever was there first.
+TEST_F(ReloadTest, AGoodFileGoesBeforeABrokenOneOfItsModel) {
+  Write("default.safetensors", "a 1");
+  Write("b.safetensors", "b 1");
+  StartFolder();
+  Write("default.safetensors", "broken");
+  Reload();
+  EXPECT_EQ(Served(), (std::vector<std::string>{"a-1", "b-1"}));
+  Write("z.safetensors", "a 2");
+  Reload();
+  EXPECT_EQ(Served(), (std::vector<std::string>{"a-2", "b-1"})) << "it is the default still";
+  Write("default.safetensors", "a 4");
+  std::filesystem::remove(models / "z.safetensors");
+  Reload();
+  EXPECT_EQ(Served(), (std::vector<std::string>{"a-4", "b-1"}));
+  ExpectAlive(2);
+}
+
 TEST_F(ReloadTest, WithoutAModelAllAreServedAsBefore) {
   Write("a.safetensors", "a 1");
   StartFolder();

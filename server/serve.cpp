@@ -1,0 +1,145 @@
+#include "server/serve.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdlib>
+#include <ctime>
+#include <iostream>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/server.h"
+
+namespace choreo {
+namespace {
+
+sigset_t SetOf(std::initializer_list<int> signals) {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : signals) sigaddset(&set, signal);
+  return set;
+}
+
+// Without an end to what goes on: loading cannot be interrupted, and nothing is left to be written.
+[[noreturn]] void Leave() {
+  spdlog::default_logger()->flush();
+  std::_Exit(0);
+}
+
+/// While it lives, whoever asks choreod to go is obeyed at once.
+class LeaveAtOnce {
+ public:
+  LeaveAtOnce()
+      : thread_([](const std::stop_token& stop) {
+          const sigset_t asked = SetOf({SIGTERM, SIGINT});
+          constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 20'000'000};
+          while (!stop.stop_requested()) {
+            const int signal = sigtimedwait(&asked, nullptr, &kLook);
+            if (signal <= 0) continue;
+            spdlog::info("{}: leaves at once", strsignal(signal));
+            Leave();
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
+/// Reads the folder of models again whenever somebody asks, on a thread of its own: loading takes
+/// seconds, in which signals are heard. Who asks meanwhile is served by one more look.
+class Reloader {
+ public:
+  Reloader(ModelFolder& folder, Server& server)
+      : thread_([this, &folder, &server](const std::stop_token& stop) {
+          std::unique_lock lock(mutex_);
+          while (wake_.wait(lock, stop, [this] { return asked_; })) {
+            asked_ = false;
+            loads_ = true;
+            lock.unlock();
+            folder.Reload(server, [&stop] { return stop.stop_requested(); });
+            lock.lock();
+            loads_ = false;
+          }
+        }) {}
+
+  void Ask() {
+    const std::lock_guard lock(mutex_);
+    asked_ = true;
+    wake_.notify_one();
+  }
+  /// Of what is asked nothing more is done, once the file is read that is being read.
+  void Stop() { thread_.request_stop(); }
+  bool loads() const {
+    const std::lock_guard lock(mutex_);
+    return loads_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  bool asked_ = false, loads_ = false;  // lock: mutex_
+  std::jthread thread_;                 // last: it uses the above
+};
+
+std::vector<Server::Engines> LoadAll(const ServerConfig& config, ModelFolder& folder,
+                                     const ModelFolder::Loader& load) {
+  const LeaveAtOnce leave;
+  if (!config.models.empty()) return folder.Load();
+  std::vector<Server::Engines> models;
+  for (const auto& path : config.checkpoints.empty() ? ShippedCheckpoints() : config.checkpoints) {
+    models.push_back(load(path));
+  }
+  return models;
+}
+
+// In threads that libraries began before main, which do not inherit what main holds: whom a signal
+// reaches holds it from then on, too, and sends it again.
+void HandOn(int signal, siginfo_t* /*info*/, void* context) {
+  sigaddset(&static_cast<ucontext_t*>(context)->uc_sigmask, signal);
+  kill(getpid(), signal);
+}
+
+}  // namespace
+
+void HoldSignals() {
+  signal(SIGPIPE, SIG_IGN);  // a log whose reader is gone is a log that nobody reads
+  const sigset_t held = SetOf({SIGTERM, SIGINT, SIGHUP});
+  pthread_sigmask(SIG_BLOCK, &held, nullptr);
+  struct sigaction action {};
+  action.sa_sigaction = HandOn;
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
+  for (const int one : {SIGTERM, SIGINT, SIGHUP}) sigaction(one, &action, nullptr);
+}
+
+void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
+  ModelFolder folder(config.models, load);
+  const bool has_folder = !config.models.empty();
+  Server server(config, LoadAll(config, folder, load));
+  Reloader reloader(folder, server);
+  const std::string host = config.listen.substr(0, config.listen.rfind(':'));
+  // Whoever starts a choreod waits for this line.
+  std::cout << "choreod listens on " << host << ':' << server.port() << std::endl;
+
+  const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});
+  int signal = 0;
+  while (sigwait(&heard, &signal) == 0 && signal == SIGHUP && has_folder) reloader.Ask();
+  spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
+               config.drain_seconds);
+  reloader.Stop();
+  {
+    const LeaveAtOnce leave;
+    server.Drain(config.drain_seconds);
+  }
+  if (reloader.loads()) Leave();
+}
+
+}  // namespace choreo

@@ -1,0 +1,136 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <future>
+#include <sstream>
+#include <string>
+
+#include "client/choreo_client.h"
+#include "tests/server/fixture.h"
+#include "tests/support/shell.h"
+#include "tests/support/temporary_folder.h"
+
+/// How a choreod leaves that is asked to, whatever it does at that moment.
+namespace choreo {
+namespace {
+
+using testing::HasSubstr;
+
+class ServeTest : public testing::Test {
+ protected:
+  // A process that never ends is no test that never ends.
+  ~ServeTest() override {
+    if (process_ > 0) kill(process_, SIGKILL);
+    if (fifo_ >= 0) close(fifo_);
+  }
+
+  void Start(const std::string& settings) {
+    ended_ = std::async(std::launch::async, [this, settings] {
+      return Shell("echo $$ > '" + (folder_ / "process").string() +
+                   "'; { exec " FAKE_CHOREOD " --listen 127.0.0.1:0 --log-format json " + settings +
+                   " > '" + (folder_ / "said").string() + "'; }");
+    });
+  }
+  void AwaitListening() {
+    ExpectEventually([this] { return Read("said").ends_with('\n'); }, "it listens");
+  }
+  std::string address() const {
+    const std::string said = Read("said");
+    return said.substr(said.rfind(' ') + 1, said.size() - said.rfind(' ') - 2);
+  }
+  // A checkpoint that is loaded for as long as this test lives, once AwaitLoading has returned.
+  void WriteSlow(const std::string& name) {
+    ASSERT_EQ(mkfifo((folder_ / "fifo").c_str(), 0600), 0);
+    std::ofstream(folder_ / "written") << (folder_ / "fifo").string();
+    std::filesystem::rename(folder_ / "written", folder_ / name);
+  }
+  void AwaitLoading() {
+    const auto opens = [this] {  // fails until somebody reads
+      fifo_ = open((folder_ / "fifo").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+      return fifo_ >= 0;
+    };
+    ExpectEventually(opens, "the checkpoint is loaded");
+  }
+  void Send(int signal) {
+    process_ = std::stoi(Read("process"));
+    kill(process_, signal);
+  }
+  Outcome End() {
+    using namespace std::chrono_literals;
+    if (ended_.wait_for(30s) != std::future_status::ready) {
+      ADD_FAILURE() << "it does not leave";
+      kill(process_, SIGKILL);
+    }
+    process_ = -1;
+    return ended_.get();
+  }
+
+  TemporaryFolder folder_;
+
+ private:
+  std::string Read(const std::string& name) const {
+    std::ostringstream content;
+    content << std::ifstream(folder_ / name).rdbuf();
+    return content.str();
+  }
+
+  pid_t process_ = -1;
+  int fifo_ = -1;
+  std::future<Outcome> ended_;
+};
+
+TEST_F(ServeTest, LeavesWhileItLoadsItsFirstModel) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    SCOPED_TRACE(strsignal(signal));
+    std::filesystem::remove(folder_ / "fifo");
+    WriteSlow("slow");
+    Start("--checkpoint '" + (folder_ / "slow").string() + "'");
+    AwaitLoading();
+    Send(signal);
+    const Outcome outcome = End();
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
+  }
+}
+
+TEST_F(ServeTest, LeavesWhileItLoadsAnotherModel) {
+  std::filesystem::create_directory(folder_ / "models");
+  std::ofstream(folder_ / "models/a.safetensors").flush();
+  Start("--drain-seconds 1 --models '" + (folder_ / "models").string() + "'");
+  AwaitListening();
+  WriteSlow("models/b.safetensors");
+  Send(SIGHUP);
+  AwaitLoading();
+  // Who dances meanwhile may go on.
+  const client::Client client({.addresses = {address()}});
+  const auto dance = client.StartDance({.frames = 30, .generate_until = 0});
+  dance->GenerateUntil(10);
+  ASSERT_TRUE(dance->Next());
+  Send(SIGTERM);
+  const Outcome outcome = End();
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
+}
+
+TEST_F(ServeTest, LeavesAtOnceWhenItIsAskedTwice) {
+  Start("--drain-seconds 3600");
+  AwaitListening();
+  const client::Client client({.addresses = {address()}});
+  const auto dance = client.StartDance({.frames = 30, .generate_until = 0});
+  dance->GenerateUntil(10);
+  ASSERT_TRUE(dance->Next());
+  Send(SIGTERM);
+  ExpectEventually([&] { return !client.IsServing(); }, "it drains");
+  Send(SIGTERM);
+  const Outcome outcome = End();
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
+}
+
+}  // namespace
+}  // namespace choreo
