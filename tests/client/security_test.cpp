@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <iostream>
 #include <sstream>
 
 #include "client/choreo_client.h"
@@ -21,12 +22,15 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+// Prints after how long.
 void Eventually(const std::function<bool()>& condition, const std::string& what) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto waited = [&] { return std::chrono::steady_clock::now() - begin; };
   while (!condition()) {
-    ASSERT_LT(std::chrono::steady_clock::now(), end) << "never came about: " << what;
+    ASSERT_LT(waited(), std::chrono::seconds(20)) << "never came about: " << what;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+  std::cout << what << " after " << std::chrono::duration<double>(waited()).count() << " s\n";
 }
 
 bool Serves(const Options& options) {

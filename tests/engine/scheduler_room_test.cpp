@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <iostream>
+
 #include "tests/engine/scheduler_fixture.h"
 
 namespace choreo {
@@ -143,6 +146,14 @@ TEST_F(SchedulerTest, GroupsYieldToDancesThatAreDue) {
   EXPECT_THAT(gate_.steps(),
               ElementsAre(ElementsAre(99), UnorderedElementsAre(2, 3), UnorderedElementsAre(2, 3),
                           UnorderedElementsAre(1, 3), ElementsAre(1)));
+  int due_steps = 0, shared = 0;
+  for (const auto& step : gate_.steps()) {
+    if (std::ranges::find(step, 2) == step.end()) continue;
+    ++due_steps;
+    shared += static_cast<int>(std::ranges::count(step, 1));
+  }
+  std::cout << due_steps << " steps with a dance that is due, " << shared
+            << " of them with a transition\n";
 }
 
 TEST_F(SchedulerTest, DancesThatAreDueAreAdmittedBeforeGroups) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <thread>
 
@@ -64,7 +65,11 @@ TEST(DescriptorsTest, ComeBackAfterTooManyConnections) {
       EXPECT_LT(closed, kConnections - 50) << "the others stay";
       EXPECT_FALSE(Serves(*server)) << "there is no room";
     }
+    const auto begin = std::chrono::steady_clock::now();
     EXPECT_TRUE(Eventually([&] { return Serves(*server); })) << "in round " << round;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    std::cout << "it serves " << took.count() << " s after " << kConnections
+              << " connections have gone\n";
   }
 }
 

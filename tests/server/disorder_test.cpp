@@ -1,6 +1,8 @@
+#include <atomic>
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -183,9 +185,10 @@ TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
   Start(/*slots=*/2);
   constexpr uint32_t kClients = 4;
   constexpr uint32_t kScripts = 100;
+  std::atomic<int> danced = 0, twice = 0;
   std::vector<std::jthread> clients;
   for (uint32_t client = 0; client < kClients; ++client) {
-    clients.emplace_back([this, client] {
+    clients.emplace_back([&, client] {
       for (uint32_t i = 0; i < kScripts; ++i) {
         const uint32_t seed = client * kScripts + i;
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -193,17 +196,22 @@ TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
         const Answer answer = Play(script);
         ExpectAnAnswer(script, answer);
         if (!answer.status.ok()) continue;
+        ++danced;
         const Answer again = Play(script);
         ExpectAnAnswer(script, again);
         // Whether a dance is over before it is cancelled, or before a message that is refused comes
         // behind its end, time decides.
         if (!again.status.ok()) continue;
         EXPECT_TRUE(again.Join() == answer.Join()) << "the same messages, another dance";
+        ++twice;
       }
     });
   }
   clients.clear();
   ExpectIdle();
+  std::cout << kClients * kScripts << " orders of messages: " << danced << " danced to their end, "
+            << twice
+            << " of these twice and the same; the others were cancelled, or told what is wrong\n";
 }
 
 }  // namespace

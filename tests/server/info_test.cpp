@@ -1,8 +1,14 @@
+#include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/support/byte_buffer.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <condition_variable>
+#include <iostream>
 #include <mutex>
+#include <sstream>
 
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
@@ -161,6 +167,10 @@ class FailingEngine final : public FakeEngine {
 };
 
 TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
+  const auto before = spdlog::default_logger();
+  std::ostringstream log;
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "log", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
   std::atomic<bool> fails = true;
   ServerConfig config;
   config.listen = "127.0.0.1:0";
@@ -178,11 +188,17 @@ TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(Generate(request).status.error_code(), grpc::StatusCode::INTERNAL);
   }
+  const auto begin = std::chrono::steady_clock::now();
   ExpectEventually([&] { return health() == not_serving; }, "health tells of it");
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  std::cout << "NOT_SERVING " << took.count() << " s after the third failure\n";
   fails = false;
   EXPECT_TRUE(Generate(request).status.ok());
   ExpectEventually([&] { return health() == serving; }, "and of its recovery");
-  server.reset();  // it looks at `fails`
+  server.reset();  // it looks at `fails`, and writes to the log
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(log.str(),
+              testing::ContainsRegex(R"(\[error\] model "fake": its engine has failed)"));
 }
 
 TEST_F(InfoTest, HealthTellsOfEachModel) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <thread>
 
@@ -330,6 +331,7 @@ TEST_F(ReloadTest, AHundredReloadsBesideDances) {
   over = true;
   for (std::thread& dancer : dancers) dancer.join();
   EXPECT_GE(danced, kDancers);
+  std::cout << "100 reloads beside " << danced << " dances, all bit for bit\n";
   ExpectIdle();
   ExpectAlive(1);
 }

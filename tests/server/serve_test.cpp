@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 #include <future>
+#include <iostream>
 #include <sstream>
 #include <string>
 
@@ -29,11 +30,13 @@ class ServeTest : public testing::Test {
     if (fifo_ >= 0) close(fifo_);
   }
 
-  void Start(const std::string& settings) {
-    ended_ = std::async(std::launch::async, [this, settings] {
+  // Its log goes to `reader`, a program; empty: to who waits for its end.
+  void Start(const std::string& settings, const std::string& reader = "") {
+    ended_ = std::async(std::launch::async, [=, this] {
       return Shell("echo $$ > '" + (folder_ / "process").string() +
                    "'; { exec " FAKE_CHOREOD " --listen 127.0.0.1:0 --log-format json " + settings +
-                   " > '" + (folder_ / "said").string() + "'; }");
+                   " > '" + (folder_ / "said").string() + "'; }" +
+                   (reader.empty() ? "" : " 2>&1 | " + reader));
     });
   }
   void AwaitListening() {
@@ -62,11 +65,14 @@ class ServeTest : public testing::Test {
   }
   Outcome End() {
     using namespace std::chrono_literals;
+    const auto begin = std::chrono::steady_clock::now();
     if (ended_.wait_for(30s) != std::future_status::ready) {
       ADD_FAILURE() << "it does not leave";
       kill(process_, SIGKILL);
     }
     process_ = -1;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    std::cout << "left after " << took.count() << " s\n";
     return ended_.get();
   }
 
@@ -130,6 +136,17 @@ TEST_F(ServeTest, LeavesAtOnceWhenItIsAskedTwice) {
   const Outcome outcome = End();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
+}
+
+TEST_F(ServeTest, GoesOnWhereNobodyReadsItsLogAnyMore) {
+  Start("", "head -1");
+  AwaitListening();
+  const client::Client client({.addresses = {address()}});
+  for (int i = 0; i < 3; ++i) {  // each leaves a line
+    EXPECT_EQ(client.Dance({.frames = 20}, {}, {}).motion.frames.size(), 20U);
+  }
+  Send(SIGTERM);
+  EXPECT_THAT(End().said, testing::Not(HasSubstr("StreamDance")));
 }
 
 }  // namespace

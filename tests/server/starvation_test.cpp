@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <grpcpp/create_channel.h>
 
+#include <chrono>
+#include <iostream>
 #include <thread>
 
 #include "model/engine/warm_up.h"
@@ -55,9 +57,13 @@ class StarvationTest : public ServerTest {
     client.SendKeyframe(Key("a", 20));
     return client.Finish();
   }
+  // Prints how long it took.
   void ExpectServes() {
+    const auto begin = std::chrono::steady_clock::now();
     const grpc::Status status = DanceToAKey().status;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     EXPECT_TRUE(status.ok()) << status.error_message();
+    std::cout << "somebody else danced meanwhile, in " << 1e3 * took.count() << " ms\n";
   }
 
   static constexpr int64_t kUnreadFrames = 1'000;

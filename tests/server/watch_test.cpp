@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <iostream>
 #include <new>
 
 #include "tests/server/fixture.h"
@@ -16,6 +17,7 @@ TEST(WatchTest, GoesOnWhereMemoryWasOut) {
     if (++looks < 3) throw std::bad_alloc();
   });
   ExpectEventually([&] { return looks > 5; }, "it looks again");
+  std::cout << looks << " looks, the first two without memory\n";
 }
 
 }  // namespace
