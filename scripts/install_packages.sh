@@ -36,8 +36,8 @@ browser=(chromium nodejs npm)
 blender=(blender)
 # libFuzzer, and the compiler that it comes with.
 fuzz=(clang-14 libclang-rt-14-dev libfuzzer-14-dev)
-# To build the container without a container engine.
-verify=(buildah debootstrap)
+# To build the container without a container engine, and to draw the dashboard.
+verify=(buildah debootstrap prometheus python3-matplotlib)
 
 groups=("$@")
 [[ ${#groups[@]} -gt 0 ]] || groups=(build run demo video test)

@@ -18,9 +18,10 @@ class DecodingTest : public ServerTest {
  protected:
   static constexpr int kRate = 191'999, kChannels = 8;
 
-  // Ten minutes of nothing in 3.6 MB, which take most of a minute: so many samples, and filters of
-  // a ratio of rates that are too many to be kept. It says how long it is where it is `honest`.
-  static std::string LongSilence(bool honest) {
+  // A FLAC file of nothing, which says that it has so many seconds; 0: that nobody knows. Ten
+  // minutes are 3.6 MB and take most of a minute: so many samples, and filters of a ratio of rates
+  // that are too many to be kept.
+  static std::string Silence(int seconds, int told_seconds) {
     constexpr int kWritten = 191'990;  // FLAC's writers want whole tens
     const TemporaryFolder folder;
     const std::filesystem::path path = folder / "silence.flac";
@@ -32,13 +33,13 @@ class DecodingTest : public ServerTest {
     double quickest = 0;
     sf_command(file, SFC_SET_COMPRESSION_LEVEL, &quickest, sizeof quickest);
     const std::vector<int16_t> second(kWritten * kChannels);
-    for (int i = 0; i < 600; ++i) sf_writef_short(file, second.data(), kWritten);
+    for (int i = 0; i < seconds; ++i) sf_writef_short(file, second.data(), kWritten);
     sf_close(file);
     std::ifstream stream(path, std::ios::binary);
     std::string bytes(std::istreambuf_iterator<char>(stream), {});
     // The 8 bytes at 18: 20 bits of rate, 3 of channels - 1, 5 of bits - 1, 36 of samples. What
     // follows is a sum over the samples; 0 is none.
-    const uint64_t samples = honest ? uint64_t{600} * kRate : 0;
+    const auto samples = static_cast<uint64_t>(told_seconds) * kRate;
     const uint64_t head =
         uint64_t{kRate} << 44 | uint64_t{kChannels - 1} << 41 | uint64_t{15} << 36 | samples;
     for (size_t i = 0; i < 8; ++i) bytes[18 + i] = static_cast<char>(head >> (56 - 8 * i));
@@ -70,7 +71,7 @@ TEST_F(DecodingTest, HoldsUpNobodyElseAndEndsWithItsCall) {
   };
   const double alone_s = slowest();
 
-  const std::string file = LongSilence(false);
+  const std::string file = Silence(600, 0);
   v1::GenerateTransitionRequest heavy = Transition();
   heavy.mutable_config()->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
   heavy.mutable_audio()->set_data(file);
@@ -102,7 +103,7 @@ TEST_F(DecodingTest, AFileThatSaysThatItIsTooMuchIsRefusedAtOnce) {
   Start();
   v1::GenerateTransitionRequest heavy = Transition();
   heavy.mutable_config()->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
-  heavy.mutable_audio()->set_data(LongSilence(true));
+  heavy.mutable_audio()->set_data(Silence(1, 600));
   const Answer answer = Generate(heavy);
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_THAT(answer.status.error_message(), testing::HasSubstr("8 channels at 191999 Hz"));
