@@ -18,11 +18,13 @@ constexpr int kIdleMs = 300'000;
 
 }  // namespace
 
+int CallsOfConnection(const ServerConfig& config) { return config.max_streams + kSpareCalls; }
+
 void LimitConnections(const ServerConfig& config, grpc::ServerBuilder* builder) {
   builder->SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
   builder->SetResourceQuota(
       grpc::ResourceQuota("choreod").Resize(static_cast<size_t>(config.max_network_mib) << 20));
-  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, config.max_streams + kSpareCalls);
+  builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, CallsOfConnection(config));
   builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
   builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdleMs);
   // The first refuses calls that announce compression, the second sees to it that nothing is ever

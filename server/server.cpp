@@ -6,6 +6,7 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/impl/server_builder_option.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -20,6 +21,7 @@
 #include "server/connection_limits.h"
 #include "server/listener.h"
 #include "server/metrics.h"
+#include "server/reset_guard.h"
 #include "server/service.h"
 #include "server/serving.h"
 #include "server/tls.h"
@@ -46,6 +48,8 @@ constexpr milliseconds kWatchInterval{100};
 constexpr milliseconds kTokenInterval{500};
 /// An engine that has failed this often in a row is broken.
 constexpr int kBroken = 3;
+/// So many times the calls that a connection may have may wait to be ended (ResetGuard).
+constexpr int kWaitingCalls = 2;
 /// After the last call of a server that drains: how long those who come are still refused in words.
 /// A client may hold a connection and not look at it; once gRPC shuts down, its next call would end
 /// as CANCELLED, which tells nobody to go elsewhere. So the shutdown itself is short then.
@@ -117,6 +121,7 @@ struct Server::Impl {
                 config.tokens, static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving, config.max_sleep_seconds),
+        resets(kWaitingCalls * CallsOfConnection(config)),
         listener(config.listen) {
     // Never taken back: the last grpc_shutdown of a process can wait ten seconds for gRPC's
     // threads.
@@ -128,6 +133,7 @@ struct Server::Impl {
         grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
         MakeCredentials(config));
     LimitConnections(config, &builder);
+    resets.Watch(&builder);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
@@ -152,6 +158,10 @@ struct Server::Impl {
     }
     if (!config.metrics.empty()) metrics.emplace(config.MetricsAddress(), serving);
     listener.Start([this](int listening, int connection) {
+      if (resets.IsFull(connection)) {
+        close(connection);
+        return;
+      }
       grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
       parameters.listener_fd = listening;
       parameters.fd = connection;
@@ -197,6 +207,7 @@ struct Server::Impl {
   const Scheduler::Options scheduling;
   Serving serving;
   ChoreographyService service;
+  ResetGuard resets;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<grpc::Server> server;
   Listener listener;

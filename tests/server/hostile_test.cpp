@@ -10,6 +10,7 @@
 #include "tests/server/http2.h"
 #include "tests/server/real_time.h"
 #include "tests/server/silent_connections.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/setting.h"
 
 /// Clients that speak HTTP/2 to do harm, and those who are served meanwhile.
@@ -72,19 +73,21 @@ TEST_F(HostileTest, OthersAreServedBesideRapidResets) {
   Start(16, [](ServerConfig& config) { config.max_streams_of_peer = 65'536; });
   constexpr int kCalls = 20'000;
   const int64_t before = ResidentBytes("self");
-  const double slowest =
-      SlowestDanceDuring([&] { EXPECT_EQ(Http2(server->port()).Reset(kCalls), kCalls); });
+  int begun = 0;
+  const double slowest = SlowestDanceDuring([&] { begun = Http2(server->port()).Reset(kCalls); });
+  EXPECT_GT(begun, 0);
   ExpectIdle();
   const int64_t grown = ResidentBytes("self") - before;
   EXPECT_LT(grown, 256 << 20);
-  std::cout << kCalls << " calls reset: the slowest dance of the others took " << slowest
+  std::cout << begun << " calls reset: the slowest dance of the others took " << slowest
             << " s, memory grew by " << (grown >> 20) << " MiB\n";
 }
 
 // The same where the server has a tenth of a core, so that calls wait to be ended; beside a dance
-// in real time that behaves. CHOREO_FAULT_CALLS makes it longer (scripts/faults.sh).
+// in real time that behaves. Who is sent away comes back. CHOREO_FAULT_CALLS makes it longer
+// (scripts/faults.sh).
 TEST_F(HostileTest, RapidResetsWithoutCpu) {
-  const int calls = Setting("CHOREO_FAULT_CALLS", 2'000);
+  const int calls = Setting("CHOREO_FAULT_CALLS", 20'000);
   // The dance that behaves waits, too, and shall not be taken for one that says nothing.
   ::setenv("CHOREO_FIRST_MESSAGE_SECONDS", "600", 1);
   const cli::LocalServer starved(FAKE_CHOREOD);
@@ -106,9 +109,12 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
   const std::vector<double> alone = DanceInRealTime(*behaved, Config(), kGrants).lateness;
   const int64_t before = ResidentBytes(process);
   std::atomic<bool> over = false;
-  std::atomic<int> begun = 0;
+  std::atomic<int> begun = 0, connections = 0;
   std::jthread harm([&] {
-    begun = Http2(port).Reset(calls);
+    while (begun < calls) {
+      const char* method = connections++ % 2 == 0 ? "StreamDance" : "GenerateTransition";
+      begun += Http2(port).Reset(calls - begun, method);
+    }
     over = true;
   });
   std::vector<double> beside;
@@ -130,9 +136,12 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
   const auto newcomer = StubOfAnotherAddress(port);
   const grpc::Status after = DanceInRealTime(*newcomer, Config(), 1).answer.status;
   EXPECT_TRUE(after.ok()) << after.error_message();
-  std::cout << begun << " calls reset of a server with a tenth of a core: memory grew by "
-            << (most - before) / std::max(1, begun.load()) << " bytes a call, "
-            << ((most - before) >> 20) << " MiB in all; frames of a dance beside them p50 "
+  if (!kSanitized) {
+    EXPECT_LT(most - before, 128 << 20);
+  }
+  std::cout << begun << " calls reset over " << connections
+            << " connections of a server with a tenth of a core: memory grew by "
+            << ((most - before) >> 20) << " MiB; frames of a dance beside them p50 "
             << Milliseconds(beside, 0.5) << " ms and p99 " << Milliseconds(beside, 0.99)
             << " ms behind their grants, " << lost << " lost; without p50 "
             << Milliseconds(alone, 0.5) << " ms and p99 " << Milliseconds(alone, 0.99) << " ms\n";

@@ -61,15 +61,14 @@ class Http2 {
   }
   /// Begins so many calls and resets each at once, as fast as they can be sent; how many were sent
   /// before the server closed the connection.
-  int Reset(int calls) {
+  int Reset(int calls, const std::string& method = "StreamDance") {
     constexpr int kAtOnce = 100;
     uint32_t stream = 1;
     int begun = 0;
     for (; begun < calls; begun += kAtOnce) {
       std::string bytes;
       for (int k = 0; k < kAtOnce; ++k, stream += 2) {
-        bytes +=
-            Call(stream, "StreamDance") + Frame(kReset, 0, stream, std::string("\0\0\0\x08", 4));
+        bytes += Call(stream, method) + Frame(kReset, 0, stream, std::string("\0\0\0\x08", 4));
       }
       if (!Send(bytes)) break;
       Drain();

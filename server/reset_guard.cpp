@@ -1,0 +1,115 @@
+#include "server/reset_guard.h"
+
+#include <arpa/inet.h>
+#include <grpcpp/support/server_interceptor.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "server/caller.h"
+
+namespace choreo {
+namespace {
+
+using grpc::experimental::Interceptor;
+
+// As gRPC calls it; empty of what is no connection.
+std::string PeerOf(int connection) {
+  sockaddr_storage peer{};
+  socklen_t size = sizeof peer;
+  if (getpeername(connection, reinterpret_cast<sockaddr*>(&peer), &size) != 0) return "";
+  char text[INET6_ADDRSTRLEN] = "";
+  if (peer.ss_family == AF_INET) {
+    const auto& of = reinterpret_cast<const sockaddr_in&>(peer);
+    inet_ntop(AF_INET, &of.sin_addr, text, sizeof text);
+    return "ipv4:" + std::string(text) + ':' + std::to_string(ntohs(of.sin_port));
+  }
+  if (peer.ss_family != AF_INET6) return "";
+  const auto& of = reinterpret_cast<const sockaddr_in6&>(peer);
+  const std::string port = ':' + std::to_string(ntohs(of.sin6_port));
+  if (IN6_IS_ADDR_V4MAPPED(&of.sin6_addr)) {
+    inet_ntop(AF_INET, &of.sin6_addr.s6_addr[12], text, sizeof text);
+    return "ipv4:" + std::string(text) + port;
+  }
+  inet_ntop(AF_INET6, &of.sin6_addr, text, sizeof text);
+  return "ipv6:%5B" + std::string(text) + "%5D" + port;
+}
+
+// gRPC has the descriptor, sees the connection's end, and closes it. What has come and was not read
+// is dropped, which shutdown() would leave to be read.
+void End(const std::string& peer) try {
+  const sockaddr nobody{.sa_family = AF_UNSPEC, .sa_data = {}};
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int descriptor = std::stoi(entry.path().filename().string());
+    if (PeerOf(descriptor) == peer) connect(descriptor, &nobody, sizeof nobody);
+  }
+} catch (const std::exception& error) {  // the process is out of descriptors, for one
+  spdlog::error("{}: {}", peer, error.what());
+}
+
+/// Lives as long as its call does.
+class Counted final : public Interceptor {
+ public:
+  Counted(ResetGuard& guard, std::string peer) : guard_(guard), peer_(std::move(peer)) {
+    guard_.Enter(peer_);
+  }
+  ~Counted() override { guard_.Leave(peer_); }
+  void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
+    methods->Proceed();
+  }
+
+ private:
+  ResetGuard& guard_;
+  const std::string peer_;
+};
+
+class MakeCounted final : public grpc::experimental::ServerInterceptorFactoryInterface {
+ public:
+  explicit MakeCounted(ResetGuard& guard) : guard_(guard) {}
+  Interceptor* CreateServerInterceptor(grpc::experimental::ServerRpcInfo* call) override {
+    return new Counted(guard_, call->server_context()->peer());
+  }
+
+ private:
+  ResetGuard& guard_;
+};
+
+}  // namespace
+
+void ResetGuard::Watch(grpc::ServerBuilder* builder) {
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> makers;
+  makers.push_back(std::make_unique<MakeCounted>(*this));
+  builder->experimental().SetInterceptorCreators(std::move(makers));
+}
+
+bool ResetGuard::IsFull(int connection) const {
+  const std::string address = AddressOf(PeerOf(connection)) + ':';
+  const std::lock_guard lock(mutex_);
+  for (auto at = connections_.lower_bound(address);
+       at != connections_.end() && at->first.starts_with(address); ++at) {
+    if (at->second.closed) return true;
+  }
+  return false;
+}
+
+void ResetGuard::Enter(const std::string& peer) {
+  {
+    const std::lock_guard lock(mutex_);
+    Connection& connection = connections_[peer];
+    if (++connection.calls <= most_ || std::exchange(connection.closed, true)) return;
+  }
+  spdlog::warn("{} resets calls faster than they can be ended; its connection is closed", peer);
+  End(peer);
+}
+
+void ResetGuard::Leave(const std::string& peer) {
+  const std::lock_guard lock(mutex_);
+  const auto at = connections_.find(peer);
+  if (at != connections_.end() && --at->second.calls == 0) connections_.erase(at);
+}
+
+}  // namespace choreo
