@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, training from
-# recordings, the studio in a browser, Blender, the dashboard, faults, libFuzzer, the container, a build without the service, and the tests under sanitizers.
+# recordings, the studio in a browser, Blender, npm's mannequin, the dashboard, faults, libFuzzer, the container, a build without the service,
+# and the tests under sanitizers.
 # CHOREO_RECORDINGS names the folder of recordings that figures are measured on (scripts/evaluate.sh). Without it nothing is measured,
 # which the last line says.
 #   scripts/verify.sh BUILD_DIRECTORY
@@ -53,6 +54,9 @@ echo "== Blender: our BVH files, and the add-on"
 scripts/install_packages.sh blender || echo "verify.sh: no Blender comes from here" >&2
 CHOREO_SKIP_CODE=0 tests/formats/blender/run.sh "$build"
 CHOREO_SKIP_CODE=0 tests/examples/blender/run.sh "$build"
+
+echo "== Somebody else's character: npm's mannequin"
+CHOREO_SKIP_CODE=0 tests/formats/mannequin/run.sh "$build"
 
 echo "== The dashboard, as a Prometheus answers it"
 scripts/install_packages.sh verify

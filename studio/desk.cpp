@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client/cli/choreography.h"
+#include "client/cli/key_file.h"
 #include "client/cli/photo_pose.h"
 #include "client/cli/pose_library.h"
 #include "client/convert.h"
@@ -201,6 +202,8 @@ void Desk::Do(const Request& request) {
       return ReadClip(call, request.open());
     case Request::kLandmarks:
       return MakePhotoPose(call, request.landmarks());
+    case Request::kKeys:
+      return ReadKeys(call, request.keys());
     default:
       throw InvalidArgument("request", "is none that this studio knows");
   }
@@ -285,6 +288,15 @@ void Desk::MakePhotoPose(uint32_t call, const File& landmarks) {
   pose->set_id(std::filesystem::path(landmarks.name()).stem().string());
   *pose->mutable_pose() = client::ToProto(
       cli::ParseLandmarkPose(landmarks.data(), landmarks.name(), house_.model().skeleton));
+  Answer(call, std::move(response));
+}
+
+void Desk::ReadKeys(uint32_t call, const File& file) {
+  Response response;
+  response.mutable_keyframes();
+  for (const client::KeyPose& key :
+       cli::ParseKeyFile(file.data(), file.name(), house_.model().skeleton))
+    *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   Answer(call, std::move(response));
 }
 

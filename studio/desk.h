@@ -53,6 +53,7 @@ class Desk {
   void WriteClip(uint32_t call, const Export& request);
   void ReadClip(uint32_t call, const File& file);
   void MakePhotoPose(uint32_t call, const File& landmarks);
+  void ReadKeys(uint32_t call, const File& file);
 
   std::shared_ptr<const Song> song() const;
   void Answer(uint32_t call, Response response);

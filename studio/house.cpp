@@ -6,7 +6,9 @@
 #include "client/cli/pose_library.h"
 #include "client/convert.h"
 #include "model/formats/motion_file.h"
+#include "model/motion/joint_angles.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/velocity_factors.h"
 #include "studio/scratch_folder.h"
 #include "studio/to_page.h"
 
@@ -19,6 +21,20 @@ std::string BodyAtRest(const Skeleton& skeleton) {
   const std::filesystem::path path = folder.path() / "body.glb";
   WriteMotion(path, skeleton, {.fps = 30, .frames = {RestPose(skeleton)}});
   return ReadBytes(path);
+}
+
+JointTurn TurnOf(const Skeleton& skeleton, int joint) {
+  JointTurn turn;
+  Eigen::Index part = 0;
+  WeighBodyParts(skeleton).col(joint).maxCoeff(&part);
+  turn.set_part(static_cast<v1::BodyPart>(v1::BODY_PART_TRUNK + static_cast<int>(part)));
+  for (const Hinge& hinge : Hinges(skeleton)) {
+    if (hinge.joint == joint) turn.mutable_hinge()->Assign(hinge.axis.begin(), hinge.axis.end());
+  }
+  const AngleRange range = RangeOf(skeleton, joint);
+  turn.set_low(range.low);
+  turn.set_high(range.high);
+  return turn;
 }
 
 }  // namespace
@@ -43,6 +59,8 @@ House::House(const client::Options& server, const std::filesystem::path& song,
     added->set_description(pose.description);
     *added->mutable_pose() = client::ToProto(pose.pose);
   }
+  for (int joint = 0; joint < model_.skeleton.joints(); ++joint)
+    *welcome_.add_turns() = TurnOf(model_.skeleton, joint);
   welcome_.set_body(BodyAtRest(model_.skeleton));
   welcome_.set_reads_photos(photo_model_.is_there());
   if (song.empty()) return;

@@ -23,7 +23,7 @@ function posed(): Pose | null {
   const key = studio.keyOf(studio.selectedKey.value);
   if (!key || !studio.audio.paused) return null;
   const away = Math.abs(studio.audio.currentTime - key.frame / studio.dancer.fps);
-  return away < 0.02 ? key.pose : null;
+  return away < 0.02 ? studio.bent()! : null;
 }
 
 function View() {

@@ -14,7 +14,7 @@ export const toQuaternion = (rotations: ArrayLike<number>, at: number, out = new
   return out.set(x * scale, y * scale, z * scale, Math.cos(angle / 2));
 };
 
-const toVector = (q: Quaternion): Triple => {
+export const toVector = (q: Quaternion): Triple => {
   const sign = q.w < 0 ? -1 : 1;
   const length = Math.hypot(q.x, q.y, q.z);
   const angle = 2 * Math.atan2(length, Math.abs(q.w));
@@ -62,6 +62,11 @@ export class Skeleton {
     return turned({ root: pose.root, rotations }, 2 * heading(pose));
   }
 
+  /// The same joints of the other side, in order.
+  twinsOf(joints: number[]): number[] {
+    return joints.map((joint) => this.twins[joint]).sort((a, b) => a - b);
+  }
+
   /// Up or down until the lowest foot stands as at rest.
   grounded(pose: Pose): Pose {
     const figure = new Figure(this, pose);
@@ -84,6 +89,14 @@ export const turned = (pose: Pose, angle: number): Pose => {
   rotations.splice(0, 3, ...toVector(turn.multiply(toQuaternion(pose.rotations, 0))));
   return { root: pose.root, rotations };
 };
+
+/// `after` where these joints are (null: all of them) and `before` elsewhere. The root is joint 0's.
+export function only(before: Pose, after: Pose, joints: number[] | null): Pose {
+  if (!joints) return after;
+  const rotations = before.rotations.slice();
+  for (const joint of joints) rotations.splice(3 * joint, 3, ...after.rotations.slice(3 * joint, 3 * joint + 3));
+  return { root: joints.includes(0) ? after.root : before.root, rotations };
+}
 
 /// A pose with the joints' places in the world, which may be bent.
 export class Figure {

@@ -3,7 +3,7 @@ import { create } from '@bufbuild/protobuf';
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import type { Pose } from './body';
 import { BodyPart, DanceConfigSchema, GenerateTransitionRequestSchema, KeyframeSchema } from './generated/choreo/v1/choreography_pb';
-import type { ModelInfo } from './generated/choreo/v1/choreography_pb';
+import type { Keyframe, ModelInfo } from './generated/choreo/v1/choreography_pb';
 import { PoseSchema } from './generated/choreo/v1/motion_pb';
 import type { Continuation } from './generated/choreo/v1/motion_pb';
 import { Motion } from './motion';
@@ -34,7 +34,20 @@ export const keyMessage = (key: Key): Init<typeof KeyframeSchema> => ({
   id: key.id,
   when: { case: 'frame', value: BigInt(key.frame) },
   pose: poseMessage(key.pose, key.hasPlace),
+  mask: key.asks ? { joints: key.asks } : undefined,
 });
+
+/// The other way round. `height`: of the hips where the key does not say where they are.
+export function readKey({ id, when, pose, mask }: Keyframe, fps: number, height: number): Key {
+  const root = pose!.rootPosition;
+  return {
+    id,
+    frame: when.case === 'frame' ? Number(when.value) : Math.round(Number(when.value) * fps),
+    pose: { root: root ? [root.x, root.y, root.z] : [0, height, 0], rotations: pose!.rotations },
+    hasPlace: !!root,
+    asks: mask ? mask.joints : null,
+  };
+}
 
 export class Dancer {
   constructor(private readonly wire: Wire, private readonly model: ModelInfo) {}
@@ -111,6 +124,7 @@ export class Dancer {
       };
       if (stop) {
         request.target = poseMessage(stop.pose, stop.hasPlace);
+        if (stop.asks) request.targetMask = { joints: stop.asks };
         request.targetId = stop.id;
       } else if (leadsOn) {
         request.target = poseMessage(motion.pose(to));

@@ -3,10 +3,11 @@ import { film, height, width } from './film';
 import type { Kind } from './film';
 import { danceFrom, made, push } from './history';
 import { compose } from './keys';
+import { readKey } from './dancer';
 import { dancer, skeleton, wire } from './link';
 import { Motion } from './motion';
 import { emptyProject } from './project';
-import { fromJson, toJson } from './project_file';
+import { fromJson, inOrder, toJson } from './project_file';
 import { dropSketch, photoExtensions, readPhoto } from './photos';
 import { audio, hear, playSilence, songExtensions } from './songs';
 import type { Stage } from './stage';
@@ -46,14 +47,17 @@ async function bytesOf(file: File) {
 
 async function openOther(file: File) {
   const bytes = await bytesOf(file);
-  if (extensionOf(file) === 'json') openProject(file.name, new TextDecoder().decode(bytes));
+  if (extensionOf(file) === 'json') await openProject(file.name, bytes);
   else await openMotion(file.name, bytes);
 }
 
-function openProject(name: string, text: string) {
+async function openProject(name: string, bytes: Uint8Array) {
   const said: string[] = [];
-  const model = { joints: skeleton.joints, fps: dancer.fps, styles: welcome.value!.model!.styles };
-  const opened = fromJson(text, name, model, (words) => said.push(words));
+  const model = { fps: dancer.fps, styles: welcome.value!.model!.styles };
+  const opened = fromJson(new TextDecoder().decode(bytes), name, model, (words) => said.push(words));
+  const answer = await wire.ask({ case: 'keys', value: { name, data: bytes } });
+  if (answer.case !== 'keyframes') return;
+  opened.keys = inOrder(answer.value.keyframes.map((key) => readKey(key, dancer.fps, skeleton.height)), name, dancer.fps);
   if (song.value) opened.seconds = song.value.heard.seconds;
   if (!opened.seconds) opened.seconds = ((opened.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
   const inside = opened.keys.filter(({ frame }) => frame < dancer.frames(opened));
@@ -86,7 +90,7 @@ function download(name: string, data: BlobPart, type = 'application/octet-stream
 
 const stem = () => (project.value?.song || 'dance').replace(/\.[^.]*$/, '');
 
-export const saveProject = () => download(`${stem()}.json`, toJson(project.value, dancer.fps), 'application/json');
+export const saveProject = () => download(`${stem()}.json`, toJson(project.value, dancer.fps, skeleton.names), 'application/json');
 
 let filmed: AbortController | null = null;
 export const leaveFilm = () => filmed?.abort();

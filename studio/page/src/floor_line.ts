@@ -1,8 +1,6 @@
 // The path on the stage's floor: drawn with the pointer, shown as a line with a dot for each second.
 import * as THREE from 'three';
-import type { Step } from './floor_path';
-
-type Spot = { x: number; z: number };
+import type { Spot, Step } from './floor_path';
 
 const width = 0.035; // metres
 const height = 0.006; // above the floor, so that it is not hidden by it
@@ -11,7 +9,7 @@ const close = 0.03; // metres between spots of a stroke
 export class FloorLine {
   readonly scene = new THREE.Group();
   private stroke: Spot[] | null = null;
-  private shown: unknown = null;
+  private shown: unknown[] = [];
   private readonly paint = new THREE.MeshBasicMaterial({ color: '#c4491f', transparent: true, opacity: 0.85, side: THREE.DoubleSide, depthWrite: false });
 
   begin(spot: Spot) {
@@ -31,23 +29,27 @@ export class FloorLine {
     return done;
   }
 
-  /// Shows the stroke under way, or else the path; what it returns is another thing once it looks otherwise.
-  show(path: Step[], fps: number): unknown {
-    const next = this.stroke ?? path;
-    if (next === this.shown) return next;
-    this.shown = next;
+  /// Shows the stroke under way, or else the path, with its corners in place of seconds where these are moved, `held` among them.
+  /// What it returns is another thing once it looks otherwise.
+  show(path: Step[], fps: number, corners: Spot[] | null, held: number): unknown {
+    const next = this.stroke ?? corners ?? path;
+    const looks = [next, corners, corners && held];
+    if (looks.every((look, i) => look === this.shown[i])) return this.shown;
+    this.shown = looks;
     for (const part of this.scene.children) (part as THREE.Mesh).geometry.dispose();
     this.scene.clear();
-    if (next.length < 2) return next;
-    this.scene.add(new THREE.Mesh(ribbon(next), this.paint));
-    if (this.stroke) return next;
+    if (next.length < 2 && !corners) return this.shown;
+    if (next.length > 1) this.scene.add(new THREE.Mesh(ribbon(next), this.paint));
+    if (this.stroke) return this.shown;
     const dot = new THREE.CircleGeometry(0.05, 20).rotateX(-Math.PI / 2);
-    for (const { x, z } of path.filter((step, i) => i === 0 || Math.floor(step.frame / fps) > Math.floor(path[i - 1].frame / fps))) {
+    const seconds = path.filter((step, i) => i === 0 || Math.floor(step.frame / fps) > Math.floor(path[i - 1].frame / fps));
+    (corners ?? seconds).forEach(({ x, z }, i) => {
       const mark = new THREE.Mesh(dot, this.paint);
       mark.position.set(x, height, z);
+      if (corners && i === held) mark.scale.setScalar(2);
       this.scene.add(mark);
-    }
-    return next;
+    });
+    return this.shown;
   }
 }
 

@@ -9,7 +9,7 @@ import { signal } from '@preact/signals';
 
 /// Where the dancer is to be at a frame; metres. A path has at least two, in order of time.
 export type Step = { frame: number; x: number; z: number };
-type Spot = { x: number; z: number };
+export type Spot = { x: number; z: number };
 
 /// Whether the next stroke on the stage draws one.
 export const drawing = signal(false);
@@ -17,9 +17,9 @@ export const drawing = signal(false);
 const apart = 8; // frames between steps
 const same = 1e-3; // metres: a key that is so near stays
 const shortest = 15; // frames of a path
-const least = 0.3; // metres: shorter strokes are slips
+export const least = 0.3; // metres: shorter strokes are slips
 
-const away = (a: Spot, b: Spot) => Math.hypot(a.x - b.x, a.z - b.z);
+export const away = (a: Spot, b: Spot) => Math.hypot(a.x - b.x, a.z - b.z);
 const between = (a: Spot, b: Spot, share: number): Spot => ({ x: a.x + (b.x - a.x) * share, z: a.z + (b.z - a.z) * share });
 
 export const lengthOf = (spots: Spot[]) => spots.slice(1).reduce((sum, spot, i) => sum + away(spots[i], spot), 0);
@@ -61,7 +61,7 @@ export function spotAt(path: Step[], frame: number): Spot | null {
 /// The key where the path leads at its frame: keys win over paths, and would bend this one.
 export function onPath(path: Step[], key: Key): Key {
   const spot = spotAt(path, key.frame);
-  if (!spot || away(spot, { x: key.pose.root[0], z: key.pose.root[2] }) < same) return key;
+  if (!spot || !key.hasPlace || away(spot, { x: key.pose.root[0], z: key.pose.root[2] }) < same) return key;
   const pose: Pose = { ...key.pose, root: [spot.x, key.pose.root[1], spot.z] };
   return { ...key, pose };
 }
@@ -88,6 +88,11 @@ export function drawPath(stroke: Spot[]) {
   const before = from > 0 && motion.value.count > from ? motion.value.pose(from).root : null;
   const spots = smooth(before ? [{ x: before[0], z: before[2] }, ...stroke] : stroke);
   if (lengthOf(stroke) < least) return tell(`That was a stroke of ${lengthOf(stroke).toFixed(1)} m; a path is at least ${least} m long.`);
+  walk(spots, from, to);
+}
+
+/// Takes these spots as the path, walked at an even pace between two frames.
+export function walk(spots: Spot[], from: number, to: number) {
   put(paced(spots, from, to), [from, project.value.path[0]?.frame ?? from]);
 }
 

@@ -1,15 +1,19 @@
 // Key poses: set, moved, bent, removed.
-import { heading, turned } from './body';
-import type { Pose } from './body';
+import { computed, signal } from '@preact/signals';
+import { heading, only, turned } from './body';
+import type { Pose, Triple } from './body';
+import { readKey } from './dancer';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { onPath } from './floor_path';
 import { danceFrom, edit } from './history';
-import { dancer, wire } from './link';
+import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
+import { jointsOf, movable, partsOf, worked } from './masks';
 import { closest, emptyProject, freeId, sorted } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
-import { complain, live, message, motion, project, selectedKey, sketch, song } from './state';
+import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
+import type { Moment } from './state';
 
 const reach = 15; // frames within which a key that finds its place taken looks for another
 
@@ -19,11 +23,7 @@ export async function compose() {
   const seed = Math.max(1, (project.value?.seed ?? 0) + 1);
   const answer = await wire.ask({ case: 'compose', value: { seconds, seed: BigInt(seed) } });
   if (answer.case !== 'keyframes') return;
-  const keys = answer.value.keyframes.map((key): Key => {
-    const at = key.pose!.rootPosition!;
-    const frame = key.when.case === 'frame' ? Number(key.when.value) : Math.round(Number(key.when.value) * dancer.fps);
-    return { id: key.id.replace(/^\d+-/, ''), frame, pose: { root: [at.x, at.y, at.z], rotations: key.pose!.rotations }, hasPlace: true };
-  });
+  const keys = answer.value.keyframes.map((key) => readKey({ ...key, id: key.id.replace(/^\d+-/, '') }, dancer.fps, skeleton.height));
   const named: Key[] = [];
   for (const key of keys) named.push({ ...key, id: freeId(named, key.id) });
   message.value = null;
@@ -58,7 +58,7 @@ export function addKey(pose: LibraryPose, at?: number) {
     placed = turned(placed, heading(here));
     placed.root = [here.root[0], root.y, here.root[2]];
   }
-  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true });
+  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
 }
@@ -83,17 +83,91 @@ export function removeKey(id: string) {
   edit({ ...project.value, keys: project.value.keys.filter((other) => other !== key) }, [key.frame]);
 }
 
-export function poseKey(id: string, pose: Pose) {
-  const key = keyOf(id);
-  if (!key) return;
-  const keys = project.value.keys.map((other) => (other === key ? { ...key, pose, hasPlace: true } : other));
-  edit({ ...project.value, keys }, [key.frame]);
+/// A key's pose as it is shown: what it leaves free is as it is danced.
+function shown(key: Key): Pose {
+  if (key.hasPlace && !key.asks) return key.pose;
+  const dance = motion.value.count > key.frame || danced.value > key.frame ? motion.value : moment.value.before;
+  if (dance.count <= key.frame) return key.pose;
+  const there = dance.pose(key.frame);
+  const { rotations } = only(there, key.pose, key.asks);
+  return { root: key.hasPlace ? key.pose.root : there.root, rotations };
 }
 
+const isSame = (a: Triple, b: Triple) => a.every((value, i) => Math.abs(value - b[i]) < 1e-6);
+
+/// Another pose for a key. One without a place gets one where the body was moved.
+export function poseKey(id: string, pose: Pose, asks?: number[] | null) {
+  const key = keyOf(id);
+  if (!key) return;
+  const hasPlace = key.hasPlace || !isSame(pose.root, shown(key).root);
+  const posed = { ...key, pose, hasPlace, asks: asks === undefined ? key.asks : asks };
+  edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? posed : other)) }, [key.frame]);
+}
+
+/// A pose that changes step by step: it is shown at once, and danced once the hand rests.
+const draft = signal<{ id: string; pose: Pose; of: Moment } | null>(null);
+const rest = 400; // ms
+let resting: ReturnType<typeof setTimeout>;
+
+const shownKey = computed(() => {
+  const key = keyOf(selectedKey.value);
+  if (key && draft.value?.id === key.id && draft.value.of === moment.value) return draft.value.pose;
+  return key && shown(key);
+});
+
 /// The pose that is bent, where there is one: the photo's, or the chosen key's.
-export const bent = () => sketch.value?.pose ?? keyOf(selectedKey.value)?.pose;
+export const bent = () => sketch.value?.pose ?? shownKey.value;
 
 export function bend(pose: Pose) {
+  draft.value = null;
   if (sketch.value) sketch.value = { ...sketch.value, pose };
   else if (selectedKey.value) poseKey(selectedKey.value, pose);
+}
+
+export function bendSoon(pose: Pose) {
+  if (sketch.value || !selectedKey.value) return bend(pose);
+  draft.value = { id: selectedKey.value, pose, of: moment.value };
+  clearTimeout(resting);
+  resting = setTimeout(() => {
+    const last = draft.value;
+    draft.value = null;
+    if (last?.of === moment.value) poseKey(last.id, last.pose);
+  }, rest);
+}
+
+/// Left becomes right, and the joints that a key asks for with it.
+export function mirror() {
+  const now = bent()!;
+  const key = sketch.value ? undefined : keyOf(selectedKey.value);
+  const turnedOver = skeleton.mirrored(now);
+  if (key?.asks) poseKey(key.id, turnedOver, skeleton.twinsOf(key.asks));
+  else bend(only(now, turnedOver, movable.value));
+}
+
+/// Takes a pose of the library where the body stands; of the parts that are worked on, where these are not all.
+export function takeFrom({ pose }: LibraryPose) {
+  const now = bent()!;
+  const from = turned({ root: [now.root[0], pose!.rootPosition!.y, now.root[2]], rotations: pose!.rotations }, heading(now));
+  bend(only(now, from, movable.value));
+}
+
+/// Works on a part of the body, or no more. A partial key asks for it then, or no more.
+export function workOn(part: number, isOn: boolean) {
+  const key = sketch.value ? undefined : keyOf(selectedKey.value);
+  const chosen = (key?.asks ? partsOf(key.asks) : worked.value).map((old, i) => (i === part ? isOn : old));
+  if (!chosen.some(Boolean)) return tell('One part at least is worked on.');
+  worked.value = chosen;
+  if (key?.asks) ask(key, jointsOf(chosen));
+}
+
+/// Makes a key ask for the parts that are worked on alone, or for the whole body.
+export function askForParts(id: string, isPartial: boolean) {
+  const key = keyOf(id);
+  if (key) ask(key, isPartial ? jointsOf(worked.value) : null);
+}
+
+/// A key that leaves the hips free does not say where they are; the whole body stands where it was.
+function ask(key: Key, asks: number[] | null) {
+  const asked = { ...key, pose: shown(key), asks, hasPlace: !asks || (key.hasPlace && asks.includes(0)) };
+  edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? asked : other)) }, [key.frame]);
 }

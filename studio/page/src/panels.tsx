@@ -1,59 +1,13 @@
 // What is beside the stage: the chosen key, takes, style, liveliness.
 import { signal } from '@preact/signals';
-import { Vector3 } from 'three';
-import { turned } from './body';
-import type { Pose } from './body';
+import { PathPoints } from './path_points';
+import { PoseTools } from './pose_tools';
 import { parts } from './project';
-import { floorHandle, handles } from './reach';
 import type { Stage } from './stage';
 import * as studio from './studio';
 
 const follows = signal(true);
 const brisk = 2.5; // metres a second, which few keep up while they dance
-const step = 0.02; // metres a press of an arrow key
-
-const ways: Record<string, [number, number, number]> = {
-  ArrowLeft: [-1, 0, 0],
-  ArrowRight: [1, 0, 0],
-  ArrowUp: [0, 1, 0],
-  ArrowDown: [0, -1, 0],
-  PageUp: [0, 0, -1],
-  PageDown: [0, 0, 1],
-};
-
-/// What can be done to the pose that is bent, beside pulling it.
-function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) {
-  const change = (made: (pose: Pose) => Pose) => () => studio.bend(made(pose));
-  const nudge = (id: string) => (event: KeyboardEvent) => {
-    const way = ways[event.key];
-    if (!way) return;
-    stage?.nudge(id, new Vector3(...way).multiplyScalar(step));
-    event.preventDefault();
-  };
-  const key = studio.sketch.value ? null : studio.selectedKey.value;
-  return (
-    <>
-      <p class="small">Pull the dots on the body; the ring moves it over the floor.</p>
-      <div class="row">
-        <button onClick={change((old) => studio.skeleton.mirrored(old))}>Mirror</button>
-        <button onClick={change((old) => studio.skeleton.grounded(old))}>To the floor</button>
-        <button aria-label="Turn left" title="Turn left" class="icon" onClick={change((old) => turned(old, Math.PI / 12))}>⟲</button>
-        <button aria-label="Turn right" title="Turn right" class="icon" onClick={change((old) => turned(old, -Math.PI / 12))}>⟳</button>
-        {key && <button title="Keep this pose among yours" onClick={() => studio.tell(`Kept among the poses as ${studio.keepPose(key, pose)}.`)}>Keep</button>}
-        {key && <button onClick={() => studio.removeKey(key)}>Remove</button>}
-      </div>
-      <details>
-        <summary>Handles by keyboard</summary>
-        <p class="small">On a handle, the arrow keys move it; page up and down, in depth.</p>
-        <div class="row">
-          {[...handles, floorHandle].map(({ id, label }) => (
-            <button key={id} onKeyDown={nudge(id)}>{label}</button>
-          ))}
-        </div>
-      </details>
-    </>
-  );
-}
 
 function KeyPanel({ stage }: { stage: Stage | null }) {
   const pose = studio.bent();
@@ -154,7 +108,7 @@ function PathPanel() {
     <section aria-label="Floor path">
       <h2>Floor path</h2>
       {path.length === 0
-        ? <p class="small">Draw where the dancer goes: in the chosen interval, or from the playhead to the end.</p>
+        ? <p class="small">Draw where the dancer goes, or set its points: in the chosen interval, or from the playhead to the end.</p>
         : <p class={pace > brisk ? 'small off' : 'small'}>{studio.lengthOf(path).toFixed(1)} m, {pace.toFixed(1)} m/s{pace > brisk ? ': faster than people dance. Give it more time.' : ''}</p>}
       {path.length > 0 && <div class="row">{time('from', from, (frame) => studio.rush(frame, to))}{time('to', to, (frame) => studio.rush(from, frame))}</div>}
       <div class="row">
@@ -167,6 +121,7 @@ function PathPanel() {
         </button>
         {path.length > 0 && <button onClick={studio.clearPath}>Clear</button>}
       </div>
+      <PathPoints />
     </section>
   );
 }

@@ -2,8 +2,9 @@
 import type { Pose } from './body';
 import type { Step } from './floor_path';
 
-/// A key pose. Without a place it asks for the pose alone, wherever the dancer is.
-export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean };
+/// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
+/// all of them.
+export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null };
 
 /// Keys stand at least so many frames apart.
 export const closest = 2;

@@ -1,5 +1,4 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
-import type { Triple } from './body';
 import { closest, emptyProject, parts, sorted } from './project';
 import type { Step } from './floor_path';
 import type { Key, Project } from './project';
@@ -7,19 +6,19 @@ import type { Key, Project } from './project';
 const format = 1; // of the file
 const mostSeconds = 3600;
 const mostLively = 10;
-const mostRadians = 2 * Math.PI;
-const most = 1000; // metres from the origin
+const most = 1000; // metres from the origin along an axis
 
 type Json = Record<string, unknown>;
 /// What a project has to fit.
-export type Known = { joints: number; fps: number; styles: string[] };
+export type Known = { fps: number; styles: string[] };
 
 const round = (value: number) => Math.round(value * 1e5) / 1e5;
 
-export function toJson(project: Project, fps: number): string {
-  const keyframes = project.keys.map(({ id, frame, pose, hasPlace }) => ({
+export function toJson(project: Project, fps: number, names: string[]): string {
+  const keyframes = project.keys.map(({ id, frame, pose, hasPlace, asks }) => ({
     id,
     time: round(frame / fps),
+    ...(asks ? { joints: asks.map((joint) => names[joint]) } : {}),
     ...(hasPlace ? { root_position: pose.root.map(round) } : {}),
     rotations: Array.from({ length: pose.rotations.length / 3 }, (_, joint) =>
       pose.rotations.slice(3 * joint, 3 * joint + 3).map(round),
@@ -29,8 +28,9 @@ export function toJson(project: Project, fps: number): string {
   const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
   const text = JSON.stringify({ studio: format, song, seconds, seed, style, lively, ...(path.points.length ? { path } : {}), keyframes }, null, 1);
-  // A line for each vector, not for each number.
+  // A line for each vector and each list of joints, not for each number and name.
   return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
+    .replace(/"joints": \[\s+([^\]]*?)\s+\]/g, (_, joints: string) => `"joints": [${joints.replace(/\s*\n\s*/g, ' ')}]`)
     .replace(/\{\s+"frame": (\d+),\s+"x": (-?[\d.e-]+),\s+"z": (-?[\d.e-]+)\s+\}/g, '{"frame": $1, "x": $2, "z": $3}') + '\n';
 }
 
@@ -40,12 +40,6 @@ function number(value: unknown, where: string, from: number, to: number): number
   if (typeof value !== 'number' || !(value >= from && value <= to))
     throw new Error(`${where}: ${shown(value)} is not a number from ${from} to ${to}.`);
   return value;
-}
-
-function numbers(value: unknown, where: string, count: number, most: number): number[] {
-  const flat: unknown[] = Array.isArray(value) ? value.flat() : [];
-  if (flat.length !== count) throw new Error(`${where}: ${flat.length} numbers, must be ${count}.`);
-  return flat.map((one, i) => number(one, `${where}[${i}]`, -most, most));
 }
 
 function parse(text: string, name: string): Json {
@@ -58,22 +52,6 @@ function parse(text: string, name: string): Json {
   if (typeof json !== 'object' || json === null || !Array.isArray((json as Json).keyframes))
     throw new Error(`${name} has no list "keyframes": it is neither a project nor a key file.`);
   return json as Json;
-}
-
-const keyMembers = ['id', 'time', 'frame', 'root_position', 'rotations'];
-
-function readKey(key: Json, where: string, nth: number, known: Known): Key {
-  if (typeof key !== 'object' || key === null) throw new Error(`${where}: ${shown(key)} is no key.`);
-  const strange = Object.keys(key).find((member) => !keyMembers.includes(member));
-  if (strange) throw new Error(`${where}.${strange}: the studio opens keys of numbers alone (${keyMembers.join(', ')}).`);
-  const frame = 'frame' in key
-    ? number(key.frame, `${where}.frame`, 0, mostSeconds * known.fps)
-    : Math.round(number(key.time, `${where}.time`, 0, mostSeconds) * known.fps);
-  const rotations = numbers(key.rotations, `${where}.rotations`, 3 * known.joints, mostRadians);
-  const hasPlace = key.root_position !== undefined;
-  const root = hasPlace ? numbers(key.root_position, `${where}.root_position`, 3, most) : [0, 0.9, 0];
-  const id = typeof key.id === 'string' && key.id ? key.id : `key${nth}`;
-  return { id, frame: Math.round(frame), pose: { root: root as Triple, rotations }, hasPlace };
 }
 
 function readPath(path: Json, name: string, known: Known): Step[] {
@@ -93,17 +71,21 @@ function readPath(path: Json, name: string, known: Known): Step[] {
   return steps;
 }
 
-function readKeys(list: unknown[], name: string, known: Known): Key[] {
-  const keys = sorted(list.map((key, i) => readKey(key as Json, `${name}: keyframes[${i}]`, i + 1, known)));
-  keys.forEach((key, i) => {
-    if (keys.findIndex(({ id }) => id === key.id) < i) throw new Error(`${name}: there are two keys "${key.id}".`);
-    if (i > 0 && key.frame - keys[i - 1].frame < closest)
-      throw new Error(`${name}: the keys "${keys[i - 1].id}" and "${key.id}" stand closer than ${closest} frames.`);
+/// The keys of a file as the program read them, in order. Throws for those that no dance here has.
+export function inOrder(keys: Key[], name: string, fps: number): Key[] {
+  for (const { id, frame, pose } of keys) {
+    if (!(frame >= 0 && frame <= mostSeconds * fps)) throw new Error(`${name}: the key "${id}" stands at ${frame / fps} s, and may from 0 to ${mostSeconds}.`);
+    if (!pose.root.every((value) => Math.abs(value) <= most)) throw new Error(`${name}: the key "${id}" is more than ${most} m away.`);
+  }
+  const list = sorted(keys);
+  list.forEach(({ id, frame }, i) => {
+    if (i > 0 && frame - list[i - 1].frame < closest)
+      throw new Error(`${name}: the keys "${list[i - 1].id}" and "${id}" stand closer than ${closest} frames.`);
   });
-  return keys;
+  return list;
 }
 
-/// Reads a project, or a key file. Throws where it cannot be used, naming member, value and limit;
+/// Reads a project, or a key file, all but its keys, which the program reads. Throws where it cannot be used, naming member, value and limit;
 /// `tell` hears of what is left out.
 export function fromJson(text: string, name: string, known: Known, tell: (words: string) => void): Project {
   const json = parse(text, name);
@@ -121,6 +103,5 @@ export function fromJson(text: string, name: string, known: Known, tell: (words:
   const lively = (json.lively ?? {}) as Json;
   project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, mostLively));
   if (json.path !== undefined) project.path = readPath(json.path as Json, name, known);
-  project.keys = readKeys(json.keyframes as unknown[], name, known);
   return project;
 }

@@ -1,6 +1,6 @@
 // Inverse kinematics: what a body does when one of its handles is pulled.
 import { Quaternion, Vector3 } from 'three';
-import { Figure } from './body';
+import { Figure, only } from './body';
 import type { Pose, Skeleton } from './body';
 
 /// What can be pulled. `joint` is where the handle sits; of limbs, `chain` is the joint above, the
@@ -23,11 +23,20 @@ export const handles: Handle[] = [
   limb('right', 'foot', ['hip', 'knee', 'ankle']),
 ];
 
+/// What bends where the head is pulled, from above.
+const spine = ['neck', 'spine3', 'spine2', 'spine1'];
+
 /// The floor handle moves the whole body.
 export const floorHandle: Handle = { id: 'floor', label: 'place', joint: 'pelvis' };
 
-/// The pose after a handle was pulled to a place in the world.
-export function pull(skeleton: Skeleton, pose: Pose, handle: Handle, to: Vector3): Pose {
+/// Whether a handle can be pulled where only these joints may change (null: all).
+export function canPull(skeleton: Skeleton, { id, joint, chain }: Handle, joints: number[] | null): boolean {
+  const needed = chain ?? (id === 'head' ? spine : [joint]);
+  return !joints || needed.every((name) => joints.includes(skeleton.find(name)));
+}
+
+/// The pose after a handle was pulled to a place in the world. Other joints than these (null: all) stay turned as they are.
+export function pull(skeleton: Skeleton, pose: Pose, handle: Handle, to: Vector3, joints: number[] | null): Pose {
   if (handle.id === 'floor') {
     return { ...pose, root: [to.x, pose.root[1], to.z] };
   }
@@ -35,7 +44,7 @@ export function pull(skeleton: Skeleton, pose: Pose, handle: Handle, to: Vector3
   if (handle.chain) bendLimb(figure, handle.chain.map((name) => skeleton.find(name)), to);
   else if (handle.id === 'head') bendSpine(figure, to);
   else moveHips(figure, to);
-  return figure.pose();
+  return only(pose, figure.pose(), joints);
 }
 
 /// The hips go there, the feet stay where they are.
@@ -93,7 +102,7 @@ function swing(figure: Figure, joint: number, from: Vector3, to: Vector3, share:
 function bendSpine(figure: Figure, to: Vector3) {
   const head = figure.skeleton.find('head');
   const facing = figure.world[head].clone();
-  const joints = ['neck', 'spine3', 'spine2', 'spine1'].map((name) => figure.skeleton.find(name));
+  const joints = spine.map((name) => figure.skeleton.find(name));
   for (let round = 0; round < 8; ++round) {
     for (const joint of joints) swing(figure, joint, figure.places[head], to, 0.35);
   }

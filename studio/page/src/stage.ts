@@ -6,7 +6,7 @@ import type { Pose } from './body';
 import { Doll } from './doll';
 import { FloorLine } from './floor_line';
 import type { Motion } from './motion';
-import { floorHandle, handles, pull } from './reach';
+import { canPull, floorHandle, handles, pull } from './reach';
 import type { Handle } from './reach';
 import { floorTexture, looks, makeFloor, makeLamp } from './scenery';
 import { Onion } from './onion';
@@ -89,8 +89,8 @@ export class Stage {
     const handle = [...handles, floorHandle].find((some) => some.id === id);
     if (!handle || !this.posing) return;
     const to = this.places(this.posing).get(id)!.add(by);
-    this.posing = pull(studio.skeleton, this.posing, handle, to);
-    this.onPosed(this.posing);
+    this.posing = pull(studio.skeleton, this.posing, handle, to, studio.movable.value);
+    studio.bendSoon(this.posing);
   }
 
   private dress(isDark: boolean) {
@@ -134,6 +134,11 @@ export class Stage {
     return out;
   }
 
+  /// The handles that can be pulled now.
+  private open() {
+    return [...handles, floorHandle].filter((handle) => canPull(studio.skeleton, handle, studio.movable.value));
+  }
+
   private toScreen(point: THREE.Vector3) {
     const { width, height } = this.canvas.getBoundingClientRect();
     const seen = point.clone().project(this.camera);
@@ -170,8 +175,8 @@ export class Stage {
       const off = Math.hypot(x - event.clientX + left, y - event.clientY + top);
       return id === floorHandle.id ? Math.min(off, Math.abs(off - 30)) : off;
     };
-    const [handle] = [...handles, floorHandle].sort((a, b) => away(a.id) - away(b.id));
-    if (away(handle.id) > near) return;
+    const [handle] = this.open().sort((a, b) => away(a.id) - away(b.id));
+    if (!handle || away(handle.id) > near) return;
     event.stopImmediatePropagation();
     this.canvas.setPointerCapture(event.pointerId);
     const place = places.get(handle.id)!;
@@ -189,7 +194,7 @@ export class Stage {
     }
     if (!this.grabbed) return;
     const hit = this.ray(event).intersectPlane(this.grabbed.plane, new THREE.Vector3());
-    if (hit) this.posing = pull(studio.skeleton, this.grabbed.from, this.grabbed.handle, hit.add(this.grabbed.offset));
+    if (hit) this.posing = pull(studio.skeleton, this.grabbed.from, this.grabbed.handle, hit.add(this.grabbed.offset), studio.movable.value);
   }
 
   private release() {
@@ -220,15 +225,18 @@ export class Stage {
     this.onion.show(time, takes.length > 0);
     this.dots.visible = !!this.posing;
     if (this.posing) {
+      const open = this.open().map(({ id }) => id);
       for (const [id, place] of this.places(this.posing)) {
+        this.dots.getObjectByName(id)!.visible = open.includes(id);
         this.dots.getObjectByName(id)!.position.copy(place).setY(id === floorHandle.id ? 0.004 : place.y);
       }
     }
-    const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps);
+    const isSet = studio.areCornersShown.value || !!studio.askedCorners.value;
+    const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps, isSet ? studio.corners.value : null, studio.heldCorner.value);
     this.look(this.middle);
     this.camera.updateMatrixWorld();
     // A picture that would be the same again is not drawn.
-    const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible, studio.onion.value,
+    const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
       studio.selectedKey.value, this.camera.aspect, studio.live.value, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
       ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
     if (seen.every((value, i) => value === this.seen[i])) return;

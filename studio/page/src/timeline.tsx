@@ -161,8 +161,8 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
     event.preventDefault();
   };
   return (
-    <button class={isSelected ? 'key selected' : 'key'} style={{ left: `${x(frame / fps)}px` }} data-key={item.id} data-frame={item.frame}
-      aria-label={`Key ${item.id} at ${(frame / fps).toFixed(1)} s`} aria-pressed={isSelected}
+    <button class={`key${isSelected ? ' selected' : ''}${item.asks ? ' partial' : ''}`} style={{ left: `${x(frame / fps)}px` }} data-key={item.id} data-frame={item.frame}
+      aria-label={`Key ${item.id} at ${(frame / fps).toFixed(1)} s${item.asks ? `, only ${studio.inWords(item.asks, studio.skeleton.names)}` : ''}`} aria-pressed={isSelected}
       title={`${item.id.replaceAll('_', ' ')} at ${(frame / fps).toFixed(2)} s. Drag to move, press to pose.`}
       onPointerDown={grab} onKeyDown={press} onClick={(event) => event.detail === 0 && choose()}>
       <img alt="" draggable={false} src={pictureOf(item.pose)} />

@@ -1,9 +1,17 @@
 // What the studio's tests in a browser share: the studio, the browser, and what people do on the page.
+import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
+import { mkdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
+import { join } from 'node:path';
 
 const { chromium } = createRequire(new URL('../../../studio/page/package.json', import.meta.url))('playwright-core');
 export const patience = 300000; // software rendering on a busy machine
+/// What every test here is given: the program, and a folder for pictures and what is made on the way.
+export const [program, pictures] = process.argv.slice(2);
+mkdirSync(pictures, { recursive: true });
+/// Where a picture goes, or another file.
+export const inFolder = (name) => join(pictures, name);
 
 /// A click every half second over a soft tone, as a WAV file.
 export function clicks(seconds) {
@@ -24,7 +32,7 @@ export function clicks(seconds) {
 }
 
 /// The studio program, and where its page is.
-export async function open(program, listen) {
+async function open(listen) {
   const studio = spawn(program, ['studio', '--listen', listen], { stdio: ['ignore', 'pipe', 'inherit'] });
   const url = await new Promise((resolve, reject) => {
     studio.stdout.on('data', (data) => resolve(/http:\S+/.exec(data)[0]));
@@ -35,12 +43,12 @@ export async function open(program, listen) {
   return { studio, url };
 }
 
-export const launch = (...args) => chromium.launch({
+const launch = (...args) => chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required', ...args],
 });
 
-export let passed = 0;
+let passed = 0;
 export const check = async (what, body) => {
   await body();
   ++passed;
@@ -48,7 +56,7 @@ export const check = async (what, body) => {
 };
 
 /// Opens the page, and knows how to use it.
-export async function visit(browser, url, options = {}) {
+async function visit(browser, url, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1000, height: 700 }, colorScheme: 'light', acceptDownloads: true, ...options });
   page.setDefaultTimeout(patience);
   const strangers = [];
@@ -70,6 +78,11 @@ export async function visit(browser, url, options = {}) {
     throw new Error(`in vain: ${condition}`);
   };
   const settle = () => until(() => window.choreo?.busy.value === 0 && window.choreo.moment.value?.isReady);
+  /// The same after numbers and keys, which are danced to once the hand rests.
+  const rest = async () => {
+    await page.waitForTimeout(800);
+    await settle();
+  };
   const message = () => page.evaluate(() => window.choreo.message.value);
   const frames = () => page.evaluate(() => {
     const motion = window.choreo.motion.value;
@@ -92,11 +105,12 @@ export async function visit(browser, url, options = {}) {
     const [file] = await Promise.all([page.waitForEvent('download', { timeout: 3 * patience }), act()]);
     return file.path();
   };
-  return { page, strangers, errors, until, settle, message, frames, scale, give, drop, download };
+  return { page, strangers, errors, until, settle, rest, message, frames, scale, give, drop, download };
 }
 
-/// Pictures of the page as phones and wide screens have it, light and dark.
-export async function takePictures(page, place) {
+/// Pictures of the page as phones and wide screens have it, light and dark: PREFIX390-light.png ... The page is then as large as before.
+export async function takePictures(page, prefix = '') {
+  const size = page.viewportSize();
   for (const colorScheme of ['light', 'dark']) {
     for (const [width, height] of [[390, 844], [1600, 900]]) {
       await page.setViewportSize({ width, height });
@@ -104,15 +118,41 @@ export async function takePictures(page, place) {
       await page.waitForTimeout(2500);
       const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
       if (wide) throw new Error(`at ${width} pixels the page is wider than the window`);
-      await page.screenshot({ path: place(`${width}-${colorScheme}.png`), fullPage: width < 900, timeout: patience });
+      await page.screenshot({ path: inFolder(`${prefix}${width}-${colorScheme}.png`), fullPage: width < 900, timeout: patience });
     }
   }
+  await page.setViewportSize(size);
 }
 
-/// Ctrl-C ends the studio in order.
-export async function close(studio) {
+/// Runs what people do, `body`, on the page of a studio of its own, in a browser that is launched with `args`. Afterwards nothing may have left
+/// this machine, nothing may have broken, and Ctrl-C has to end the program in order.
+export async function inStudio(body, ...args) {
+  let { studio, url } = await open('127.0.0.1:0');
+  /// The program, as it dies and comes back.
+  const host = {
+    pid: () => studio.pid,
+    kill: async () => {
+      const ended = new Promise((resolve) => studio.on('exit', resolve));
+      studio.kill('SIGKILL');
+      await ended;
+    },
+    restart: async () => ({ studio } = await open(new URL(url).host)),
+  };
+  const browser = await launch(...args);
+  try {
+    const visitor = await visit(browser, url);
+    await visitor.page.getByRole('button', { name: 'Choose a song' }).waitFor();
+    await body({ ...visitor, host });
+    await check('nothing left this machine, and nothing broke', async () => {
+      assert.deepEqual(visitor.strangers, []);
+      assert.deepEqual(visitor.errors, []);
+    });
+  } finally {
+    await browser.close();
+  }
   const ended = new Promise((resolve) => studio.on('exit', resolve));
   studio.kill('SIGINT');
-  const code = await ended;
-  if (code !== 0) throw new Error(`Ctrl-C should end the studio in order; it ended with ${code}`);
+  assert.equal(await ended, 0, 'Ctrl-C should end the studio in order');
 }
+
+process.on('exit', (code) => console.log(`${passed} passed${code ? ', then one failed' : ''}`));

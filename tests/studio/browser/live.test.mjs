@@ -1,19 +1,13 @@
 // The studio's live mode: Chromium's microphone is a WAV file, the dance streams, poses are asked for, and what was heard becomes the song.
 //   node live.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
 import assert from 'node:assert/strict';
-import { mkdirSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { check, clicks, close, launch, open, passed, takePictures, visit } from './harness.mjs';
+import { writeFileSync } from 'node:fs';
+import { check, clicks, inFolder, inStudio, program, takePictures } from './harness.mjs';
 
-const [program, pictures] = process.argv.slice(2);
-mkdirSync(pictures, { recursive: true });
-const file = join(pictures, 'microphone.wav');
+const file = inFolder('microphone.wav');
 writeFileSync(file, clicks(60));
 
-let { studio, url } = await open(program, '127.0.0.1:0');
-const browser = await launch('--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}`);
-try {
-  const { page, strangers, errors, until, settle, message, give } = await visit(browser, url);
+await inStudio(async ({ page, until, settle, message, give, host }) => {
 
   await check('the microphone is danced to while it sounds', async () => {
     await page.getByRole('button', { name: 'Use the microphone' }).click();
@@ -31,9 +25,8 @@ try {
   await check('a pose that is pressed comes soon, and is hit', async () => {
     await page.locator('.library li button').nth(3).click();
     const { frame, id } = await page.evaluate(() => window.choreo.project.value.keys[0]);
-    await takePictures(page, (name) => join(pictures, `live-${name}`));
-    await page.setViewportSize({ width: 1000, height: 700 });
-    await until((frame) => window.choreo.motion.value.count > frame, frame);
+    await takePictures(page, 'live-');
+      await until((frame) => window.choreo.motion.value.count > frame, frame);
     const off = await page.evaluate(([frame, id]) => {
       const asked = window.choreo.project.value.keys.find((key) => key.id === id).pose.rotations;
       const danced = window.choreo.motion.value.pose(frame).rotations;
@@ -81,35 +74,20 @@ try {
     await until(() => window.choreo.live.value?.motion.count > 45);
     await give(['song.wav', clicks(2)]);
     await until(() => window.choreo.message.value?.text === 'Stop the live dance first.');
-    const ended = new Promise((resolve) => studio.on('exit', resolve));
-    studio.kill('SIGKILL');
-    await ended;
+    await host.kill();
     await until(() => window.choreo.message.value?.text.includes('gone'));
-    ({ studio } = await open(program, new URL(url).host));
+    await host.restart();
     await until(() => !window.choreo.live.value && window.choreo.busy.value === 0);
     assert.equal((await message()).text, 'The dance ended early; what came of it stays.');
     assert.ok((await page.evaluate(() => window.choreo.motion.value.count)) > 45);
   });
+}, '--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}`);
 
-  await check('nothing left this machine, and nothing broke', async () => {
-    assert.deepEqual(strangers, []);
-    assert.deepEqual(errors, []);
-  });
-} finally {
-  await browser.close();
-}
-
-const deaf = await launch();
-try {
-  const { page, until, message } = await visit(deaf, url);
+await inStudio(async ({ page, until, message }) => {
   await check('a microphone that is not to be had is told in words', async () => {
     await page.getByRole('button', { name: 'Use the microphone' }).click();
     await until(() => window.choreo.message.value?.isError);
     assert.match((await message()).text, /microphone/);
     assert.equal(await page.evaluate(() => window.choreo.live.value), null);
   });
-} finally {
-  await deaf.close();
-}
-await close(studio);
-console.log(`${passed} passed, 0 failed`);
+});

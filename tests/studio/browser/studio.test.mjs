@@ -3,19 +3,47 @@
 //   node studio.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { check, clicks, close, launch, open, passed, patience, takePictures, visit } from './harness.mjs';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { check, clicks, inFolder, inStudio, patience, program, takePictures } from './harness.mjs';
 
-const [program, pictures] = process.argv.slice(2);
 const seconds = 12;
-mkdirSync(pictures, { recursive: true });
 
-let { studio, url } = await open(program, '127.0.0.1:0');
-const browser = await launch();
+/// Measures what each picture takes of the processor, milliseconds: what runs for it in the page, less the renderer's calls, and these.
+async function timeFrames(page) {
+  await page.evaluate(() => {
+    const { renderer } = window.choreo.stage.value;
+    const [ask, render] = [window.requestAnimationFrame, renderer.render];
+    const frames = new Map(); // by their time
+    let drawn = 0;
+    window.requestAnimationFrame = (callback) => ask.call(window, (time) => {
+      const [began, before] = [performance.now(), drawn];
+      callback(time);
+      const frame = frames.get(time) ?? { own: 0, calls: 0 };
+      frame.calls += drawn - before;
+      frame.own += performance.now() - began - (drawn - before);
+      frames.set(time, frame);
+    });
+    renderer.render = (...args) => {
+      const began = performance.now();
+      render.apply(renderer, args);
+      drawn += performance.now() - began;
+    };
+    window.spentOnFrames = () => {
+      [window.requestAnimationFrame, renderer.render] = [ask, render];
+      return [...frames.values()].filter(({ calls }) => calls > 0);
+    };
+  });
+  return async () => {
+    const all = await page.evaluate(() => window.spentOnFrames());
+    const share = (which) => {
+      const values = all.map((frame) => frame[which]).sort((a, b) => a - b);
+      return { median: values[Math.floor(values.length / 2)], p99: values[Math.floor(values.length * 0.99)] };
+    };
+    return { own: share('own'), calls: share('calls') };
+  };
+}
 
-try {
-  const { page, strangers, errors, until, settle, message, frames, scale, give, drop, download } = await visit(browser, url);
+await inStudio(async ({ page, until, settle, message, frames, scale, give, drop, download, host }) => {
   const changed = (before, after) => after.flatMap((pose, i) => (pose === before[i] ? [] : [i]));
 
   await check('a page with landmarks and names', async () => {
@@ -103,7 +131,7 @@ try {
     const keep = page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Keep C' });
     await keep.waitFor();
     await page.waitForTimeout(2000); // the camera steps back
-    await page.screenshot({ path: join(pictures, 'takes.png'), timeout: patience });
+    await page.screenshot({ path: inFolder('takes.png'), timeout: patience });
     await keep.click();
     await settle();
     const touched = changed(before, await frames());
@@ -128,10 +156,10 @@ try {
     assert.equal(await page.evaluate(() => window.choreo.project.value.keys.length), keys);
     assert.equal(await page.getByLabel('How to dance').inputValue(), 'tired');
     const here = readFileSync(await download(() => page.getByLabel('Export the dance').selectOption('bvh')), 'utf8');
-    writeFileSync(join(pictures, 'clicks.wav'), clicks(seconds));
-    writeFileSync(join(pictures, 'project.json'), text);
-    execFileSync(program, ['dance', '--project', join(pictures, 'project.json'), '--out', join(pictures, 'project.bvh')], { stdio: 'ignore' });
-    assert.ok(readFileSync(join(pictures, 'project.bvh'), 'utf8') === here, 'the command line dances it otherwise');
+    writeFileSync(inFolder('clicks.wav'), clicks(seconds));
+    writeFileSync(inFolder('project.json'), text);
+    execFileSync(program, ['dance', '--project', inFolder('project.json'), '--out', inFolder('project.bvh')], { stdio: 'ignore' });
+    assert.ok(readFileSync(inFolder('project.bvh'), 'utf8') === here, 'the command line dances it otherwise');
   });
 
   for (const extension of ['glb', 'bvh', 'npz']) {
@@ -169,11 +197,13 @@ try {
       ['broken.json', '{', /broken\.json is no JSON/],
       ['list.json', '[]', /list\.json has no list "keyframes"/],
       ['newer.json', '{"studio": 2, "keyframes": []}', /newer\.json is of format 2; this studio knows 1/],
-      ['words.json', '{"keyframes": [{"time": 1, "pose": "kick"}]}', /words\.json: keyframes\[0\]\.pose: the studio opens keys of numbers/],
-      ['early.json', JSON.stringify({ keyframes: [{ ...key, time: -1 }] }), /keyframes\[0\]\.time: -1 is not a number from 0/],
-      ['twice.json', JSON.stringify({ keyframes: [key, { ...key, time: 2 }] }), /two keys "a"/],
+      ['words.json', '{"keyframes": [{"time": 1, "pose": "kik"}]}', /words\.json:keyframes\[0\]\.pose: .*kik/],
+      ['early.json', JSON.stringify({ keyframes: [{ ...key, time: -1 }] }), /keyframes\[0\]\.time: -1/],
+      ['late.json', JSON.stringify({ keyframes: [{ ...key, time: 4000 }] }), /the key "a" stands at 4000 s, and may from 0 to 3600/],
+      ['far.json', JSON.stringify({ keyframes: [{ ...key, root_position: [0, 1, 1e30] }] }), /the key "a" is more than 1000 m away/],
+      ['twice.json', JSON.stringify({ keyframes: [key, { ...key, time: 2 }] }), /"a" stands for an earlier key already/],
       ['close.json', JSON.stringify({ keyframes: [key, { ...key, id: 'b' }] }), /stand closer than 2 frames/],
-      ['turned.json', JSON.stringify({ keyframes: [{ ...key, rotations: Array(24).fill([0, 99, 0]) }] }), /rotations\[1\]: 99 is not/],
+      ['turned.json', JSON.stringify({ keyframes: [{ ...key, rotations: Array(24).fill([0, 99, 0]) }] }), /rotations\[0\]: 99 rad exceeds/],
       ['seed.json', JSON.stringify({ seed: -1, keyframes: [key] }), /seed\.json: seed: -1 is not/],
       ['endless.json', JSON.stringify({ seconds: 1e300, keyframes: [key] }), /seconds: 1e\+300 is not a number from 0 to 3600/],
     ];
@@ -194,7 +224,7 @@ try {
   await check('the loss of the server is survived', async () => {
     await page.getByRole('button', { name: 'New poses' }).click();
     await until(() => window.choreo.busy.value > 0);
-    execFileSync('pkill', ['-KILL', '-P', String(studio.pid), 'choreod']);
+    execFileSync('pkill', ['-KILL', '-P', String(host.pid()), 'choreod']);
     await settle();
     assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 30 * seconds);
     const said = await message();
@@ -204,23 +234,24 @@ try {
   await check('so is the loss of the studio program', async () => {
     await page.getByRole('button', { name: 'New poses' }).click();
     await until(() => window.choreo.busy.value > 0);
-    const ended = new Promise((resolve) => studio.on('exit', resolve));
-    studio.kill('SIGKILL');
-    await ended;
+    await host.kill();
     await until(() => window.choreo.message.value?.isError && window.choreo.busy.value === 0);
-    ({ studio } = await open(program, new URL(url).host));
+    await host.restart();
     await until((count) => window.choreo.busy.value === 0 && window.choreo.isConnected.value && window.choreo.motion.value.count === count, 30 * seconds);
     assert.deepEqual(await message(), { text: 'The studio program is there again.', isError: false });
   });
 
   await check('it plays, picture and sound together', async () => {
     await page.evaluate(() => (window.choreo.audio.currentTime = 0));
+    const spent = await timeFrames(page);
     await page.getByRole('button', { name: 'Play', exact: true }).click();
-    await until(() => window.choreo.audio.currentTime > 1.5);
+    await until(() => window.choreo.audio.currentTime > 6);
     const late = await page.evaluate(() => window.choreo.stage.value.lateness);
     const rate = await page.evaluate(() => window.choreo.stage.value.rate);
     await page.getByRole('button', { name: 'Pause' }).click();
-    console.log(`    ${rate.toFixed(0)} pictures a second; the picture shows the sound of ${(1000 * late).toFixed(0)} ms ago at most`);
+    console.log(`    ${rate.toFixed(0)} pictures a second of a software renderer; the picture shows the sound of ${(1000 * late).toFixed(0)} ms ago at most`);
+    const { own, calls } = await spent();
+    console.log(`    of a picture's 16.7 ms our own code takes ${own.median.toFixed(1)} (median), ${own.p99.toFixed(1)} (99 of 100); three.js and WebGL's calls, which wait for the renderer here, ${calls.median.toFixed(1)} and ${calls.p99.toFixed(1)}`);
   });
 
   await check('the floor is seen wherever the dancer goes', async () => {
@@ -238,19 +269,10 @@ try {
     for (const [, , blue] of colours) assert.ok(blue < 0xf6 - 8, `${colours}`);
   });
 
-  await check('nothing left this machine, and nothing broke', async () => {
-    assert.deepEqual(strangers, []);
-    assert.deepEqual(errors, []);
-  });
-
   await page.evaluate(() => {
     window.choreo.message.value = null;
     window.choreo.stage.value.sharpen();
   });
   await page.locator('.key').nth(2).click();
-  await takePictures(page, (name) => join(pictures, name));
-} finally {
-  await browser.close();
-}
-await close(studio);
-console.log(`${passed} passed, 0 failed`);
+  await takePictures(page);
+});

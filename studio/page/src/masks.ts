@@ -1,0 +1,32 @@
+// Which joints of a pose are worked on: those of some parts of the body, or those that a partial key asks for.
+import { computed, signal } from '@preact/signals';
+import { BodyPart } from './generated/choreo/v1/choreography_pb';
+import { parts } from './project';
+import { project, selectedKey, sketch, welcome } from './state';
+
+/// Of each of `parts`: whether it is worked on, where the key does not say so itself.
+export const worked = signal(parts.map(() => true));
+
+const partOf = (joint: number) => welcome.value!.turns[joint].part - BodyPart.TRUNK;
+const joints = () => welcome.value!.turns.map((_, joint) => joint);
+
+/// The joints of those parts, in order; null: all.
+export const jointsOf = (chosen: boolean[]): number[] | null =>
+  chosen.every(Boolean) ? null : joints().filter((joint) => chosen[partOf(joint)]);
+
+/// Which parts have one of these joints.
+export const partsOf = (asked: number[] | null): boolean[] => parts.map((_, part) => !asked || asked.some((joint) => partOf(joint) === part));
+
+/// For people: "left arm, right arm"; joints by name where a part is not there as a whole.
+export function inWords(asked: number[], names: string[]): string {
+  const isWhole = (part: number) => joints().every((joint) => partOf(joint) !== part || asked.includes(joint));
+  const whole = parts.filter((_, part) => isWhole(part));
+  const others = asked.filter((joint) => !isWhole(partOf(joint))).map((joint) => names[joint].replaceAll('_', ' '));
+  return [...whole, ...others].join(', ');
+}
+
+/// The joints that may change now; null: all.
+export const movable = computed<number[] | null>(() => {
+  const key = sketch.value ? undefined : project.value?.keys.find(({ id }) => id === selectedKey.value);
+  return key?.asks ?? jointsOf(worked.value);
+});

@@ -1,0 +1,51 @@
+// A number that people type, or change with the arrow keys; with Shift, by ten steps. What cannot be is told beside it, and changes nothing.
+import { useSignal } from '@preact/signals';
+import { useId } from 'preact/hooks';
+
+type Props = {
+  /// What is seen, and what is heard where that says too little.
+  label: string;
+  name: string;
+  value: number;
+  low: number;
+  high: number;
+  step: number;
+  /// What its numbers may be: "The left elbow bends 0 to 160 degrees".
+  rule: string;
+  set: (value: number) => void;
+  focused?: () => void;
+};
+
+export function NumberField({ label, name, value, low, high, step, rule, set, focused }: Props) {
+  /// What was wrong, until the number is another.
+  const told = useSignal({ text: '', at: value });
+  const slip = Math.abs(told.value.at - value) < 1e-3 ? told.value.text : '';
+  const id = useId();
+  const take = (text: string) => {
+    const wanted = text.trim() === '' ? NaN : Number(text);
+    const isFine = wanted >= low && wanted <= high;
+    told.value = { text: isFine ? '' : `${rule}${text.trim() === '' ? ': a number is missing' : `, not ${text}`}.`, at: value };
+    if (isFine && wanted !== value) set(wanted);
+  };
+  const press = (event: KeyboardEvent) => {
+    const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const wanted = Math.round((value + way * step * (event.shiftKey ? 10 : 1)) / step) * step;
+    const most = Math.min(Math.max(wanted, low), high);
+    told.value = { text: most === wanted ? '' : `${rule}.`, at: most };
+    if (most !== value) set(most);
+  };
+  return (
+    <label class="number">
+      <span aria-hidden="true">{label}</span>
+      <input type="number" step="any" min={low} max={high} value={Number(value.toFixed(step < 1 ? 2 : 1))} aria-label={name}
+        aria-invalid={!!slip} aria-describedby={slip ? id : undefined}
+        onKeyDown={press} onFocus={focused} onChange={(event) => take(event.currentTarget.value)}
+        onBlur={(event) => {
+          if (slip) event.currentTarget.value = String(Number(value.toFixed(step < 1 ? 2 : 1)));
+        }} />
+      {slip && <span id={id} class="small off" role="alert">{slip}</span>}
+    </label>
+  );
+}

@@ -1,0 +1,86 @@
+// The corners of the floor path, for who sets them one by one: a path that was drawn has few of them, too.
+import { computed, signal } from '@preact/signals';
+import { heading } from './body';
+import { away, clearPath, least, lengthOf, stretch, walk } from './floor_path';
+import type { Spot, Step } from './floor_path';
+import { moment, motion, project, tell } from './state';
+import type { Moment } from './state';
+
+const near = 0.08; // metres: what a corner adds less than is none
+const onward = 0.5; // metres from the last point to one that is added
+const rest = 600; // ms from the last change to the dance
+
+/// Corners that are being changed, and where they are walked, frames.
+const asked = signal<{ spots: Spot[]; from: number; to: number; of: Moment } | null>(null);
+/// Corners as they were set, of the path that came of them.
+const walked = signal<{ path: Step[]; spots: Spot[] } | null>(null);
+let resting: ReturnType<typeof setTimeout>;
+
+export const areCornersShown = signal(false);
+/// The one that is being moved.
+export const heldCorner = signal(0);
+
+/// How far a spot is from the line between two others.
+function aside(spot: Spot, a: Spot, b: Spot): number {
+  const length = away(a, b);
+  if (length < 1e-6) return away(spot, a);
+  const share = ((spot.x - a.x) * (b.x - a.x) + (spot.z - a.z) * (b.z - a.z)) / length ** 2;
+  const on = Math.min(1, Math.max(0, share));
+  return away(spot, { x: a.x + on * (b.x - a.x), z: a.z + on * (b.z - a.z) });
+}
+
+/// The spots without which a line would be another (Douglas and Peucker).
+function cornersOf(spots: Spot[]): Spot[] {
+  if (spots.length < 3) return spots.map(({ x, z }) => ({ x, z }));
+  const [first, last] = [spots[0], spots.at(-1)!];
+  const off = spots.map((spot) => aside(spot, first, last));
+  const far = off.indexOf(Math.max(...off));
+  if (off[far] < near) return cornersOf([first, last]);
+  return [...cornersOf(spots.slice(0, far + 1)).slice(0, -1), ...cornersOf(spots.slice(far))];
+}
+
+/// While they are changed, as they are asked for.
+export const askedCorners = computed(() => (asked.value?.of === moment.value ? asked.value?.spots ?? null : null));
+export const corners = computed((): Spot[] => {
+  const path = project.value?.path ?? [];
+  return askedCorners.value ?? (walked.value?.path === path ? walked.value.spots : cornersOf(path));
+});
+
+/// Other corners: shown at once, danced once the hand rests.
+export function setCorners(spots: Spot[]) {
+  const { path } = project.value;
+  const [from, to] = asked.value?.of === moment.value ? [asked.value!.from, asked.value!.to] : path.length ? [path[0].frame, path.at(-1)!.frame] : stretch();
+  asked.value = { spots, from, to, of: moment.value };
+  clearTimeout(resting);
+  resting = setTimeout(take, rest);
+}
+
+function take() {
+  const last = asked.value;
+  if (last?.of !== moment.value) return void (asked.value = null);
+  if (last.spots.length === 0 && project.value.path.length > 0) clearPath();
+  // One point alone waits for another.
+  if (last.spots.length < 2) return;
+  if (lengthOf(last.spots) < least) return void tell(`This path has ${lengthOf(last.spots).toFixed(1)} m; one that is walked has ${least} at least.`);
+  walk(last.spots, last.from, last.to);
+  walked.value = { path: project.value.path, spots: last.spots };
+}
+
+/// Another point, onward from the last two; the first two lead ahead from where the dancer is.
+export function addCorner() {
+  const spots = corners.value;
+  const last = spots.at(-1);
+  if (!last) {
+    const [from] = stretch();
+    if (motion.value.count === 0) return;
+    const here = motion.value.pose(from);
+    const [x, z] = [here.root[0], here.root[2]];
+    const way = heading(here);
+    heldCorner.value = 1;
+    return setCorners([{ x, z }, { x: x + Math.sin(way), z: z + Math.cos(way) }]);
+  }
+  const before = spots.at(-2) ?? { x: last.x, z: last.z - 1 };
+  const length = away(last, before) || 1;
+  heldCorner.value = spots.length;
+  setCorners([...spots, { x: last.x + (onward * (last.x - before.x)) / length, z: last.z + (onward * (last.z - before.z)) / length }]);
+}
