@@ -1,3 +1,6 @@
+#include <grpc/support/log.h>
+
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -16,6 +19,8 @@ constexpr int kInterrupted = 130;  // as shells say it of Ctrl-C
 }  // namespace
 
 int main(int argc, char** argv) {
+  // What goes wrong is said in our words; gRPC's own log is for who asks for it.
+  if (std::getenv("GRPC_VERBOSITY") == nullptr) gpr_set_log_function([](gpr_log_func_args*) {});
   CLI::App program{"choreo makes people dance: a song and key poses in, SMPL motion out.",
                    "choreo"};
   program.set_version_flag("--version", CHOREO_VERSION);

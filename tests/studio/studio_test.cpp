@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "client/cli/key_file.h"
 #include "client/cli/photo_pose.h"
 #include "client/convert.h"
 #include "model/motion/kinematics.h"
@@ -342,6 +343,39 @@ TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {
   for (const char* bad : {"", "[]", "{", "[1]", "\xff"}) {
     request.mutable_landmarks()->set_data(bad);
     EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("beach.jpg")) << bad;
+  }
+}
+
+TEST_F(StudioTest, TellsHowJointsTurnAndReadsKeyFiles) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const Skeleton& skeleton = studio.house().model().skeleton;
+  ASSERT_EQ(page.welcome().turns_size(), skeleton.joints());
+  const JointTurn& elbow = page.welcome().turns(skeleton.Find("left_elbow"));
+  EXPECT_EQ(elbow.part(), v1::BODY_PART_LEFT_ARM);
+  EXPECT_EQ(elbow.hinge_size(), 3);
+  EXPECT_EQ(elbow.low(), 0);
+  EXPECT_EQ(elbow.high(), 160);
+  EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).part(), v1::BODY_PART_TRUNK);
+  EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).hinge_size(), 0);
+
+  const std::string text =
+      R"({"keyframes": [{"time": 2, "joints": {"left_elbow": 60}}, {"time": 1, "pose": "kick", "hold": 0.1}]})";
+  Request request;
+  request.mutable_keys()->set_name("mine.json");
+  request.mutable_keys()->set_data(text);
+  const Response answer = page.Ask(request);
+  ASSERT_TRUE(answer.has_keyframes()) << answer.failure().message();
+  const std::vector<client::KeyPose> keys = cli::ParseKeyFile(text, "mine.json", skeleton);
+  ASSERT_EQ(answer.keyframes().keyframes_size(), 3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(answer.keyframes().keyframes(i).SerializeAsString(),
+              client::ToProto(keys[static_cast<size_t>(i)]).SerializeAsString());
+  }
+  EXPECT_EQ(answer.keyframes().keyframes(0).mask().joints_size(), 1);
+  for (const char* bad : {"", "[]", "{", R"({"keyframes": [{}]})", "\xff"}) {
+    request.mutable_keys()->set_data(bad);
+    EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("mine.json")) << bad;
   }
 }
 

@@ -95,12 +95,13 @@ function shown(key: Key): Pose {
 
 const isSame = (a: Triple, b: Triple) => a.every((value, i) => Math.abs(value - b[i]) < 1e-6);
 
-/// Another pose for a key. One without a place gets one where the body was moved.
+/// Another pose for a key. One without a place gets one where the body was moved, unless it leaves the hips free.
 export function poseKey(id: string, pose: Pose, asks?: number[] | null) {
   const key = keyOf(id);
   if (!key) return;
-  const hasPlace = key.hasPlace || !isSame(pose.root, shown(key).root);
-  const posed = { ...key, pose, hasPlace, asks: asks === undefined ? key.asks : asks };
+  const asked = asks === undefined ? key.asks : asks;
+  const isMoved = !isSame(pose.root, shown(key).root) && (!asked || asked.includes(0));
+  const posed = { ...key, pose, hasPlace: key.hasPlace || isMoved, asks: asked };
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? posed : other)) }, [key.frame]);
 }
 

@@ -39,7 +39,10 @@ function TakesPanel() {
       </p>
       <div class="row">
         {takes.length === 0
-          ? <button class="primary" disabled={!studio.moment.value} onClick={() => void studio.tryTakes()}>Try 3 more</button>
+          ? <>
+              <button class="primary" disabled={!studio.moment.value} onClick={() => void studio.tryTakes()}>Try 3 more</button>
+              {interval && <button onClick={() => void studio.tryTheRest()}>Freeze it, try the rest</button>}
+            </>
           : <>
               <button onClick={() => (studio.takes.value = [])}>Keep A</button>
               {takes.map((take, i) => <button key={i} class="primary" onClick={() => studio.keepTake(take)}>Keep {'BCDEFG'[i]}</button>)}

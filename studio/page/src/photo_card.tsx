@@ -7,13 +7,15 @@ import type { Photo } from './state';
 /// Pairs of MediaPipe Pose's landmarks between which there is a bone.
 const bones = [[11, 12], [11, 13], [13, 15], [12, 14], [14, 16], [11, 23], [12, 24], [23, 24], [23, 25], [25, 27], [27, 31], [24, 26], [26, 28], [28, 32]];
 const seen = 0.5; // visibility from which on a landmark is drawn
+/// The landmarks that limbs end with.
+const limbs = { 'left arm': [13, 15], 'right arm': [14, 16], 'left leg': [25, 27], 'right leg': [26, 28] };
 
 function Seen({ photo }: { photo: Photo }) {
   const { width, height, marks } = photo;
   return (
     <svg viewBox={`0 0 ${width} ${height}`} role="img" aria-label="The photo, with the limbs that were seen in it">
       <image href={photo.url} width={width} height={height} />
-      <g stroke-width={Math.max(width, height) / 120} stroke-linecap="round">
+      <g stroke-width={Math.max(width, height) / 70} stroke-linecap="round">
         {bones.filter((pair) => pair.every((end) => marks[end].visibility >= seen)).map(([a, b]) => (
           <line key={`${a}-${b}`} class={a % 2 && b % 2 ? 'left' : a % 2 || b % 2 ? '' : 'right'}
             x1={marks[a].x * width} y1={marks[a].y * height} x2={marks[b].x * width} y2={marks[b].y * height} />
@@ -27,6 +29,7 @@ export function PhotoCard() {
   const { value } = studio.sketch;
   if (!value) return null;
   const { id, pose, photo } = value;
+  const hidden = Object.entries(limbs).filter(([, ends]) => ends.some((end) => photo.marks[end].visibility < seen)).map(([limb]) => limb);
   const set = () => {
     const { x, y, z } = { x: pose.root[0], y: pose.root[1], z: pose.root[2] };
     const asked = create(LibraryPoseSchema, { id, pose: { rootPosition: { x, y, z }, rotations: pose.rotations } });
@@ -36,7 +39,8 @@ export function PhotoCard() {
   return (
     <section class="photo" aria-label="Photo">
       <Seen photo={photo} />
-      <p class="small">What was seen is a guess: pull the dots until the body stands as in the photo.</p>
+      {hidden.length > 0 && <p class="small off">Hardly seen, and so made up: {hidden.join(', ')}.</p>}
+      <p class="small hint">What was seen is a guess: pull the dots until the body stands as in the photo.</p>
       <div class="row">
         <button class="primary" disabled={!studio.project.value} onClick={set}>Set as a key</button>
         <button onClick={() => {

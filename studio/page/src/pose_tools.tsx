@@ -118,14 +118,16 @@ function Handles({ stage }: { stage: Stage | null }) {
 export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) {
   const change = (made: (pose: Pose) => Pose) => () => studio.bend(made(studio.bent()!));
   const key = studio.sketch.value ? null : studio.selectedKey.value;
+  // Where the hips stay, the whole body does not turn or sink.
+  const areHipsFixed = !!studio.movable.value && !studio.movable.value.includes(0);
   return (
     <>
       <p class="small">Pull the dots on the body; the ring moves it over the floor.</p>
       <div class="row">
         <button onClick={studio.mirror}>Mirror</button>
-        <button onClick={change((old) => studio.skeleton.grounded(old))}>To the floor</button>
-        <button aria-label="Turn left" title="Turn left" class="icon" onClick={change((old) => turned(old, Math.PI / 12))}>⟲</button>
-        <button aria-label="Turn right" title="Turn right" class="icon" onClick={change((old) => turned(old, -Math.PI / 12))}>⟳</button>
+        <button disabled={areHipsFixed} onClick={change((old) => studio.skeleton.grounded(old))}>To the floor</button>
+        <button aria-label="Turn left" title="Turn left" class="icon" disabled={areHipsFixed} onClick={change((old) => turned(old, Math.PI / 12))}>⟲</button>
+        <button aria-label="Turn right" title="Turn right" class="icon" disabled={areHipsFixed} onClick={change((old) => turned(old, -Math.PI / 12))}>⟳</button>
         {key && <button title="Keep this pose among yours" onClick={() => studio.tell(`Kept among the poses as ${studio.keepPose(key, pose)}.`)}>Keep</button>}
         {key && <button onClick={() => studio.removeKey(key)}>Remove</button>}
       </div>

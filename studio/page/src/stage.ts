@@ -16,6 +16,7 @@ const middle = 0.92; // metres: what the camera looks at
 const apart = 1.25; // metres between takes
 const ground = new THREE.Plane(new THREE.Vector3(0, 1, 0), 0);
 const farthest = 9; // metres from where the camera looks: a path may lead there
+const photoWidth = 272; // pixels of the stage at most (style.css)
 const near = 26; // pixels from a handle that still grab it
 
 export class Stage {
@@ -234,10 +235,11 @@ export class Stage {
     const isSet = studio.areCornersShown.value || !!studio.askedCorners.value;
     const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps, isSet ? studio.corners.value : null, studio.heldCorner.value);
     this.look(this.middle);
+    this.stepAside();
     this.camera.updateMatrixWorld();
     // A picture that would be the same again is not drawn.
     const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
-      studio.selectedKey.value, this.camera.aspect, studio.live.value, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
+      studio.selectedKey.value, this.camera.aspect, studio.live.value, studio.sketch.value, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
       ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
     if (seen.every((value, i) => value === this.seen[i])) return;
     this.seen = seen;
@@ -251,6 +253,7 @@ export class Stage {
   picture(motion: Motion, time: number, width: number, height: number): HTMLCanvasElement {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== 1) {
+      this.camera.clearViewOffset();
       this.renderer.setAnimationLoop(null);
       this.renderer.setPixelRatio(1);
       this.renderer.setSize(width, height, false);
@@ -338,10 +341,21 @@ export class Stage {
     this.floor.position.set(this.controls.target.x - (this.controls.target.x % 0.5), 0, this.controls.target.z - (this.controls.target.z % 0.5));
   }
 
-  /// Who draws on the floor looks at it from above, and comes back to where they sat.
+  /// A photo lies on the left of the stage: who stands in the middle steps aside.
+  private stepAside() {
+    const { clientWidth, clientHeight } = this.canvas;
+    const shift = studio.sketch.value ? Math.round(Math.min(clientWidth * 0.38, photoWidth) / 2) : 0;
+    const { view } = this.camera;
+    if ((view?.enabled ? -view.offsetX : 0) === shift && (!shift || (view!.fullWidth === clientWidth && view!.fullHeight === clientHeight))) return;
+    if (shift) this.camera.setViewOffset(clientWidth, clientHeight, -shift, 0, clientWidth, clientHeight);
+    else this.camera.clearViewOffset();
+  }
+
+  /// Who draws on the floor looks at it from above, rests there while the hand draws, and comes back to where they sat.
   private sit() {
     const { position } = this.camera;
     const { target } = this.controls;
+    if (this.line.isDrawn) return;
     if (studio.drawing.value) {
       this.seat ??= position.clone().sub(target);
       const aside = this.seat.clone().setY(0).setLength(3.2);

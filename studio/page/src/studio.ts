@@ -19,7 +19,7 @@ export { dancer, skeleton } from './link';
 export { level, liveBeats, now, startLive, stopLive } from './live';
 export { audio } from './songs';
 export * from './state';
-export { keepTake, tryTakes } from './takes';
+export { keepTake, tryTakes, tryTheRest } from './takes';
 
 let version = '';
 

@@ -21,6 +21,23 @@ export const tryTakes = (count = 3) => work(async () => {
   if (moment.value === before) takes.value = motions.map((other) => ({ seed: before.project.seed, motion: other }));
 });
 
+/// Other ways to dance all but the chosen interval, which stays as it is.
+export const tryTheRest = (count = 3) => work(async () => {
+  const [before, interval] = [moment.value, chosen.value];
+  const whole = await made(before);
+  if (!interval || moment.value !== before) return;
+  const [from, to] = interval;
+  const { project: asked } = before;
+  const first = asked.seed + moments.value.length * 100 + 50;
+  takes.value = [];
+  for (let seed = first; seed < first + count; ++seed) {
+    const start = from > 0 ? (await dancer.between(asked, whole, -1, from, seed, 1, silent))[0] : whole;
+    const other = to < whole.count - 1 ? (await dancer.between(asked, start, to, whole.count, seed, 1, silent))[0] : start;
+    if (moment.value !== before || chosen.value !== interval) return;
+    takes.value = [...takes.value, { seed: asked.seed, motion: other }];
+  }
+});
+
 async function tryWholes(before: Moment, seed: number, count: number) {
   const { signal } = stream();
   const others: Take[] = [];

@@ -72,7 +72,9 @@ function Wave() {
     });
     return () => wave.destroy();
   }, [value, zoom.value, isDark.value]);
-  return <div class="wave" ref={box} style={{ left: `${edge}px`, width: `${seconds() * zoom.value}px` }} />;
+  // As wide as the song, which may be there before the project is: wavesurfer.js breaks on a width of nothing.
+  const width = Math.max(1, (value?.heard.seconds ?? 0) * zoom.value);
+  return <div class="wave" ref={box} style={{ left: `${edge}px`, width: `${width}px` }} />;
 }
 
 function Scrubber() {

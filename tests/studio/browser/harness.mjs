@@ -139,14 +139,18 @@ export async function inStudio(body, ...args) {
     restart: async () => ({ studio } = await open(new URL(url).host)),
   };
   const browser = await launch(...args);
+  let visitor;
   try {
-    const visitor = await visit(browser, url);
+    visitor = await visit(browser, url);
     await visitor.page.getByRole('button', { name: 'Choose a song' }).waitFor();
     await body({ ...visitor, host });
     await check('nothing left this machine, and nothing broke', async () => {
       assert.deepEqual(visitor.strangers, []);
       assert.deepEqual(visitor.errors, []);
     });
+  } catch (error) {
+    await visitor?.page.screenshot({ path: inFolder('failed.png') }).catch(() => {});
+    throw error;
   } finally {
     await browser.close();
   }

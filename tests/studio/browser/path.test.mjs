@@ -15,7 +15,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
 
   /// Draws over the stage from left to right; where the pointer was on the floor is the program's to find.
   const draw = async (points) => {
-    await page.waitForTimeout(1500); // the camera goes up
+    await until(() => window.choreo.stage.value.camera.position.y > 5.15); // the camera goes up
     const box = await page.locator('.stage canvas').boundingBox();
     const at = ([x, y]) => [box.x + box.width * x, box.y + box.height * y];
     await page.mouse.move(...at(points[0]));
@@ -106,7 +106,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     await panel.getByRole('button', { name: 'Clear' }).click();
     await settle();
     await panel.getByRole('button', { name: 'Draw a path' }).click();
-    await page.waitForTimeout(1500);
+    await until(() => window.choreo.stage.value.camera.position.y > 5.15);
     const box = await page.locator('.stage canvas').boundingBox();
     const session = await page.context().newCDPSession(page);
     const touch = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y]) => ({ x: box.x + box.width * x, y: box.y + box.height * y })) });

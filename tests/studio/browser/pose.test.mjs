@@ -110,6 +110,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     const { frame, pose, asks, hasPlace } = await key(1);
     assert.deepEqual(asks.map((joint) => names[joint]).filter((name) => !/collar|shoulder|elbow|wrist|hand/.test(name)), []);
     assert.equal(hasPlace, false);
+    assert.ok(await panel.getByRole('button', { name: 'To the floor' }).isDisabled());
     const there = await danced(frame);
     for (const joint of ['left_shoulder', 'right_elbow'])
       of(there, joint).forEach((value, i) => assert.ok(Math.abs(value - of(pose, joint)[i]) < 2e-3, joint));

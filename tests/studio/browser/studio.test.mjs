@@ -8,8 +8,12 @@ import { check, clicks, inFolder, inStudio, patience, program, takePictures } fr
 
 const seconds = 12;
 
-/// Measures what each picture takes of the processor, milliseconds: what runs for it in the page, less the renderer's calls, and these.
+/// Measures what each picture takes, milliseconds: what runs for it in the page, less the renderer's calls, and these, by the clock; and all
+/// that the page's thread does, by the processor's time, which others on the machine do not lengthen.
 async function timeFrames(page) {
+  const session = await page.context().newCDPSession(page);
+  await session.send('Performance.enable', { timeDomain: 'threadTicks' });
+  const spent = async () => (await session.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'TaskDuration').value;
   await page.evaluate(() => {
     const { renderer } = window.choreo.stage.value;
     const [ask, render] = [window.requestAnimationFrame, renderer.render];
@@ -33,23 +37,35 @@ async function timeFrames(page) {
       return [...frames.values()].filter(({ calls }) => calls > 0);
     };
   });
+  const before = await spent();
   return async () => {
+    const after = await spent();
     const all = await page.evaluate(() => window.spentOnFrames());
     const share = (which) => {
       const values = all.map((frame) => frame[which]).sort((a, b) => a - b);
       return { median: values[Math.floor(values.length / 2)], p99: values[Math.floor(values.length * 0.99)] };
     };
-    return { own: share('own'), calls: share('calls') };
+    return { own: share('own'), calls: share('calls'), thread: (1000 * (after - before)) / all.length, count: all.length };
   };
 }
 
-await inStudio(async ({ page, until, settle, message, frames, scale, give, drop, download, host }) => {
+await inStudio(async ({ page, errors, until, settle, message, frames, scale, give, drop, download, host }) => {
   const changed = (before, after) => after.flatMap((pose, i) => (pose === before[i] ? [] : [i]));
 
   await check('a page with landmarks and names', async () => {
     await page.getByRole('button', { name: 'Choose a song' }).waitFor();
     for (const [role, name] of [['banner', undefined], ['main', 'Stage'], ['complementary', 'Poses'], ['complementary', 'Settings'], ['region', 'Timeline']])
       assert.equal(await page.getByRole(role, name ? { name } : {}).count(), 1, `${role} ${name}`);
+  });
+
+  await check('a song that is there before its dance breaks nothing', async () => {
+    await page.evaluate(() => {
+      const heard = { seconds: 3, tempo: 120, beats: [1], suggested: [], peaks: [0, 1, 0] };
+      window.choreo.song.value = { name: 'early.wav', url: '', bytes: new Uint8Array(), heard };
+    });
+    await until(() => document.querySelector('.wave div')?.shadowRoot?.querySelector('canvas'));
+    await page.evaluate(() => (window.choreo.song.value = null));
+    assert.deepEqual(errors, []);
   });
 
   await check('a dropped song is danced to', async () => {
@@ -137,6 +153,21 @@ await inStudio(async ({ page, until, settle, message, frames, scale, give, drop,
     const touched = changed(before, await frames());
     assert.ok(touched.length > 10);
     assert.ok(touched.every((frame) => frame > from && frame < to));
+  });
+
+  await check('an interval is frozen, and the rest danced anew', async () => {
+    const before = await frames();
+    await page.locator('.interval').nth(1).click();
+    const [from, to] = await page.evaluate(() => window.choreo.chosen.value);
+    await page.getByRole('button', { name: 'Freeze it, try the rest' }).click();
+    const keep = page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Keep D' });
+    await keep.waitFor();
+    await keep.click();
+    await settle();
+    const touched = changed(before, await frames());
+    assert.ok(touched.every((frame) => frame < from || frame > to), 'the frozen interval is another one');
+    assert.ok(touched.some((frame) => frame < from) && touched.some((frame) => frame > to));
+    await page.keyboard.press('Control+z');
   });
 
   await check('a style is danced', async () => {
@@ -250,8 +281,10 @@ await inStudio(async ({ page, until, settle, message, frames, scale, give, drop,
     const rate = await page.evaluate(() => window.choreo.stage.value.rate);
     await page.getByRole('button', { name: 'Pause' }).click();
     console.log(`    ${rate.toFixed(0)} pictures a second of a software renderer; the picture shows the sound of ${(1000 * late).toFixed(0)} ms ago at most`);
-    const { own, calls } = await spent();
-    console.log(`    of a picture's 16.7 ms our own code takes ${own.median.toFixed(1)} (median), ${own.p99.toFixed(1)} (99 of 100); three.js and WebGL's calls, which wait for the renderer here, ${calls.median.toFixed(1)} and ${calls.p99.toFixed(1)}`);
+    const { own, calls, thread, count } = await spent();
+    const shown = ({ median, p99 }) => `${median.toFixed(1)} ms (median), ${p99.toFixed(1)} (99 of 100)`;
+    console.log(`    of the 16.7 ms of each of ${count} pictures our own code takes ${shown(own)}; three.js and WebGL's calls, which wait for the renderer here, ${shown(calls)}`);
+    console.log(`    the page's thread is busy for ${thread.toFixed(1)} ms a picture (mean, of the processor's time)`);
   });
 
   await check('the floor is seen wherever the dancer goes', async () => {
