@@ -8,7 +8,7 @@ import { onPath } from './floor_path';
 import { danceFrom, edit } from './history';
 import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
-import { jointsOf, movable, partsOf, worked } from './masks';
+import { jointsOf, movable, partsOf, withPart, worked } from './masks';
 import { closest, emptyProject, freeId, sorted } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
@@ -158,7 +158,7 @@ export function workOn(part: number, isOn: boolean) {
   const chosen = (key?.asks ? partsOf(key.asks) : worked.value).map((old, i) => (i === part ? isOn : old));
   if (!chosen.some(Boolean)) return tell('One part at least is worked on.');
   worked.value = chosen;
-  if (key?.asks) ask(key, jointsOf(chosen));
+  if (key?.asks) ask(key, withPart(key.asks, part, isOn));
 }
 
 /// Makes a key ask for the parts that are worked on alone, or for the whole body.

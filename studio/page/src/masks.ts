@@ -10,6 +10,12 @@ export const worked = signal(parts.map(() => true));
 const partOf = (joint: number) => welcome.value!.turns[joint].part - BodyPart.TRUNK;
 const joints = () => welcome.value!.turns.map((_, joint) => joint);
 
+/// These joints, and those of a part, or without them; null: all.
+export function withPart(asked: number[], part: number, isOn: boolean): number[] | null {
+  const left = joints().filter((joint) => (partOf(joint) === part ? isOn : asked.includes(joint)));
+  return left.length === joints().length ? null : left;
+}
+
 /// The joints of those parts, in order; null: all.
 export const jointsOf = (chosen: boolean[]): number[] | null =>
   chosen.every(Boolean) ? null : joints().filter((joint) => chosen[partOf(joint)]);

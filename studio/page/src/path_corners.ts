@@ -3,7 +3,7 @@ import { computed, signal } from '@preact/signals';
 import { heading } from './body';
 import { away, clearPath, least, lengthOf, stretch, walk } from './floor_path';
 import type { Spot, Step } from './floor_path';
-import { moment, motion, project, tell } from './state';
+import { live, moment, motion, project, tell } from './state';
 import type { Moment } from './state';
 
 const near = 0.08; // metres: what a corner adds less than is none
@@ -57,7 +57,7 @@ export function setCorners(spots: Spot[]) {
 
 function take() {
   const last = asked.value;
-  if (last?.of !== moment.value) return void (asked.value = null);
+  if (live.value || last?.of !== moment.value) return void (asked.value = null);
   if (last.spots.length === 0 && project.value.path.length > 0) clearPath();
   // One point alone waits for another.
   if (last.spots.length < 2) return;

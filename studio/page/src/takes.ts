@@ -33,7 +33,7 @@ export const tryTheRest = (count = 3) => work(async () => {
   for (let seed = first; seed < first + count; ++seed) {
     const start = from > 0 ? (await dancer.between(asked, whole, -1, from, seed, 1, silent))[0] : whole;
     const other = to < whole.count - 1 ? (await dancer.between(asked, start, to, whole.count, seed, 1, silent))[0] : start;
-    if (moment.value !== before || chosen.value !== interval) return;
+    if (moment.value !== before || chosen.value !== interval || takes.value.length !== seed - first) return;
     takes.value = [...takes.value, { seed: asked.seed, motion: other }];
   }
 });

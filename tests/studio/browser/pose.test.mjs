@@ -163,5 +163,8 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     await panel.getByText('The key asks for right elbow.').waitFor();
     assert.deepEqual(await panel.getByLabel('Joint', { exact: true }).locator('option').allTextContents(), ['right elbow']);
     assert.equal(await panel.getByLabel('right elbow, degrees that it bends').inputValue(), '60');
+    await parts.getByRole('button', { name: 'trunk' }).click();
+    await settle();
+    await panel.getByText('The key asks for trunk, right elbow.').waitFor();
   });
 });
