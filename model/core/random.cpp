@@ -1,10 +1,11 @@
 #include "model/core/random.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "model/core/error.h"
-#include "model/core/philox.h"
 
 namespace choreo {
 namespace {
@@ -13,20 +14,45 @@ namespace {
 // makes this large.
 constexpr uint32_t kSequenceDomain = 0x53455155;
 
+// Two independent normals out of 64 random bits. The half keeps the logarithm's argument off zero.
+std::array<double, 2> BoxMuller(uint32_t a, uint32_t b) {
+  const double radius = std::sqrt(-2.0 * std::log((a + 0.5) * 0x1p-32));
+  const double angle = 2 * std::numbers::pi * (b * 0x1p-32);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+std::array<uint32_t, 2> KeyOf(uint64_t seed) {
+  return {static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32)};
+}
+
 }  // namespace
 
 std::array<uint32_t, 4> Philox4x32(const std::array<uint32_t, 4>& counter,
                                    const std::array<uint32_t, 2>& key) {
-  uint32_t bits[4] = {counter[0], counter[1], counter[2], counter[3]};
-  philox::Scramble(bits, key[0] | uint64_t{key[1]} << 32);
-  return {bits[0], bits[1], bits[2], bits[3]};
+  std::array<uint32_t, 4> c = counter;
+  auto [k0, k1] = key;
+  for (int round = 0; round < 10; ++round) {
+    const uint64_t p0 = uint64_t{0xD2511F53} * c[0];
+    const uint64_t p1 = uint64_t{0xCD9E8D57} * c[2];
+    c = {static_cast<uint32_t>(p1 >> 32) ^ c[1] ^ k0, static_cast<uint32_t>(p1),
+         static_cast<uint32_t>(p0 >> 32) ^ c[3] ^ k1, static_cast<uint32_t>(p0)};
+    k0 += 0x9E3779B9;
+    k1 += 0xBB67AE85;
+  }
+  return c;
 }
 
 void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::span<float> out) {
+  const auto at = static_cast<uint64_t>(absolute_frame);
   for (size_t first = 0; first < out.size(); first += 4) {
-    float z[4];
-    philox::FrameNormals(seed, candidate, absolute_frame, static_cast<uint32_t>(first / 4), z);
-    std::copy_n(z, std::min<size_t>(4, out.size() - first), out.begin() + first);
+    const auto bits = Philox4x32({static_cast<uint32_t>(first / 4), candidate,
+                                  static_cast<uint32_t>(at), static_cast<uint32_t>(at >> 32)},
+                                 KeyOf(seed));
+    const auto [a, b] = BoxMuller(bits[0], bits[1]);
+    const auto [c, d] = BoxMuller(bits[2], bits[3]);
+    const double normals[] = {a, b, c, d};
+    for (size_t i = 0; i < 4 && first + i < out.size(); ++i)
+      out[first + i] = static_cast<float>(normals[i]);
   }
 }
 
@@ -44,10 +70,9 @@ uint32_t Random::Next() {
   const uint64_t offset = state_.position % 4;
   if (offset == 0) {
     const uint64_t block = state_.position / 4;
-    block_ =
-        Philox4x32({static_cast<uint32_t>(block), static_cast<uint32_t>(block >> 32), state_.stream,
-                    kSequenceDomain},
-                   {static_cast<uint32_t>(state_.seed), static_cast<uint32_t>(state_.seed >> 32)});
+    block_ = Philox4x32({static_cast<uint32_t>(block), static_cast<uint32_t>(block >> 32),
+                         state_.stream, kSequenceDomain},
+                        KeyOf(state_.seed));
   }
   ++state_.position;
   return block_[offset];
@@ -64,9 +89,7 @@ double Random::Uniform(double low, double high) { return low + (high - low) * Un
 double Random::Normal() {
   const uint32_t a = Next();
   const uint32_t b = Next();
-  double z[2];
-  philox::BoxMuller(a, b, z);
-  return z[0];
+  return BoxMuller(a, b)[0];
 }
 
 void Random::FillNormal(std::span<float> out) {

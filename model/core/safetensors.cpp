@@ -51,6 +51,15 @@ std::vector<uint16_t> UpperHalves(const std::vector<float>& values) {
 
 }  // namespace
 
+const NamedTensor& Safetensors::Get(const std::string& name,
+                                    const std::vector<int64_t>& shape) const {
+  const auto found = tensors.find(name);
+  if (found == tensors.end()) throw InvalidArgument(name, "the file has no such tensor");
+  if (found->second.shape != shape)
+    throw InvalidArgument(name, "its shape does not fit the configuration");
+  return found->second;
+}
+
 Safetensors ReadSafetensors(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorCode::kNotFound, path.string(), "no such file, or it can't be read");

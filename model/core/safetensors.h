@@ -19,6 +19,9 @@ struct NamedTensor {
 struct Safetensors {
   std::map<std::string, NamedTensor> tensors;
   std::map<std::string, std::string> metadata;
+
+  /// Throws Error(kInvalidArgument, name) where there is no such tensor, or one of another shape.
+  const NamedTensor& Get(const std::string& name, const std::vector<int64_t>& shape) const;
 };
 
 /// Throws Error(kNotFound) for a missing file and Error(kInvalidArgument) for one that is

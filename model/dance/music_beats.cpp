@@ -7,6 +7,7 @@
 
 #include "model/audio/pulse.h"
 #include "model/core/error.h"
+#include "model/core/quantile.h"
 #include "model/dance/transition.h"
 
 namespace choreo {
@@ -17,12 +18,10 @@ constexpr double kPauseSeconds = 1.5;   // from beat to beat, and the music paus
 
 // Whether the music rose in the frame of a beat or in the one before.
 bool HasOnset(const AudioFeed& audio, int64_t frame) {
-  std::vector<float> onsets = audio.Onsets(frame + 1);
+  const std::vector<float> onsets = audio.Onsets(frame + 1);
   if (onsets.size() < 2) return false;
   const float here = std::max(onsets.back(), onsets[onsets.size() - 2]);
-  const auto median = onsets.begin() + static_cast<std::ptrdiff_t>(onsets.size() / 2);
-  std::nth_element(onsets.begin(), median, onsets.end());
-  return here > kOnsetOverMedian * *median;
+  return here > kOnsetOverMedian * Median(onsets);
 }
 
 // How far a beat is from the nearer one beside it; 0 where it stands alone.

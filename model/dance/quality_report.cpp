@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/quantile.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -104,11 +105,7 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
     report.max_key_acceleration = std::max(report.max_key_acceleration, key.max_acceleration);
   }
   if (!acceleration_.empty()) {
-    std::vector<float> sorted = acceleration_;
-    const size_t rank = (sorted.size() * 95 + 99) / 100 - 1;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
-                     sorted.end());
-    report.p95_acceleration = sorted[rank];
+    report.p95_acceleration = Percentile(acceleration_, 0.95);
     report.max_acceleration = *std::ranges::max_element(acceleration_);
   }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "model/core/quantile.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -18,12 +19,6 @@ double SecondsOf(const std::function<void()>& action) {
   const auto begin = std::chrono::steady_clock::now();
   action();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 struct Measured {

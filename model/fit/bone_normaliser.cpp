@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "model/core/error.h"
+#include "model/core/quantile.h"
 #include "model/fit/landmarks.h"
-#include "model/fit/quantile.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "model/core/error.h"
+#include "model/core/quantile.h"
 #include "model/fit/human_bones.h"
 #include "model/fit/mapping_builder.h"
-#include "model/fit/quantile.h"
 
 namespace choreo {
 namespace {

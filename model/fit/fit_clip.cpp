@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include "model/core/quantile.h"
 #include "model/fit/bone_normaliser.h"
 #include "model/fit/fit_problem.h"
-#include "model/fit/quantile.h"
 #include "model/motion/floor_clearance.h"
 
 namespace choreo {
@@ -18,24 +18,6 @@ constexpr int kRefinementIterations = 2;
 // Over which heights are evened out, seconds. Longer than a jump, shorter than a recording's drift.
 constexpr double kGroundWindow = 4.0;
 constexpr double kSizeWindow = 1.0;
-
-// A running quantile, and its running mean: what a signal does slowly.
-std::vector<double> SlowQuantile(const std::vector<double>& values, double q,
-                                 double window_frames) {
-  const auto count = static_cast<int>(values.size());
-  const int half = std::max(1, static_cast<int>(std::lround(0.5 * window_frames)));
-  std::vector<double> quantiles(count), means(count);
-  for (int frame = 0; frame < count; ++frame) {
-    const auto [first, last] = WindowAround(frame, half, count);
-    quantiles[frame] = Quantile({values.begin() + first, values.begin() + last}, q);
-  }
-  for (int frame = 0; frame < count; ++frame) {
-    const auto [first, last] = WindowAround(frame, half, count);
-    means[frame] =
-        std::accumulate(quantiles.begin() + first, quantiles.begin() + last, 0.0) / (last - first);
-  }
-  return means;
-}
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "model/core/error.h"
-#include "model/fit/quantile.h"
+#include "model/core/quantile.h"
 
 namespace choreo {
 namespace {
@@ -106,20 +106,11 @@ PositionClip RemoveHeightDrift(const PositionClip& clip, const std::vector<int>&
                                double window_s) {
   ValidateClip(clip);
   const Eigen::Matrix3Xd feet = LowestFeet(clip, foot_joints);
-  const auto count = static_cast<int>(clip.frames.size());
-  const int half = std::max(1, static_cast<int>(std::lround(0.5 * window_s * clip.fps)));
-  std::vector<double> floor(count);
-  for (int frame = 0; frame < count; ++frame) {
-    const auto [first, last] = WindowAround(frame, half, count);
-    floor[frame] = Quantile({feet.row(1).begin() + first, feet.row(1).begin() + last}, 0.1);
-  }
+  const std::vector<double> floor =
+      SlowQuantile({feet.row(1).begin(), feet.row(1).end()}, 0.1, window_s * clip.fps);
   PositionClip result = clip;
-  for (int frame = 0; frame < count; ++frame) {
-    const auto [first, last] = WindowAround(frame, half, count);
-    double sum = 0;
-    for (int i = first; i < last; ++i) sum += floor[i];
-    result.frames[frame].row(1).array() -= sum / (last - first);
-  }
+  for (size_t frame = 0; frame < floor.size(); ++frame)
+    result.frames[frame].row(1).array() -= floor[frame];
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/quantile.h"
 #include "model/fit/mapping_builder.h"
 
 namespace choreo {
@@ -34,9 +35,7 @@ class Lengths {
       for (const Eigen::Matrix3Xd& frame : clip.frames) {
         distances.push_back((Middle(clip, frame, a) - Middle(clip, frame, b)).norm());
       }
-      const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-      std::nth_element(distances.begin(), median, distances.end());
-      sum += *median;
+      sum += Median(std::move(distances));
     }
     const double length = sum / static_cast<double>(clips_.size());
     if (!(length > 0.005 && length < 1)) {

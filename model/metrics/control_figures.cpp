@@ -91,11 +91,4 @@ double TremorShare(const JointTrack& track, double fps) {
   return all > 0 ? fast / all : 0;
 }
 
-double ShareBelow(std::span<const double> deviations, double tolerance) {
-  if (deviations.empty()) throw InvalidArgument("deviations", "there are none");
-  const auto below = std::ranges::count_if(
-      deviations, [tolerance](double deviation) { return deviation < tolerance; });
-  return static_cast<double>(below) / static_cast<double>(deviations.size());
-}
-
 }  // namespace choreo

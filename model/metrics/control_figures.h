@@ -8,9 +8,10 @@
 #include "model/motion/velocity_factors.h"
 
 /// How well a transition does what it was asked: the three figures of paper C, Section 4.3, Eq.
-/// 12-16. Each comes as one number a transition; LRP is then averaged over transitions, AVF and ART
-/// are the share of transitions below a tolerance (ShareBelow). All throw Error(kInvalidArgument)
-/// for no frames, or where the frames of the two do not match. Pure, thread-safe.
+/// 12-16. Each comes as one number a transition; LRP is then averaged over transitions, AVF (Eq.
+/// 13) and ART (Eq. 15) are the share of transitions below a tolerance. All throw
+/// Error(kInvalidArgument) for no frames, or where the frames of the two do not match. Pure,
+/// thread-safe.
 namespace choreo {
 
 inline constexpr double kVelocityTolerance = 0.01;  ///< delta_v: 1 cm a frame
@@ -41,9 +42,5 @@ double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked);
 /// tells nothing of 4 Hz.
 inline constexpr double kTremorHz = 4;
 double TremorShare(const JointTrack& track, double fps);
-
-/// AVF (Eq. 13, of VelocityDeviation with kVelocityTolerance) and ART (Eq. 15, of RootDeviation
-/// with kRootTolerance): the share of deviations below the tolerance, 0 to 1.
-double ShareBelow(std::span<const double> deviations, double tolerance);
 
 }  // namespace choreo

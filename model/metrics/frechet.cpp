@@ -23,16 +23,6 @@ Gaussian Fit(const Eigen::MatrixXd& set) {
   return fit;
 }
 
-template <typename Measure>
-double MeanOverPairs(const Eigen::MatrixXd& set, Measure measure) {
-  if (set.cols() < 2) return 0;
-  double sum = 0;
-  for (Eigen::Index i = 0; i < set.cols(); ++i) {
-    for (Eigen::Index k = 0; k < i; ++k) sum += measure(set.col(i) - set.col(k));
-  }
-  return 2 * sum / static_cast<double>(set.cols() * (set.cols() - 1));
-}
-
 }  // namespace
 
 FeatureScale FeatureScale::Of(const Eigen::MatrixXd& real) {
@@ -60,11 +50,13 @@ double FrechetDistance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }
 
 double MeanPairDistance(const Eigen::MatrixXd& features) {
-  return MeanOverPairs(features, [](const auto& way) { return way.norm(); });
-}
-
-double MeanSquaredPairDistance(const Eigen::MatrixXd& features) {
-  return MeanOverPairs(features, [](const auto& way) { return way.squaredNorm(); });
+  const Eigen::Index count = features.cols();
+  if (count < 2) return 0;
+  double sum = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index k = 0; k < i; ++k) sum += (features.col(i) - features.col(k)).norm();
+  }
+  return 2 * sum / static_cast<double>(count * (count - 1));
 }
 
 }  // namespace choreo

@@ -24,7 +24,4 @@ double FrechetDistance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 /// than two.
 double MeanPairDistance(const Eigen::MatrixXd& features);
 
-/// The same, squared: paper F's variability and diversity (4.5.4).
-double MeanSquaredPairDistance(const Eigen::MatrixXd& features);
-
 }  // namespace choreo

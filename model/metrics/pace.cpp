@@ -26,12 +26,4 @@ void Pace::Add(const Pace& other) {
 double Pace::median_speed() const { return Percentile(speeds, 0.5); }
 double Pace::median_jerk() const { return Percentile(jerks, 0.5); }
 
-double Percentile(std::vector<float> values, double share) {
-  if (values.empty()) return 0;
-  const auto rank = static_cast<std::ptrdiff_t>(
-      std::max(1.0, std::ceil(share * static_cast<double>(values.size()) - 1e-9)));
-  std::ranges::nth_element(values, values.begin() + rank - 1);
-  return values[static_cast<size_t>(rank - 1)];
-}
-
 }  // namespace choreo

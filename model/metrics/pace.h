@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "model/core/quantile.h"
 #include "model/metrics/joint_track.h"
 
 namespace choreo {
@@ -18,9 +19,5 @@ struct Pace {
   double median_speed() const;
   double median_jerk() const;
 };
-
-/// The value below which `share` (0 to 1) of the values lie: the one of rank
-/// ceil(share * count), counted from 1. 0 for none.
-double Percentile(std::vector<float> values, double share);
 
 }  // namespace choreo

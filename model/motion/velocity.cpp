@@ -12,11 +12,6 @@ RootVelocity RootVelocityBetween(const Pose& earlier, const Pose& later, double 
   return {.forward = step.z() * fps, .sideways = step.x() * fps, .yaw = turn * fps};
 }
 
-Eigen::Matrix3Xd JointVelocities(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later,
-                                 double fps) {
-  return (later - earlier) * fps;
-}
-
 double JointJerk(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                  const Eigen::Vector3d& third, const Eigen::Vector3d& fourth, double fps) {
   return (fourth - 3 * third + 3 * second - first).norm() * fps * fps * fps;

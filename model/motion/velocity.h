@@ -16,11 +16,6 @@ struct RootVelocity {
 
 RootVelocity RootVelocityBetween(const Pose& earlier, const Pose& later, double fps);
 
-/// Velocities of joints from their positions in two consecutive frames, m/s. All matrices are [3,
-/// joints].
-Eigen::Matrix3Xd JointVelocities(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later,
-                                 double fps);
-
 /// Jerk of a joint, the third difference of its positions in four consecutive frames, m/s^3.
 double JointJerk(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                  const Eigen::Vector3d& third, const Eigen::Vector3d& fourth, double fps);

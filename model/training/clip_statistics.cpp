@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "model/core/quantile.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
 #include "model/motion/rotation.h"
@@ -41,9 +42,7 @@ std::array<double, kBodyParts> MedianFactors(std::span<const ClipTrack> tracks) 
       const auto row = track.energy.row(part);
       values.insert(values.end(), row.begin(), row.end());
     }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    medians[static_cast<size_t>(part)] = *middle;
+    medians[static_cast<size_t>(part)] = Median(std::move(values));
   }
   return medians;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "model/core/error.h"
+#include "model/core/quantile.h"
 #include "model/motion/facing_pose.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
@@ -108,9 +109,7 @@ std::array<double, kBodyParts> ControlClips::MedianFactors() const {
       for (size_t i = part; i < track.factors.size(); i += kBodyParts)
         values.push_back(track.factors[i]);
     }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    medians[part] = *middle;
+    medians[part] = Median(std::move(values));
   }
   return medians;
 }

@@ -87,11 +87,6 @@ TEST(ControlFigures, RootDeviationIsTheMeanDistance) {
   EXPECT_NEAR(RootDeviation(danced, asked), 0.05, 1e-12);
 }
 
-TEST(ControlFigures, TheShareBelowATolerance) {
-  EXPECT_EQ(ShareBelow(std::vector{0.02, 0.0699, 0.07, 0.2}, kRootTolerance), 0.5);
-  EXPECT_EQ(ShareBelow(std::vector{0.009}, kVelocityTolerance), 1);
-}
-
 TEST(ControlFigures, RefuseWhatCannotBeCompared) {
   const JointTrack three = Standing(3), four = Standing(4);
   const auto refused = [](const std::string& message, const std::function<void()>& call) {
@@ -101,7 +96,6 @@ TEST(ControlFigures, RefuseWhatCannotBeCompared) {
   refused("3 frames against 4", [&] { RootDeviation(three, Eigen::Matrix3Xd::Zero(3, 4)); });
   refused("has no frames", [] { RootRelativeDistance({}, {}); });
   refused("no step", [&] { TrackVelocityFactors(WeighBodyParts(Body()), Standing(1)); });
-  refused("there are none", [] { ShareBelow({}, 1); });
 }
 
 /// Both arms swing, `turns` times a second at first and `sweep` a second faster each second, while
