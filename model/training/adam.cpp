@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "model/core/error.h"
-
 namespace choreo {
 
 namespace {
@@ -20,25 +18,21 @@ double NormOf(const std::vector<torch::Tensor>& gradients) {
 
 }  // namespace
 
-Adam::Adam(const torch::nn::Module& module, const std::string& prefix) {
+Adam::Adam(const torch::nn::Module& module) {
   for (const auto& item : module.named_parameters()) {
-    if (item.key().rfind(prefix, 0) != 0) continue;
     entries_.push_back({item.key(), item.value(), torch::zeros_like(item.value()),
                         torch::zeros_like(item.value())});
   }
 }
 
-double Adam::Step(double learning_rate, double max_norm) {
+void Adam::Step(double learning_rate, double max_norm) {
   torch::NoGradGuard no_grad;
   std::vector<torch::Tensor> gradients;
   for (const Entry& entry : entries_) {
     if (entry.parameter.grad().defined()) gradients.push_back(entry.parameter.grad());
   }
   const double norm = NormOf(gradients);
-  if (!std::isfinite(norm)) {
-    ++skipped_;
-    return norm;
-  }
+  if (!std::isfinite(norm)) return;
   const double clip = norm > max_norm ? max_norm / norm : 1.0;
   ++steps_;
   const double correct1 = 1 - std::pow(kBeta1, steps_), correct2 = 1 - std::pow(kBeta2, steps_);
@@ -50,7 +44,6 @@ double Adam::Step(double learning_rate, double max_norm) {
     entry.parameter.addcdiv_(entry.first, (entry.second / correct2).sqrt_().add_(kEpsilon),
                              -learning_rate / correct1);
   }
-  return norm;
 }
 
 void Adam::ZeroGrad() {
@@ -74,12 +67,9 @@ void Adam::Export(Safetensors* content) const {
 void Adam::Import(const Safetensors& content) {
   torch::NoGradGuard no_grad;
   const auto take = [&](const std::string& name, torch::Tensor* value) {
-    const auto found = content.tensors.find(name);
-    if (found == content.tensors.end() || found->second.shape != value->sizes().vec()) {
-      throw InvalidArgument(name, "the run's state has no such tensor of this shape");
-    }
-    value->copy_(torch::from_blob(const_cast<float*>(found->second.data.data()),
-                                  found->second.shape, torch::kFloat32));
+    const NamedTensor& held = content.Get(name, value->sizes().vec());
+    value->copy_(
+        torch::from_blob(const_cast<float*>(held.data.data()), held.shape, torch::kFloat32));
   };
   for (Entry& entry : entries_) {
     take("adam.first." + entry.name, &entry.first);

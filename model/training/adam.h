@@ -14,14 +14,13 @@ namespace choreo {
 /// another format in each release) does not offer.
 class Adam {
  public:
-  /// Parameters of `module` whose names start with `prefix`.
-  Adam(const torch::nn::Module& module, const std::string& prefix);
+  /// All parameters of `module`.
+  explicit Adam(const torch::nn::Module& module);
 
-  /// Clips the gradient's norm to `max_norm`, then updates. Returns the norm before clipping. A
-  /// gradient that is not finite changes nothing (and is counted).
-  double Step(double learning_rate, double max_norm);
+  /// Clips the gradient's norm to `max_norm`, then updates. A gradient that is not finite changes
+  /// nothing.
+  void Step(double learning_rate, double max_norm);
   void ZeroGrad();
-  int64_t skipped() const { return skipped_; }
 
   void Export(Safetensors* content) const;
   void Import(const Safetensors& content);
@@ -33,7 +32,6 @@ class Adam {
   };
   std::vector<Entry> entries_;
   int64_t steps_ = 0;
-  int64_t skipped_ = 0;
 };
 
 }  // namespace choreo

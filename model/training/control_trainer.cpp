@@ -1,20 +1,13 @@
-#include "model/training/control_trainer.h"
-
 #include <torch/torch.h>
 
 #include <cmath>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "model/controllers/checkpoint.h"
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
-#include "model/training/adam.h"
-#include "model/training/clip_split.h"
-#include "model/training/clip_store.h"
 #include "model/training/control_clips.h"
 #include "model/training/control_losses.h"
-#include "model/training/model_card.h"
+#include "model/training/trainer.h"
 #include "model/training/training_run.h"
 
 namespace choreo {
@@ -40,35 +33,24 @@ ControllersConfig ConfigOf(const TrainOptions& options) {
 class ControlRun : public TrainingRun {
  public:
   ControlRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
-      : TrainingRun(options, train.Hash()),
-        clips_(train.clips()),
-        hash_(train.Hash()),
+      : TrainingRun(options, train),
         train_(train.clips()),
-        validation_(validation.clips()) {
-    torch::manual_seed(options.seed);
-    model_ = ControllersModel(ConfigOf(options), train.skeleton());
+        validation_(validation.clips()),
+        model_(ConfigOf(options), train.skeleton()) {
     if (options.from.empty()) {
       Normalise();
     } else {
       TakeModel();
     }
-    adam_ = std::make_unique<Adam>(*model_, "");
-    Open();
+    Open(model_.get());
   }
 
  protected:
-  int64_t total_steps() const override { return options().steps; }
-
-  void TrainStep() override {
-    Random random(options().seed, static_cast<uint32_t>(step() + 1));
-    torch::manual_seed(options().seed + static_cast<uint64_t>(step()) * 1000003);
+  void TrainStep(Random* random) override {
     model_->train();
     const ControlBatch batch =
-        Draw(&random, static_cast<double>(step()) / static_cast<double>(options().steps));
-    adam_->ZeroGrad();
-    Descend(Walk(batch, model_->Prepare(batch.transition), std::pow(kTruthDecay, step())),
-            model_->parameters());
-    adam_->Step(StageRate(options().rate, step(), options().steps), kMaxGradientNorm);
+        Draw(random, static_cast<double>(step()) / static_cast<double>(options().steps));
+    Descend(Walk(batch, model_->Prepare(batch.transition), std::pow(kTruthDecay, step())));
   }
 
   NamedFigures Validate() override {
@@ -102,31 +84,18 @@ class ControlRun : public TrainingRun {
           "heading_" + n,
           torch::atan2(heading.select(-1, 0), heading.select(-1, 1)).abs().mean().item<double>());
     }
-    std::string line = "\nstep " + std::to_string(step() + 1);
-    for (const auto& [name, value] : figures) {
-      char text[64];
-      std::snprintf(text, sizeof(text), " %s %.3f", name.c_str(), value);
-      line += text;
-    }
-    std::printf("%s\n", line.c_str());
-    std::fflush(stdout);
-    last_figures_ = figures;
     return figures;
   }
 
-  void Export(Safetensors* state) const override {
-    ExportTensors(*model_, "model.", state);
-    adam_->Export(state);
+  std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) override {
+    return SaveControllers(path, model_, train_.MedianFactors(), card);
   }
-  void Import(const Safetensors& state) override {
-    ImportTensors(state, "model.", model_.get());
-    adam_->Import(state);
-  }
-  void WriteInterim() override { Write(); }
-  void Finish() override {
-    if (last_figures_.empty()) Validate();  // all steps were done before
-    std::printf("checkpoint %s, content hash %s\n",
-                (options().run / "checkpoint.safetensors").string().c_str(), Write().c_str());
+  std::string Limits() const override {
+    return "Trained on transitions of " + std::to_string(options().shortest) + " to " +
+           std::to_string(options().longest) +
+           " frames at 30 fps. It hears no music and is deterministic. Away from the keys it knows "
+           "how fast limbs should be better than where: postures are those of a mean dancer. Feet "
+           "slide without the foot lock.";
   }
 
  private:
@@ -135,13 +104,8 @@ class ControlRun : public TrainingRun {
     if (!HoldsControllers(content)) {
       throw InvalidArgument("--from", options().from.string() + " is no controllers network");
     }
-    const ControllersCheckpoint base = ParseControllers(content, options().from.string());
-    if (!(base.model->skeleton() == model_->skeleton())) {
-      throw InvalidArgument("--from",
-                            options().from.string() + " has another skeleton than these clips");
-    }
+    StartFrom(ParseControllers(content, options().from.string()));
     ImportTensors(content, "", model_.get());
-    base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
   }
 
   // Short windows first; the longest length rises until all are drawn. Later one draw in four is of
@@ -204,36 +168,12 @@ class ControlRun : public TrainingRun {
                              batch.factors.flatten(0, 1).std(0).clamp_min(1e-3));
   }
 
-  std::string Write() {
-    nlohmann::json card = ModelCard(
-        options(), clips_, hash_, last_figures_,
-        "Trained on transitions of " + std::to_string(options().shortest) + " to " +
-            std::to_string(options().longest) +
-            " frames at 30 fps. It hears no music and is deterministic. Away from the "
-            "keys it knows how fast limbs should be better than where: postures are those "
-            "of a mean dancer. Feet slide without the foot lock.");
-    if (!base_.is_null()) card["from"] = base_;
-    return SaveControllers(options().run / "checkpoint.safetensors", model_, train_.MedianFactors(),
-                           card);
-  }
-
-  const std::vector<PreparedClip>& clips_;
-  std::string hash_;
   ControlClips train_, validation_;
-  ControllersModel model_{nullptr};
-  nlohmann::json base_;  // what it went on from: its hash and card
-  std::unique_ptr<Adam> adam_;
-  NamedFigures last_figures_;
+  ControllersModel model_;
 };
 
 }  // namespace
 
-void TrainControllers(const TrainOptions& options) {
-  options.Validate();
-  const ClipStore train(options.data, options.splits,
-                        options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
-      validation(options.data, options.splits, Split::kValidation);
-  ControlRun(options, train, validation).Go();
-}
+void TrainControllers(const TrainOptions& options) { TrainBy<ControlRun>(options); }
 
 }  // namespace choreo

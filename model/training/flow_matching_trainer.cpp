@@ -1,22 +1,16 @@
-#include "model/training/flow_matching_trainer.h"
-
 #include <torch/torch.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
-#include "model/training/adam.h"
 #include "model/training/clip_statistics.h"
-#include "model/training/clip_store.h"
 #include "model/training/flow_matching.h"
-#include "model/training/model_card.h"
+#include "model/training/trainer.h"
 #include "model/training/training_run.h"
 #include "model/training/window_clips.h"
 
@@ -93,13 +87,7 @@ void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl
 class FlowMatchingRun : public TrainingRun {
  public:
   FlowMatchingRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
-      : TrainingRun(options, train.Hash()),
-        options_(options),
-        hash_(train.Hash()),
-        prepared_(train.clips()),
-        train_(train.clips()),
-        validation_(validation.clips()) {
-    torch::manual_seed(options.seed);
+      : TrainingRun(options, train), train_(train.clips()), validation_(validation.clips()) {
     ContinuousFlowConfig config;
     if (!options.name.empty()) config.name = options.name;
     config.styles = train_.styles();
@@ -107,34 +95,29 @@ class FlowMatchingRun : public TrainingRun {
     model_ = ContinuousFlow(config, train_.skeleton());
     if (!options.from.empty()) {
       const auto base = ParseContinuousFlow(ReadSafetensors(options.from), options.from.string());
+      StartFrom(base);
       config.median_factors = base.model->config().median_factors;
       model_ = ContinuousFlow(config, train_.skeleton());
       Safetensors weights;
       ExportTensors(*base.model, "", &weights);
       KeepStyles(base.model->config().styles, *model_, &weights);
       ImportTensors(weights, "", model_.get());
-      base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
     }
     Measure();
     matching_ = std::make_unique<FlowMatching>(model_);
     average_ = ContinuousFlow(config, train_.skeleton());
     Copy(1);
     average_->eval();
-    adam_ = std::make_unique<Adam>(*model_, "");
     NameLosses(FlowMatching::TermNames());
-    Open();
+    Open(model_.get());
   }
 
  protected:
-  int64_t total_steps() const override { return options_.steps; }
-
-  void TrainStep() override {
-    Random random(options_.seed, static_cast<uint32_t>(step() + 1));
-    torch::manual_seed(options_.seed + static_cast<uint64_t>(step()) * 1000003);
+  void TrainStep(Random* random) override {
     const int most = train_.Longest(model_->config().history_frames);
-    const int frames = std::min(kLengths[random.Integer(0, std::size(kLengths))], most);
+    const int frames = std::min(kLengths[random->Integer(0, std::size(kLengths))], most);
     WindowClips::Variation variation{.mirror = 0.5,
-                                     .tempo = options_.tempo,
+                                     .tempo = options().tempo,
                                      .partial_key = 0.12,
                                      .beats = 0.8,
                                      .energy = kEnergy,
@@ -143,21 +126,22 @@ class FlowMatchingRun : public TrainingRun {
                                      .stage = 0.8,
                                      .hold_history = 0.05,
                                      .astray = 0.2};
-    if (random.Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
+    if (random->Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;
-    const double kind = random.Uniform();
+    const double kind = random->Uniform();
     if (kind < kNoKeys) {
       variation.no_key = 1;
       window = to_key = std::min(std::max(frames, 30), most);
     } else if (kind < kNoKeys + kFarKeys) {
       window = std::min(72, most);
-      to_key = std::min(96 + 24 * static_cast<int>(random.Integer(0, 5)), most);
+      to_key = std::min(96 + 24 * static_cast<int>(random->Integer(0, 5)), most);
     }
-    const WindowBatch batch = train_.Draw(matching_->parts(), WindowsOf(options_.batch, window),
-                                          window, to_key, variation, &random);
-    adam_->ZeroGrad();
-    Descend(matching_->Losses(model_, batch), model_->parameters());
-    adam_->Step(StageRate(options_.rate, step(), options_.steps), kMaxGradientNorm);
+    const WindowBatch batch = train_.Draw(matching_->parts(), WindowsOf(options().batch, window),
+                                          window, to_key, variation, random);
+    Descend(matching_->Losses(model_, batch));
+  }
+
+  void AfterStep() override {
     Copy(1 - std::min(kAverage,
                       (1.0 + static_cast<double>(step())) / (10.0 + static_cast<double>(step()))));
   }
@@ -203,26 +187,34 @@ class FlowMatchingRun : public TrainingRun {
                       {"jerk_ratio_" + n, danced.jerk / real.jerk},
                       {"mean_jerk_ratio_" + n, planned.jerk / real.jerk}});
     }
-    last_figures_ = figures;
     return figures;
   }
 
   void Export(Safetensors* state) const override {
-    ExportTensors(*model_, "model.", state);
+    TrainingRun::Export(state);
     ExportTensors(*average_, "average.", state);
-    adam_->Export(state);
   }
   void Import(const Safetensors& state) override {
-    ImportTensors(state, "model.", model_.get());
+    TrainingRun::Import(state);
     ImportTensors(state, "average.", average_.get());
-    adam_->Import(state);
     matching_ = std::make_unique<FlowMatching>(model_);
   }
 
-  void WriteInterim() override { Write(); }
-  void Finish() override {
-    std::printf("checkpoint %s, content hash %s\n",
-                (options_.run / "checkpoint.safetensors").string().c_str(), Write().c_str());
+  std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) override {
+    Safetensors weights;
+    ExportTensors(*average_, "", &weights);
+    for (auto& [name, tensor] : weights.tensors) {
+      // Half the bytes, and dances have the same figures. The prior stays exact.
+      if (name.ends_with(".weight"))
+        std::ranges::transform(tensor.data, tensor.data.begin(), Bfloat16);
+    }
+    return SaveContinuousFlow(path, average_, weights, card);
+  }
+  std::string Limits() const override {
+    return "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
+           " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. Feet slide "
+           "without the foot lock. What the data lacks (lying, acrobatics, props, partners) it "
+           "can't do.";
   }
 
  private:
@@ -235,24 +227,6 @@ class FlowMatchingRun : public TrainingRun {
     towards(model_->parameters(), average_->parameters());
     for (size_t i = 0; i < model_->buffers().size(); ++i)
       average_->buffers()[i].copy_(model_->buffers()[i]);
-  }
-
-  std::string Write() {
-    nlohmann::json card =
-        ModelCard(options_, prepared_, hash_, last_figures_,
-                  "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
-                      " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. "
-                      "Feet slide without the foot lock. What the data lacks (lying, acrobatics, "
-                      "props, partners) it can't do.",
-                  base_);
-    Safetensors weights;
-    ExportTensors(*average_, "", &weights);
-    for (auto& [name, tensor] : weights.tensors) {
-      // Half the bytes, and dances have the same figures. The prior stays exact.
-      if (name.ends_with(".weight"))
-        std::ranges::transform(tensor.data, tensor.data.begin(), Bfloat16);
-    }
-    return SaveContinuousFlow(options_.run / "checkpoint.safetensors", average_, weights, card);
   }
 
   // The prior first; white coordinates are of a model that has it, their mixing of one whose
@@ -280,7 +254,7 @@ class FlowMatchingRun : public TrainingRun {
     const int frames = std::min(most, train_.Longest(model_->config().history_frames));
     std::vector<WindowBatch> batches;
     for (int i = 0; i < kStatisticsBatches; ++i) {
-      Random random(options_.seed + 3, static_cast<uint32_t>(i + 1));
+      Random random(options().seed + 3, static_cast<uint32_t>(i + 1));
       batches.push_back(train_.Draw(
           model_->Parts(), kStatisticsWindows, frames, frames,
           {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0, .energy = energy, .style = 1},
@@ -289,26 +263,13 @@ class FlowMatchingRun : public TrainingRun {
     return batches;
   }
 
-  TrainOptions options_;
-  std::string hash_;
-  nlohmann::json base_;
-  std::vector<PreparedClip> prepared_;
   WindowClips train_, validation_;
-  NamedFigures last_figures_;
   ContinuousFlow model_{nullptr}, average_{nullptr};
   std::unique_ptr<FlowMatching> matching_;
-  std::unique_ptr<Adam> adam_;
 };
 
 }  // namespace
 
-void TrainContinuousFlow(const TrainOptions& options) {
-  options.Validate();
-  FlowMatchingRun(options,
-                  ClipStore(options.data, options.splits,
-                            options.with_validation ? Split::kTrainAndValidation : Split::kTrain),
-                  ClipStore(options.data, options.splits, Split::kValidation))
-      .Go();
-}
+void TrainContinuousFlow(const TrainOptions& options) { TrainBy<FlowMatchingRun>(options); }
 
 }  // namespace choreo

@@ -56,13 +56,9 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
   const Tensor sampled = model->Rollout(truth.narrow(1, 0, history), batch.audio, batch.has_audio,
                                         static_condition, noise);
   const TrajectoryTensors poses = model->Decode(sampled);
-  const auto last = [&](const TrajectoryTensors& all) {
-    return TrajectoryTensors{all.position.narrow(1, frames - 1, 1),
-                             all.rotation.narrow(1, frames - 1, 1)};
-  };
   // Windows without a whole key have nothing to arrive at.
   const Tensor whole = batch.transition.target_mask.amin(1);
-  const Tensor distance = JointDistance(kinematics, last(poses), last(batch.truth));
+  const Tensor distance = JointDistance(kinematics, LastFrame(poses), LastFrame(batch.truth));
   const Tensor key = kDecimetresPerMetre * (distance * whole).sum() / whole.sum().clamp_min(1);
   const int64_t contacts = sampled.size(2) - 4;
   const Tensor feet =
@@ -71,6 +67,11 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
           .mean();
   const Tensor way = kDecimetresPerMetre * JointDistance(kinematics, poses, batch.truth).mean();
   return {{kKeyPose, 0.5, key}, {kWay, 0.5, way}, {kContacts, 0.1, feet}};
+}
+
+TrajectoryTensors LastFrame(const TrajectoryTensors& poses) {
+  return {poses.position.narrow(1, poses.position.size(1) - 1, 1),
+          poses.rotation.narrow(1, poses.rotation.size(1) - 1, 1)};
 }
 
 Tensor JointDistance(const TorchKinematics& kinematics, const TrajectoryTensors& a,

@@ -40,6 +40,9 @@ LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
 LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
                       const torch::Tensor& static_condition, double temperature);
 
+/// Of N frames the last alone.
+TrajectoryTensors LastFrame(const TrajectoryTensors& poses);
+
 /// L2P of paper F's Table 2: distance of global joint positions, mean over joints and frames,
 /// metres. [batch]
 torch::Tensor JointDistance(const TorchKinematics& kinematics, const TrajectoryTensors& a,

@@ -23,14 +23,4 @@ struct LossRow {
 /// What else a run reports, in the order of its columns.
 using NamedFigures = std::vector<std::pair<std::string, double>>;
 
-/// What a run of the flow reports of itself on validation windows: fixed windows, no arrival, one
-/// roll-out at the served temperature.
-struct ValidationRow {
-  int frames = 0;              ///< N
-  double interpolation_m = 0;  ///< L2P of interpolation
-  double flow_m = 0;           ///< L2P of a sampled roll-out
-  double likelihood = 0;       ///< -log p, nats a dimension
-  double key_error_m = 0;      ///< mean joint distance at the key frame of the roll-out
-};
-
 }  // namespace choreo

@@ -9,8 +9,6 @@
 
 #include "model/controllers/controllers_config.h"
 #include "model/core/error.h"
-#include "model/training/control_trainer.h"
-#include "model/training/flow_matching_trainer.h"
 #include "model/training/trainer.h"
 
 namespace choreo {
@@ -109,7 +107,7 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
     } else if (options->preset == kContinuous) {
       TrainContinuousFlow(*options);
     } else {
-      Train(*options);
+      TrainFlow(*options);
     }
   });
 }

@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <cstdio>
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/progress.h"
+#include "model/flow/checkpoint.h"
+#include "model/training/model_card.h"
 
 namespace choreo {
 namespace {
 
 constexpr int64_t kWarmUpSteps = 200;
-constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end of a stage
+constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end
+constexpr double kMaxGradientNorm = 1.0;
 constexpr int kTypicalFrames = 60;
 constexpr double kForget = 0.02;  // of a loss's running mean, a step
 
@@ -29,23 +31,28 @@ double GradientNorm(const torch::Tensor& loss, const std::vector<torch::Tensor>&
   return std::sqrt(square);
 }
 
-}  // namespace
-
-int WindowsOf(int batch, int frames) {
-  return std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
-}
-
-double StageRate(double peak, int64_t step, int64_t steps) {
+// Warm-up, then a cosine to a twentieth of the peak.
+double RateAt(double peak, int64_t step, int64_t steps) {
   const double warm = std::min(1.0, static_cast<double>(step + 1) / kWarmUpSteps);
   const double progress =
       static_cast<double>(step) / static_cast<double>(std::max<int64_t>(1, steps));
   return peak * warm * (kLastRate + (1 - kLastRate) * 0.5 * (1 + std::cos(M_PI * progress)));
 }
 
-TrainingRun::TrainingRun(const TrainOptions& options, std::string data_hash)
-    : options_(options), data_hash_(std::move(data_hash)) {}
+}  // namespace
 
-void TrainingRun::Open() {
+int WindowsOf(int batch, int frames) {
+  return std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
+}
+
+TrainingRun::TrainingRun(const TrainOptions& options, const ClipStore& train)
+    : options_(options), train_(train), data_hash_(train.Hash()) {
+  torch::manual_seed(options.seed);
+}
+
+void TrainingRun::Open(torch::nn::Module* network) {
+  network_ = network;
+  adam_ = std::make_unique<Adam>(*network);
   std::filesystem::create_directories(options_.run);
   if (!std::filesystem::exists(StatePath())) return;
   if (!options_.resume) {
@@ -55,33 +62,61 @@ void TrainingRun::Open() {
   Load();
 }
 
+void TrainingRun::StartFrom(const Skeleton& skeleton, const std::string& hash,
+                            const std::string& card) {
+  if (!(skeleton == train_.skeleton())) {
+    throw InvalidArgument("--from",
+                          options_.from.string() + " has another skeleton than these clips");
+  }
+  base_ = {{"hash", hash}, {"card", nlohmann::json::parse(card)}};
+}
+
+void TrainingRun::Export(Safetensors* state) const {
+  ExportTensors(*network_, "model.", state);
+  adam_->Export(state);
+}
+
+void TrainingRun::Import(const Safetensors& state) {
+  ImportTensors(state, "model.", network_);
+  adam_->Import(state);
+}
+
 void TrainingRun::NameLosses(const std::vector<std::string>& names) {
   for (const std::string& name : names) losses_.terms[name];
 }
 
 void TrainingRun::Go() {
-  const int64_t total = total_steps();
+  const int64_t total = options_.steps;
   ProgressBar progress("train " + options_.preset, total - step_);
   const auto start = std::chrono::steady_clock::now();
   const double seconds_before = seconds_;
+  if (step_ == 0) Prepare();
   for (; step_ < total; ++step_) {
     losses_.step = step_ + 1;
-    TrainStep();
+    Random random(options_.seed, static_cast<uint32_t>(step_ + 1));
+    torch::manual_seed(options_.seed + static_cast<uint64_t>(step_) * 1000003);
+    adam_->ZeroGrad();
+    TrainStep(&random);
+    adam_->Step(RateAt(options_.rate, step_, total), kMaxGradientNorm);
+    AfterStep();
     seconds_ = seconds_before +
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.Advance();
     const bool stop = step_ + 1 == options_.stop_after;
     if ((step_ + 1) % options_.report_every == 0 || step_ + 1 == total) {
-      Report();
+      Report(&progress);
     } else if (stop) {
       Save();
     }
     if (stop) return;
   }
-  Finish();
+  if (figures_.empty()) figures_ = Validate();  // all steps were done before
+  const std::string hash = WriteCheckpoint();
+  std::printf("checkpoint %s, content hash %s\n",
+              (options_.run / "checkpoint.safetensors").string().c_str(), hash.c_str());
 }
 
-void TrainingRun::Descend(const LossTerms& terms, const std::vector<torch::Tensor>& parameters) {
+void TrainingRun::Descend(const LossTerms& terms) {
   const bool report = (step_ + 1) % options_.report_every == 0;
   torch::Tensor sum;
   for (const LossTerm& term : terms) {
@@ -89,17 +124,30 @@ void TrainingRun::Descend(const LossTerms& terms, const std::vector<torch::Tenso
     const double value = term.value.item<double>();
     figure.value = figure.value == 0 ? value : (1 - kForget) * figure.value + kForget * value;
     const torch::Tensor weighted = term.weight * term.value;
-    if (report) figure.gradient = GradientNorm(weighted, parameters);
+    if (report) figure.gradient = GradientNorm(weighted, network_->parameters());
     sum = sum.defined() ? sum + weighted : weighted;
   }
   sum.backward();
 }
 
-void TrainingRun::Report() {
-  curves_.Append(losses_, seconds_, Validate());
+void TrainingRun::Report(ProgressBar* progress) {
+  figures_ = Validate();
+  std::string line = "step " + std::to_string(losses_.step);
+  for (const auto& [name, value] : figures_) {
+    char text[64];
+    std::snprintf(text, sizeof(text), " %s %.3f", name.c_str(), value);
+    line += text;
+  }
+  progress->Print(line);
+  curves_.Append(losses_, seconds_, figures_);
   curves_.Write(options_.run);
-  WriteInterim();
+  WriteCheckpoint();
   Save();
+}
+
+std::string TrainingRun::WriteCheckpoint() {
+  return SaveModel(options_.run / "checkpoint.safetensors",
+                   ModelCard(options_, train_.clips(), data_hash_, figures_, Limits(), base_));
 }
 
 void TrainingRun::Save() {

@@ -3,10 +3,15 @@
 #include <torch/types.h>
 
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "model/core/progress.h"
 #include "model/core/safetensors.h"
+#include "model/training/adam.h"
+#include "model/training/clip_store.h"
 #include "model/training/curves.h"
 #include "model/training/losses.h"
 #include "model/training/report_row.h"
@@ -15,67 +20,88 @@
 namespace choreo {
 
 /// What every training run does, whatever it trains: steps one after another, reports, saves its
-/// state and goes on from it exactly as if it had not been left. For that, each step has to draw
-/// from a generator of its own, keyed by its number.
+/// state and goes on from it exactly as if it had not been left. For that, each step draws from
+/// generators of its own, keyed by its number: the one that it is handed, and torch's.
 class TrainingRun {
  public:
   virtual ~TrainingRun() = default;
-  /// All steps that are left, then Finish; or as far as --stop-after.
+  /// All steps that are left, then the last checkpoint; or as far as --stop-after.
   void Go();
 
  protected:
-  /// `data_hash`: which clips train.
-  TrainingRun(const TrainOptions& options, std::string data_hash);
-  /// Makes the run's folder and takes up what it holds. Called when a subclass is complete. Throws
-  /// Error(kFailedPrecondition) for a run that was started on other data or otherwise, or that is
-  /// not to be resumed.
-  void Open();
+  /// `train`, the clips that train, outlive the run.
+  TrainingRun(const TrainOptions& options, const ClipStore& train);
+  /// Has `network` trained, which is complete and outlives the run. Makes the run's folder and
+  /// takes up what it holds. Throws Error(kFailedPrecondition) for a run that was started on other
+  /// data or otherwise, or that is not to be resumed.
+  void Open(torch::nn::Module* network);
+  /// Notes what --from holds. Throws Error(kInvalidArgument, "--from") where its skeleton is not
+  /// that of the clips.
+  template <typename Checkpoint>
+  void StartFrom(const Checkpoint& base) {
+    StartFrom(base.model->skeleton(), base.hash, base.card);
+  }
 
-  virtual int64_t total_steps() const = 0;
-  virtual void TrainStep() = 0;
+  /// Before the first step of all.
+  virtual void Prepare() {}
+  /// Descends once or more; the optimiser's step follows.
+  virtual void TrainStep(Random* random) = 0;
+  /// The optimiser has moved the network.
+  virtual void AfterStep() {}
   /// On validation clips, by name.
   virtual NamedFigures Validate() = 0;
-  /// The model and its optimisers, by name; and back.
-  virtual void Export(Safetensors* state) const = 0;
-  virtual void Import(const Safetensors& state) = 0;
-  /// Writes the checkpoint.
-  virtual void Finish() = 0;
-  /// Written at every report, so that a run can be judged and used before it ends. By default
-  /// nothing.
-  virtual void WriteInterim() {}
+  /// The network and its optimiser, by name; and back.
+  virtual void Export(Safetensors* state) const;
+  virtual void Import(const Safetensors& state);
+  /// Writes the checkpoint; returns its content hash.
+  virtual std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) = 0;
+  /// What its card says that it can't do.
+  virtual std::string Limits() const = 0;
 
-  /// Terms that a later stage brings along, so that a run's curves have their columns from the
-  /// start.
+  /// Terms that come later, so that a run's curves have their columns from the start.
   void NameLosses(const std::vector<std::string>& names);
   /// Adds the gradient of the weighted sum; before a report, also each term's own, so that one that
   /// vanishes or takes over is seen.
-  void Descend(const LossTerms& terms, const std::vector<torch::Tensor>& parameters);
+  void Descend(const LossTerms& terms);
 
   const TrainOptions& options() const { return options_; }
   int64_t step() const { return step_; }
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
-  void Report();
+  void StartFrom(const Skeleton& skeleton, const std::string& hash, const std::string& card);
+  /// With a checkpoint, so that a run can be judged and used before it ends.
+  void Report(ProgressBar* progress);
+  std::string WriteCheckpoint();
   void Save();
   void Load();
 
   TrainOptions options_;
+  const ClipStore& train_;
   std::string data_hash_;
+  nlohmann::json base_;  // what the run went on from: its hash and card
+  torch::nn::Module* network_ = nullptr;
+  std::unique_ptr<Adam> adam_;
   int64_t step_ = 0;
   double seconds_ = 0;
   LossRow losses_;
+  NamedFigures figures_;  // of the last report
   Curves curves_;
 };
 
-/// Gradients are cut to this norm.
-inline constexpr double kMaxGradientNorm = 1.0;
+/// A run of the class `Run`, which is made of options, the clips that train and those that
+/// validate.
+template <typename Run>
+void TrainBy(const TrainOptions& options) {
+  options.Validate();
+  const ClipStore train(options.data, options.splits,
+                        options.with_validation ? Split::kTrainAndValidation : Split::kTrain);
+  const ClipStore validation(options.data, options.splits, Split::kValidation);
+  Run(options, train, validation).Go();
+}
 
 /// How many windows of so many frames make up a step: `batch` of 60 frames or as many frames of
 /// longer ones, at most three times as many short ones, at least 8.
 int WindowsOf(int batch, int frames);
-
-/// The learning rate of a stage's step: warm-up, then a cosine to a twentieth of the peak.
-double StageRate(double peak, int64_t step, int64_t steps);
 
 }  // namespace choreo

@@ -67,7 +67,7 @@ class NativeSkeletonTest : public testing::Test {
     train.longest = 10;
     train.rollout_frames = 3;
     train.report_every = 100;
-    Train(train);
+    TrainFlow(train);
     std::vector<Server::Engines> models(1);
     models[0].push_back(MakeEngine(train.run / "checkpoint.safetensors", {}, 2));
     ServerConfig config;

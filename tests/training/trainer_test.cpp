@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <torch/torch.h>
 
+#include <nlohmann/json.hpp>
+
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
 #include "model/training/adam.h"
-#include "model/training/control_trainer.h"
-#include "model/training/flow_matching_trainer.h"
 #include "model/training/losses.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
@@ -45,8 +45,8 @@ class TrainerTest : public testing::Test {
 };
 
 TEST_F(TrainerTest, TheSameRunMakesTheSameCheckpointAndLeavesItsCurves) {
-  Train(Options("a", 4));
-  Train(Options("b", 4));
+  TrainFlow(Options("a", 4));
+  TrainFlow(Options("b", 4));
   for (const char* file : {"curves.csv", "curves.png", "validation.png", "state.safetensors"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a" / file)) << file;
   }
@@ -61,7 +61,7 @@ TEST_F(TrainerTest, TheSameRunMakesTheSameCheckpointAndLeavesItsCurves) {
 TEST_F(TrainerTest, ACheckpointHasItsNameAndKnowsWhetherItHeardMusic) {
   TrainOptions options = Options("mine", 2);
   options.name = "mine";
-  Train(options);
+  TrainFlow(options);
   const auto config = [&](const std::string& run) {
     return LoadCheckpoint(folder_.path() / run / "checkpoint.safetensors").model->config();
   };
@@ -71,27 +71,28 @@ TEST_F(TrainerTest, ACheckpointHasItsNameAndKnowsWhetherItHeardMusic) {
   for (const char* with_music : {"train_0.clip", "train_1.clip"}) {
     ASSERT_TRUE(std::filesystem::remove(folder_.path() / with_music));
   }
-  Train(Options("deaf", 2));
+  TrainFlow(Options("deaf", 2));
   EXPECT_EQ(config("deaf").name, "ablation");
   EXPECT_FALSE(config("deaf").hears_music);
 }
 
 TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
-  Train(Options("whole", 4));
+  TrainFlow(Options("whole", 4));
   // Killed after the report of step 2: what is left is its state. The learning rate must be that of
   // a run of 4 steps.
   TrainOptions options = Options("halves", 4);
-  Train(options);
+  TrainFlow(options);
   const Safetensors finished = ReadSafetensors(options.run / "state.safetensors");
   EXPECT_EQ(finished.metadata.at("step"), "4");
   std::filesystem::remove_all(options.run);
   options.stop_after = 2;
-  Train(options);
+  TrainFlow(options);
   EXPECT_EQ(ReadSafetensors(options.run / "state.safetensors").metadata.at("step"), "2");
-  EXPECT_FALSE(std::filesystem::exists(options.run / "checkpoint.safetensors"));
+  // It can be judged before it ends.
+  EXPECT_TRUE(std::filesystem::exists(options.run / "checkpoint.safetensors"));
   options.stop_after = 0;
   options.resume = true;
-  Train(options);
+  TrainFlow(options);
   const Checkpoint whole = LoadCheckpoint(folder_.path() / "whole" / "checkpoint.safetensors");
   const Checkpoint halves = LoadCheckpoint(options.run / "checkpoint.safetensors");
   const auto expected = whole.model->named_parameters();
@@ -102,17 +103,21 @@ TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
 
 TEST_F(TrainerTest, AFlowGoesOnFromAnother) {
   const TrainOptions first = Options("first", 2);
-  Train(first);
+  TrainFlow(first);
   TrainOptions further = Options("further", 1);
-  further.from = first.run / "checkpoint.safetensors";
+  Checkpoint base = LoadCheckpoint(first.run / "checkpoint.safetensors");
+  further.from = folder_.path() / "bound.safetensors";
+  const nlohmann::json bound = {{"clips_by_terms", {{"for study alone", 3}}}};
+  SaveCheckpoint(further.from, base.model, {{"data", bound}});
   further.rate = 0;  // what it took up stays as it was
-  Train(further);
+  TrainFlow(further);
   const Checkpoint theirs = LoadCheckpoint(further.from);
   const Checkpoint ours = LoadCheckpoint(further.run / "checkpoint.safetensors");
   const auto expected = theirs.model->named_parameters();
   for (const auto& item : ours.model->named_parameters())
     EXPECT_TRUE(torch::equal(item.value(), expected[item.key()])) << item.key();
   EXPECT_THAT(ours.card, testing::HasSubstr(theirs.hash));
+  EXPECT_THAT(ours.card, testing::HasSubstr("[3 clips] for study alone"));
 }
 
 TEST_F(TrainerTest, ControllersResumeAsIfUndisturbed) {
@@ -242,7 +247,7 @@ TEST(AdamTest, TakesTheStepsOfTheReference) {
     reference->weight.copy_(ours->weight);
     reference->bias.copy_(ours->bias);
   }
-  Adam adam(*ours, "");
+  Adam adam(*ours);
   torch::optim::Adam optimiser(reference->parameters(), torch::optim::AdamOptions(0.01));
   for (int step = 0; step < 20; ++step) {
     adam.ZeroGrad();

@@ -1,0 +1,166 @@
+#include <torch/torch.h>
+
+#include "model/core/error.h"
+#include "model/flow/checkpoint.h"
+#include "model/training/losses.h"
+#include "model/training/normalise.h"
+#include "model/training/trainer.h"
+#include "model/training/training_run.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kNormalisationBatches = 24;
+constexpr int kValidationWindows = 64;
+constexpr int kValidationLengths[] = {10, 30, 60, 90};
+
+FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
+  FlowConfig config = FlowConfig::Preset(options.preset);
+  if (!options.name.empty()) config.name = options.name;
+  config.keys = !options.no_keys;
+  config.key_loss = !options.no_key_loss && config.keys;
+  config.time_embedding = !options.no_time_embedding;
+  config.forward_embedding = options.forward_embedding;
+  config.hears_music = clips.HasMusic();
+  return config;
+}
+
+class FlowRun : public TrainingRun {
+ public:
+  FlowRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
+      : TrainingRun(options, train),
+        train_(train),
+        validation_(validation),
+        kinematics_(train.skeleton()),
+        device_(options.device),
+        model_(ConfigOf(options, train), train.skeleton()) {
+    if (options.from.empty()) {
+      NormaliseAudio(train_, &model_);
+    } else {
+      const Safetensors content = ReadSafetensors(options.from);
+      StartFrom(ParseCheckpoint(content, options.from.string()));
+      ImportTensors(content, "", model_.get());
+    }
+    model_->to(device_);
+    NameLosses(LossTermNames());
+    Open(model_.get());
+  }
+
+ protected:
+  // Features and ActNorm, by the data.
+  void Prepare() override {
+    if (!options().from.empty()) return;
+    torch::NoGradGuard no_grad;
+    torch::manual_seed(options().seed + 13);
+    model_->eval();
+    std::vector<MotionBatch> batches;
+    for (int i = 0; i < kNormalisationBatches; ++i) {
+      Random random(options().seed + 7, static_cast<uint32_t>(i + 1));
+      batches.push_back(Draw(&random, options().rollout_frames + (i % 3) * 20));
+    }
+    NormaliseFeatures(batches, &model_);
+    const MotionBatch& last = batches.back();
+    model_->InitialiseActNorm(Dequantise(model_, last.features), last.audio, last.has_audio,
+                              model_->Begin(last.transition));
+  }
+
+  void TrainStep(Random* random) override {
+    model_->train();
+    // Short transitions are common in use and cheap: half of the draws are quadratic towards the
+    // short end.
+    const double u = random->Uniform();
+    const double place = random->Uniform() < 0.5 ? u * u : u;
+    const MotionBatch batch =
+        Draw(random, options().shortest +
+                         static_cast<int>(place * (options().longest - options().shortest + 1)));
+    Descend(LikelihoodLoss(model_, batch, model_->Begin(batch.transition)));
+    if (!model_->config().key_loss) return;
+    const MotionBatch sampled = DrawRollout(random);
+    Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),
+                        model_->config().temperature));
+  }
+
+  // On fixed windows, without arrival: one roll-out at the served temperature, its L2P over
+  // interpolation's; -log p, nats a dimension; the mean joint distance at its key frame.
+  NamedFigures Validate() override {
+    const torch::NoGradGuard no_grad;
+    model_->eval();
+    const int history = model_->config().history_frames;
+    NamedFigures figures;
+    for (const int frames : kValidationLengths) {
+      Random random(20240607, static_cast<uint32_t>(frames));
+      const MotionBatch batch =
+          validation_.Draw(kValidationWindows, history, frames, {}, &random).To(device_);
+      const torch::Tensor condition = model_->Begin(batch.transition);
+      const auto distance = [&](const TrajectoryTensors& poses, const TrajectoryTensors& truth) {
+        return JointDistance(kinematics_, poses, truth).mean().item<double>();
+      };
+      const torch::Tensor& truth = batch.features;
+      const double likelihood =
+          model_->LogLikelihood(truth, batch.audio, batch.has_audio, condition)
+              .mean()
+              .item<double>() /
+          model_->feature_width();
+      std::vector<float> values(static_cast<size_t>(truth.size(0)) * frames * truth.size(2));
+      random.FillNormal(values);
+      const torch::Tensor noise =
+          model_->config().temperature *
+          torch::from_blob(values.data(), {truth.size(0), frames, truth.size(2)}).to(device_);
+      const TrajectoryTensors danced = model_->Decode(model_->Rollout(
+          truth.narrow(1, 0, history), batch.audio, batch.has_audio, condition, noise));
+      const std::string n = std::to_string(frames);
+      figures.insert(figures.end(),
+                     {{"flow_ratio_" + n, distance(danced, batch.truth) /
+                                              distance(Interpolate(batch.transition), batch.truth)},
+                      {"val_nll_" + n, -likelihood},
+                      {"mean_key_m_" + n, distance(LastFrame(danced), LastFrame(batch.truth))}});
+    }
+    return figures;
+  }
+
+  std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) override {
+    return SaveCheckpoint(path, model_, card);
+  }
+  std::string Limits() const override {
+    return "Trained on transitions of " + std::to_string(options().shortest) + " to " +
+           std::to_string(options().longest) +
+           " frames at 30 fps. Feet may slide in short transitions. What the data lacks (lying, "
+           "acrobatics, props, partners) it can't do.";
+  }
+
+ private:
+  MotionBatch Draw(Random* random, int frames) const {
+    const int windows = WindowsOf(options().batch, frames);
+    const bool keys = model_->config().keys;
+    const ClipStore::Variation variation{.mirror = true,
+                                         .drop_key = keys ? 0.1 : 1.0,
+                                         .drop_audio = 0.15,
+                                         .partial_key = keys ? 0.1 : 0.0,
+                                         .hold_history = 0.05};
+    return train_.Draw(windows, model_->config().history_frames, frames, variation, random)
+        .To(device_);
+  }
+
+  // Longer than gamma too: a flow that was only ever unrolled over 30 frames may drift off beyond
+  // them.
+  MotionBatch DrawRollout(Random* random) const {
+    const int gamma = options().rollout_frames;
+    const int frames = static_cast<int>(random->Integer(
+        std::max(2, gamma / 2), std::max(gamma, std::min(3 * gamma, options().longest)) + 1));
+    return train_
+        .Draw(std::max(4, options().batch / 4 * gamma / frames), model_->config().history_frames,
+              frames, {.mirror = true, .drop_audio = 0.15}, random)
+        .To(device_);
+  }
+
+  const ClipStore &train_, &validation_;
+  TorchKinematics kinematics_;
+  torch::Device device_;
+  FlowModel model_;
+};
+
+}  // namespace
+
+void TrainFlow(const TrainOptions& options) { TrainBy<FlowRun>(options); }
+
+}  // namespace choreo
