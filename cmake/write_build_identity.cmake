@@ -21,7 +21,7 @@ foreach(source ${sources})
 endforeach()
 string(SHA256 hash "${text}")
 string(SUBSTRING ${hash} 0 16 hash)
-file(WRITE ${OUTPUT} "#include \"model/engine/build_identity.h\"
+file(WRITE ${OUTPUT} "#include \"model/engine/engines.h\"
 
 namespace choreo {
 

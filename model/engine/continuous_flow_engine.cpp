@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "model/core/error.h"
 #include "model/plan/plan_stage.h"
 
 namespace choreo {
@@ -73,43 +72,27 @@ std::vector<Pose> SampleAsLively(const FlowModelParts& model, const FlowNetwork&
 ContinuousFlowEngine::ContinuousFlowEngine(ModelInfo info, std::string device, int slots,
                                            std::shared_ptr<const FlowModelParts> parts,
                                            std::shared_ptr<const FlowNetwork> network)
-    : info_(std::move(info)),
-      device_(std::move(device)),
+    : SlotEngine(std::move(info), std::move(device), slots),
       parts_(std::move(parts)),
-      network_(std::move(network)),
-      slots_(static_cast<size_t>(slots)) {}
+      network_(std::move(network)) {}
 
-int ContinuousFlowEngine::free_slots() const {
-  return static_cast<int>(
-      std::ranges::count_if(slots_, [](const auto& slot) { return !slot.has_value(); }));
-}
-
-int ContinuousFlowEngine::Admit(const TransitionSpec& spec) {
-  ValidateSpec(spec, info_);
-  const auto free =
-      std::ranges::find_if(slots_, [](const auto& slot) { return !slot.has_value(); });
-  if (free == slots_.end()) {
-    throw Error(ErrorCode::kResourceExhausted, "",
-                "all " + std::to_string(slots_.size()) + " slots are taken");
-  }
-  Slot slot;
-  slot.poses = Sample(spec);
-  FinishPlan({.skeleton = info_.skeleton,
+SampledTransition ContinuousFlowEngine::Begin(const TransitionSpec& spec, int /*slot*/) {
+  SampledTransition transition{.poses = Sample(spec), .contacts = {}};
+  FinishPlan({.skeleton = model().skeleton,
               .history = spec.history,
               .beats = spec.beats,
               .keyed = Keyed(spec),
               .has_path = spec.controls.root_path.cols() > 0,
               .has_heights = spec.controls.path_heights},
-             &slot.poses);
-  Motion motion{.fps = info_.fps, .frames = {spec.history.back()}};
-  motion.frames.insert(motion.frames.end(), slot.poses.begin(), slot.poses.end());
-  slot.contacts = DetectContacts(info_.skeleton, motion);
-  free->emplace(std::move(slot));
-  return static_cast<int>(free - slots_.begin());
+             &transition.poses);
+  Motion motion{.fps = model().fps, .frames = {spec.history.back()}};
+  motion.frames.insert(motion.frames.end(), transition.poses.begin(), transition.poses.end());
+  transition.contacts = DetectContacts(model().skeleton, motion);
+  return transition;
 }
 
 std::vector<Pose> ContinuousFlowEngine::Sample(const TransitionSpec& spec) const {
-  const WindowRequest request = ToWindowRequest(spec, info_.styles);
+  const WindowRequest request = ToWindowRequest(spec, model().styles);
   const FlowNoise noise{.seed = spec.seed,
                         .candidate = spec.candidate,
                         .first_frame = spec.first_frame,
@@ -121,16 +104,13 @@ std::vector<Pose> ContinuousFlowEngine::Sample(const TransitionSpec& spec) const
                   : SampleTransition(*parts_, *network_, request, noise);
 }
 
-void ContinuousFlowEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {
-  ValidateSteps(in, out.size(), slots(), info_, [this](int number) -> std::optional<SlotProgress> {
-    const auto& slot = slots_[static_cast<size_t>(number)];
-    if (!slot) return std::nullopt;
-    return SlotProgress{slot->next, static_cast<int>(slot->poses.size()), false};
-  });
+void ContinuousFlowEngine::StepSlots(std::span<const StepInput> in, std::span<StepOutput> out) {
   for (size_t i = 0; i < in.size(); ++i) {
-    Slot& slot = *slots_[static_cast<size_t>(in[i].slot)];
-    const auto frame = static_cast<size_t>(slot.next++);
-    out[i] = {.pose = slot.poses[frame], .contacts = slot.contacts[frame + 1], .log_likelihood = 0};
+    SampledTransition& transition = At(in[i]);
+    const auto frame = static_cast<size_t>(transition.next++);
+    out[i] = {.pose = transition.poses[frame],
+              .contacts = transition.contacts[frame + 1],
+              .log_likelihood = 0};
   }
 }
 

@@ -16,7 +16,6 @@
 #include "model/core/error.h"
 #include "model/core/printable.h"
 #include "model/core/threads.h"
-#include "model/engine/build_identity.h"
 #include "model/engine/continuous_flow_engine.h"
 #include "model/engine/flow_engine.h"
 #include "model/engine/packed/continuous_flow.h"

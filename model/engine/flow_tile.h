@@ -1,14 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "model/core/random.h"
 
 namespace choreo {
 
-/// Which noise a frame has: whoever steps it draws it, where it computes. Plain bytes, which may be
-/// copied to a device.
+/// Which noise a frame has: whoever steps it draws it.
 struct FrameNoise {
   uint64_t seed = 0;
   int64_t frame = 0;  ///< absolute
@@ -16,7 +17,14 @@ struct FrameNoise {
   float spread = 0;  ///< standard deviation: temperature applied
 
   /// FillNormal's numbers times the spread.
-  void Fill(std::span<float> out) const;
+  void Fill(std::span<float> out) const {
+    if (spread == 0) {
+      std::ranges::fill(out, 0.0F);
+      return;
+    }
+    FillNormal(seed, candidate, frame, out);
+    for (float& value : out) value *= spread;
+  }
 };
 
 /// One slot's share of a step of the flow: model/flow's FlowModel::Step for one row.

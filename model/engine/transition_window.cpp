@@ -5,27 +5,24 @@
 
 namespace choreo {
 
-TransitionWindow::TransitionWindow(const ModelInfo& model)
+TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec& spec)
     : skeleton_(model.skeleton),
       fps_(model.fps),
       tau_(model.history_frames),
       audio_features_(model.audio_features),
-      hears_music_(model.hears_music),
       codec_(model.skeleton),
       past_(static_cast<size_t>(tau_ * codec_.width())),
       audio_(static_cast<size_t>((tau_ + 1) * audio_features_)),
-      contacts_(model.skeleton) {}
-
-void TransitionWindow::Begin(const TransitionSpec& spec) {
-  frames_ = spec.frames;
-  frame_ = 0;
-  seed_ = spec.seed;
-  candidate_ = spec.candidate;
-  first_frame_ = spec.first_frame;
-  has_audio_ = spec.has_audio && hears_music_;
+      frames_(spec.frames),
+      seed_(spec.seed),
+      candidate_(spec.candidate),
+      first_frame_(spec.first_frame),
+      noise_(spec.temperature),
+      has_audio_(spec.has_audio && model.hears_music),
+      last_(spec.history.back()),
+      contacts_(model.skeleton) {
   std::vector<JointPlacement> placements;
   for (const Pose& pose : spec.history) placements.push_back(ForwardKinematics(skeleton_, pose));
-  contacts_.Reset();
   for (int t = 0; t < tau_; ++t) {
     // The first frame takes its speed from the step that follows it.
     const auto before = static_cast<size_t>(std::max(0, t - 1));
@@ -37,11 +34,7 @@ void TransitionWindow::Begin(const TransitionSpec& spec) {
   if (tau_ > 1) {
     PastRow(0).segment<3>(codec_.velocity_at()) = PastRow(1).segment<3>(codec_.velocity_at());
   }
-  noise_ = spec.temperature;
   last_placement_ = std::move(placements.back());
-  last_ = spec.history.back();
-
-  std::ranges::fill(audio_, 0.0F);
   if (has_audio_) {
     Eigen::Map<Eigen::MatrixXf>(audio_.data(), audio_features_, tau_) = spec.audio_history;
   }
@@ -57,7 +50,7 @@ void TransitionWindow::Advance(const StepInput& input) {
     std::swap(last_placement_, placement_);
   }
   if (has_audio_) {
-    // Begin left the last row free for frame 0's.
+    // The last row was left free for frame 0's.
     if (frame_ > 0) std::copy(audio_.begin() + audio_features_, audio_.end(), audio_.begin());
     std::ranges::copy(input.audio_row, audio_.end() - audio_features_);
   }

@@ -22,10 +22,8 @@ namespace choreo {
 /// Per frame: Advance, read the inputs, Finish. Nothing allocates there. Not thread-safe.
 class TransitionWindow {
  public:
-  explicit TransitionWindow(const ModelInfo& model);
-
-  /// Starts a transition. The spec is valid (ValidateSpec).
-  void Begin(const TransitionSpec& spec);
+  /// The spec is valid (ValidateSpec).
+  TransitionWindow(const ModelInfo& model, const TransitionSpec& spec);
 
   SlotProgress progress() const { return {frame_, frames_, has_audio_}; }
   /// Moves the windows on by what was emitted and what is heard; `input` is what the next frame
@@ -54,17 +52,16 @@ class TransitionWindow {
   Skeleton skeleton_;
   double fps_;
   int tau_, audio_features_;
-  bool hears_music_;
   PoseCodec codec_;
   std::vector<float> past_, audio_;
 
-  int frames_ = 0;  // N
-  int frame_ = 0;   // next to be stepped
-  uint64_t seed_ = 0;
-  uint32_t candidate_ = 0;
-  int64_t first_frame_ = 0;
-  float noise_ = 0;  // standard deviation
-  bool has_audio_ = false;
+  int frames_;     // N
+  int frame_ = 0;  // next to be stepped
+  uint64_t seed_;
+  uint32_t candidate_;
+  int64_t first_frame_;
+  float noise_;  // standard deviation
+  bool has_audio_;
   Pose last_;  // emitted before `frame_`
   JointPlacement last_placement_;
   ContactDetector contacts_;

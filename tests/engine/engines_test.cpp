@@ -10,7 +10,6 @@
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
 #include "model/core/threads.h"
-#include "model/engine/build_identity.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
 

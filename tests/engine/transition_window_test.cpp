@@ -30,8 +30,7 @@ TransitionSpec SpecWithMusic(const ModelInfo& model) {
 
 // What the network is given of a row of music in the first frame.
 std::vector<float> Heard(const ModelInfo& model) {
-  TransitionWindow window(model);
-  window.Begin(SpecWithMusic(model));
+  TransitionWindow window(model, SpecWithMusic(model));
   const std::vector<float> row(static_cast<size_t>(model.audio_features), 7);
   const StepInput input{.audio_row = row};
   window.Advance(input);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "model/core/safetensors.h"
 #include "model/engine/packed/matrix.h"
@@ -16,16 +15,24 @@ class PackedTensors {
   /// `content` must outlive this.
   explicit PackedTensors(const Safetensors& content) : content_(content) {}
 
-  Eigen::Map<const RowMajorMatrix> Get(const std::string& name, long rows, long columns) const;
-  Eigen::Map<const Eigen::VectorXf> Get(const std::string& name, long size) const;
-  /// Floats of a tensor of any such shape.
-  const std::vector<float>& Get(const std::string& name, const std::vector<int64_t>& shape) const;
+  Eigen::Map<const RowMajorMatrix> Get(const std::string& name, long rows, long columns) const {
+    return {content_.Get(name, {rows, columns}).data.data(), rows, columns};
+  }
+  Eigen::Map<const Eigen::VectorXf> Get(const std::string& name, long size) const {
+    return {content_.Get(name, {size}).data.data(), size};
+  }
   /// Columns of a matrix, whatever their number; 0 where there is no such matrix.
-  long Columns(const std::string& name) const;
+  long Columns(const std::string& name) const {
+    const auto found = content_.tensors.find(name);
+    const bool matrix = found != content_.tensors.end() && found->second.shape.size() == 2;
+    return matrix ? found->second.shape[1] : 0;
+  }
 
   /// A linear layer `name`.weight, `name`.bias of LibTorch's, which holds [out, in].
   PackedLinear Linear(const PackedKernels& kernels, const std::string& name, long in,
-                      long out) const;
+                      long out) const {
+    return {kernels, Get(name + ".weight", out, in).transpose(), Get(name + ".bias", out)};
+  }
 
  private:
   const Safetensors& content_;

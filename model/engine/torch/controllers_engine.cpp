@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "model/core/error.h"
 #include "model/engine/dense_controls.h"
-#include "model/fit/position_fitter.h"
+#include "model/motion/contacts.h"
+#include "model/motion/facing_pose.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
@@ -58,47 +58,21 @@ constexpr FitOptions kFitOptions = {
 
 }  // namespace
 
-struct ControllersEngine::Slot {
-  Slot(const Skeleton& skeleton, double fps)
-      : fitter(skeleton, DrawnPositions(skeleton), kFitOptions, fps) {}
+WalkedTransition::WalkedTransition(const ModelInfo& model, int n)
+    : frames(n), fitter(model.skeleton, DrawnPositions(model.skeleton), kFitOptions, model.fps) {}
 
-  int frames = 0, frame = 0;
-  ControlledGiven given;
-  ControllersState state;
-  FrameTensors walked;  // the lead frames before `frame`
-  Tensor contacts;      // that the network named for the last frame, [1, 1, 4]
-  Pose before, last;    // the two emitted before `frame`
-  std::optional<Pose> target;
-  PositionFitter fitter;
-};
+ControllersEngine::ControllersEngine(ModelInfo info, int slots, ControllersModel network)
+    : SlotEngine(std::move(info), "cpu", slots), network_(std::move(network)) {}
 
-ControllersEngine::ControllersEngine(ModelInfo info, int slots, ControllersModel model)
-    : info_(std::move(info)), model_(std::move(model)), slots_(static_cast<size_t>(slots)) {}
-
-ControllersEngine::~ControllersEngine() = default;
-
-int ControllersEngine::free_slots() const {
-  return static_cast<int>(std::count(slots_.begin(), slots_.end(), nullptr));
-}
-
-void ControllersEngine::Release(int slot) noexcept { slots_[static_cast<size_t>(slot)].reset(); }
-
-int ControllersEngine::Admit(const TransitionSpec& spec) {
-  ValidateSpec(spec, info_);
-  const auto free = std::find(slots_.begin(), slots_.end(), nullptr);
-  if (free == slots_.end()) {
-    throw Error(ErrorCode::kResourceExhausted, "",
-                "all " + std::to_string(slots_.size()) + " slots are taken");
-  }
+WalkedTransition ControllersEngine::Begin(const TransitionSpec& spec, int /*slot*/) {
   const c10::InferenceMode inference;
-  const Skeleton& skeleton = info_.skeleton;
-  auto slot = std::make_unique<Slot>(skeleton, info_.fps);
-  slot->frames = spec.frames;
+  const Skeleton& skeleton = model().skeleton;
+  WalkedTransition walk(model(), spec.frames);
 
   ControlledTransition transition;
   transition.frames = spec.frames;
   const std::vector<Contacts> contacts =
-      DetectContacts(skeleton, Motion{.fps = info_.fps, .frames = spec.history});
+      DetectContacts(skeleton, Motion{.fps = model().fps, .frames = spec.history});
   for (size_t t = 0; t < spec.history.size(); ++t) {
     const FrameTensors frame = ToTensors(FacingOf(skeleton, spec.history[t]), contacts[t]);
     transition.history = t == 0 ? frame : Join(transition.history, frame);
@@ -114,55 +88,50 @@ int ControllersEngine::Admit(const TransitionSpec& spec) {
   transition.target_joints = PointsOf(facing.joints).select(1, 0);
   transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
   transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
-  const Controls dense = DenseControls(spec, info_);
+  const Controls dense = DenseControls(spec, model());
   transition.path = RowsOf(dense.root_path);
   transition.factors = RowsOf(dense.velocity_factors);
 
-  slot->given = model_->Prepare(transition);
-  slot->walked =
-      transition.history.Narrow(transition.history.size() - model_->lead(), model_->lead());
-  slot->before = spec.history.size() > 1 ? spec.history[spec.history.size() - 2] : last;
-  slot->last = last;
-  if (spec.target) slot->target = target;
-  *free = std::move(slot);
-  return static_cast<int>(free - slots_.begin());
+  walk.given = network_->Prepare(transition);
+  walk.walked =
+      transition.history.Narrow(transition.history.size() - network_->lead(), network_->lead());
+  walk.before = spec.history.size() > 1 ? spec.history[spec.history.size() - 2] : last;
+  walk.last = last;
+  if (spec.target) walk.target = target;
+  return walk;
 }
 
-void ControllersEngine::StepSlot(const StepInput& in, StepOutput* out) {
-  Slot& slot = *slots_[static_cast<size_t>(in.slot)];
-  if (in.previous != nullptr) {
-    FrameTensors emitted = ToTensors(FacingOf(info_.skeleton, *in.previous), {});
-    emitted.contacts = slot.contacts;
-    slot.walked = Join(slot.walked.Narrow(1, model_->lead() - 1), emitted);
-    slot.before = std::exchange(slot.last, *in.previous);
+void ControllersEngine::StepOne(WalkedTransition* transition, const Pose* previous,
+                                StepOutput* out) {
+  WalkedTransition& walk = *transition;
+  if (previous != nullptr) {
+    FrameTensors emitted = ToTensors(FacingOf(model().skeleton, *previous), {});
+    emitted.contacts = walk.contacts;
+    walk.walked = Join(walk.walked.Narrow(1, network_->lead() - 1), emitted);
+    walk.before = std::exchange(walk.last, *previous);
   }
   const FrameTensors frame =
-      model_->Walk(slot.given.Narrow(slot.frame, 1), slot.walked, &slot.state).frames;
-  slot.contacts = frame.contacts;
+      network_->Walk(walk.given.Narrow(walk.frame, 1), walk.walked, &walk.state).frames;
+  walk.contacts = frame.contacts;
   const Tensor relative = RelativePositions(frame);
   Eigen::Matrix3Xd positions = ToPoints(relative);
   positions.rightCols(positions.cols() - 1).colwise() += positions.col(0).eval();
   // Bones that the network draws too long or too short are the fit's to mend: setting each to its
   // length first would move hands and feet.
-  slot.fitter.Reset(InterpolatePoses(slot.before, slot.last, 1 + kCarry));
+  walk.fitter.Reset(InterpolatePoses(walk.before, walk.last, 1 + kCarry));
   std::optional<Pose> after;
-  if (const int left = slot.frames - slot.frame; slot.target && left <= kTurnFrames)
-    after = InterpolatePoses(slot.last, *slot.target, 1.0 / left);
-  out->pose = slot.fitter.Next(positions, after ? &*after : nullptr);
+  if (const int left = walk.frames - walk.frame; walk.target && left <= kTurnFrames)
+    after = InterpolatePoses(walk.last, *walk.target, 1.0 / left);
+  out->pose = walk.fitter.Next(positions, after ? &*after : nullptr);
   const Tensor contacts = frame.contacts.contiguous();
   std::copy_n(contacts.data_ptr<float>(), out->contacts.size(), out->contacts.begin());
   out->log_likelihood = 0;
-  ++slot.frame;
+  ++walk.frame;
 }
 
-void ControllersEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {
-  ValidateSteps(in, out.size(), slots(), info_, [this](int number) -> std::optional<SlotProgress> {
-    const auto& slot = slots_[static_cast<size_t>(number)];
-    if (!slot) return std::nullopt;
-    return SlotProgress{slot->frame, slot->frames, false};
-  });
+void ControllersEngine::StepSlots(std::span<const StepInput> in, std::span<StepOutput> out) {
   const c10::InferenceMode inference;
-  for (size_t i = 0; i < in.size(); ++i) StepSlot(in[i], &out[i]);
+  for (size_t i = 0; i < in.size(); ++i) StepOne(&At(in[i]), in[i].previous, &out[i]);
 }
 
 }  // namespace choreo

@@ -1,6 +1,5 @@
-// The body of kernels_*.cpp, which is compiled for one instruction set each: no #pragma
-// once, and nothing of the standard library is called, because the linker could take such an inline
-// function's copy from here for all machines. Defines CHOREO_KERNELS, after these are defined:
+// Compiled once for each instruction set (CMakeLists.txt). Nothing of the standard library is
+// called, because the linker could take such an inline function's copy from here for all machines.
 //   CHOREO_KERNELS        variable to define
 //   CHOREO_KERNELS_NAME   what it is called
 //   CHOREO_VECTOR_BYTES   of one register
