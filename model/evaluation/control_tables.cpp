@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "model/evaluation/control_course.h"
 #include "model/metrics/control_figures.h"
 #include "model/metrics/joint_track.h"
@@ -9,6 +11,8 @@ namespace {
 
 constexpr int kLengths[] = {10, 50, 100, 150};
 constexpr int kLongLengths[] = {100, 150, 200, 250};
+constexpr int kFactorFrames = 90;
+constexpr std::pair<double, const char*> kScales[] = {{0.5, "0.5"}, {1.0, "1.0"}, {1.5, "1.5"}};
 constexpr double kCentimetre = 100;
 constexpr double kEnding = 0.2;       // share of a dance that is its ending
 constexpr size_t kInterpolation = 1;  // of WaysOf
@@ -44,6 +48,33 @@ std::string WithoutControls(const std::vector<Method>& ways) {
 
 // What the dances of one way came to, length by length.
 using Lengths = std::vector<std::vector<ClipFigure>>;
+
+Table FactorTable(Table table, const std::string& note, const Evaluation& evaluation,
+                  const ControlCourse& course) {
+  table.note = note;
+  table.label_headings = {"method", "times"};
+  for (const std::string_view part : kBodyPartNames) table.columns.push_back({std::string(part)});
+  for (const Method& way : WaysOf(evaluation.methods)) {
+    for (const auto& [scale, times] : kScales) {
+      if (scale != 1 && !way.TakesVelocityFactors()) continue;
+      const Dances dances = course.Dance(way, scale);
+      TableRow row{{way.name, times}, {}};
+      for (int part = 0; part < kBodyParts; ++part) {
+        const auto danced = course.FiguresOf(dances, [&](const ControlledWindow& window,
+                                                         const std::vector<Pose>& poses) {
+          return FactorTrackOf(evaluation.model().skeleton, window.before, poses).row(part).mean();
+        });
+        const auto unit =
+            course.FiguresOf(dances, [&](const ControlledWindow& window, const std::vector<Pose>&) {
+              return window.factors.row(part).mean();
+            });
+        row.cells.push_back(Ratio(danced, unit));
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
 
 }  // namespace
 
@@ -132,6 +163,26 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
       ratio.rows.back().cells.push_back(Ratio(lrp[w][i], lrp[kInterpolation][i]));
   }
   tables.insert(tables.begin() + 1, std::move(ratio));
+  return tables;
+}
+
+std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  if (!model.root_path) return {};
+  ControlCourse course(evaluation, kFactorFrames);
+  const std::string asked = std::to_string(kFactorFrames) + " frames on the real path";
+  std::vector<Table> tables;
+  tables.push_back(
+      FactorTable(evaluation.NewTable("multipliers", "Velocity factors times a number"),
+                  asked + ": mean speed of each part over the real dance's.", evaluation, course));
+  if (model.velocity_references.empty()) return tables;
+  const VelocityReference& reference = model.velocity_references.front();
+  course.AskConstant(reference.factors);
+  tables.push_back(
+      FactorTable(evaluation.NewTable("constant", "Constant velocity factors"),
+                  asked + ", the same asked of every frame: " + "a number times the reference \"" +
+                      reference.name + "\". Mean speed of each part over that reference.",
+                  evaluation, course));
   return tables;
 }
 
