@@ -10,7 +10,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "model/core/pem.h"
+#include "tls/pem.h"
 
 namespace choreo::client {
 namespace {

@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "model/core/error.h"
-#include "model/core/pem.h"
 #include "model/engine/devices.h"
 #include "model/engine/engine_kind.h"
 #include "server/config_flags.h"
 #include "server/listener.h"
 #include "server/music_file.h"
+#include "tls/pem.h"
 
 namespace choreo {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/core/pem.h"
 #include "model/core/printable.h"
+#include "tls/pem.h"
 
 namespace choreo {
 namespace {

@@ -8,8 +8,8 @@
 #include <charconv>
 #include <sstream>
 
-#include "model/core/pem.h"
 #include "server/status.h"
+#include "tls/pem.h"
 
 namespace choreo {
 namespace {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <set>
 #include <string>
 
 #include "tests/architecture/includes.h"
@@ -18,7 +19,7 @@ using ::testing::IsEmpty;
 
 const Includes& House() {
   static const Includes includes(CHOREO_SOURCE_DIR,
-                                 {"model", "server", "client", "studio", "bench"});
+                                 {"model", "tls", "server", "client", "studio", "bench"});
   return includes;
 }
 
@@ -35,8 +36,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
     const std::string core = "model/core", audio = "model/audio", motion = "model/motion",
                       fit = "model/fit", body = "model/body", formats = "model/formats",
                       draw = "model/draw", flow = "model/flow", controllers = "model/controllers",
-                      plan = "model/plan",
-                      engine = "model/engine", dance = "model/dance", metrics = "model/metrics";
+                      plan = "model/plan", engine = "model/engine", dance = "model/dance",
+                      metrics = "model/metrics";
     return std::vector<std::pair<std::string, std::set<std::string>>>{
         {core, {}},
         {audio, {core}},
@@ -54,8 +55,10 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {metrics, {core, audio, motion}},
         {"model/evaluation", {core, audio, motion, draw, engine, dance, "model/training", metrics}},
         {"model/lab", {core, engine, "model/training", "model/evaluation"}},
-        {"server", {core, audio, motion, engine, dance, "choreo", "google"}},
-        {"client", {core, audio, motion, fit, body, formats, draw, "choreo", "google", "grpc"}},
+        {"tls", {core}},
+        {"server", {core, audio, motion, engine, dance, "tls", "choreo", "google"}},
+        {"client",
+         {core, audio, motion, fit, body, formats, draw, "tls", "choreo", "google", "grpc"}},
         {"studio", {core, audio, motion, formats, "client", "choreo"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, dance, "server", "client", "choreo"}},
@@ -102,6 +105,23 @@ TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
       EXPECT_FALSE(include.starts_with("<grpc") || include.starts_with("<google/") ||
                    include.ends_with(".pb.h"))
           << file << " -> " << include;
+    }
+  }
+}
+
+// A stranger's program finds what our client's headers include.
+TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
+  std::ifstream rules(std::filesystem::path(CHOREO_SOURCE_DIR) / "cmake/ChoreoInstall.cmake");
+  const std::string text{std::istreambuf_iterator<char>(rules), {}};
+  const std::regex header(R"((client|model)/[a-z_/]+\.h)");
+  std::set<std::string> installed;
+  for (std::sregex_iterator at(text.begin(), text.end(), header), end; at != end; ++at)
+    installed.insert(at->str());
+  EXPECT_TRUE(installed.contains("client/choreo_client.h"));
+  for (const std::string& file : installed) {
+    for (const std::string& include : House().Of(file)) {
+      if (include.starts_with('<')) continue;
+      EXPECT_TRUE(installed.contains(include)) << file << " -> " << include;
     }
   }
 }

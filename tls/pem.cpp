@@ -1,4 +1,4 @@
-#include "model/core/pem.h"
+#include "tls/pem.h"
 
 #include <fcntl.h>
 #include <openssl/err.h>
