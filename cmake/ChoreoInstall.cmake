@@ -7,9 +7,10 @@ install(TARGETS choreo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT pro
 install(TARGETS choreo_client choreo_motion choreo_tls choreo_proto EXPORT choreoTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo)
-install(FILES client/choreo_client.h client/edit.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/client)
+install(FILES client/choreo_client.h client/dance_config.h client/dance_messages.h client/edit.h client/server_description.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/client)
 install(FILES model/core/error.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/core)
-# What these two headers include, and the pose at rest, from which key poses are made.
+# What these headers include, and the pose at rest, from which key poses are made.
 install(FILES model/motion/kinematics.h model/motion/motion.h model/motion/skeleton.h model/motion/velocity_factors.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion)
 install(DIRECTORY proto/choreo DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo/proto FILES_MATCHING PATTERN "*.proto")

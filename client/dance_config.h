@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/motion/motion.h"
+
+/// What a client asks for: music, key poses, controls, and what a dance is made with. Frames are
+/// counted at the model's rate; other conventions are choreo_client.h's.
+namespace choreo::client {
+
+/// What the music's bytes are.
+enum class AudioKind {
+  kNone,      ///< there is no music
+  kPcmFloat,  ///< interleaved float samples in [-1, 1]
+  kFile,      ///< a WAV, FLAC, Ogg or MP3 file; danced to once all of it has arrived
+};
+
+struct AudioFormat {
+  AudioKind kind = AudioKind::kNone;
+  int sample_rate = 0;  ///< of kPcmFloat, Hz, 8000 to 192000
+  int channels = 0;     ///< of kPcmFloat, 1 to 8
+};
+
+/// Music, whole.
+struct Audio {
+  AudioFormat format = {};
+  std::vector<float> samples = {};    ///< of kPcmFloat, interleaved
+  std::vector<std::byte> bytes = {};  ///< of kFile
+};
+
+/// A pose to be hit: to 1 mm and 0.1 degrees.
+struct KeyPose {
+  std::string id = {};                ///< unique; sent again, it replaces the key
+  std::optional<int64_t> frame = {};  ///< at the model's rate; or else:
+  double time_s = 0;                  ///< rounded to the nearest frame
+  Pose pose = {};
+  PoseMask mask = {};
+};
+
+/// Where a dance can be taken up again, on any server of the same fingerprint. Opaque but for what
+/// it says of itself.
+struct Continuation {
+  int64_t frame = 0;              ///< the first that is still to be made
+  int64_t audio_from_sample = 0;  ///< music before it need not be sent again
+  std::string fingerprint = {};
+  std::string bytes = {};  ///< the whole, serialised
+};
+
+/// Wishes beside key poses and music, for models that know them (ModelDescription::controls).
+struct Controls {
+  /// Where the root goes: points in time, at least 2, metres, in the world; frames are the model's.
+  /// One in each frame, or few, which a smooth curve leads through. Keys win over it.
+  struct RootPath {
+    std::vector<int64_t> frames = {};          ///< ascending
+    std::vector<Eigen::Vector2d> points = {};  ///< (x, z) at each
+    std::vector<double> heights = {};          ///< of the root, at each; empty: as the model likes
+  };
+  /// How lively parts of the body are. Either factors or speeds.
+  struct VelocityFactors {
+    std::vector<int64_t> frames = {};  ///< of each row, ascending; empty: one row, for always
+    std::vector<std::string> parts =
+        {};                            ///< of each column, of kBodyPartNames; empty: one, for all
+    std::vector<double> factors = {};  ///< [rows, columns] multipliers of the reference, 0 to 10
+    std::vector<double> speeds = {};   ///< [rows, columns] metres a frame, 0 to 0.5
+    std::string reference = {};        ///< empty: the model's first
+  };
+  std::optional<RootPath> root_path = {};
+  std::optional<VelocityFactors> velocity_factors = {};
+};
+
+/// What a dance is made with.
+struct DanceConfig {
+  std::string model = {};  ///< empty: the server's first
+  double fps = 0;          ///< of the frames received, 1 to 120; 0: the model's
+  std::optional<uint64_t> seed = {};
+  std::optional<double> temperature = {};  ///< 0 to 2
+  std::string style = {};                  ///< one of the model's; empty: as it comes
+  /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
+  /// rest, facing +Z, where a path from frame 0 on begins, or else at the origin.
+  std::vector<Pose> history = {};
+  int64_t first_frame = 0;  ///< number of the first frame made, with `history`
+  std::optional<Continuation> continuation = {};  ///< instead of `history`
+  AudioFormat audio = {};
+  std::optional<int64_t> frames =
+      {};  ///< the dance ends before this frame; otherwise with the music or the last key
+  /// Times of the music's beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them,
+  /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and in a
+  /// kPcmFloat predicts each transition's from the 12 s before it.
+  std::vector<double> music_beats = {};
+  /// For who edits keys: as RemoteDance::GenerateUntil before all else; keys then grant nothing.
+  std::optional<int64_t> generate_until = {};
+  Controls controls = {};  ///< from the first frame on
+};
+
+}  // namespace choreo::client

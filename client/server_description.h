@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/motion/skeleton.h"
+
+/// What a choreod says of itself and of its models.
+namespace choreo::client {
+
+/// One model that a server has loaded.
+struct ModelDescription {
+  std::string name = {};
+  std::string fingerprint = {};  ///< equal fingerprints give equal bits
+  std::string licence = {};      ///< terms of the weights
+  std::string card = {};         ///< JSON
+  Skeleton skeleton = {};
+  double fps = 30;
+  int history_frames = 0;  ///< frames of the past that it looks at
+  double default_temperature = 0;
+  std::vector<std::string> controls = {};  ///< "root_path", "velocity_factors"
+  /// How lively its dancers usually are: what multipliers refer to; the first is the default.
+  struct VelocityReference {
+    std::string name = {};
+    std::vector<double> speeds = {};  ///< metres a frame, in the order of kBodyPartNames
+  };
+  std::vector<VelocityReference> velocity_references = {};
+  std::vector<std::string> styles = {};  ///< that DanceConfig::style may name
+  bool takes_music = true;               ///< false: it refuses audio
+  bool deterministic = false;  ///< seed and temperature change nothing; rests without a key ahead
+  double audio_lead_s = 0;     ///< music that a transition wants before its first frame
+  int latency_frames = 0;      ///< how far the music must be ahead of the frame that is made
+  int max_transition_frames = 0;  ///< of one transition; the server's own limit is in it already
+};
+
+/// A server.
+struct ServerDescription {
+  std::string version = {};
+  std::vector<ModelDescription> models = {};  ///< the first is the default
+  std::vector<std::string> devices = {};
+  int slots = 0;
+  int active_streams = 0;
+  /// What the server refuses to go beyond.
+  struct Limits {
+    int64_t max_message_bytes = 0;
+    double max_audio_s = 0;
+    int64_t max_audio_file_bytes = 0;
+    int max_keyframes = 0;
+    int max_transition_frames = 0;
+    int max_candidates = 0;
+    double max_frame_rate = 0;
+    int max_streams = 0;
+  } limits;
+};
+
+}  // namespace choreo::client

@@ -1,0 +1,130 @@
+#include <bit>
+#include <cstring>
+
+#include "client/convert.h"
+
+namespace choreo::client {
+
+static_assert(std::endian::native == std::endian::little, "PCM is sent as it lies in memory");
+
+v1::Pose ToProto(const Pose& pose) {
+  v1::Pose out;
+  out.mutable_root_position()->set_x(pose.root_position.x());
+  out.mutable_root_position()->set_y(pose.root_position.y());
+  out.mutable_root_position()->set_z(pose.root_position.z());
+  out.mutable_rotations()->Reserve(static_cast<int>(pose.rotations.size()));
+  for (const double value : pose.rotations.reshaped()) {
+    out.add_rotations(static_cast<float>(value));
+  }
+  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
+  return out;
+}
+
+v1::Pose ToProto(const Pose& pose, const PoseMask& mask) {
+  v1::Pose out = ToProto(pose);
+  if (!mask.root_position) out.clear_root_position();
+  return out;
+}
+
+v1::JointMask ToProto(const PoseMask& mask) {
+  v1::JointMask out;
+  for (size_t joint = 0; joint < mask.joints.size(); ++joint) {
+    if (mask.joints[joint]) out.add_joints(static_cast<int>(joint));
+  }
+  return out;
+}
+
+v1::Keyframe ToProto(const KeyPose& key) {
+  v1::Keyframe out;
+  out.set_id(key.id);
+  if (key.frame) {
+    out.set_frame(*key.frame);
+  } else {
+    out.set_time(key.time_s);
+  }
+  *out.mutable_pose() = ToProto(key.pose, key.mask);
+  if (!key.mask.joints.empty()) *out.mutable_mask() = ToProto(key.mask);
+  return out;
+}
+
+namespace {
+
+v1::RootPath ToProto(const Controls::RootPath& path) {
+  v1::RootPath out;
+  out.mutable_frames()->Add(path.frames.begin(), path.frames.end());
+  for (const Eigen::Vector2d& point : path.points) {
+    for (const double value : point) out.add_points(static_cast<float>(value));
+  }
+  for (const double height : path.heights) out.add_heights(static_cast<float>(height));
+  return out;
+}
+
+v1::VelocityFactors ToProto(const Controls::VelocityFactors& velocity) {
+  v1::VelocityFactors out;
+  out.mutable_frames()->Add(velocity.frames.begin(), velocity.frames.end());
+  for (const double factor : velocity.factors) out.add_factors(static_cast<float>(factor));
+  for (const double speed : velocity.speeds) out.add_speeds(static_cast<float>(speed));
+  out.set_reference(velocity.reference);
+  for (const std::string& name : velocity.parts) {
+    const std::optional<BodyPart> part = FindBodyPart(name);
+    if (!part) {
+      throw InvalidArgument("velocity_factors.parts",
+                            '"' + name + "\" is none of " + BodyPartNames());
+    }
+    out.add_parts(static_cast<v1::BodyPart>(v1::BODY_PART_TRUNK + static_cast<int>(*part)));
+  }
+  return out;
+}
+
+}  // namespace
+
+v1::Controls ToProto(const Controls& controls) {
+  v1::Controls out;
+  if (controls.root_path) *out.mutable_root_path() = ToProto(*controls.root_path);
+  if (controls.velocity_factors) {
+    *out.mutable_velocity_factors() = ToProto(*controls.velocity_factors);
+  }
+  return out;
+}
+
+v1::DanceConfig ToProto(const DanceConfig& config) {
+  v1::DanceConfig out;
+  out.set_model(config.model);
+  out.set_frame_rate(config.fps);
+  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
+  if (config.seed) out.set_seed(*config.seed);
+  if (config.temperature) out.set_temperature(*config.temperature);
+  out.set_style(config.style);
+  if (config.continuation) {
+    if (!out.mutable_continuation()->ParseFromString(config.continuation->bytes)) {
+      throw InvalidArgument("continuation", "the bytes are not those of a continuation");
+    }
+  } else if (!config.history.empty()) {
+    for (const Pose& pose : config.history) *out.mutable_history()->add_poses() = ToProto(pose);
+    out.mutable_history()->set_first_frame(config.first_frame);
+  }
+  switch (config.audio.kind) {
+    case AudioKind::kNone:
+      break;
+    case AudioKind::kPcmFloat:
+      out.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+      out.mutable_audio_format()->set_sample_rate(static_cast<uint32_t>(config.audio.sample_rate));
+      out.mutable_audio_format()->set_channels(static_cast<uint32_t>(config.audio.channels));
+      break;
+    case AudioKind::kFile:
+      out.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
+      break;
+  }
+  if (config.frames) out.set_frames(*config.frames);
+  out.mutable_music_beats()->Add(config.music_beats.begin(), config.music_beats.end());
+  if (config.generate_until) out.set_generate_until(*config.generate_until);
+  return out;
+}
+
+std::string ToPcmBytes(std::span<const float> samples) {
+  std::string bytes(samples.size_bytes(), '\0');
+  std::memcpy(bytes.data(), samples.data(), bytes.size());
+  return bytes;
+}
+
+}  // namespace choreo::client
