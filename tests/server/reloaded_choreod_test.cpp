@@ -1,0 +1,137 @@
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "client/choreo_client.h"
+#include "client/cli/local_server.h"
+#include "tests/support/sanitizers.h"
+#include "tests/support/temporary_folder.h"
+
+namespace choreo {
+namespace {
+
+/// choreod itself, and its signals.
+class ReloadedChoreodTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
+    Put("default");
+    ::setenv("CHOREO_MODELS", models.path().c_str(), 1);
+    // As where nobody says so: OpenBLAS has begun threads before choreod's main.
+    ::setenv("OPENBLAS_NUM_THREADS", "2", 1);
+    server.emplace(CHOREOD_PROGRAM);
+    ::unsetenv("OPENBLAS_NUM_THREADS");
+    ::unsetenv("CHOREO_MODELS");
+  }
+
+  void Put(const std::string& name) const {
+    const auto shipped = std::filesystem::path(SHIPPED_CHECKPOINT).parent_path();
+    std::filesystem::copy_file(shipped / (name + ".safetensors"), models / "written");
+    std::filesystem::rename(models / "written", models / (name + ".safetensors"));
+  }
+  std::vector<std::string> Served() const {
+    std::vector<std::string> served;
+    for (const auto& model : Client().GetServerInfo().models) served.push_back(model.name);
+    return served;
+  }
+  client::Client Client() const { return client::Client({.addresses = {server->address()}}); }
+
+  // With something in the middle.
+  std::vector<Pose> Dance(const std::string& model, const std::function<void()>& between = {}) {
+    constexpr int64_t kFrames = 150, kFirst = 30;
+    const client::Client client = Client();
+    const auto one =
+        client.StartDance({.model = model, .seed = 1, .frames = kFrames, .generate_until = 0});
+    one->GenerateUntil(kFirst);
+    std::vector<Pose> poses;
+    while (const std::optional<client::Message> message = one->Next()) {
+      const auto* block = std::get_if<client::FrameBlock>(&*message);
+      if (block == nullptr) continue;
+      poses.insert(poses.end(), block->poses.begin(), block->poses.end());
+      if (std::ssize(poses) != kFirst) continue;
+      if (between) between();
+      one->CompleteKeys();
+    }
+    EXPECT_EQ(std::ssize(poses), kFrames);
+    return poses;
+  }
+  static void ExpectSame(const std::vector<Pose>& poses, const std::vector<Pose>& wanted) {
+    ASSERT_EQ(poses.size(), wanted.size());
+    for (size_t i = 0; i < poses.size(); ++i) {
+      ASSERT_EQ(poses[i].root_position, wanted[i].root_position) << i;
+      ASSERT_EQ(poses[i].rotations, wanted[i].rotations) << i;
+    }
+  }
+  // Loading takes seconds, and longer where others compute.
+  static void WaitUntil(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!condition() && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+  void Await(const std::vector<std::string>& served) const {
+    WaitUntil([&] { return Served() == served; });
+    ASSERT_EQ(Served(), served);
+  }
+  void HangUp(int times) const {
+    for (int i = 0; i < times; ++i) kill(server->process(), SIGHUP);
+  }
+
+  TemporaryFolder models;
+  std::optional<cli::LocalServer> server;
+};
+
+TEST_F(ReloadedChoreodTest, ReadsItsFolderAgainWhereItIsHungUp) {
+  const std::vector<Pose> wanted = Dance("default");
+  ExpectSame(Dance("default",
+                   [&] {
+                     Put("free");
+                     HangUp(100);
+                     Await({"default", "free"});
+                   }),
+             wanted);
+  const std::vector<Pose> free = Dance("free");
+  ExpectSame(Dance("default",
+                   [&] {
+                     std::filesystem::remove(models / "default.safetensors");
+                     std::ofstream(models / "free.safetensors") << "broken in its place";
+                     HangUp(1);
+                     Await({"free"});
+                   }),
+             wanted);
+  ExpectSame(Dance(""), free);
+}
+
+// Of a process's threads the kernel may choose any that takes a signal.
+TEST_F(ReloadedChoreodTest, HearsASignalWhicheverThreadItReaches) {
+  Put("free");
+  const std::string tasks = "/proc/" + std::to_string(server->process()) + "/task";
+  for (const auto& task : std::filesystem::directory_iterator(tasks))
+    tgkill(server->process(), std::stoi(task.path().filename()), SIGHUP);
+  Await({"default", "free"});
+}
+
+TEST_F(ReloadedChoreodTest, LeavesWithZeroWhileItIsHungUp) {
+  Put("free");
+  HangUp(1);
+  kill(server->process(), SIGTERM);
+  try {
+    WaitUntil([&] {
+      HangUp(10);
+      server->RequireRunning();
+      return false;
+    });
+    FAIL() << "it does not leave";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("exit code 0"));
+  }
+}
+
+}  // namespace
+}  // namespace choreo
