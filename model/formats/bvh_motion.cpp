@@ -7,6 +7,7 @@
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
 #include "model/formats/bvh_placement.h"
+#include "model/formats/own_arrays.h"
 #include "model/formats/own_skeleton.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
@@ -129,8 +130,7 @@ std::optional<BvhLayout> LayoutOf(const BvhFile& file, const Skeleton& skeleton)
 }  // namespace
 
 BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLayout& layout) {
-  if (motion.frames.empty())
-    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
+  RequireWritable(skeleton, motion);
   if (layout.names != JointNames::kSmpl && skeleton.joint_names != Skeleton::Smpl24().joint_names) {
     throw InvalidArgument("names", std::string(NameOf(layout.names)) +
                                        " has names for SMPL's joints alone, the skeleton is " +
@@ -144,11 +144,6 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
   Eigen::Matrix3Xd euler = Eigen::Matrix3Xd::Zero(3, skeleton.joints());  // of the frame before
   for (size_t frame = 0; frame < motion.frames.size(); ++frame) {
     const Pose& pose = motion.frames[frame];
-    if (pose.rotations.cols() != skeleton.joints()) {
-      throw InvalidArgument("motion.frames[" + std::to_string(frame) + "].rotations",
-                            std::to_string(pose.rotations.cols()) + " joints, the skeleton has " +
-                                std::to_string(skeleton.joints()));
-    }
     auto values = file.values.col(static_cast<int64_t>(frame));
     values.head<3>() = pose.root_position * layout.units_per_metre;
     int row = 3;

@@ -8,6 +8,7 @@
 #include "model/core/error.h"
 #include "model/formats/character_contents.h"
 #include "model/formats/character_file.h"
+#include "model/formats/own_arrays.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -179,8 +180,7 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
   const auto named = [&](const Error& error) {
     return Error(error.code(), contents_->path.string(), error.what());
   };
-  if (motion.frames.empty())
-    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
+  RequireWritable(body.skeleton, motion);
   std::string bytes;
   try {
     DrivenNodes driven(contents_->nodes, body);

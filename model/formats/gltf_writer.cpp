@@ -9,6 +9,7 @@
 #include "model/core/error.h"
 #include "model/formats/gltf.h"
 #include "model/formats/gltf_file.h"
+#include "model/formats/own_arrays.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
@@ -202,27 +203,10 @@ class GlbBuilder {
   int body_node_ = -1;
 };
 
-void Check(const Skeleton& skeleton, const Motion& motion) {
-  if (motion.frames.empty())
-    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
-  for (size_t frame = 0; frame < motion.frames.size(); ++frame) {
-    const Pose& pose = motion.frames[frame];
-    const std::string field = "motion.frames[" + std::to_string(frame) + "]";
-    if (pose.rotations.cols() != skeleton.joints()) {
-      throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
-                                                      " joints, the skeleton has " +
-                                                      std::to_string(skeleton.joints()));
-    }
-    if (!pose.root_position.allFinite() || !pose.rotations.allFinite()) {
-      throw InvalidArgument(field, "holds values that are not finite");
-    }
-  }
-}
-
 }  // namespace
 
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion) {
-  Check(skeleton, motion);
+  RequireWritable(skeleton, motion);
   const GlbBuilder builder(skeleton, motion);
   std::ostringstream bytes;
   tinygltf::TinyGLTF gltf;

@@ -1,0 +1,103 @@
+#include "model/formats/own_arrays.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/core/error.h"
+
+namespace choreo {
+
+void RequireWritable(const Skeleton& skeleton, const Motion& motion,
+                     const std::vector<Contacts>* contacts) {
+  if (motion.frames.empty())
+    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
+  if (contacts != nullptr && contacts->size() != motion.frames.size()) {
+    throw InvalidArgument("contacts", std::to_string(contacts->size()) +
+                                          " frames, the motion has " +
+                                          std::to_string(motion.frames.size()));
+  }
+  for (size_t frame = 0; frame < motion.frames.size(); ++frame) {
+    const Pose& pose = motion.frames[frame];
+    const auto field = [&] { return "motion.frames[" + std::to_string(frame) + "]"; };
+    if (pose.rotations.cols() != skeleton.joints()) {
+      throw InvalidArgument(field() + ".rotations", std::to_string(pose.rotations.cols()) +
+                                                        " joints, the skeleton has " +
+                                                        std::to_string(skeleton.joints()));
+    }
+    if (!pose.root_position.allFinite() || !pose.rotations.allFinite())
+      throw InvalidArgument(field(), "holds values that are not finite");
+  }
+}
+
+void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
+                  const std::vector<Contacts>* contacts, NpzArchive& npz) {
+  RequireWritable(skeleton, motion, contacts);
+  const auto frames = static_cast<int64_t>(motion.frames.size());
+  std::vector<double> roots, rotations;
+  for (const Pose& pose : motion.frames) {
+    roots.insert(roots.end(), pose.root_position.begin(), pose.root_position.end());
+    rotations.insert(rotations.end(), pose.rotations.data(),
+                     pose.rotations.data() + pose.rotations.size());
+  }
+  npz.SetArray("root_positions", {{frames, 3}, std::move(roots)});
+  npz.SetArray("rotations", {{frames, skeleton.joints(), 3}, std::move(rotations)});
+  npz.SetArray("fps", {{}, std::vector<double>{motion.fps}});
+  if (contacts == nullptr) return;
+  std::vector<float> values;
+  for (const Contacts& row : *contacts) values.insert(values.end(), row.begin(), row.end());
+  npz.SetArray("contacts", {{frames, 4}, std::move(values)});
+}
+
+Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz) {
+  const int joints = skeleton.joints();
+  return MotionOfRows(NpzRows(npz, "root_positions", {3}), NpzRows(npz, "rotations", {3 * joints}),
+                      joints, joints, CheckRate("fps", NpzNumber(npz, "fps")), "rotations");
+}
+
+Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
+                        std::initializer_list<int64_t> columns) {
+  const NpyArray array = npz.Array(key);
+  int64_t width = array.shape.size() >= 2 ? 1 : 0;
+  for (size_t i = 1; i < array.shape.size(); ++i) width *= array.shape[i];
+  if (std::find(columns.begin(), columns.end(), width) == columns.end() || array.shape.size() > 3) {
+    std::string shape, wanted;
+    for (const int64_t size : array.shape)
+      shape += (shape.empty() ? "" : ", ") + std::to_string(size);
+    for (const int64_t size : columns)
+      wanted += (wanted.empty() ? "" : " or ") + std::to_string(size);
+    throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted + "]");
+  }
+  const std::vector<double> values = array.As<double>();
+  Eigen::MatrixXd rows = Eigen::Map<const Eigen::MatrixXd>(values.data(), width, array.shape[0]);
+  if (!rows.allFinite()) throw InvalidArgument(key, "holds values that are not finite");
+  return rows;
+}
+
+double NpzNumber(const NpzArchive& npz, const std::string& key) {
+  const NpyArray array = npz.Array(key);
+  if (array.size() != 1) throw InvalidArgument(key, "is not one number");
+  return array.As<double>()[0];
+}
+
+double CheckRate(const std::string& key, double fps) {
+  if (fps >= 1 && fps <= 1000) return fps;
+  throw InvalidArgument(key, std::to_string(fps) + ", must be 1 to 1000 frames a second");
+}
+
+Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int known,
+                    int joints, double fps, const std::string& key) {
+  if (positions.cols() != rotations.cols()) {
+    throw InvalidArgument(key, std::to_string(rotations.cols()) + " frames, but there are " +
+                                   std::to_string(positions.cols()) + " root positions");
+  }
+  Motion motion{.fps = fps, .frames = {}};
+  for (Eigen::Index frame = 0; frame < positions.cols(); ++frame) {
+    Pose pose{positions.col(frame), Eigen::Matrix3Xd::Zero(3, joints)};
+    pose.rotations.leftCols(known) =
+        Eigen::Map<const Eigen::Matrix3Xd>(rotations.col(frame).data(), 3, known);
+    motion.frames.push_back(std::move(pose));
+  }
+  return motion;
+}
+
+}  // namespace choreo
