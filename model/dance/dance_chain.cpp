@@ -163,7 +163,6 @@ void DanceChain::Start(const Segment& segment) {
         controls_.Stance(segment.from, request.frames == 1 ? request.target : std::nullopt);
     history_ = FillHistory(model_, {&stance, 1});
   }
-  if (!stage_) stage_ = history_.back().root_position;
   request.history = history_;
   request.stage = stage_;
   request.seed = config_.seed;
@@ -207,7 +206,7 @@ void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const Da
   }
   const int64_t emitted = next_frame_++;
   MoveOn(frame.pose, &history_);
-  if (run.places()) stage_ = frame.pose.root_position;
+  stage_ = run.stage();
   meter_.Add(frame);
   OutputFrames frames = output_.Push(frame);
   if (!frames.poses.empty()) {

@@ -118,7 +118,8 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   ground_ = GroundFrame::Of(world_);
   spec_.frames = request.frames;
   spec_.history = CanonicalHistory(ground_, history);
-  spec_.stage = ground_.ToLocal(request.stage.value_or(world_.root_position));
+  stage_ = request.stage.value_or(world_.root_position);
+  spec_.stage = ground_.ToLocal(stage_);
   spec_.has_audio = request.has_audio;
   if (request.has_audio) spec_.audio_history = request.audio_history;
   spec_.beats = request.beats;
@@ -191,6 +192,8 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
         ArrivalResult{ComparePoses(model_->skeleton, raw.pose, spec_.target->pose, mask).position_m,
                       final.position_m, final.angle_deg, correction_m_};
   }
+  if (spec_.controls.root_path.cols() > 0 || (arrival_result_ && mask.root_position))
+    stage_ = world_.root_position;
   DanceFrame frame{world_, contacts, raw.log_likelihood};
   const auto& factors = spec_.controls.velocity_factors;
   if (factors.cols() > 0)

@@ -125,12 +125,9 @@ class TransitionRun {
 
   /// After the last frame of a transition with a target.
   const std::optional<ArrivalResult>& arrival() const { return arrival_result_; }
-  /// Something said where the root is in the newest frame: a path, or the key that it is. The dance
-  /// keeps to that place from there on.
-  bool places() const {
-    return spec_.controls.root_path.cols() > 0 ||
-           (arrival_result_ && spec_.target->mask.root_position);
-  }
+  /// TransitionRequest::stage of who goes on from the newest frame: a path, and a key that says
+  /// where the root is, move it there.
+  const Eigen::Vector3d& stage() const { return stage_; }
   /// None without a target.
   std::optional<RequiredSpeed> required_speed() const;
 
@@ -147,8 +144,9 @@ class TransitionRun {
   int arrival_window_ = 0;
   std::optional<ArrivalResult> arrival_result_;
   double correction_m_ = 0;
-  Pose steered_;  // canonical
-  Pose world_;    // last emitted, whose signs are kept
+  Eigen::Vector3d stage_;  // world
+  Pose steered_;           // canonical
+  Pose world_;             // last emitted, whose signs are kept
   int done_ = 0;
 };
 

@@ -54,6 +54,7 @@ std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
         }
         result.arrival = one.run.arrival();
         result.required_speed = one.run.required_speed();
+        result.stage = one.run.stage();
         engine.Release(one.slot);
       }
       active = std::move(going_on);

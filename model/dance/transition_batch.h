@@ -19,8 +19,9 @@ struct TransitionInput {
 /// How it came out.
 struct TransitionResult {
   std::vector<DanceFrame> frames;
-  std::optional<ArrivalResult> arrival;         ///< none without a target
-  std::optional<RequiredSpeed> required_speed;  ///< none without a target
+  std::optional<ArrivalResult> arrival;             ///< none without a target
+  std::optional<RequiredSpeed> required_speed;      ///< none without a target
+  Eigen::Vector3d stage = Eigen::Vector3d::Zero();  ///< TransitionRun::stage at the end
 };
 
 /// Dances many transitions as the server does, all slots of the engine together, which costs a

@@ -135,6 +135,7 @@ class TransitionGroup::Impl::Job : public ScheduledTransition {
  private:
   Continuation GoesOn() const {
     Continuation end{NextFrame(), history_, group_->model_.fingerprint};
+    end.stage = run().stage();
     if (group_->request_.has_audio())
       end.audio_from_sample =
           LatestFirstSample(end.frame, group_->request_.sample_rate, group_->model_);

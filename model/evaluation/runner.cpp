@@ -18,7 +18,7 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
   request.frames = std::min(to, plan.frames) - at;
   if (next && *next + 1 == to) request.target = WorldTarget{key->second, {}};
   request.history = plan.history;
-  request.stage = chain.stage.value_or(plan.history.back().root_position);
+  request.stage = chain.stage;
   const auto known = std::min<std::ptrdiff_t>(at, model.history_frames);
   request.history.insert(request.history.end(), chain.poses.end() - known, chain.poses.end());
   request.beats = BeatsAround(plan.beats, /*fps=*/1, at, request.frames);
@@ -59,10 +59,9 @@ std::vector<LongDance> Runner::DanceLong(StepEngine& engine,
     for (size_t i = 0; i < results.size(); ++i) {
       LongDance& chain = chains[whose[i]];
       for (const DanceFrame& frame : results[i].frames) chain.poses.push_back(frame.pose);
-      if (results[i].arrival) {
-        chain.stage = chain.poses.back().root_position;
+      chain.stage = results[i].stage;
+      if (results[i].arrival)
         chain.keys[static_cast<int>(chain.poses.size()) - 1] = results[i].arrival->final_error_m;
-      }
     }
   }
 }

@@ -153,6 +153,8 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
       for (const CandidateReport& report : *sink->ranked) {
         if (report.candidate == 0) continuation = report.continuation;
       }
+      ASSERT_TRUE(continuation->stage && end.stage);
+      EXPECT_EQ(*continuation->stage, *end.stage);
       continuation->frame = from + request.frames;
     }
     EXPECT_EQ(key, dance.keys.size());

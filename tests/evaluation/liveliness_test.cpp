@@ -136,7 +136,7 @@ TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
     EXPECT_TRUE(std::isfinite(value)) << name << ", " << column;
     return value;
   };
-  EXPECT_LT(figure("limbs' path over chord m/m", "danced ÷ real"), 0.9);
+  EXPECT_LT(figure("limbs' path over chord m/m", "danced ÷ real"), 0.95);
   EXPECT_LT(figure("jerk below 8 Hz m/s³", "danced ÷ real"), 0.9);
   EXPECT_GE(figure("limbs' path over chord m/m", "danced"), 1);
   EXPECT_EQ(figure("seeds differ cm", "danced"), 0);

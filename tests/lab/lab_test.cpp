@@ -67,7 +67,7 @@ TEST(LabTest, MisuseIsCodeTwo) {
 TEST(LabTest, KnowsTheCommandsOfReproduceMd) {
   const TemporaryFolder empty;
   const std::vector<std::string> commands = CommandsOf("reproduce.md");
-  EXPECT_EQ(commands.size(), 6U);
+  EXPECT_EQ(commands.size(), 8U);
   for (const std::string& command : commands) {
 #ifndef CHOREO_SERVICE
     if (command.starts_with("prepare")) continue;
