@@ -5,6 +5,7 @@
 
 #include "model/core/rounded.h"
 #include "model/motion/resample.h"
+#include "model/motion/rotation.h"
 
 namespace choreo::client {
 namespace {
@@ -15,7 +16,6 @@ constexpr double kMusicBeyond_s = 0.5;  // the last frame hears a little beyond 
 
 using Contacts = std::array<float, 4>;
 
-constexpr double kDegrees = 180 / M_PI;
 constexpr double kBackwards = 15 / kDegrees;  // more than real knees, and errors of recordings
 
 /// New frames, at the model's rate, from `first` on.

@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// Leads a model's frames onto a key, frame by frame, without look-ahead (DESIGN section 5).
+/// Leads a model's frames onto a key, frame by frame, without look-ahead.
 ///
 /// Over the last A frames of a transition the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is
 /// the model's frame, w rises smoothly from 0 to 1 over the first two thirds of them, and h_t is

@@ -8,15 +8,6 @@ using torch::Tensor;
 using torch::indexing::Ellipsis;
 using torch::indexing::Slice;
 
-namespace {
-
-// delta → 0 would make the inverse explode and the likelihood unbounded (Eq. 7 leaves it open):
-// start near 1 and keep a floor.
-constexpr double kDeltaBias = 2.0;
-constexpr double kDeltaFloor = 0.05;
-
-}  // namespace
-
 CouplingNetworkImpl::CouplingNetworkImpl(int input, int hidden, int output, bool recurrent)
     : hidden_(hidden), recurrent_(recurrent) {
   if (recurrent_) {

@@ -5,6 +5,16 @@
 
 namespace choreo {
 
+/// delta of a coupling → 0 would make the inverse explode and the likelihood unbounded (paper F,
+/// Eq. 7 leaves it open): it starts near 1, and keeps a floor.
+inline constexpr double kDeltaBias = 2.0, kDeltaFloor = 0.05;
+/// Past frames and music beyond this many standard deviations are outliers that training never saw:
+/// they are kept in range.
+inline constexpr double kFeatureClamp = 6.0;
+/// Sampled frames beyond this many standard deviations bend softly towards one more: what they feed
+/// back can't run away, and a roll-out that tries to still has a gradient.
+inline constexpr double kSampleBound = 3.0;
+
 /// Shape and training-time switches of the flow model (paper F, Section 3.2). Stored in every
 /// checkpoint.
 struct FlowConfig {

@@ -14,13 +14,6 @@ using torch::Tensor;
 
 namespace {
 
-// Past frames and music beyond this many standard deviations are outliers that training never saw:
-// keep them in range.
-constexpr double kFeatureClamp = 6.0;
-// Sampled frames beyond this many standard deviations bend softly towards one more: what they feed
-// back can't run away, and a roll-out that tries to still has a gradient.
-constexpr double kSampleBound = 3.0;
-
 Tensor BoundSample(const Tensor& x) {
   const Tensor inside = x.clamp(-kSampleBound, kSampleBound);
   return inside + (x - inside).tanh();

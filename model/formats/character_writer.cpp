@@ -8,6 +8,7 @@
 #include "model/core/error.h"
 #include "model/formats/character_contents.h"
 #include "model/formats/character_file.h"
+#include "model/formats/gltf_nodes.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/kinematics.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kMaxPlaces = 3e7;  // of nodes in frames, whatever a small file claims
 constexpr double kFlattest = 1e-6;  // of a node's largest scale: below it is zero
 constexpr int kFloats = 5126;       // glTF's number for them
 

@@ -9,6 +9,9 @@
 
 namespace choreo {
 
+/// Places of nodes in frames that are read or written: a gigabyte, whatever a small file claims.
+inline constexpr double kMaxPlaces = 3e7;
+
 /// Where a node stands in its parent.
 struct GltfPlacement {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();

@@ -11,7 +11,6 @@ namespace {
 constexpr double kSparseRate = 20;  // keys a second below which they are no frames
 constexpr double kDefaultRate = 30;
 constexpr double kMaxFrames = 1e6;
-constexpr double kMaxPlaces = 3e7;  // of nodes in frames: a gigabyte, whatever a small file claims
 
 }  // namespace
 

@@ -13,7 +13,6 @@
 namespace choreo {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;  // a radian
 constexpr double kMostBend = 160;
 constexpr const char* kAxes[] = {"x", "y", "z"};
 

@@ -43,8 +43,8 @@ PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
 std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
                                      const PoseMask& mask = {});
 
-/// The neutral stance of DESIGN's "no history": rest pose, feet on the floor, at the origin, facing
-/// +Z.
+/// The neutral stance that a dance without a history begins in: rest pose, feet on the floor, at
+/// the origin, facing +Z.
 Pose RestPose(const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -7,18 +7,18 @@
 #include "model/core/rounded.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;  // a radian
-constexpr double kUnderFloor = 0.05;                 // metres that a rounded pose may be
-constexpr double kHighestJump = 1.2;                 // metres that feet are above the floor
-constexpr double kBackwards = 15;                    // degrees; more than real limbs, or recordings
-constexpr double kFolded = 165;                      // degrees
-constexpr double kInAir = 0.15;                      // metres; less may be tiptoe
-constexpr double kLongestJump = 1.0;                 // seconds
-constexpr double kLimbSpeed = 7;                     // m/s, about the body
+constexpr double kUnderFloor = 0.05;  // metres that a rounded pose may be
+constexpr double kHighestJump = 1.2;  // metres that feet are above the floor
+constexpr double kBackwards = 15;     // degrees; more than real limbs, or recordings
+constexpr double kFolded = 165;       // degrees
+constexpr double kInAir = 0.15;       // metres; less may be tiptoe
+constexpr double kLongestJump = 1.0;  // seconds
+constexpr double kLimbSpeed = 7;      // m/s, about the body
 
 /// Where each joint is, as far as the rotations above it are asked for.
 std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask) {

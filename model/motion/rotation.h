@@ -2,11 +2,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <numbers>
 
 /// Rotations: exponential map (axis-angle), matrix, quaternion, and the continuous 6D form of Zhou
 /// et al. 2019. Double precision, radians. All functions are pure and thread-safe; `w` is an
 /// axis-angle vector, its norm the angle.
 namespace choreo {
+
+inline constexpr double kDegrees = 180 / std::numbers::pi;  ///< a radian
 
 /// Rodrigues' formula; accurate to 1e-12 down to the zero vector. Grassia 1998, paper F's reference
 /// [47].

@@ -5,16 +5,9 @@
 #include <numbers>
 #include <utility>
 
+#include "model/flow/flow_config.h"
+
 namespace choreo {
-namespace {
-
-// As model/flow has them (coupling_flow.cpp, flow_model.cpp); the parity test holds both together.
-constexpr float kDeltaBias = 2.0F;
-constexpr float kDeltaFloor = 0.05F;
-constexpr float kFeatureClamp = 6.0F;
-constexpr float kSampleBound = 3.0F;
-
-}  // namespace
 
 PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
     : flow_(std::move(flow)), slots_(static_cast<size_t>(slots)) {
