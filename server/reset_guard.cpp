@@ -45,6 +45,7 @@ void End(const std::string& peer) try {
   const sockaddr nobody{.sa_family = AF_UNSPEC, .sa_data = {}};
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
     const int descriptor = std::stoi(entry.path().filename().string());
+    // A socket that listens has no peer.
     if (PeerOf(descriptor) == peer) connect(descriptor, &nobody, sizeof nobody);
   }
 } catch (const std::exception& error) {  // the process is out of descriptors, for one
@@ -97,12 +98,14 @@ bool ResetGuard::IsFull(int connection) const {
 }
 
 void ResetGuard::Enter(const std::string& peer) {
+  // gRPC does not say whose its own services' calls are. None of them ends anybody's.
+  if (peer.empty()) return;
   {
     const std::lock_guard lock(mutex_);
     Connection& connection = connections_[peer];
     if (++connection.calls <= most_ || std::exchange(connection.closed, true)) return;
   }
-  spdlog::warn("{} resets calls faster than they can be ended; its connection is closed", peer);
+  spdlog::warn("{} has begun more calls than can be ended; its connection is closed", peer);
   End(peer);
 }
 

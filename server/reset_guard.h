@@ -23,7 +23,8 @@ class ResetGuard {
   /// Whether no more connections are taken from where this socket's peer is.
   bool IsFull(int connection) const;
 
-  /// A call begins, and is done; `peer` as gRPC has it: an address and a port.
+  /// A call begins, and is done; `peer` as gRPC has it: an address and a port. Empty, as it is for
+  /// gRPC's own services: it is not counted.
   void Enter(const std::string& peer);
   void Leave(const std::string& peer);
 

@@ -2,18 +2,24 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
+#include <utility>
 
 #include "model/audio/format.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
+#include "server/status.h"
 #include "server/stream_reactor.h"
 #include "server/transition_reactor.h"
 #include "server/write_response.h"
 
 namespace choreo {
 namespace {
+
+// Of one address, that it has not read: each takes tens of kilobytes until it does.
+constexpr int kMostUnreadInfos = 64;
 
 void FillLimits(const CallLimits& of_calls, v1::Limits* limits) {
   const auto seconds = [](std::chrono::milliseconds time) {
@@ -38,20 +44,49 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* ChoreographyService
   return MakeStreamReactor(serving_, context);
 }
 
+/// Lives until its answer has gone out, or nobody waits for it any more.
+class ChoreographyService::InfoReactor final : public grpc::ServerUnaryReactor {
+ public:
+  InfoReactor(ChoreographyService& service, std::string address)
+      : service_(service), address_(std::move(address)) {
+    const std::lock_guard lock(service_.mutex_);
+    within_ = ++service_.unread_infos_[address_] <= kMostUnreadInfos;
+  }
+  bool within() const { return within_; }
+  void OnDone() override {
+    {
+      const std::lock_guard lock(service_.mutex_);
+      const auto at = service_.unread_infos_.find(address_);
+      if (--at->second == 0) service_.unread_infos_.erase(at);
+    }
+    delete this;
+  }
+
+ private:
+  ChoreographyService& service_;
+  const std::string address_;
+  bool within_ = false;
+};
+
 grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
     grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* /*request*/,
     v1::GetServerInfoResponse* response) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   Caller caller = CallerOf(*context);
-  const grpc::Status status =
+  auto* reactor = new InfoReactor(*this, AddressOf(caller.peer));
+  grpc::Status status =
       serving_.tokens.FindHolder(HeaderOf(*context, "authorization"), &caller.holder);
+  if (status.ok() && !reactor->within()) {
+    status = ToStatus({ErrorCode::kResourceExhausted, "",
+                       std::to_string(kMostUnreadInfos) +
+                           " answers wait for your address to read them, the most there may be"});
+  }
   if (status.ok()) Describe(response);
   serving_.tally.Count({.method = "GetServerInfo",
                         .caller = caller,
                         .status = status,
                         .seconds = std::chrono::duration<double>(Clock::now() - begin).count()});
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   reactor->Finish(status);
   return reactor;
 }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <map>
+#include <mutex>
+#include <string>
+
 #include "choreo/v1/choreography.grpc.pb.h"
 #include "server/serving.h"
 
@@ -24,10 +28,14 @@ class ChoreographyService final
                                           v1::GetServerInfoResponse* response) override;
 
  private:
+  class InfoReactor;
+
   void Describe(v1::GetServerInfoResponse* response) const;
 
   Serving& serving_;
   const double max_sleep_s_;
+  std::mutex mutex_;
+  std::map<std::string, int> unread_infos_;  // by address, above 0. Lock: mutex_
 };
 
 }  // namespace choreo

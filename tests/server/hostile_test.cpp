@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <signal.h>
 
 #include <atomic>
@@ -65,6 +66,61 @@ TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
   EXPECT_LT(grown, 64 << 20);
   SlowestDanceDuring([] {});
   std::cout << "memory grew by " << (grown >> 10) << " KiB\n";
+}
+
+// Of calls of gRPC's own services nobody is told whose they are: they end no connection, and the
+// server goes on listening.
+TEST_F(HostileTest, ReflectionThatIsLeftOpenEndsNobodysConnection) {
+  Start(1);
+  constexpr int kConnections = 8, kCalls = 100;
+  std::vector<std::unique_ptr<Http2>> open;
+  for (int i = 0; i < kConnections; ++i) {
+    open.push_back(std::make_unique<Http2>(server->port()));
+    for (uint32_t call = 0; call < kCalls; ++call) {
+      ASSERT_TRUE(open.back()->Send(Http2::Call(
+          2 * call + 1, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo")));
+    }
+  }
+  SlowestDanceDuring([] {});
+  grpc::ClientContext context;
+  v1::GetServerInfoResponse info;
+  const auto newcomer = StubOfAnotherAddress(server->port());
+  EXPECT_TRUE(newcomer->GetServerInfo(&context, {}, &info).ok());
+  open.clear();
+  SlowestDanceDuring([] {});
+}
+
+// Answers that nobody reads are so many for each address, and the next is told so.
+TEST_F(HostileTest, AnswersThatNobodyReadsAreBounded) {
+  Start(1);
+  constexpr int kConnections = 4, kCalls = 90, kSome = 64;
+  const int64_t before = ResidentBytes("self");
+  const std::string no_window("\0\x04\0\0\0\0", 6), empty(5, '\0');
+  std::vector<std::unique_ptr<Http2>> deaf;
+  for (int i = 0; i < kConnections; ++i) {
+    deaf.push_back(std::make_unique<Http2>(server->port()));
+    deaf.back()->Send(Http2::Frame(Http2::kSettings, 0, 0, no_window));
+    for (uint32_t stream = 1; stream < 2 * kCalls; stream += 2)
+      deaf.back()->Send(Http2::Call(stream, "GetServerInfo") +
+                        Http2::Frame(Http2::kData, 1, stream, empty));
+    EXPECT_EQ(deaf.back()->Ends(2 * kCalls - 1), true) << "it is refused";
+  }
+  const auto ask = [&](v1::Choreography::Stub& stub) {
+    grpc::ClientContext context;
+    v1::GetServerInfoResponse info;
+    return stub.GetServerInfo(&context, {}, &info);
+  };
+  const grpc::Status refused = ask(stub());
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(refused.error_message(), testing::HasSubstr(std::to_string(kSome)));
+  EXPECT_TRUE(ask(*StubOfAnotherAddress(server->port())).ok());
+  std::cout << kConnections * kCalls
+            << " answers unread: " << ((ResidentBytes("self") - before) >> 20) << " MiB more\n";
+  deaf.clear();
+  const auto until = Clock::now() + std::chrono::seconds(20);
+  while (!ask(stub()).ok() && Clock::now() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_TRUE(ask(stub()).ok());
 }
 
 // Calls that are reset as soon as they are begun, as fast as they can be sent.

@@ -38,14 +38,16 @@ class Http2 {
     for (int shift = 24; shift >= 0; shift -= 8) frame += static_cast<char>(stream >> shift);
     return frame + payload;
   }
-  /// The headers of a call, in HPACK's words that need no table and no Huffman code.
+  /// The headers of a call, in HPACK's words that need no table and no Huffman code. `method` is
+  /// ours, or the path of somebody else's.
   static std::string Call(uint32_t stream, const std::string& method) {
+    const std::string path = method.starts_with('/') ? method : "/choreo.v1.Choreography/" + method;
     const auto text = [](const std::string& value) {
       return static_cast<char>(value.size()) + value;
     };
-    const std::string block =
-        std::string("\x83\x86\x04", 3) + text("/choreo.v1.Choreography/" + method) + '\x01' +
-        text("x") + "\x0f\x10" + text("application/grpc") + '\0' + text("te") + text("trailers");
+    const std::string block = std::string("\x83\x86\x04", 3) + text(path) + '\x01' + text("x") +
+                              "\x0f\x10" + text("application/grpc") + '\0' + text("te") +
+                              text("trailers");
     constexpr int kEndHeaders = 4;
     return Frame(kHeaders, kEndHeaders, stream, block);
   }
