@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client/cli/choreography.h"
+#include "client/cli/key_faults.h"
 #include "client/cli/key_file.h"
 #include "client/cli/photo_pose.h"
 #include "client/cli/pose_library.h"
@@ -83,8 +84,14 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
   if (found == dances_.end()) return;  // it is over, which the page may not have heard yet
   client::RemoteDance& dance = *found->second.dance;
   switch (request.request_case()) {
-    case v1::StreamDanceRequest::kKeyframe:
-      return dance.SendKey(FromProto(request.keyframe(), house_.model().skeleton));
+    case v1::StreamDanceRequest::kKeyframe: {
+      const client::KeyPose key = FromProto(request.keyframe(), house_.model().skeleton);
+      if (found->second.is_live)
+        TellFaults(call, {key});
+      else
+        found->second.keys.push_back(key);
+      return dance.SendKey(key);
+    }
     case v1::StreamDanceRequest::kRemoveKeyframe:
       return dance.RemoveKey(request.remove_keyframe().id());
     case v1::StreamDanceRequest::kControls:
@@ -92,6 +99,7 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
     case v1::StreamDanceRequest::kGenerateUntil:
       return dance.GenerateUntil(request.generate_until().frame());
     case v1::StreamDanceRequest::kKeyframesComplete:
+      TellFaults(call, std::exchange(found->second.keys, {}));
       return dance.CompleteKeys();
     case v1::StreamDanceRequest::kAudio:
       return dance.SendSamples(SamplesOf(request.audio()));
@@ -99,6 +107,15 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
       return dance.EndAudio();
     default:
       throw InvalidArgument("dance", "beats come from the studio, not from the page");
+  }
+}
+
+void Desk::TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
+  for (const client::Warning& fault :
+       cli::KeyFaults(keys, house_.model().fps, house_.model().skeleton)) {
+    Response response;
+    *response.mutable_dance() = ToProto(fault);
+    Answer(call, std::move(response));
   }
 }
 
@@ -114,6 +131,7 @@ void Desk::StartDance(uint32_t call, const v1::DanceConfig& request) {
   if (music) config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
   if (hears) config.audio = music->audio.format;
   Dancing& dancing = dances_[call];
+  dancing.is_live = is_live;
   dancing.dance = house_.client().StartDance(config);
   if (hears) {
     dancing.dance->SendSamples(music->audio.samples);
@@ -232,8 +250,19 @@ void Desk::Transition(uint32_t call, const v1::GenerateTransitionRequest& asked)
     client::SetMusic(music->audio, house_.model(), first, &request);
     request.config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
   }
-  for (v1::GenerateTransitionResponse& part :
-       ToProto(house_.client().GenerateTransition(request))) {
+  client::TransitionResult made = house_.client().GenerateTransition(request);
+  if (request.target) {
+    const int64_t first = request.config.continuation ? request.config.continuation->frame
+                                                      : request.config.first_frame;
+    const client::KeyPose key{.id = request.target_id,
+                              .frame = first + request.frames - 1,
+                              .pose = *request.target,
+                              .mask = request.target_mask};
+    for (client::Warning& fault :
+         cli::KeyFaults(std::vector{key}, house_.model().fps, house_.model().skeleton))
+      made.warnings.push_back(std::move(fault));
+  }
+  for (v1::GenerateTransitionResponse& part : ToProto(made)) {
     Response response;
     *response.mutable_transition() = std::move(part);
     Answer(call, std::move(response));

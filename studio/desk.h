@@ -35,11 +35,15 @@ class Desk {
   struct Dancing {
     std::unique_ptr<client::RemoteDance> dance;
     std::thread reader;
-    bool over = false;  // guarded by mutex_
+    bool is_live = false;               // its keys come one by one
+    std::vector<client::KeyPose> keys;  // until they are complete
+    bool over = false;                  // guarded by mutex_
   };
 
   void TakeDance(uint32_t call, const v1::StreamDanceRequest& request);
   void StartDance(uint32_t call, const v1::DanceConfig& config);
+  /// What no body could dance of the keys, as warnings at their frames.
+  void TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
   void ReadDance(uint32_t call, Dancing* dancing);
   void EndDance(uint32_t call);
   void Reap();

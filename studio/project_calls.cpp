@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "client/cli/control_options.h"
+#include "client/cli/dance_keys.h"
 #include "client/cli/json_fields.h"
+#include "client/cli/key_faults.h"
 #include "client/cli/key_file.h"
 #include "client/cli/project_file.h"
 #include "client/cli/velocity_options.h"
@@ -148,7 +150,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   json file = cli::ParseJson(text, kName);
   const cli::Project project = cli::ParseProject(file, kName);
   const std::optional<Song> song = TakeSong(&file, project.song, house_.most_seconds());
-  const std::vector<client::KeyPose> keys = cli::ParseKeyFile(file.dump(), kName, model.skeleton);
+  std::vector<client::KeyPose> keys = cli::ParseKeyFile(file.dump(), kName, model.skeleton);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
   // An answer has to fit into memory.
@@ -164,6 +166,10 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   config.seed = project.seed.value_or(0);
   config.style = project.style;
   config.frames = std::llround(seconds * model.fps);
+  for (size_t i = 0; i < keys.size(); ++i) {
+    cli::FitIntoDance({.frames = *config.frames, .fps = model.fps},
+                      std::string(kName) + ":keyframes[" + std::to_string(i) + "]", &keys[i]);
+  }
   if (!project.velocities.empty())
     config.controls.velocity_factors = cli::ReadVelocities(project.velocities, "", model.fps);
   if (!project.path.empty()) {
@@ -175,10 +181,12 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
     config.music_beats = cli::BeatsBefore(song->music, seconds);
     if (model.takes_music) audio = cli::AudioFor(song->music.audio, seconds);
   }
-  const client::DanceResult dance =
+  client::DanceResult dance =
       house_.client().Dance(config, keys, audio, [this](const client::Message&) {
         if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
       });
+  for (client::Warning& fault : cli::KeyFaults(keys, model.fps, model.skeleton))
+    dance.warnings.push_back(std::move(fault));
   if (!as_bvh) return {.body = DanceJson(dance)};
   std::ostringstream out;
   WriteBvh(out, MotionToBvh(dance.header.skeleton, dance.motion));

@@ -15,18 +15,6 @@ namespace {
 
 constexpr const char* kNoKeys = "none";
 
-/// Whoever asks for second 30 of a dance of 30 seconds means its end.
-void ComeToEnd(client::KeyPose* key, const DanceLength& length) {
-  if (!key->frame && FrameOf(*key, length.fps) == length.frames) key->frame = length.frames - 1;
-}
-
-void CheckInside(const client::KeyPose& key, const std::string& place, const DanceLength& length) {
-  const int64_t frame = FrameOf(key, length.fps);
-  if (frame < length.frames) return;
-  throw InvalidArgument(place + (key.frame ? ".frame" : ".time"),
-                        "key \"" + key.id + "\" " + SayBehindEnd(frame, length));
-}
-
 }  // namespace
 
 bool SaysNoKeys(const std::vector<std::string>& sources) {
@@ -52,6 +40,14 @@ int64_t FrameOf(const client::KeyPose& key, double fps) {
   return key.frame.value_or(std::llround(key.time_s * fps));
 }
 
+void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key) {
+  const int64_t frame = FrameOf(*key, length.fps);
+  if (!key->frame && frame == length.frames) key->frame = length.frames - 1;
+  if (FrameOf(*key, length.fps) < length.frames) return;
+  throw InvalidArgument(place + (key->frame ? ".frame" : ".time"),
+                        "key \"" + key->id + "\" " + SayBehindEnd(frame, length));
+}
+
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton) {
   DanceKeys read;
@@ -65,8 +61,7 @@ DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLeng
         throw InvalidArgument(place + ".id",
                               "\"" + keys[i].id + "\" stands for " + same->second + " already");
       }
-      ComeToEnd(&keys[i], length);
-      CheckInside(keys[i], place, length);
+      FitIntoDance(length, place, &keys[i]);
       read.poses.push_back(std::move(keys[i]));
       read.places.push_back(place);
     }

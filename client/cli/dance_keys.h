@@ -32,10 +32,14 @@ std::string SayBehindEnd(int64_t frame, const DanceLength& length);
 /// The frame that a key asks for, at the model's rate.
 int64_t FrameOf(const client::KeyPose& key, double fps);
 
+/// Whoever asks for second 30 of a dance of 30 seconds means its end: a key there stands on the
+/// last frame. Throws Error(kInvalidArgument), whose field begins with `place`, for one behind
+/// that.
+void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
+
 /// Reads key poses from sources as ReadKeys (key_file.h) takes them. Throws what that does, and
 /// Error(kInvalidArgument), whose field begins with the key's place, for an id that an earlier key
-/// has and for a key behind the dance's end. A key at the very end, which is
-/// a frame behind the last, is danced on the last.
+/// has; each is fitted into the dance.
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton);
 

@@ -69,7 +69,8 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
 
 void EditSession::SetKey(const std::string& source, double at_s) {
   const NamedPose named = ReadPose(source, edit_.model.skeleton);
-  const int64_t frame = Frame(at_s);
+  // The very end means the last frame, as it does for keys of a new dance (dance_keys.h).
+  const int64_t frame = Frame(at_s) == frames_ ? frames_ - 1 : Frame(at_s);
   if (frame >= frames_) {
     throw InvalidArgument("--at", InFull(at_s) +
                                       " s lies behind the dance, which has its last frame at " +

@@ -19,10 +19,18 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
     client::Warning& warning = warnings.emplace_back();
     warning.frame = FrameOf(keys.poses[fault.pose], fps);
-    warning.message = "key \"" + keys.poses[fault.pose].id + "\" (" + keys.places[fault.pose] +
-                      "): " + fault.message;
+    const std::string place = keys.places.empty() ? "" : " (" + keys.places[fault.pose] + ")";
+    warning.message = "key \"" + keys.poses[fault.pose].id + "\"" + place + ": " + fault.message;
   }
   return warnings;
+}
+
+std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
+                                       const Skeleton& skeleton) {
+  DanceKeys by_time{.poses = keys, .places = {}};
+  std::ranges::stable_sort(by_time.poses, {},
+                           [&](const client::KeyPose& key) { return FrameOf(key, fps); });
+  return KeyFaults(by_time, fps, skeleton);
 }
 
 std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,

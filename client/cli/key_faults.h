@@ -11,6 +11,10 @@ namespace choreo::cli {
 /// keyframes[2]): the body hangs 2 m above the floor; ..." (motion/pose_faults.h).
 std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
+/// The same of keys that stand in no file, by time.
+std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
+                                       const Skeleton& skeleton);
+
 /// The same of one key that is set into a dance; `around` are the poses between which the dancer
 /// gets there and away, by time, named as messages call them.
 std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,

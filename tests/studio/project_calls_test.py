@@ -71,6 +71,18 @@ class ProjectCalls(unittest.TestCase):
         self.assertNotEqual(dance(style="wild")[1], text)
         self.assertNotEqual(dance(lively={"left arm": 2})[1], text)
 
+    def test_an_impossible_key_is_told(self):
+        sunk = {"id": "sunk", "time": 1, "rotations": REST, "root_position": [0, 0.2, 0]}
+        warnings = json.loads(dance(keyframes=[sunk])[1])["warnings"]
+        self.assertTrue(any(told["frame"] == 30 and "sunk" in told["message"] for told in warnings), warnings)
+
+    def test_a_key_at_the_very_end_is_on_the_last_frame(self):
+        key = {"id": "last", "rotations": REST, "root_position": [0.5, 0.9, 0]}
+        status, text = dance(keyframes=[{**key, "time": 2}])
+        self.assertEqual(status, 200, text)
+        self.assertLess(math.dist(json.loads(text)["root_positions"][59], (0.5, 0.9, 0)), 0.002)
+        self.refused(dance(keyframes=[{**key, "time": 2.1}]), 400, "project:keyframes[0].time")
+
     def test_as_bvh(self):
         status, text = dance("/dance?as=bvh")
         self.assertEqual(status, 200)

@@ -172,6 +172,38 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   }
 }
 
+// Of a key that no body could dance, once all are there; and of one that an interval leads to.
+TEST_F(StudioTest, TellsOfImpossibleKeys) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  LibraryPose sunk = page.welcome().poses(6);
+  sunk.mutable_pose()->mutable_root_position()->set_y(0.2F);
+  page.Say(2, DanceRequest(90, 7));
+  page.Say(2, KeyRequest(page.welcome().poses(6), 30));
+  page.Say(2, KeyRequest(sunk, 60));
+  page.Say(2, Complete());
+  const auto next_warning = [&](auto event_of) {
+    while (true) {
+      const v1::Event event = event_of(page.Read());
+      if (event.has_warning()) return event;
+    }
+  };
+  const v1::Event told = next_warning([](const Response& said) { return said.dance().event(); });
+  EXPECT_EQ(told.frame(), 60);
+  EXPECT_THAT(told.warning().message(), HasSubstr("floor"));
+
+  Request request;
+  v1::GenerateTransitionRequest* transition = request.mutable_transition();
+  transition->set_frames(20);
+  transition->set_target_id("sunk");
+  *transition->mutable_target() = sunk.pose();
+  page.Say(3, request);
+  const v1::Event again =
+      next_warning([](const Response& said) { return said.transition().event(); });
+  EXPECT_EQ(again.frame(), 19);
+  EXPECT_THAT(again.warning().message(), HasSubstr("key \"sunk\": "));
+}
+
 TEST_F(StudioTest, DancesInAStyle) {
   const Opened studio(server_.address());
   Page page(studio.port());
