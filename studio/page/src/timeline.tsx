@@ -151,10 +151,17 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
     chip.addEventListener('pointerup', end);
     chip.addEventListener('pointercancel', end);
   };
+  // Whoever goes by keyboard goes on from the key beside it.
+  const remove = (chip: EventTarget | null) => {
+    const chips = [...document.querySelectorAll<HTMLElement>('[data-key]')];
+    const at = chips.findIndex((other) => other === chip);
+    studio.removeKey(item.id);
+    (chips[at + 1] ?? chips[at - 1])?.focus();
+  };
   const press = (event: KeyboardEvent) => {
     const frames = beats().map((beat) => Math.round(beat * fps));
     if (event.key === 'Enter') choose();
-    else if (event.key === 'Delete' || event.key === 'Backspace') studio.removeKey(item.id);
+    else if (event.key === 'Delete' || event.key === 'Backspace') remove(event.currentTarget);
     else if (event.key === 'ArrowRight')
       studio.moveKey(item.id, event.shiftKey ? item.frame + 1 : frames.find((beat) => beat > item.frame) ?? item.frame + 15);
     else if (event.key === 'ArrowLeft')

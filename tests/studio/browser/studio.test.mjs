@@ -103,6 +103,15 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
     assert.deepEqual(changed(after, await frames()), []);
   });
 
+  await check('a key that is removed by keyboard leaves the focus with the next', async () => {
+    const next = await page.locator('.key').nth(2).getAttribute('data-key');
+    await page.locator('.key').nth(1).press('Delete');
+    await settle();
+    assert.equal(await page.evaluate(() => document.activeElement?.dataset.key), next);
+    await page.keyboard.press('Control+z');
+    await settle();
+  });
+
   await check('a pose is bent by its hand, and danced', async () => {
     await page.locator('.key').nth(1).click();
     const { x, y } = await until(() => window.choreo.stage.value?.whereIs('left_hand'));
