@@ -44,7 +44,7 @@ TEST(ExampleTest, ItDances) {
   TestServer server;
   const Outcome outcome = Shell("'" FIRST_DANCE "' " + server.address());
   EXPECT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, testing::HasSubstr("151 frames"));
+  EXPECT_THAT(outcome.said, testing::HasSubstr("76 frames"));
 }
 
 }  // namespace
