@@ -66,6 +66,15 @@ Tensor EmbedTime(const Tensor& t) {
   return embedded.to(t.device());
 }
 
+// Whether the CPU multiplies bfloat16. One that doesn't takes thirty times as long as with float32.
+bool MultipliesBfloat16() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512bf16") != 0;
+#else
+  return false;
+#endif
+}
+
 // While it lives, products of matrices are made in bfloat16 where `on`: training is twice as fast.
 class Bfloat16Products {
  public:
@@ -186,7 +195,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   x = embed_(x.reshape({batch, tokens, -1})) + inject_(condition).unsqueeze(1);
   const Tensor distance = TimeDistances(tokens, z.device(), kMostTokensApart);
   {
-    const Bfloat16Products fast(is_training());
+    const Bfloat16Products fast(is_training() && MultipliesBfloat16());
     for (const auto& block : *blocks_) x = block->as<FlowBlock>()->forward(x, condition, distance);
   }
   const std::vector<Tensor> m = head_modulation_(condition).unsqueeze(1).chunk(2, -1);
