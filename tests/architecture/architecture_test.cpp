@@ -8,6 +8,8 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/architecture/includes.h"
 
@@ -86,6 +88,66 @@ TEST(Architecture, EveryRoomStandsAboveWhatItIncludes) {
     }
   }
   EXPECT_THAT(wrong, IsEmpty());
+}
+
+// "model/core" -> "core"; what protoc makes of proto/ is included by the names of its packages.
+std::string DrawnAs(const std::string& room) {
+  if (room == "choreo" || room == "google" || room == "grpc") return "proto";
+  return room.substr(room.find('/') + 1);
+}
+
+using Arrows = std::set<std::pair<std::string, std::string>>;
+
+// With all that follow from two in a row.
+Arrows Closed(Arrows arrows) {
+  for (size_t known = 0; known != arrows.size();) {
+    known = arrows.size();
+    for (const auto& [from, over] : Arrows(arrows)) {
+      for (const auto& [second, to] : Arrows(arrows)) {
+        if (second == over) arrows.insert({from, to});
+      }
+    }
+  }
+  return arrows;
+}
+
+// Of lines as "fit & body --> formats --> draw" on the page.
+Arrows DrawnArrows() {
+  std::ifstream page(std::filesystem::path(CHOREO_SOURCE_DIR) / "docs/architecture.md");
+  const std::regex name(R"(\w+|-->)");
+  Arrows arrows;
+  for (std::string line; std::getline(page, line);) {
+    if (line.find("-->") == std::string::npos || line.starts_with("<!--")) continue;
+    std::vector<std::string> from, to;
+    for (std::sregex_iterator at(line.begin(), line.end(), name), end;; ++at) {
+      if (at == end || at->str() == "-->") {
+        for (const std::string& one : from) {
+          for (const std::string& other : to) arrows.insert({one, other});
+        }
+        from = std::exchange(to, {});
+        if (at == end) break;
+      } else {
+        to.push_back(at->str());
+      }
+    }
+  }
+  return arrows;
+}
+
+TEST(Architecture, ThePictureHasTheArrows) {
+  Arrows allowed;
+  for (const auto& [room, others] : Rooms()) {
+    for (const std::string& other : others) allowed.insert({DrawnAs(other), DrawnAs(room)});
+  }
+  const Arrows drawn = DrawnArrows();
+  EXPECT_EQ(Closed(drawn), Closed(allowed));
+  for (const auto& arrow : drawn) {
+    EXPECT_TRUE(allowed.contains(arrow)) << arrow.first << " --> " << arrow.second;
+    Arrows others = drawn;
+    others.erase(arrow);
+    EXPECT_FALSE(Closed(others).contains(arrow))
+        << arrow.first << " --> " << arrow.second << " follows from the others";
+  }
 }
 
 TEST(Architecture, EveryFileHasARoom) {
