@@ -5,6 +5,7 @@
     scripts/api_reference.py --check    changes nothing; fails where the page is not what the proto says
 """
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -17,9 +18,12 @@ FILES = ("choreo/v1/choreography.proto", "choreo/v1/motion.proto")
 Field = descriptor_pb2.FieldDescriptorProto
 HEAD = """# API
 
-Written by `scripts/api_reference.py` from the comments of [proto/choreo/v1](../proto/choreo/v1); do not edit. What a dance is made of,
-in the order of messages, stands in [contract](contract.md); clients in [examples](../examples).
+Written by `scripts/api_reference.py` from the comments of [proto/choreo/v1](../proto/choreo/v1); do not edit. It has every call, message,
+field and value; where a comment says more, … leads there. Time, sizes and statuses are told at the top of
+[choreography.proto](../proto/choreo/v1/choreography.proto), what is promised in [contract](contract.md), clients are in [examples](../examples).
 """
+# Sentences that say what is allowed: kept wherever they stand in a comment.
+RULE = re.compile(r"(Required|Default|Absent|Empty|Range|Only|Must|Needs|At (most|least)|\d[\d ]* to) ?\b")
 
 
 def described():
@@ -29,60 +33,78 @@ def described():
         return descriptor_pb2.FileDescriptorSet.FromString(pathlib.Path(out.name).read_bytes()).file
 
 
-def comments_of(file):
-    """Comments by path, as descriptor.proto has paths."""
-    return {tuple(at.path): " ".join(at.leading_comments.split()) for at in file.source_code_info.location if at.leading_comments}
+class Comments:
+    """Of a file, by path, as descriptor.proto has paths."""
+
+    def __init__(self, file):
+        self.page = f"../proto/{file.name}"
+        self.said = {tuple(at.path): (at.leading_comments.strip(), at.span[0] + 1) for at in file.source_code_info.location}
+
+    def paragraphs(self, path):
+        return [" ".join(paragraph.split()) for paragraph in self.said[path][0].split("\n\n") if paragraph.strip()]
+
+    def brief(self, path):
+        """The first sentence and the rules, as a cell; what is left out is led to."""
+        text, line = self.said[path]
+        first, *others = re.split(r"(?<=\.) (?=[A-Z`(])", " ".join(text.split()))
+        rules = [sentence for sentence in others if RULE.match(sentence)]
+        more = [f"[…]({self.page}#L{line})"] if len(rules) < len(others) else []
+        return " ".join([first, *rules, *more]).replace("|", "\\|")
+
+
+def link(type_name):
+    name = type_name.rsplit(".", 1)[-1]
+    return f"[{name}](#{name.lower()})"
 
 
 def type_of(field):
-    if field.type_name:
-        name = field.type_name.rsplit(".", 1)[-1]
-        kind = f"[{name}](#{name.lower()})" if ".choreo." in field.type_name else field.type_name.lstrip(".")
-    else:
-        kind = Field.Type.Name(field.type)[len("TYPE_"):].lower()
+    kind = link(field.type_name) if field.type_name else Field.Type.Name(field.type)[len("TYPE_"):].lower()
     if field.label == Field.LABEL_REPEATED:
         return f"repeated {kind}"
     return f"optional {kind}" if field.proto3_optional else kind
 
 
-def cell(text):
-    return text.replace("|", "\\|")
+def service_lines(service, path, comments):
+    lines = [f"## {service.name}", "", "| call | asks | answers |", "|---|---|---|"]
+    for method in service.method:
+        asks, answers = (f"{'stream of ' * streams}{link(name)}" for streams, name in (
+            (method.client_streaming, method.input_type), (method.server_streaming, method.output_type)))
+        lines.append(f"| [{method.name}](#{method.name.lower()}) | {asks} | {answers} |")
+    for i, method in enumerate(service.method):
+        lines += ["", f"### {method.name}"]
+        for paragraph in comments.paragraphs(path + (2, i)):
+            lines += ["", re.sub(r"^(\w+(?: [\w-]+){1,3}\.) ", r"**\1** ", paragraph)]
+    return lines + [""]
 
 
-def message_lines(message, path, comments, above=""):
-    name = above + message.name
-    lines = [f"### {message.name}", "", comments.get(path, "")] + [""]
+def message_lines(message, path, comments):
+    choices = [field.HasField("oneof_index") and not field.proto3_optional for field in message.field]
+    lines = [f"### {message.name}", "", comments.brief(path) + " One of:" * (all(choices) and any(choices)), ""]
     if message.field:
-        lines += ["| field | type | meaning |", "|---|---|---|"]
+        lines += ["| field | meaning |", "|---|---|"]
     for i, field in enumerate(message.field):
-        alone = field.HasField("oneof_index") and not field.proto3_optional
-        one_of = f" (one of `{message.oneof_decl[field.oneof_index].name}`)" if alone else ""
-        lines.append(f"| `{field.name}` | {type_of(field)} | {cell(comments.get(path + (2, i), ''))}{one_of} |")
+        one_of = f" (one of `{message.oneof_decl[field.oneof_index].name}`)" if choices[i] and not all(choices) else ""
+        lines.append(f"| `{field.name}`: {type_of(field)} | {comments.brief(path + (2, i))}{one_of} |")
     lines.append("")
     for i, nested in enumerate(message.nested_type):
-        lines += message_lines(nested, path + (3, i), comments, name + ".")
+        lines += message_lines(nested, path + (3, i), comments)
     for i, enum in enumerate(message.enum_type):
         lines += enum_lines(enum, path + (4, i), comments)
     return lines
 
 
 def enum_lines(enum, path, comments):
-    lines = [f"### {enum.name}", "", comments.get(path, ""), "", "| value | meaning |", "|---|---|"]
-    lines += [f"| `{value.name}` | {cell(comments.get(path + (2, i), ''))} |" for i, value in enumerate(enum.value)]
+    lines = [f"### {enum.name}", "", comments.brief(path), "", "| value | meaning |", "|---|---|"]
+    lines += [f"| `{value.name}` | {comments.brief(path + (2, i))} |" for i, value in enumerate(enum.value)]
     return lines + [""]
 
 
 def page():
     lines = [HEAD]
     for file in sorted(described(), key=lambda file: not file.service):  # calls first
-        comments = comments_of(file)
+        comments = Comments(file)
         for i, service in enumerate(file.service):
-            lines += [f"## {service.name}", "", comments.get((6, i), ""), ""]
-            for j, method in enumerate(service.method):
-                asks, answers = (name.rsplit(".", 1)[-1] for name in (method.input_type, method.output_type))
-                stream = lambda on, name: f"stream of [{name}](#{name.lower()})" if on else f"[{name}](#{name.lower()})"
-                lines += [f"### {method.name}", "", f"{stream(method.client_streaming, asks)} → {stream(method.server_streaming, answers)}", "",
-                          comments.get((6, i, 2, j), ""), ""]
+            lines += service_lines(service, (6, i), comments)
         lines += [f"## Messages of {file.name.rsplit('/', 1)[-1]}", ""]
         for i, message in enumerate(file.message_type):
             lines += message_lines(message, (4, i), comments)
