@@ -170,16 +170,15 @@ def main(folder, root):
             figures[f"paper/{name}/{n}"] = rate
     figures |= memory_figures(figures, engine)
     context = engine["context"]
-    lines = ["# Performance", "",
-             "`make bench` writes this page. Engines are measured on **one thread**: frames a second of CPU time, medians of 5 interleaved repetitions. Their frames are "
-             "whole, with windows, noise and poses; eager PyTorch (`bench/peer_torch.py`, the same checkpoint) and the bare products (oneDNN) have the network alone. "
-             "Servers have their defaults, and share the cores with up to hundreds of clients. Compare figures of one run only: a busy neighbour shares caches and "
-             "memory.", "",
-             f"Kernels {context['kernels']}; BLAS {context['blas']}; PyTorch {peer['torch']}; largest difference between the packed engine in float32 and eager "
-             f"PyTorch {peer['paper']['largest_difference']:.1g}. Load of the machine when it began: "
-             f"{context['load_avg'][0]:.1f} on {context['num_cpus']} cores.", "",
-             "## What is to be reached", ""]
-    lines += bars(figures, context.get("gpu", "")) + [(root / "bench/notes.md").read_text().strip()]
+    measured = ["", "## How it is measured", "",
+                "`make bench` writes this page. Engines are measured on **one thread**: frames a second of CPU time, medians of 5 interleaved repetitions. Their frames are "
+                "whole, with windows, noise and poses; eager PyTorch (`bench/peer_torch.py`, the same checkpoint) and the bare products (oneDNN) have the network alone. "
+                "Servers have their defaults, and share the cores with up to hundreds of clients. Compare figures of one run only: a busy neighbour shares caches and "
+                "memory.", "",
+                f"Kernels {context['kernels']}; BLAS {context['blas']}; PyTorch {peer['torch']}; largest difference between the packed engine in float32 and eager "
+                f"PyTorch {peer['paper']['largest_difference']:.1g}. Load of the machine when it began: "
+                f"{context['load_avg'][0]:.1f} on {context['num_cpus']} cores."]
+    lines = ["# Performance", "", *bars(figures, context.get("gpu", "")), (root / "bench/notes.md").read_text().strip(), *measured]
     committed = root / "bench/figures.json"
     if committed.exists():
         before = json.loads(committed.read_text())["figures"]
