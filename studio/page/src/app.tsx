@@ -42,7 +42,7 @@ function View() {
   }), []);
   const takes = studio.takes.value;
   return (
-    <main class="stage" aria-label="Stage">
+    <main class="stage" id="stage" tabIndex={-1} aria-label="Stage">
       <canvas ref={canvas} class={studio.drawing.value ? 'drawing' : ''} tabIndex={0} role="img" aria-label="The dancer. Drag to look around; drag a handle of a chosen key to pose it." />
       {takes.length > 0 && marks.value.map(({ x, y }, i) => i <= takes.length && (
         <span class="mark" style={{ left: `${x}px`, top: `${y}px` }} key={i}>
@@ -173,6 +173,8 @@ export function App() {
       const files = [...(event.dataTransfer?.files ?? [])];
       if (files.length) void studio.openFiles(files);
     }}>
+      <a class="skip" href="#stage">Skip to the stage</a>
+      <a class="skip" href="#timeline">Skip to the timeline</a>
       <Bar />
       <Library pictureOf={pictureOf} />
       <View />

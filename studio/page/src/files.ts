@@ -11,7 +11,7 @@ import { fromJson, inOrder, toJson } from './project_file';
 import { dropSketch, photoExtensions, readPhoto } from './photos';
 import { audio, hear, playSilence, songExtensions } from './songs';
 import type { Stage } from './stage';
-import { filming, live, message, moment, project, song, takes, tell, welcome, work } from './state';
+import { begin, filming, kept, live, message, moment, project, song, takes, tell, welcome, work } from './state';
 
 const motionExtensions = ['npz', 'bvh', 'glb'];
 /// What the file chooser offers.
@@ -34,8 +34,10 @@ export const openFiles = (files: File[]) => work(async () => {
     await hear(file.name, await bytesOf(file));
     message.value = null;
   }
-  for (const file of others) await openOther(file);
-  if (others.length === 0 && songs.length === 1) await compose();
+  await begin(async () => {
+    for (const file of others) await openOther(file);
+    if (others.length === 0 && songs.length === 1) await compose();
+  });
   for (const file of photos) await readPhoto(file.name, await bytesOf(file));
 });
 
@@ -90,7 +92,10 @@ function download(name: string, data: BlobPart, type = 'application/octet-stream
 
 const stem = () => (project.value?.song || 'dance').replace(/\.[^.]*$/, '');
 
-export const saveProject = () => download(`${stem()}.json`, toJson(project.value, dancer.fps, skeleton.names), 'application/json');
+export function saveProject() {
+  download(`${stem()}.json`, toJson(project.value, dancer.fps, skeleton.names), 'application/json');
+  kept.value = project.value;
+}
 
 let filmed: AbortController | null = null;
 export const leaveFilm = () => filmed?.abort();

@@ -60,6 +60,18 @@ export const motion = computed(() => live.value?.motion ?? moment.value?.motion.
 export const shownSong = computed(() => (live.value ? null : song.value));
 export const warnings = computed(() => moment.value?.warnings.value ?? []);
 
+/// The project as it was begun, opened or saved last: it is there again in no time.
+export const kept = signal<Project | undefined>(undefined);
+/// Whether work is lost with the page.
+export const isUnsaved = computed(() => !!live.value || project.value !== kept.value);
+
+/// Begins or opens something: what was no work before is none now.
+export async function begin(body: () => Promise<void>) {
+  const wasUnsaved = isUnsaved.value;
+  await body();
+  if (!wasUnsaved) kept.value = project.value;
+}
+
 export const tell = (text: string) => (message.value = { text, isError: false });
 export const complain = (error: unknown) =>
   (message.value = { text: error instanceof Error ? error.message : String(error), isError: true });

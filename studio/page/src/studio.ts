@@ -5,7 +5,7 @@ import { compose } from './keys';
 import { whenThere } from './link';
 import { audio, returnTo, takeSong } from './songs';
 import { stopLive } from './live';
-import { complain, live, moment, song, tell, welcome, work } from './state';
+import { begin, complain, isUnsaved, live, moment, song, tell, welcome, work } from './state';
 
 export * from './files';
 export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_path';
@@ -28,7 +28,7 @@ whenThere((said, isFirst) => {
     version = said.version;
     if (!said.song || !said.heard) return;
     takeSong(said.song.name, said.song.data, said.heard);
-    return void work(compose);
+    return void work(() => begin(compose));
   }
   if (said.version !== version) return complain(new Error(`The studio program is now ${said.version}: save the project and reload this page.`));
   tell('The studio program is there again.');
@@ -37,6 +37,11 @@ whenThere((said, isFirst) => {
     if (known) await returnTo(known);
     if (moment.value) finish(moment.value);
   });
+});
+
+// The browser asks before it leaves a page that wants this.
+window.addEventListener('beforeunload', (event) => {
+  if (isUnsaved.value) event.preventDefault();
 });
 
 export const togglePlay = () => {

@@ -275,7 +275,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
   const shown = studio.project.value;
   const there = (studio.live.value?.motion.count ?? studio.danced.value) / (shown ? studio.dancer.fps : 1);
   return (
-    <section class="timeline" aria-label="Timeline">
+    <section class="timeline" id="timeline" tabIndex={-1} aria-label="Timeline">
       <Transport time={time} />
       <div class="scroll">
         <div class="content" ref={box} style={{ width: `${2 * edge + seconds() * zoom.value}px` }}>

@@ -68,6 +68,7 @@ async function visit(browser, url, options = {}) {
     errors.push(error.stack ?? error.message);
     console.log(`    broke: ${errors.at(-1)}`);
   });
+  page.on('dialog', (dialog) => dialog.accept()); // it asks before it is left
   await page.goto(url);
   // The page's policy forbids what waitForFunction does.
   const until = async (condition, argument) => {
@@ -108,6 +109,13 @@ async function visit(browser, url, options = {}) {
   return { page, strangers, errors, until, settle, rest, message, frames, scale, give, drop, download };
 }
 
+/// What can be pressed and is less than 44 pixels high or wide. How wide an interval is, the timeline's scale says.
+const smallTargets = (page) => page.evaluate(() => [...document.querySelectorAll('button, select, summary, label, input:not([type=file])')]
+  .filter((at) => at.checkVisibility() && !at.closest('.hidden') && !(at.matches('input') && at.closest('label')) && !at.matches('.export'))
+  .map((at) => [at, at.getBoundingClientRect()])
+  .filter(([at, { width, height }]) => height < 43.9 || (width < 43.9 && !at.matches('.interval')))
+  .map(([at, { width, height }]) => `${at.ariaLabel || at.textContent || at.tagName} ${width} × ${height}`));
+
 /// Pictures of the page as phones and wide screens have it, light and dark: PREFIX390-light.png ... The page is then as large as before.
 export async function takePictures(page, prefix = '') {
   const size = page.viewportSize();
@@ -118,6 +126,8 @@ export async function takePictures(page, prefix = '') {
       await page.waitForTimeout(2500);
       const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
       if (wide) throw new Error(`at ${width} pixels the page is wider than the window`);
+      const small = width < 900 ? await smallTargets(page) : [];
+      if (small.length) throw new Error(`smaller than a finger at ${width} pixels: ${small}`);
       await page.screenshot({ path: inFolder(`${prefix}${width}-${colorScheme}.png`), fullPage: width < 900, timeout: patience });
     }
   }

@@ -77,7 +77,22 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
     assert.ok((await page.locator('.suggested').count()) >= 4);
   });
 
+  // True where the page may be left without being asked.
+  const isLeft = () => page.evaluate(() => window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
+
+  await check('links lead past the bar and the poses', async () => {
+    await page.evaluate(() => document.activeElement.blur());
+    for (const id of ['stage', 'timeline']) {
+      const link = page.getByRole('link', { name: `Skip to the ${id}` });
+      await link.focus();
+      assert.ok((await link.boundingBox()).y >= 0);
+      await link.press('Enter');
+      await until((id) => document.activeElement.id === id, id);
+    }
+  });
+
   await check('a dragged key dances its intervals anew, and no other frame changes', async () => {
+    assert.ok(await isLeft(), 'nothing was done yet');
     const before = await frames();
     const keys = await page.evaluate(() => window.choreo.project.value.keys.map(({ frame }) => frame));
     const box = await page.locator('.key').nth(2).boundingBox();
@@ -309,6 +324,12 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
     }));
     // Less blue than the background, which is #fbf9f6.
     for (const [, , blue] of colours) assert.ok(blue < 0xf6 - 8, `${colours}`);
+  });
+
+  await check('work that is not saved is asked for before the page is left', async () => {
+    assert.ok(!(await isLeft()));
+    await download(() => page.getByRole('button', { name: 'Save' }).click());
+    assert.ok(await isLeft());
   });
 
   await page.evaluate(() => {
