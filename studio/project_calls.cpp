@@ -150,7 +150,8 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   json file = cli::ParseJson(text, kName);
   const cli::Project project = cli::ParseProject(file, kName);
   const std::optional<Song> song = TakeSong(&file, project.song, house_.most_seconds());
-  std::vector<client::KeyPose> keys = cli::ParseKeyFile(file.dump(), kName, model.skeleton);
+  cli::DanceKeys keys;
+  keys.poses = cli::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
   // An answer has to fit into memory.
@@ -166,9 +167,8 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   config.seed = project.seed.value_or(0);
   config.style = project.style;
   config.frames = std::llround(seconds * model.fps);
-  for (size_t i = 0; i < keys.size(); ++i) {
-    cli::FitIntoDance({.frames = *config.frames, .fps = model.fps},
-                      std::string(kName) + ":keyframes[" + std::to_string(i) + "]", &keys[i]);
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    cli::FitIntoDance({.frames = *config.frames, .fps = model.fps}, keys.places[i], &keys.poses[i]);
   }
   if (!project.velocities.empty())
     config.controls.velocity_factors = cli::ReadVelocities(project.velocities, "", model.fps);
@@ -181,10 +181,15 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
     config.music_beats = cli::BeatsBefore(song->music, seconds);
     if (model.takes_music) audio = cli::AudioFor(song->music.audio, seconds);
   }
-  client::DanceResult dance =
-      house_.client().Dance(config, keys, audio, [this](const client::Message&) {
-        if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
-      });
+  keys = cli::ByTime(std::move(keys), model.fps);
+  client::DanceResult dance;
+  try {
+    dance = house_.client().Dance(config, keys.poses, audio, [this](const client::Message&) {
+      if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
+    });
+  } catch (const Error& error) {
+    throw cli::InTermsOf(keys, error);
+  }
   for (client::Warning& fault : cli::KeyFaults(keys, model.fps, model.skeleton))
     dance.warnings.push_back(std::move(fault));
   if (!as_bvh) return {.body = DanceJson(dance)};

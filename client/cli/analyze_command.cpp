@@ -10,7 +10,9 @@
 #include "client/cli/output_file.h"
 #include "model/audio/mfcc.h"
 #include "model/audio/suggest_keys.h"
+#include "model/core/error.h"
 #include "model/core/npy.h"
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
 namespace {
@@ -24,8 +26,21 @@ struct AnalyzeOptions {
   double until_s = std::numeric_limits<double>::infinity();
 };
 
+void CheckPart(const Music& music, const AnalyzeOptions& options) {
+  const auto seconds = [](double value) { return InFull(value) + " s"; };
+  if (options.from_s >= options.until_s) {
+    throw InvalidArgument(
+        "--from", seconds(options.from_s) + " is not before --until, " + seconds(options.until_s));
+  }
+  if (options.from_s >= music.audio.seconds()) {
+    throw InvalidArgument("--from", seconds(options.from_s) + " lies behind the song's end at " +
+                                        Rounded(music.audio.seconds()) + " s");
+  }
+}
+
 /// Suggestions among the beats from one second to another; they count the beats of the song.
 std::vector<SuggestedKey> Suggest(const Music& music, const AnalyzeOptions& options) {
+  CheckPart(music, options);
   const std::vector<double> beats = music.track.Seconds();
   BeatTrack part{.tempo_bpm = music.track.tempo_bpm, .frames = {}};
   size_t before = 0;

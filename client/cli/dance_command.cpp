@@ -47,6 +47,7 @@ struct DanceOptions {
   std::string vmc;
   BvhOptions bvh;
   bool no_clobber = false;
+  bool allow_bends = false;
 };
 
 /// What the command line leaves open, the project says.
@@ -128,7 +129,9 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
               << " s, the least";
       throw InvalidArgument("--seconds", message.str());
     }
-    return ReadDanceKeys(options.keys, length, model.skeleton);
+    DanceKeys keys = ReadDanceKeys(options.keys, length, model.skeleton);
+    if (!options.allow_bends) RefuseBends(keys, model.skeleton);
+    return keys;
   }
   CompositionRequest request{.seconds = seconds, .seed = options.seed.value_or(0)};
   if (!options.seconds) request.named = music ? options.song : "--path";
@@ -247,11 +250,13 @@ void AddDanceCommand(CLI::App& program) {
                    "WAV, FLAC, Ogg or MP3 file. Without one the dance is silent.")
       ->check(CLI::ExistingFile);
   AddRepeated(*command, "-k,--keyframes", options->keys,
-              "Key poses: a JSON key file, or poses of a motion file, as in "
+              "Key poses: a JSON key file, or one key of it (keys.json@ID), or poses of a motion "
+              "file, as in "
               "walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 "
               "(the pose at 1.2 s at second 4 of the dance). May be given more than once. none: no "
               "key at all. "
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
+  AddAllowBends(*command, options->allow_bends);
   command
       ->add_option(
           "--project", options->project,
@@ -287,8 +292,9 @@ void AddDanceCommand(CLI::App& program) {
       "--allow-inexact-resume", options->server.allow_inexact_resume,
       "If the server is lost and only one of another model or build is left, go on with that.");
   options->server.AddTo(*command);
-  command->callback([options] {
+  command->callback([options, command] {
     if (!options->project.empty()) TakeProject(options.get());
+    CheckSongStart(*command, options->song);
     const bool keys = !options->keys.empty() && !SaysNoKeys(options->keys);
     if (options->song.empty() && !options->seconds && !keys && options->controls.path.empty()) {
       throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");

@@ -44,8 +44,20 @@ void FitIntoDance(const DanceLength& length, const std::string& place, client::K
   const int64_t frame = FrameOf(*key, length.fps);
   if (!key->frame && frame == length.frames) key->frame = length.frames - 1;
   if (FrameOf(*key, length.fps) < length.frames) return;
-  throw InvalidArgument(place + (key->frame ? ".frame" : ".time"),
+  throw InvalidArgument(FieldOf(place, key->frame ? ".frame" : ".time"),
                         "key \"" + key->id + "\" " + SayBehindEnd(frame, length));
+}
+
+DanceKeys ByTime(DanceKeys keys, double fps) {
+  std::vector<size_t> order(keys.poses.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return FrameOf(keys.poses[i], fps); });
+  DanceKeys sorted;
+  for (const size_t i : order) {
+    sorted.poses.push_back(std::move(keys.poses[i]));
+    sorted.places.push_back(std::move(keys.places[i]));
+  }
+  return sorted;
 }
 
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
@@ -53,12 +65,13 @@ DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLeng
   DanceKeys read;
   std::map<std::string, std::string> place_of;  // by id
   for (const std::string& source : sources) {
-    std::vector<client::KeyPose> keys = ReadKeys(source, skeleton);
+    std::vector<std::string> places;
+    std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places);
     for (size_t i = 0; i < keys.size(); ++i) {
-      const std::string place = source + ":keyframes[" + std::to_string(i) + "]";
+      const std::string& place = places[i];
       const auto [same, is_new] = place_of.emplace(keys[i].id, place);
       if (!is_new) {
-        throw InvalidArgument(place + ".id",
+        throw InvalidArgument(FieldOf(place, ".id"),
                               "\"" + keys[i].id + "\" stands for " + same->second + " already");
       }
       FitIntoDance(length, place, &keys[i]);
@@ -66,18 +79,7 @@ DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLeng
       read.places.push_back(place);
     }
   }
-  // A key that comes after a later one would come too late.
-  std::vector<size_t> order(read.poses.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return FrameOf(read.poses[a], length.fps) < FrameOf(read.poses[b], length.fps);
-  });
-  DanceKeys sorted;
-  for (const size_t i : order) {
-    sorted.poses.push_back(std::move(read.poses[i]));
-    sorted.places.push_back(std::move(read.places[i]));
-  }
-  return sorted;
+  return ByTime(std::move(read), length.fps);
 }
 
 Error InTermsOf(const DanceKeys& keys, const Error& error) {
@@ -90,7 +92,7 @@ Error InTermsOf(const DanceKeys& keys, const Error& error) {
   if (code != std::errc() || close == end || *close != ']' || index >= keys.poses.size())
     return error;
   const std::string message = std::string(error.what()).substr(field.size() + 2);
-  return {error.code(), keys.places[index] + std::string(close + 1, end),
+  return {error.code(), FieldOf(keys.places[index], std::string(close + 1, end)),
           "key \"" + keys.poses[index].id + "\": " + message};
 }
 

@@ -16,7 +16,8 @@ std::vector<std::string> KeySources(const std::vector<std::string>& sources);
 /// The key poses of a dance in the order of their times, as they are sent.
 struct DanceKeys {
   std::vector<client::KeyPose> poses;
-  std::vector<std::string> places;  ///< of each: where it was written, "keys.json:keyframes[1]"
+  /// Of each where it was written, "keys.json:keyframes[1]" (ParseKeyFile in key_file.h).
+  std::vector<std::string> places;
 };
 
 /// How long a dance is.
@@ -36,6 +37,9 @@ int64_t FrameOf(const client::KeyPose& key, double fps);
 /// last frame. Throws Error(kInvalidArgument), whose field begins with `place`, for one behind
 /// that.
 void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
+
+/// In the order in which they are sent: a key that comes after a later one would come too late.
+DanceKeys ByTime(DanceKeys keys, double fps);
 
 /// Reads key poses from sources as ReadKeys (key_file.h) takes them. Throws what that does, and
 /// Error(kInvalidArgument), whose field begins with the key's place, for an id that an earlier key

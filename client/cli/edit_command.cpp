@@ -60,11 +60,13 @@ void AddEditCommand(CLI::App& program) {
       ->check(CLI::ExistingFile);
   AddRepeated(*command, "-k,--key", options->keys,
               "A pose of the library (kick, ...), which is set where the dancer is; or a "
-              "key file, or MOTION@SECOND. May be given more than once, each with its --at.");
+              "key file with one pose, KEYS.json@ID, or MOTION@SECOND. May be given more than "
+              "once, each with its --at.");
   AddRepeated(*command, "--at", options->at_s, "Second of the dance for the key.")
       ->check(TimeInSeconds());
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files, too, where the dancer is and faces at that moment.");
+  AddAllowBends(*command, options->allow_bends);
   command->add_flag("--loop", options->loop,
                     "Lead the last frames back into the first, so that the dance can be repeated.");
   command
@@ -88,7 +90,10 @@ void AddEditCommand(CLI::App& program) {
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
       ->required();
   options->server.AddTo(*command);
-  command->callback([options] { Run(*options); });
+  command->callback([options, command] {
+    CheckSongStart(*command, options->song);
+    Run(*options);
+  });
 }
 
 }  // namespace choreo::cli

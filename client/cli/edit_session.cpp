@@ -69,6 +69,9 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
 
 void EditSession::SetKey(const std::string& source, double at_s) {
   const NamedPose named = ReadPose(source, edit_.model.skeleton);
+  // Those of the library bend as bodies do.
+  if (named.has_place && !options_.allow_bends)
+    RefuseBends({{named.key}, {source}}, edit_.model.skeleton);
   // The very end means the last frame, as it does for keys of a new dance (dance_keys.h).
   const int64_t frame = Frame(at_s) == frames_ ? frames_ - 1 : Frame(at_s);
   if (frame >= frames_) {

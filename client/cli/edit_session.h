@@ -21,6 +21,7 @@ struct EditOptions {
   std::vector<std::string> keys;
   std::vector<double> at_s;
   bool in_place = false;
+  bool allow_bends = false;
   bool loop = false;
   std::optional<double> around_s;
   std::string song;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "client/cli/key_file.h"
+#include "model/core/error.h"
+
 namespace choreo::cli {
 namespace {
 
@@ -17,12 +20,28 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
   for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
   std::vector<client::Warning> warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
+    // A pose that is held has the faults of the first of them.
+    const bool is_held = !keys.places.empty() && IsHeld(keys.places[fault.pose]);
+    const auto is_said = [&](const client::Warning& warning) {
+      return warning.message.ends_with(": " + fault.message);
+    };
+    if (is_held && std::ranges::any_of(warnings, is_said)) continue;
     client::Warning& warning = warnings.emplace_back();
     warning.frame = FrameOf(keys.poses[fault.pose], fps);
     const std::string place = keys.places.empty() ? "" : " (" + keys.places[fault.pose] + ")";
     warning.message = "key \"" + keys.poses[fault.pose].id + "\"" + place + ": " + fault.message;
   }
   return warnings;
+}
+
+void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton) {
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    const client::KeyPose& key = keys.poses[i];
+    const std::vector<std::string> faults = BendFaults(skeleton, key.pose, key.mask);
+    if (faults.empty()) continue;
+    throw InvalidArgument(keys.places[i], "key \"" + key.id + "\": " + faults.front() +
+                                              "; with --allow-bends it is danced all the same");
+  }
 }
 
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,

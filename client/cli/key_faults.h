@@ -11,7 +11,11 @@ namespace choreo::cli {
 /// keyframes[2]): the body hangs 2 m above the floor; ..." (motion/pose_faults.h).
 std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
-/// The same of keys that stand in no file, by time.
+/// Throws Error(kInvalidArgument), whose field is the key's place, for one that bends a knee or an
+/// elbow as no body does, naming joint, degrees and limit.
+void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton);
+
+/// The same warnings of keys that stand in no file, by time.
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
                                        const Skeleton& skeleton);
 

@@ -24,6 +24,8 @@ using nlohmann::json;
 
 constexpr double kHoldStep = 0.1;    // seconds between the keys that hold a pose
 constexpr double kLongestHold = 60;  // seconds
+constexpr const char* kHold = ".hold";
+constexpr size_t kMostNamed = 8;  // keys that a message names
 
 Eigen::Vector3d Vector(const json& value, const std::string& field) {
   if (!value.is_array() || value.size() != 3) {
@@ -209,13 +211,13 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
 
 /// Appends keys that keep a pose for so long: so close together that nothing else fits between.
 void AppendHold(const json& value, const std::string& field, std::vector<KeyPose>* keys) {
-  const double seconds = JsonNumber(value["hold"], field + ".hold");
+  const double seconds = JsonNumber(value["hold"], field + kHold);
   if (!(seconds >= kHoldStep && seconds <= kLongestHold)) {
     std::ostringstream message;
     message << Shown(value["hold"]) << " s, must be " << kHoldStep << " to " << kLongestHold;
-    throw InvalidArgument(field + ".hold", message.str());
+    throw InvalidArgument(field + kHold, message.str());
   }
-  if (!value.contains("time")) throw InvalidArgument(field + ".hold", "goes with time");
+  if (!value.contains("time")) throw InvalidArgument(field + kHold, "goes with time");
   const KeyPose key = keys->back();
   const auto steps = static_cast<int>(std::floor(seconds / kHoldStep + 1e-9));
   for (int step = 1; step <= steps; ++step) {
@@ -261,14 +263,36 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
   }
 }
 
+/// Leaves the key of this id and those that hold it.
+void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose>* keys,
+             std::vector<std::string>* places) {
+  size_t from = 0, named = 0;
+  std::string ids;
+  for (; from < keys->size() && (IsHeld((*places)[from]) || (*keys)[from].id != id); ++from) {
+    if (IsHeld((*places)[from]) || ++named > kMostNamed) continue;
+    ids += (ids.empty() ? "\"" : ", \"") + (*keys)[from].id + '"';
+  }
+  if (from == keys->size()) {
+    throw InvalidArgument(
+        file, "has no key \"" + id + "\"; it has " + ids + (named > kMostNamed ? " ..." : ""));
+  }
+  size_t end = from + 1;
+  while (end < keys->size() && IsHeld((*places)[end])) ++end;
+  *keys = {keys->begin() + static_cast<std::ptrdiff_t>(from),
+           keys->begin() + static_cast<std::ptrdiff_t>(end)};
+  *places = {places->begin() + static_cast<std::ptrdiff_t>(from),
+             places->begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
 }  // namespace
 
 std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
-                                  const Skeleton& skeleton) {
+                                  const Skeleton& skeleton, std::vector<std::string>* places) {
   const json file = ParseJson(text, name);
   const json& list = ListIn(file, name, "keyframes");
   std::vector<KeyPose> keys;
   std::set<std::string> ids;
+  if (places) places->clear();
   for (size_t i = 0; i < list.size(); ++i) {
     const std::string field = name + ":keyframes[" + std::to_string(i) + "]";
     keys.push_back(ParseKey(list[i], field, skeleton, i + 1));
@@ -277,25 +301,54 @@ std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name
                             "\"" + keys.back().id + "\" stands for an earlier key already");
     }
     if (list[i].contains("hold")) AppendHold(list[i], field, &keys);
+    if (!places) continue;
+    places->push_back(field);
+    places->resize(keys.size(), field + kHold);
   }
   return keys;
 }
 
-std::filesystem::path FileOf(const std::string& source) {
-  std::error_code error;
-  return std::filesystem::exists(source, error) ? source : source.substr(0, source.rfind('@'));
+bool IsHeld(const std::string& place) { return place.ends_with(kHold); }
+
+std::string FieldOf(const std::string& place, const std::string& member) {
+  if (!IsHeld(place)) return place + member;
+  const bool says_when = member == ".time" || member == ".frame";
+  return says_when ? place : place.substr(0, place.rfind('.')) + member;
 }
 
-std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton) {
-  const std::string file = FileOf(source);
-  if (file.size() < source.size()) {
-    return ReadMotionKeys(file, std::string_view(source).substr(file.size() + 1), source, skeleton);
+std::filesystem::path FileOf(const std::string& source) {
+  std::error_code error;
+  if (std::filesystem::exists(source, error)) return source;
+  const size_t last = source.rfind('@');
+  // What follows the file's name may have an @, too: an id.
+  for (size_t end = last; end != std::string::npos && end > 0; end = source.rfind('@', end - 1)) {
+    if (std::filesystem::is_regular_file(source.substr(0, end), error))
+      return source.substr(0, end);
   }
-  if (IsMotionFile(source)) {
+  return source.substr(0, last);
+}
+
+std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton,
+                              std::vector<std::string>* places) {
+  const std::string file = FileOf(source);
+  const bool chooses = file.size() < source.size();
+  const std::string chosen = chooses ? source.substr(file.size() + 1) : "";
+  std::vector<std::string> own_places;
+  if (!places) places = &own_places;
+  if (!IsMotionFile(file)) {
+    std::vector<KeyPose> keys = ParseKeyFile(ReadText(file, "key file"), file, skeleton, places);
+    if (chooses) KeepOne(chosen, file, &keys, places);
+    return keys;
+  }
+  if (!chooses) {
     throw InvalidArgument(source,
                           "is a motion: say which poses of it, as in " + source + "@1.2,3.4");
   }
-  return ParseKeyFile(ReadText(source, "key file"), source, skeleton);
+  std::vector<KeyPose> keys = ReadMotionKeys(file, chosen, source, skeleton);
+  places->clear();
+  for (size_t i = 0; i < keys.size(); ++i)
+    places->push_back(source + ":keyframes[" + std::to_string(i) + "]");
+  return keys;
 }
 
 }  // namespace choreo::cli

@@ -33,19 +33,30 @@ namespace choreo::cli {
 /// are errors, so that a misspelt one is found.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:keyframes[i].MEMBER, naming value and limit.
-/// `name` is the file's.
+/// `name` is the file's. `places`, where it is wanted, becomes the place of each key in the file:
+/// NAME:keyframes[i], of keys that hold a pose NAME:keyframes[i].hold.
 std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
-                                          const Skeleton& skeleton);
+                                          const Skeleton& skeleton,
+                                          std::vector<std::string>* places = nullptr);
 
-/// The file that such a source names: MOTION of MOTION@SECONDS. One whose name has an @ is a file.
+/// Whether the key at this place only holds the pose of the one before.
+bool IsHeld(const std::string& place);
+
+/// The field that says `member` (".time") of the key at `place`: the time of a held one is its
+/// ".hold".
+std::string FieldOf(const std::string& place, const std::string& member);
+
+/// The file that such a source names: FILE of FILE@.... One whose name has an @ is a file.
 std::filesystem::path FileOf(const std::string& source);
 
 /// Key poses named on a command line:
 ///   keys.json              a key file
+///   keys.json@ID           one key of it, with those that hold it
 ///   walk.bvh@1.2,3.4       the poses of a motion file (formats/motion_file.h) at these seconds,
 ///                          each at the same second of the dance
 ///   walk.npz@1.2=4,3.4=8   the pose at 1.2 s at second 4 of the dance, that at 3.4 s at second 8
-/// Errors as above; Error(kNotFound) for a file that is not there.
-std::vector<client::KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton);
+/// Errors and `places` as above; Error(kNotFound) for a file that is not there.
+std::vector<client::KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton,
+                                      std::vector<std::string>* places = nullptr);
 
 }  // namespace choreo::cli

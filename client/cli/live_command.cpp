@@ -216,7 +216,10 @@ void AddLiveCommand(CLI::App& program) {
                       "FILE.npz, FILE.bvh or FILE.glb to write the dance to.");
   options->server.AddTo(*command);
   command->get_option("--deadline")->group("");  // is refused, with the reason
-  command->callback([options] { Run(*options); });
+  command->callback([options, command] {
+    CheckSongStart(*command, options->song);
+    Run(*options);
+  });
 }
 
 }  // namespace choreo::cli

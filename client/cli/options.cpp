@@ -52,6 +52,17 @@ void AddSongStart(CLI::App& command, double& seconds) {
       ->check(TimeInSeconds());
 }
 
+void CheckSongStart(const CLI::App& command, const std::string& song) {
+  if (song.empty() && command.count("--song-start") > 0)
+    throw CLI::ValidationError("--song-start", "there is no song: it goes with one");
+}
+
+void AddAllowBends(CLI::App& command, bool& allowed) {
+  command.add_flag("--allow-bends", allowed,
+                   "Take keys that bend a knee or an elbow more than 15 degrees backwards, or "
+                   "beyond 165 degrees. They are refused otherwise.");
+}
+
 void AddVmc(CLI::App& command, std::string& address) {
   command.add_option("--vmc", address,
                      "HOST:PORT to stream the dance to in real time as VMC, which VTuber programs "

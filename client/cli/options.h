@@ -25,6 +25,11 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 
 /// `--song-start`, seconds.
 void AddSongStart(CLI::App& command, double& seconds);
+/// Throws CLI::ValidationError where it is given and there is no song.
+void CheckSongStart(const CLI::App& command, const std::string& song);
+
+/// `--allow-bends`.
+void AddAllowBends(CLI::App& command, bool& allowed);
 
 /// `--vmc`, HOST:PORT.
 void AddVmc(CLI::App& command, std::string& address);

@@ -1,14 +1,26 @@
 #include "client/cli/pose_source.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "client/cli/key_file.h"
 #include "client/cli/pose_library.h"
+#include "model/core/error.h"
 #include "model/fit/retarget.h"
 
 namespace choreo::cli {
 
 NamedPose ReadPose(const std::string& source, const Skeleton& skeleton) {
   const bool is_file = source.find_first_of(".@/") != std::string::npos;
-  if (is_file) return {ReadKeys(source, skeleton).front()};
+  if (is_file) {
+    std::vector<std::string> places;
+    const std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places);
+    const auto held = std::ranges::count_if(places, IsHeld);
+    const auto poses = std::ssize(places) - held;
+    if (poses == 1) return {keys.front()};
+    throw InvalidArgument(source, "names " + std::to_string(poses) +
+                                      " poses, must be 1: KEYS.json@ID or MOTION@SECOND");
+  }
   client::KeyPose key;
   key.id = source;
   key.pose = Retarget(Skeleton::Smpl24(), FindLibraryPose(source).pose, skeleton);

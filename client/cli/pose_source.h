@@ -12,8 +12,9 @@ struct NamedPose {
   bool has_place = true;  ///< false for one of the library: it stands around the origin, facing +Z
 };
 
-/// A pose by its name in the library, or the first one of what ReadKeys takes (key_file.h): a key
-/// file, or MOTION@SECOND. Errors as theirs.
+/// A pose by its name in the library, or what ReadKeys takes (key_file.h): a key file with one
+/// pose, KEYS.json@ID, or MOTION@SECOND. Errors as theirs; Error(kInvalidArgument) for a source of
+/// several poses.
 NamedPose ReadPose(const std::string& source, const Skeleton& skeleton);
 
 }  // namespace choreo::cli

@@ -119,7 +119,10 @@ void AddRenderCommand(CLI::App& program) {
       ->check(NumberFrom(1, 120))
       ->capture_default_str();
   command->add_option("--size", options->size, "Of the video, pixels.")->capture_default_str();
-  command->callback([options] { Run(*options); });
+  command->callback([options, command] {
+    CheckSongStart(*command, options->film.format.song.string());
+    Run(*options);
+  });
 }
 
 }  // namespace choreo::cli

@@ -50,20 +50,6 @@ std::string FloorFault(const Skeleton& skeleton, const Pose& pose, const PoseMas
          Rounded(kHighestJump) + " m";
 }
 
-void AddHingeFaults(const Skeleton& skeleton, const Pose& pose, const PoseMask& mask,
-                    std::vector<std::string>* faults) {
-  for (const Hinge& hinge : Hinges(skeleton)) {
-    if (!mask.Asks(hinge.joint)) continue;
-    const double bend = kDegrees * hinge.axis.dot(pose.rotations.col(hinge.joint));
-    const std::string& name = skeleton.joint_names[static_cast<size_t>(hinge.joint)];
-    if (bend < -kBackwards)
-      faults->push_back(name + " bends " + Rounded(-bend) + " degrees backwards");
-    if (bend > kFolded)
-      faults->push_back(name + " bends " + Rounded(bend) +
-                        " degrees, further than the body allows");
-  }
-}
-
 /// The joint that is fastest as seen from the root, on the straight way between two poses.
 std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const TimedPose& to) {
   const double seconds = to.seconds - from.seconds;
@@ -86,12 +72,28 @@ std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const Ti
 
 }  // namespace
 
+std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
+                                    const PoseMask& mask) {
+  std::vector<std::string> faults;
+  for (const Hinge& hinge : Hinges(skeleton)) {
+    if (!mask.Asks(hinge.joint)) continue;
+    const double bend = kDegrees * hinge.axis.dot(pose.rotations.col(hinge.joint));
+    const bool backwards = bend < 0;
+    const double limit = backwards ? kBackwards : kFolded;
+    if (std::abs(bend) <= limit) continue;
+    faults.push_back(skeleton.joint_names[static_cast<size_t>(hinge.joint)] + " bends " +
+                     RoundedBeyond(std::abs(bend), limit) + " degrees" +
+                     (backwards ? " backwards" : "") + ", further than " + Rounded(limit));
+  }
+  return faults;
+}
+
 std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask) {
   std::vector<std::string> faults;
   if (mask.root_position) faults.push_back(FloorFault(skeleton, pose, mask));
   std::erase(faults, "");
-  AddHingeFaults(skeleton, pose, mask, &faults);
+  for (std::string& fault : BendFaults(skeleton, pose, mask)) faults.push_back(std::move(fault));
   return faults;
 }
 

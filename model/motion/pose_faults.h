@@ -11,8 +11,12 @@
 namespace choreo {
 
 /// Of one pose, as far as `mask` asks for it: "left_foot is 12 cm under the floor", "the body hangs
-/// 1.5 m above the floor", "right_knee bends 40 degrees backwards".
+/// 1.5 m above the floor", "right_knee bends 40 degrees backwards, further than 15".
 std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
+                                    const PoseMask& mask = {});
+
+/// Those of its knees and elbows alone.
+std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
 /// A pose that is asked for at a moment.

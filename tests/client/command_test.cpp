@@ -94,6 +94,10 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
     EXPECT_THAT(bad.said,
                 HasSubstr("--suggest-keys: " + count + " is not a whole number from 1 to 1000000"));
   }
+  EXPECT_THAT(Choreo(analyze + "2 --from 7 --until 3").said,
+              HasSubstr("--from: 7 s is not before --until, 3 s"));
+  EXPECT_THAT(Choreo(analyze + "2 --from 12.5").said,
+              HasSubstr("--from: 12.5 s lies behind the song's end at 12 s"));
   // Between two moments, counting the beats of the whole song.
   const nlohmann::json part =
       nlohmann::json::parse(Choreo(analyze + "2 --from 3 --until 7 --json").said)["suggested_keys"];

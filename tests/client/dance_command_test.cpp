@@ -137,6 +137,13 @@ TEST_F(CommandTest, BeginsWhereTheSongIsToBegin) {
   const Outcome late = Choreo("dance --song-start 7 " + At("song.wav") + Server());
   EXPECT_EQ(late.code, 1);
   EXPECT_THAT(late.said, HasSubstr("--song-start: 7 s lies behind the end of"));
+  for (const std::string& without :
+       {"dance --seconds 2" + Server(), "edit --loop " + At("d.npz") + " -o " + At("e.npz"),
+        "render --video " + At("d.mp4") + " " + At("d.npz"), "live" + Server()}) {
+    const Outcome refused = Choreo(without + " --song-start 1");
+    EXPECT_EQ(refused.code, 2) << without;
+    EXPECT_THAT(refused.said, HasSubstr("--song-start: there is no song"));
+  }
 }
 
 TEST_F(CommandTest, AKeyAtTheVeryEndIsDancedOnTheLastFrame) {
@@ -161,6 +168,56 @@ TEST_F(CommandTest, WarnsOfKeysThatNoBodyCouldDance) {
   EXPECT_THAT(outcome.said, HasSubstr(fault));
   EXPECT_THAT(ReadJson(folder_ / "r.json")["warnings"].dump(),
               HasSubstr("the body would be in the air"));
+}
+
+TEST_F(CommandTest, WarnsOnceOfAPoseThatIsHeld) {
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"id": "a", "time": 1, "rotations": )"
+                                       << nlohmann::json(std::vector(24, std::vector(3, 0.0)))
+                                       << R"(, "root_position": [0, 0.4, 0], "hold": 1}]})";
+  const Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("d.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const size_t first = outcome.said.find("under the floor");
+  EXPECT_NE(first, std::string::npos) << outcome.said;
+  EXPECT_EQ(outcome.said.find("under the floor", first + 1), std::string::npos) << outcome.said;
+}
+
+TEST_F(CommandTest, RefusesKneesThatBendBackwardsUnlessToldOtherwise) {
+  ASSERT_EQ(Choreo("dance --seconds 4 -o " + At("d.npz") + Server()).code, 0);
+  nlohmann::json rotations(std::vector(24, std::vector(3, 0.0)));
+  rotations[4] = {-0.7, 0, 0};
+  const nlohmann::json key = {{"id", "bent"}, {"time", 2}, {"rotations", rotations}};
+  std::ofstream(folder_ / "keys.json") << nlohmann::json{{"keyframes", {key}}};
+  for (const std::string& command :
+       {"dance --seconds 4 -k " + At("keys.json"),
+        "edit " + At("d.npz") + " --at 2 --in-place --key " + At("keys.json")}) {
+    const Outcome refused = Choreo(command + Server() + "-o " + At("e.npz"));
+    EXPECT_EQ(refused.code, 1) << refused.said;
+    EXPECT_THAT(refused.said, HasSubstr("keys.json"));
+    EXPECT_THAT(refused.said, HasSubstr("key \"bent\": left_knee bends 40.11 degrees backwards, "
+                                        "further than 15; with --allow-bends"));
+    const Outcome taken = Choreo(command + " --allow-bends" + Server() + "-o " + At("e.npz"));
+    EXPECT_EQ(taken.code, 0) << taken.said;
+    EXPECT_THAT(taken.said, HasSubstr("warning: frame 60: key \"bent\""));
+  }
+}
+
+TEST_F(CommandTest, AnEditTakesOneKeyOfAFile) {
+  ASSERT_EQ(Choreo("dance --seconds 4 -o " + At("d.npz") + Server()).code, 0);
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"id": "a", "time": 1, "pose": "stand"}, {"id": "b", "time": 2, "pose": "kick"}]})";
+  const auto edit = [&](const std::string& key) {
+    return Choreo("edit " + At("d.npz") + " --at 2 --in-place --key " + key + Server() + "-o " +
+                  At("e.npz"));
+  };
+  const Outcome one = edit(At("keys.json") + "@b");
+  EXPECT_EQ(one.code, 0) << one.said;
+  EXPECT_THAT(one.said, HasSubstr("key b: frames"));
+  const Outcome several = edit(At("keys.json"));
+  EXPECT_EQ(several.code, 1);
+  EXPECT_THAT(several.said, HasSubstr("keys.json: names 2 poses, must be 1: KEYS.json@ID"));
+  EXPECT_THAT(edit(At("keys.json") + "@c").said,
+              HasSubstr("keys.json: has no key \"c\"; it has \"a\", \"b\""));
 }
 
 TEST_F(CommandTest, AnEditWarnsOfAKeyThatNoBodyCouldDance) {
@@ -236,6 +293,11 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   refused("-k " + At("beyond.json"),
           "beyond.json:keyframes[1].time: key \"b\" at 12 s lies behind the dance's end: its last "
           "frame is at 3.97 s");
+  // Those that hold a pose are written as its hold.
+  write("held.json", R"("id": "a", "time": 1, "hold": 1)", R"("id": "b", "time": 12)");
+  refused("-k " + At("held.json"), "held.json:keyframes[1].time: key \"b\" at 12 s lies behind");
+  write("long.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2, "hold": 4)");
+  refused("-k " + At("long.json"), "long.json:keyframes[1].hold: key \"b held 21\" at 4.1 s lies");
   write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
   write("two.json", R"("id": "c", "time": 3)", R"("id": "a", "time": 3.5)");
   refused("-k " + At("one.json") + " -k " + At("two.json"),

@@ -310,6 +310,25 @@ TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
               [&] { ReadKeys(folder_.path().string(), Body()); });
 }
 
+TEST(KeyFileTest, TakesOneKeyOfAFile) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "keys.json").string();
+  std::ofstream(path) << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "hold": 0.2},
+    {"id": "walk@1.2", "time": 3, "pose": "kick"}]})";
+  std::vector<std::string> places;
+  const auto held = ReadKeys(path + "@a", Body(), &places);
+  EXPECT_EQ(held.size(), 3U);
+  EXPECT_EQ(places, (std::vector{path + ":keyframes[0]", path + ":keyframes[0].hold",
+                                 path + ":keyframes[0].hold"}));
+  EXPECT_EQ(FileOf(path + "@walk@1.2").string(), path);
+  const auto one = ReadKeys(path + "@walk@1.2", Body(), &places);
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].id, "walk@1.2");
+  EXPECT_EQ(places.front(), path + ":keyframes[1]");
+  ExpectError(ErrorCode::kInvalidArgument, "has no key \"a held 1\"; it has \"a\", \"walk@1.2\"",
+              [&] { ReadKeys(path + "@a held 1", Body()); });
+}
+
 TEST_F(MotionKeysTest, ReadsAKeyFileByItsPath) {
   const std::string path = (folder_ / "odd@name.json").string();
   std::ofstream(path) << Key();

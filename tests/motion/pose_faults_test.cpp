@@ -37,10 +37,13 @@ TEST(PoseFaults, NamesWhatNoBodyDoes) {
   const Hinge hinge = Hinges(Body())[1];
   knee.rotations.col(hinge.joint) = -0.7 * hinge.axis;
   knee.root_position.y() = *StandingHeight(Body(), knee);
-  EXPECT_THAT(PoseFaults(Body(), knee), ElementsAre("right_knee bends 40.11 degrees backwards"));
+  EXPECT_THAT(PoseFaults(Body(), knee),
+              ElementsAre("right_knee bends 40.11 degrees backwards, further than 15"));
   knee.rotations.col(hinge.joint) = 3 * hinge.axis;
   EXPECT_THAT(PoseFaults(Body(), knee),
-              ElementsAre(testing::StartsWith("right_knee bends 171.89 degrees, further")));
+              ElementsAre("right_knee bends 171.89 degrees, further than 165"));
+  EXPECT_EQ(BendFaults(Body(), knee).size(), 1U);
+  EXPECT_THAT(BendFaults(Body(), At(0, 1.5)), IsEmpty());
 }
 
 TEST(PoseFaults, WhatIsNotAskedForIsNoFault) {
