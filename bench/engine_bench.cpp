@@ -132,13 +132,8 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   std::vector<BareProducts::Shape> shapes;
   if (config.condition_width > 0) shapes = {{live, condition}, {condition, condition}};
   for (int step = 0; step < config.flow_steps; ++step) {
-    if (config.recurrent) {
-      shapes.push_back({condition + low + hidden, 4 * hidden});
-      shapes.push_back({2 * hidden, 4 * hidden});
-    } else {
-      shapes.push_back({condition + low, hidden});
-      shapes.push_back({hidden, hidden});
-    }
+    shapes.push_back({condition + low + hidden, 4 * hidden});
+    shapes.push_back({2 * hidden, 4 * hidden});
     shapes.push_back({hidden, 2 * (width - low)});
     shapes.push_back({width, width});
   }

@@ -8,6 +8,7 @@
 #include "model/core/random.h"
 #include "model/core/safetensors.h"
 #include "model/engine/packed/tile.h"
+#include "model/motion/skeleton_json.h"
 
 namespace choreo {
 namespace {
@@ -38,9 +39,10 @@ std::span<float> Row(NamedTensor& tensor, int row) {
 void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesystem::path& out) {
   Safetensors model = ReadSafetensors(checkpoint);
   const auto config = nlohmann::json::parse(model.metadata.at("config")).get<FlowConfig>();
-  const auto width = static_cast<int>(model.tensors.at("feature_mean").data.size());
-  const auto flow = std::make_shared<PackedFlow>(model, config, width, *PackedKernelsHere().front(),
-                                                 *PackedKernelsHere().front());
+  const Skeleton skeleton = SkeletonFromJson(model.metadata.at("skeleton"));
+  const PackedKernels& kernels = *PackedKernelsHere().front();
+  const auto flow = std::make_shared<PackedFlow>(model, config, skeleton, kernels, kernels);
+  const int width = flow->width;
   PackedTile tile(flow, kRows);
   Random random(11);
   Safetensors probe;

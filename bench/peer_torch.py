@@ -54,27 +54,17 @@ class Coupling(torch.nn.Module):
         self.log_det = (self.log_scale.sum() + get("log_diagonal").sum()).item()
         network = {name[len("network."):]: value for name, value in tensors.items()
                    if name.startswith("network.")}
-        if config["recurrent"]:
-            inputs = network["lstm.weight_ih_l0"].shape[1]
-            self.lstm = torch.nn.LSTM(inputs, config["hidden"], 2, batch_first=True)
-        else:
-            self.first = torch.nn.Linear(*reversed(network["first.weight"].shape))
-            self.second = torch.nn.Linear(*reversed(network["second.weight"].shape))
+        inputs = network["lstm.weight_ih_l0"].shape[1]
+        self.lstm = torch.nn.LSTM(inputs, config["hidden"], 2, batch_first=True)
         self.last = torch.nn.Linear(*reversed(network["last.weight"].shape))
         self.load_state_dict(network)
-        self.recurrent = config["recurrent"]
         self.to(precision)
 
     def inverse(self, z, condition, state):
         low, high = z[:, :self.low], z[:, self.low:]
         x = torch.cat([low, condition], 1).to(self.precision)
-        if self.recurrent:
-            x, state = self.lstm(x.unsqueeze(1), state)
-            x = x.squeeze(1)
-        else:
-            silu = torch.nn.functional.silu
-            x = silu(self.second(silu(self.first(x))))
-        a, b = self.last(x).float().chunk(2, 1)
+        x, state = self.lstm(x.unsqueeze(1), state)
+        a, b = self.last(x.squeeze(1)).float().chunk(2, 1)
         delta = 0.05 + 0.95 * torch.sigmoid(b + 2)
         high = (high - (1 - delta) * a) / delta
         z = torch.cat([low, high], 1) @ self.unmix * (-self.log_scale).exp() - self.bias

@@ -204,7 +204,7 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
   if (Packs(kind, device)) {
     const KernelSet set = ChooseKernels(kind, kernel_name);
     kernels = kPackedPrefix + std::string(set.products->name);
-    const auto packed = std::make_shared<const PackedFlow>(content, config, model->feature_width(),
+    const auto packed = std::make_shared<const PackedFlow>(content, config, model->skeleton(),
                                                            *set.exact, *set.products);
     tile = [packed](int slots) { return std::make_unique<PackedTile>(packed, slots); };
   } else {

@@ -8,16 +8,10 @@ using torch::Tensor;
 using torch::indexing::Ellipsis;
 using torch::indexing::Slice;
 
-CouplingNetworkImpl::CouplingNetworkImpl(int input, int hidden, int output, bool recurrent)
-    : hidden_(hidden), recurrent_(recurrent) {
-  if (recurrent_) {
-    lstm_ = register_module(
-        "lstm", torch::nn::LSTM(
-                    torch::nn::LSTMOptions(input, hidden).num_layers(kLayers).batch_first(true)));
-  } else {
-    first_ = register_module("first", torch::nn::Linear(input, hidden));
-    second_ = register_module("second", torch::nn::Linear(hidden, hidden));
-  }
+CouplingNetworkImpl::CouplingNetworkImpl(int input, int hidden, int output) : hidden_(hidden) {
+  lstm_ = register_module(
+      "lstm",
+      torch::nn::LSTM(torch::nn::LSTMOptions(input, hidden).num_layers(kLayers).batch_first(true)));
   last_ = register_module("last", torch::nn::Linear(hidden, output));
   torch::nn::init::zeros_(last_->weight);
   torch::nn::init::zeros_(last_->bias);
@@ -26,7 +20,6 @@ CouplingNetworkImpl::CouplingNetworkImpl(int input, int hidden, int output, bool
 Tensor CouplingNetworkImpl::forward(const Tensor& input, Tensor* state) {
   const auto inside = last_->weight.scalar_type(), outside = input.scalar_type();
   const Tensor x = input.to(inside);
-  if (!recurrent_) return last_(torch::silu(second_(torch::silu(first_(x))))).to(outside);
   // [batch, 2 * layers * hidden] ↔ h, c of [layers, batch, hidden]
   const int64_t batch = input.size(0);
   const Tensor split = state->view({batch, 2, kLayers, hidden_}).permute({1, 2, 0, 3}).to(inside);
@@ -39,7 +32,7 @@ Tensor CouplingNetworkImpl::forward(const Tensor& input, Tensor* state) {
   return last_(output).to(outside);
 }
 
-FlowStepImpl::FlowStepImpl(int width, int condition, int hidden, bool recurrent) : low_(width / 2) {
+FlowStepImpl::FlowStepImpl(int width, int condition, int hidden) : low_(width / 2) {
   norm_bias_ = register_parameter("norm_bias", torch::zeros({width}));
   norm_log_scale_ = register_parameter("norm_log_scale", torch::zeros({width}));
   // A random rotation, in the PLU form whose log-determinant is a sum (Kingma & Dhariwal 2018).
@@ -53,8 +46,7 @@ FlowStepImpl::FlowStepImpl(int width, int condition, int hidden, bool recurrent)
   upper_ = register_parameter("upper", u.triu(1).to(torch::kFloat32));
   log_diagonal_ = register_parameter("log_diagonal", diagonal.abs().log().to(torch::kFloat32));
   const int high = width - low_;
-  network_ =
-      register_module("network", CouplingNetwork(low_ + condition, hidden, 2 * high, recurrent));
+  network_ = register_module("network", CouplingNetwork(low_ + condition, hidden, 2 * high));
 }
 
 Tensor FlowStepImpl::Weight() const {
@@ -107,9 +99,8 @@ Tensor FlowStepImpl::Inverse(const Tensor& z, const Tensor& condition, const Ten
 
 CouplingFlowImpl::CouplingFlowImpl(int width, int condition, const FlowConfig& config) {
   steps_ = register_module("steps", torch::nn::ModuleList());
-  for (int k = 0; k < config.flow_steps; ++k) {
-    steps_->push_back(FlowStep(width, condition, config.hidden, config.recurrent));
-  }
+  for (int k = 0; k < config.flow_steps; ++k)
+    steps_->push_back(FlowStep(width, condition, config.hidden));
 }
 
 int CouplingFlowImpl::StateWidth() const {
@@ -119,9 +110,7 @@ int CouplingFlowImpl::StateWidth() const {
 }
 
 FlowState CouplingFlowImpl::InitialState(int64_t batch) const {
-  const auto options =
-      steps_->is_empty() ? torch::TensorOptions() : steps_->ptr(0)->parameters()[0].options();
-  return torch::zeros({batch, StateWidth()}, options);
+  return torch::zeros({batch, StateWidth()}, steps_->ptr(0)->parameters()[0].options());
 }
 
 namespace {
@@ -131,13 +120,12 @@ namespace {
 template <typename Visit>
 void WithStates(const torch::nn::ModuleList& steps, FlowState* state, bool backwards, Visit visit) {
   const int count = static_cast<int>(steps->size());
-  const int64_t width = count > 0 ? state->size(-1) / count : 0;
-  auto pieces = width > 0 ? state->split(width, -1) : std::vector<Tensor>(count);
+  std::vector<Tensor> pieces = state->chunk(count, -1);
   for (int i = 0; i < count; ++i) {
     const int k = backwards ? count - 1 - i : i;
     visit(k, *steps->ptr(k)->as<FlowStep>(), &pieces[k]);
   }
-  if (width > 0) *state = torch::cat(pieces, -1);
+  *state = torch::cat(pieces, -1);
 }
 
 }  // namespace

@@ -14,32 +14,30 @@
 /// conditions are [batch, time, condition]. A module is used by one thread at a time.
 namespace choreo {
 
-/// Recurrent state of every coupling, flattened: [batch, StateWidth()]. Width 0 for a perceptron
-/// flow.
+/// Recurrent state of every coupling, flattened: [batch, StateWidth()].
 using FlowState = torch::Tensor;
 
-/// The network [a, b] = f(h_lo, condition) of one coupling (Eq. 7): 2-layer LSTM or 2-layer
-/// perceptron, last layer zero-initialised.
+/// The network [a, b] = f(h_lo, condition) of one coupling (Eq. 7): 2-layer LSTM, last layer
+/// zero-initialised.
 class CouplingNetworkImpl : public torch::nn::Module {
  public:
-  CouplingNetworkImpl(int input, int hidden, int output, bool recurrent);
+  CouplingNetworkImpl(int input, int hidden, int output);
   /// `state` [batch, StateWidth()] is read and replaced.
   torch::Tensor forward(const torch::Tensor& input, torch::Tensor* state);
-  int StateWidth() const { return recurrent_ ? 2 * kLayers * hidden_ : 0; }
+  int StateWidth() const { return 2 * kLayers * hidden_; }
 
  private:
   static constexpr int kLayers = 2;
   int hidden_;
-  bool recurrent_;
   torch::nn::LSTM lstm_{nullptr};
-  torch::nn::Linear first_{nullptr}, second_{nullptr}, last_{nullptr};
+  torch::nn::Linear last_{nullptr};
 };
 TORCH_MODULE(CouplingNetwork);
 
 /// One step f_k.
 class FlowStepImpl : public torch::nn::Module {
  public:
-  FlowStepImpl(int width, int condition, int hidden, bool recurrent);
+  FlowStepImpl(int width, int condition, int hidden);
   /// x → z; adds log |det dz/dx| of each frame to `log_det` [batch, time].
   torch::Tensor Forward(const torch::Tensor& x, const torch::Tensor& condition,
                         torch::Tensor* state, torch::Tensor* log_det);
@@ -53,7 +51,6 @@ class FlowStepImpl : public torch::nn::Module {
   /// the whole step.
   void InitialiseActNorm(const torch::Tensor& x);
   int StateWidth() const { return network_->StateWidth(); }
-  CouplingNetwork network() const { return network_; }
 
  private:
   torch::Tensor Weight() const;

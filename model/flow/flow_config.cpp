@@ -9,9 +9,9 @@ namespace choreo {
 // One list serves both directions, so that a field can't be written and not read.
 #define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                         \
   apply(history_frames) apply(audio_features) apply(hears_music) apply(flow_steps) apply(hidden) \
-      apply(recurrent) apply(condition_width) apply(max_transition_frames) apply(temperature)    \
-          apply(keys) apply(key_loss) apply(time_embedding) apply(forward_embedding)             \
-              apply(history_dropout) apply(history_noise)
+      apply(condition_width) apply(max_transition_frames) apply(temperature) apply(keys)         \
+          apply(key_loss) apply(time_embedding) apply(forward_embedding) apply(history_dropout)  \
+              apply(history_noise)
 
 void to_json(nlohmann::json& json, const FlowConfig& config) {
   json = nlohmann::json::object();
@@ -27,6 +27,8 @@ void from_json(const nlohmann::json& json, FlowConfig& config) {
                           "networks around a planner are no longer danced; train "
                           "--preset default");
   }
+  if (!json.value("recurrent", true))
+    throw InvalidArgument("recurrent", "false: flows without memory are no longer danced");
   json.at("name").get_to(config.name);
 #define CHOREO_READ(field) json.at(#field).get_to(config.field);
   CHOREO_FLOW_CONFIG_FIELDS(CHOREO_READ)

@@ -23,8 +23,7 @@ struct FlowConfig {
   int audio_features = 40;     ///< MFCCs a row
   bool hears_music = true;     ///< false: no training clip had music, which is then not listened to
   int flow_steps = 16;         ///< K, at least 1
-  int hidden = 512;            ///< width of each coupling's network
-  bool recurrent = true;    ///< coupling network: 2-layer LSTM (the paper's) or 2-layer perceptron
+  int hidden = 512;            ///< width of each coupling's network, a 2-layer LSTM
   int condition_width = 0;  ///< 0: the raw condition goes to every coupling (the paper); else one
                             ///< shared encoding of this width
   int max_transition_frames = 1800;

@@ -24,8 +24,7 @@ class CudaEngineTest : public testing::TestWithParam<Shape> {
   SmallCheckpoint checkpoint_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Shapes, CudaEngineTest,
-                         testing::Values(Shape::kEncodedPerceptron, Shape::kRecurrent),
+INSTANTIATE_TEST_SUITE_P(Shapes, CudaEngineTest, testing::Values(Shape::kEncoded, Shape::kRaw),
                          [](const auto& instance) { return ShapeName(instance.param); });
 
 TEST_P(CudaEngineTest, StepsAsTheCpuDoes) {

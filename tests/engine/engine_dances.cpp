@@ -20,19 +20,7 @@ Pose RandomPose(Random* random, const Pose& base, double size) {
 
 }  // namespace
 
-std::string ShapeName(Shape shape) {
-  switch (shape) {
-    case Shape::kPerceptron:
-      return "Perceptron";
-    case Shape::kEncodedPerceptron:
-      return "EncodedPerceptron";
-    case Shape::kRecurrent:
-      return "Recurrent";
-    case Shape::kEncodedRecurrent:
-      return "EncodedRecurrent";
-  }
-  return "";
-}
+std::string ShapeName(Shape shape) { return shape == Shape::kRaw ? "Raw" : "Encoded"; }
 
 FlowConfig SmallConfig(Shape shape) {
   FlowConfig config;
@@ -41,9 +29,7 @@ FlowConfig SmallConfig(Shape shape) {
   config.hidden = 24;
   config.max_transition_frames = 200;
   config.temperature = 0.4;
-  config.recurrent = shape == Shape::kRecurrent || shape == Shape::kEncodedRecurrent;
-  if (shape == Shape::kEncodedPerceptron || shape == Shape::kEncodedRecurrent)
-    config.condition_width = 20;
+  if (shape == Shape::kEncoded) config.condition_width = 20;
   return config;
 }
 

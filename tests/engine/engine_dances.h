@@ -14,12 +14,10 @@
 /// engines share.
 namespace choreo {
 
-/// Every combination of parts that the flow has.
+/// What couplings see of a frame's condition.
 enum class Shape {
-  kPerceptron,
-  kEncodedPerceptron,
-  kRecurrent,         ///< as preset `paper`
-  kEncodedRecurrent,  ///< as preset `ablation`
+  kRaw,      ///< as preset `paper`
+  kEncoded,  ///< as preset `ablation`
 };
 std::string ShapeName(Shape shape);
 FlowConfig SmallConfig(Shape shape);

@@ -19,7 +19,7 @@ std::string Fingerprint(const SmallCheckpoint& checkpoint, const std::string& ke
 }
 
 TEST(KernelsTest, AreThoseThatAreNamed) {
-  const SmallCheckpoint checkpoint(Shape::kEncodedPerceptron);
+  const SmallCheckpoint checkpoint(Shape::kEncoded);
   for (const PackedKernels* kernels : PackedKernelsHere()) {
     EXPECT_THAT(Fingerprint(checkpoint, kernels->name),
                 HasSubstr("/packed " + std::string(kernels->name)));
@@ -31,7 +31,7 @@ TEST(KernelsTest, AreThoseThatAreNamed) {
 }
 
 TEST(KernelsTest, ThatAreNotHereAreNamed) {
-  const SmallCheckpoint checkpoint(Shape::kEncodedPerceptron);
+  const SmallCheckpoint checkpoint(Shape::kEncoded);
   const auto refusal = [&](const std::string& kernels, EngineKind kind) -> std::string {
     try {
       return Fingerprint(checkpoint, kernels, kind);

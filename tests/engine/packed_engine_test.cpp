@@ -43,15 +43,15 @@ class PackedEngineTest : public testing::TestWithParam<std::tuple<Shape, EngineK
   SmallCheckpoint checkpoint_;
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, PackedEngineTest,
-    testing::Combine(testing::Values(Shape::kPerceptron, Shape::kEncodedPerceptron,
-                                     Shape::kRecurrent, Shape::kEncodedRecurrent),
-                     testing::Values(EngineKind::kPacked, EngineKind::kPackedBf16)),
-    [](const auto& instance) {
-      return ShapeName(std::get<0>(instance.param)) +
-             (std::get<1>(instance.param) == EngineKind::kPackedBf16 ? "Bf16" : "");
-    });
+INSTANTIATE_TEST_SUITE_P(Shapes, PackedEngineTest,
+                         testing::Combine(testing::Values(Shape::kRaw, Shape::kEncoded),
+                                          testing::Values(EngineKind::kPacked,
+                                                          EngineKind::kPackedBf16)),
+                         [](const auto& instance) {
+                           return ShapeName(std::get<0>(instance.param)) +
+                                  (std::get<1>(instance.param) == EngineKind::kPackedBf16 ? "Bf16"
+                                                                                          : "");
+                         });
 
 TEST_P(PackedEngineTest, StepsAsTheTorchEngineDoes) {
   const double most = bf16() ? 0.05 : 1e-4;

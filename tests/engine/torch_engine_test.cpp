@@ -27,8 +27,7 @@ class TorchEngineTest : public testing::TestWithParam<Shape> {
   FlowModel model_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Shapes, TorchEngineTest,
-                         testing::Values(Shape::kEncodedPerceptron, Shape::kRecurrent),
+INSTANTIATE_TEST_SUITE_P(Shapes, TorchEngineTest, testing::Values(Shape::kEncoded, Shape::kRaw),
                          [](const auto& instance) { return ShapeName(instance.param); });
 
 TEST_P(TorchEngineTest, RowsOfATileAreIndependentHere) {
@@ -131,10 +130,8 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
           features.narrow(0, t, tau).unsqueeze(0), audio.narrow(0, t, tau + 1).unsqueeze(0),
           has_audio, condition.select(1, t), spec.temperature * torch::tensor(noise).unsqueeze(0),
           inverse_weights, &state);
-      if (state.numel() > 0) {
-        largest_effect_of_state =
-            std::max<double>(largest_effect_of_state, state.abs().max().item<float>());
-      }
+      largest_effect_of_state =
+          std::max<double>(largest_effect_of_state, state.abs().max().item<float>());
       const Eigen::VectorXf x =
           Eigen::Map<Eigen::VectorXf>(result.features.contiguous().data_ptr<float>(), width);
       const auto expected = codec.Decode(x);
@@ -146,7 +143,7 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
       }
       ASSERT_NEAR(output.log_likelihood, result.log_likelihood.item<float>(), 2e-3) << t;
     }
-    EXPECT_EQ(largest_effect_of_state > 0, GetParam() == Shape::kRecurrent);
+    EXPECT_GT(largest_effect_of_state, 0);
   }
 }
 

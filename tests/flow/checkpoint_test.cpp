@@ -76,14 +76,20 @@ TEST_F(CheckpointTest, AnotherFormatIsRefused) {
   EXPECT_THAT(FailureOfLoading(), HasSubstr("choreo-flow-0"));
 }
 
-TEST_F(CheckpointTest, AFlowAroundAPlannerIsRefusedByName) {
-  Safetensors content = ReadSafetensors(path_);
-  nlohmann::json config = nlohmann::json::parse(content.metadata["config"]);
-  config["planner"] = {{"width", 160}};
-  content.metadata["config"] = config.dump();
-  content.metadata["hash"] = ContentHash(content, "hash");
-  WriteSafetensors(path_, content);
-  EXPECT_THAT(FailureOfLoading(), HasSubstr("planner: networks around a planner"));
+TEST_F(CheckpointTest, FlowsThatAreNoLongerDancedAreRefusedByName) {
+  const auto refusal_of = [this](const char* field, const nlohmann::json& value) {
+    Safetensors content = ReadSafetensors(path_);
+    nlohmann::json config = nlohmann::json::parse(content.metadata["config"]);
+    config[field] = value;
+    content.metadata["config"] = config.dump();
+    content.metadata["hash"] = ContentHash(content, "hash");
+    WriteSafetensors(path_, content);
+    return FailureOfLoading();
+  };
+  EXPECT_EQ(refusal_of("recurrent", true), "");
+  EXPECT_THAT(refusal_of("recurrent", false), HasSubstr("recurrent: false"));
+  EXPECT_THAT(refusal_of("planner", {{"width", 160}}),
+              HasSubstr("planner: networks around a planner"));
 }
 
 TEST_F(CheckpointTest, AForeignFileIsRefused) {

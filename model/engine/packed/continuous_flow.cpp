@@ -148,8 +148,7 @@ void PackedFlowNetwork::Transform(const Block& block, const Eigen::VectorXf& con
   const auto add = [&](const float* weight) {
     const Eigen::Map<const Eigen::RowVectorXf> by(weight, width_);
     for (long i = 0; i < tokens; ++i)
-      work->x.Part(i, 0, width_).array() +=
-          (1 + by.array()) * work->added.Part(i, 0, width_).array();
+      work->x.Head(i, width_).array() += (1 + by.array()) * work->added.Head(i, width_).array();
   };
   Normalise(work->x, part(1), part(0), tokens, &work->normal);
   block.qkv.Run(work->normal.Row(0), work->normal.stride(), work->qkv.Row(0), work->qkv.stride(),
@@ -184,7 +183,7 @@ Eigen::MatrixXf PackedFlowNetwork::Evaluate(const Eigen::MatrixXf& z, const Eige
   const Eigen::VectorXf condition = Condition(features.whole, t);
   embed_.Run(frames.data(), token, work.x.Row(0), work.x.stride(), tokens);
   const Eigen::VectorXf injected = Run(inject_, condition);
-  for (long i = 0; i < tokens; ++i) work.x.Part(i, 0, width_) += injected.head(width_).transpose();
+  for (long i = 0; i < tokens; ++i) work.x.Head(i, width_) += injected.head(width_).transpose();
   for (const Block& block : blocks_) Transform(block, condition, tokens, &work);
 
   const Eigen::VectorXf modulation = Run(head_modulation_, condition);

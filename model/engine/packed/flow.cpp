@@ -4,23 +4,25 @@
 #include <algorithm>
 #include <string>
 
-#include "model/core/error.h"
 #include "model/engine/packed/tensors.h"
+#include "model/flow/key_condition.h"
+#include "model/motion/pose_codec.h"
 
 namespace choreo {
 namespace {
 
 using Matrix = RowMajorMatrix;
 
-// Rows of [in] and [hidden] on top of each other, biases summed: one product a layer.
-PackedLinear LstmLayer(const PackedKernels& kernels, const PackedTensors& tensors,
-                       const std::string& name, const std::string& layer, long in, long hidden) {
-  Matrix weight(in + hidden, 4 * hidden);
-  weight << tensors.Get(name + ".weight_ih_" + layer, 4 * hidden, in).transpose(),
-      tensors.Get(name + ".weight_hh_" + layer, 4 * hidden, hidden).transpose();
-  return {kernels, weight,
-          tensors.Get(name + ".bias_ih_" + layer, 4 * hidden) +
-              tensors.Get(name + ".bias_hh_" + layer, 4 * hidden)};
+// Rows of what comes in and of its own hidden state on top of each other, biases summed: one
+// product.
+PackedLinear SecondLayer(const PackedKernels& kernels, const PackedTensors& tensors,
+                         const std::string& lstm, long hidden) {
+  Matrix weight(2 * hidden, 4 * hidden);
+  weight << tensors.Get(lstm + "weight_ih_l1", 4 * hidden, hidden).transpose(),
+      tensors.Get(lstm + "weight_hh_l1", 4 * hidden, hidden).transpose();
+  return {
+      kernels, weight,
+      tensors.Get(lstm + "bias_ih_l1", 4 * hidden) + tensors.Get(lstm + "bias_hh_l1", 4 * hidden)};
 }
 
 // Inverse of y = (x + bias) exp(log_scale) W^T.
@@ -56,18 +58,19 @@ FirstLayer Split(const Eigen::Map<const Matrix>& weight, long low, long live) {
 
 }  // namespace
 
-PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int features,
-                       const PackedKernels& with, const PackedKernels& products)
+PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config,
+                       const Skeleton& skeleton, const PackedKernels& with,
+                       const PackedKernels& products)
     : kernels(with),
-      width(features),
+      width(PoseCodec(skeleton).width()),
       tau(config.history_frames),
       audio_features(config.audio_features),
       flow_steps(config.flow_steps),
       hidden(config.hidden),
-      recurrent(config.recurrent),
       encoded(config.condition_width > 0),
       live(tau * width + (tau + 1) * audio_features + 1),
-      condition(encoded ? config.condition_width : live) {
+      condition(encoded ? config.condition_width : live),
+      key_width(KeyConditionWidth(skeleton.joints(), width)) {
   const PackedTensors tensors(content);
   feature_mean = tensors.Get("feature_mean", width);
   feature_std = tensors.Get("feature_std", width);
@@ -75,10 +78,8 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
   audio_mean = tensors.Get("audio_mean", audio_features);
   audio_scale = tensors.Get("audio_std", audio_features).cwiseInverse();
 
-  const std::string first_weight = recurrent ? "network.lstm.weight_ih_l0" : "network.first.weight";
   if (encoded) {
     static_width = condition;
-    key_width = static_cast<int>(tensors.Columns("encode_static.weight"));
     encode_static = tensors.Linear(kernels, "encode_static", key_width, condition);
     const long past = tau * width, audio = live - past;
     Matrix weight(live, condition);
@@ -89,37 +90,26 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config, int
         tensors.Get("encode_past.bias", condition) + tensors.Get("encode_audio.bias", condition));
     encode = tensors.Linear(products, "encode", condition, condition);
   } else {
-    const long columns = tensors.Columns("flow.steps.0." + first_weight);
-    if (columns < low() + live) {
-      throw InvalidArgument("flow.steps.0." + first_weight, "is missing, or has too few columns");
-    }
-    key_width = static_width = static_cast<int>(columns) - low() - live;
+    static_width = key_width;
   }
 
   double log_det_sum = 0;
   for (int k = 0; k < flow_steps; ++k) {
     const std::string name = "flow.steps." + std::to_string(k) + ".";
-    const std::string network = name + "network.";
+    const std::string network = name + "network.lstm.";
     const int seen = low() + condition + (encoded ? 0 : static_width);
-    FirstLayer parts =
-        Split(tensors.Get(name + first_weight, first_width(), seen), low(), condition);
+    const FirstLayer parts =
+        Split(tensors.Get(network + "weight_ih_l0", gates(), seen), low(), condition);
     Coupling& coupling = couplings.emplace_back();
-    Eigen::VectorXf bias;
-    if (recurrent) {
-      Matrix weight(input_width(), first_width());
-      weight << parts.live_and_low,
-          tensors.Get(network + "lstm.weight_hh_l0", first_width(), hidden).transpose();
-      parts.live_and_low = weight;
-      bias = tensors.Get(network + "lstm.bias_ih_l0", first_width()) +
-             tensors.Get(network + "lstm.bias_hh_l0", first_width());
-      coupling.second = LstmLayer(products, tensors, network + "lstm", "l1", hidden, hidden);
-    } else {
-      bias = tensors.Get(network + "first.bias", first_width());
-      coupling.second = tensors.Linear(products, network + "second", hidden, hidden);
-    }
-    coupling.first = PackedLinear(products, parts.live_and_low, bias);
+    Matrix weight(input_width(), gates());
+    weight << parts.live_and_low,
+        tensors.Get(network + "weight_hh_l0", gates(), hidden).transpose();
+    const Eigen::VectorXf bias =
+        tensors.Get(network + "bias_ih_l0", gates()) + tensors.Get(network + "bias_hh_l0", gates());
+    coupling.first = PackedLinear(products, weight, bias);
+    coupling.second = SecondLayer(products, tensors, network, hidden);
     if (!encoded) hoisted_.emplace_back(products, parts.fixed, bias);
-    coupling.last = tensors.Linear(products, network + "last", hidden, 2 * high());
+    coupling.last = tensors.Linear(products, name + "network.last", hidden, 2 * high());
     coupling.unmix = Unmix(kernels, tensors, name, width);
     log_det_sum += tensors.Get(name + "norm_log_scale", width).cast<double>().sum() +
                    tensors.Get(name + "log_diagonal", width).cast<double>().sum();

@@ -7,6 +7,7 @@
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 #include "model/flow/flow_config.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 
@@ -19,27 +20,27 @@ namespace choreo {
 struct PackedFlow {
   /// One step of the flow, as its inverse runs it.
   struct Coupling {
-    PackedLinear first;   ///< [input_width] -> gates of the first LSTM layer, or the hidden width
-    PackedLinear second;  ///< [hidden | own hidden state] likewise; a perceptron's is [hidden]
+    PackedLinear first;   ///< [input_width] -> gates of the first LSTM layer
+    PackedLinear second;  ///< [hidden | own hidden state] -> gates of the second
     PackedLinear last;    ///< [hidden] -> [a, b]
     PackedLinear unmix;   ///< inverse of ActNorm and invertible linear map, folded in double
   };
 
   /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
-  /// configuration. `width`: of the features. `products`: for the networks' products, `kernels` or
+  /// configuration. `products`: for the networks' products, `kernels` or
   /// less exact ones of the same panel; what leads straight from noise to features is `kernels`'.
-  PackedFlow(const Safetensors& content, const FlowConfig& config, int width,
+  PackedFlow(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
              const PackedKernels& kernels, const PackedKernels& products);
 
   int low() const { return width / 2; }
   int high() const { return width - low(); }
   /// Floats of one slot's recurrent state: for each step h and c of both layers.
-  int state_width() const { return recurrent ? flow_steps * 4 * hidden : 0; }
-  /// Outputs of a coupling's first layer.
-  int first_width() const { return recurrent ? 4 * hidden : hidden; }
+  int state_width() const { return flow_steps * 4 * hidden; }
+  /// Gates of one LSTM layer.
+  int gates() const { return 4 * hidden; }
   /// Width of Hoist's rows: every coupling's first layer.
   long hoisted_width() const { return flow_steps * couplings.front().first.padded(); }
-  int input_width() const { return condition + low() + (recurrent ? hidden : 0); }
+  int input_width() const { return condition + low() + hidden; }
 
   /// static_condition [rows, static_width] -> hoisted [rows, hoisted_width()]: what every frame's
   /// first products start from, biases included. Not where the condition is encoded: there it is
@@ -48,7 +49,6 @@ struct PackedFlow {
 
   const PackedKernels& kernels;
   int width, tau, audio_features, flow_steps, hidden;
-  bool recurrent;
   bool encoded;      ///< one shared condition encoding, else the raw condition
   int live;          ///< floats of past and music that a frame's condition is made of
   int condition;     ///< columns of the condition that couplings see: the encoding's, or `live`

@@ -41,21 +41,8 @@ class RowBuffer {
   long stride() const { return stride_; }
   float* Row(long row) { return pages_.data() + row * stride_; }
   const float* Row(long row) const { return pages_.data() + row * stride_; }
-  /// `count` floats of a row from `first` on.
-  Eigen::Map<Eigen::RowVectorXf> Part(long row, long first, long count) {
-    return {Row(row) + first, count};
-  }
-  Eigen::Map<const Eigen::RowVectorXf> Part(long row, long first, long count) const {
-    return {Row(row) + first, count};
-  }
-  template <int kCount>
-  Eigen::Map<Eigen::Matrix<float, 1, kCount>> Part(long row, long first) {
-    return Eigen::Map<Eigen::Matrix<float, 1, kCount>>(Row(row) + first);
-  }
-  template <int kCount>
-  Eigen::Map<const Eigen::Matrix<float, 1, kCount>> Part(long row, long first) const {
-    return Eigen::Map<const Eigen::Matrix<float, 1, kCount>>(Row(row) + first);
-  }
+  /// The first `count` floats of a row.
+  Eigen::Map<Eigen::RowVectorXf> Head(long row, long count) { return {Row(row), count}; }
 
  private:
   LargePages pages_;

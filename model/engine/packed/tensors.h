@@ -21,13 +21,6 @@ class PackedTensors {
   Eigen::Map<const Eigen::VectorXf> Get(const std::string& name, long size) const {
     return {content_.Get(name, {size}).data.data(), size};
   }
-  /// Columns of a matrix, whatever their number; 0 where there is no such matrix.
-  long Columns(const std::string& name) const {
-    const auto found = content_.tensors.find(name);
-    const bool matrix = found != content_.tensors.end() && found->second.shape.size() == 2;
-    return matrix ? found->second.shape[1] : 0;
-  }
-
   /// A linear layer `name`.weight, `name`.bias of LibTorch's, which holds [out, in].
   PackedLinear Linear(const PackedKernels& kernels, const std::string& name, long in,
                       long out) const {

@@ -12,14 +12,14 @@ namespace choreo {
 PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
     : flow_(std::move(flow)), slots_(static_cast<size_t>(slots)) {
   const PackedFlow::Coupling& coupling = flow_->couplings.front();
-  live_ = Buffer(std::max<long>(flow_->live, flow_->encode.padded()));
-  encoding_ = Buffer(flow_->encode.padded());
-  input_ = Buffer(flow_->input_width());
-  wide_ = Buffer(coupling.first.padded());
-  hidden_ = Buffer(flow_->recurrent ? 2 * flow_->hidden : coupling.second.padded());
-  ab_ = Buffer(coupling.last.padded());
-  z_ = Buffer(coupling.unmix.padded());
-  mixed_ = Buffer(coupling.unmix.padded());
+  live_.Resize(kRows, std::max<long>(flow_->live, flow_->encode.padded()));
+  encoding_.Resize(kRows, flow_->encode.padded());
+  input_.Resize(kRows, flow_->input_width());
+  wide_.Resize(kRows, coupling.first.padded());
+  hidden_.Resize(kRows, 2 * flow_->hidden);
+  ab_.Resize(kRows, coupling.last.padded());
+  z_.Resize(kRows, coupling.unmix.padded());
+  mixed_.Resize(kRows, coupling.unmix.padded());
 }
 
 void PackedTile::Begin(int slot_index, Eigen::MatrixXf conditions) {
@@ -67,7 +67,7 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
     live[flow.live - 1] = row.has_audio ? 1.0F : 0.0F;
   }
   if (!flow.encoded) return;
-  flow.encode_live.Run(live_.Row(0), live_.stride, encoding_.Row(0), encoding_.stride, count);
+  flow.encode_live.Run(live_.Row(0), live_.stride(), encoding_.Row(0), encoding_.stride(), count);
   for (long i = 0; i < count; ++i) {
     const FlowRow& row = rows[static_cast<size_t>(i)];
     const Slot& slot = slots_[static_cast<size_t>(row.slot)];
@@ -75,9 +75,9 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
         Eigen::Map<const Eigen::VectorXf>(
             slot.static_condition.data() + row.frame * flow.static_width, flow.static_width);
   }
-  flow.kernels.silu(encoding_.Row(0), count * encoding_.stride);
+  flow.kernels.silu(encoding_.Row(0), count * encoding_.stride());
   // live_ has done its part, and is wider.
-  flow.encode.Run(encoding_.Row(0), encoding_.stride, live_.Row(0), live_.stride, count);
+  flow.encode.Run(encoding_.Row(0), encoding_.stride(), live_.Row(0), live_.stride(), count);
   for (long i = 0; i < count; ++i) {
     flow.kernels.silu(live_.Row(i), flow.condition);
     std::copy_n(live_.Row(i), flow.condition, input_.Row(i));
@@ -94,35 +94,26 @@ void PackedTile::Hidden(std::span<const FlowRow> rows, int step) {
     return slots_[static_cast<size_t>(rows[static_cast<size_t>(i)].slot)].state.data() +
            step * 4 * hidden;
   };
-  if (flow.recurrent) {
-    for (long i = 0; i < count; ++i) {
-      std::copy_n(state(i), hidden, input_.Row(i) + flow.condition + flow.low());
-    }
-  }
+  for (long i = 0; i < count; ++i)
+    std::copy_n(state(i), hidden, input_.Row(i) + flow.condition + flow.low());
   if (flow.encoded) {
-    coupling.first.Run(input_.Row(0), input_.stride, wide_.Row(0), wide_.stride, count);
+    coupling.first.Run(input_.Row(0), input_.stride(), wide_.Row(0), wide_.stride(), count);
   } else {
     for (long i = 0; i < count; ++i) {
       const FlowRow& row = rows[static_cast<size_t>(i)];
       const Slot& slot = slots_[static_cast<size_t>(row.slot)];
       std::copy_n(slot.hoisted.data() + (row.frame - slot.hoisted_from) * flow.hoisted_width() +
-                      step * wide_.stride,
-                  wide_.stride, wide_.Row(i));
+                      step * wide_.stride(),
+                  wide_.stride(), wide_.Row(i));
     }
-    coupling.first.Add(input_.Row(0), input_.stride, wide_.Row(0), wide_.stride, count);
-  }
-  if (!flow.recurrent) {
-    flow.kernels.silu(wide_.Row(0), count * wide_.stride);
-    coupling.second.Run(wide_.Row(0), wide_.stride, hidden_.Row(0), hidden_.stride, count);
-    flow.kernels.silu(hidden_.Row(0), count * hidden_.stride);
-    return;
+    coupling.first.Add(input_.Row(0), input_.stride(), wide_.Row(0), wide_.stride(), count);
   }
   for (long i = 0; i < count; ++i) {
     float* h = state(i);
     flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
     std::copy_n(h, 2 * hidden, hidden_.Row(i));
   }
-  coupling.second.Run(hidden_.Row(0), hidden_.stride, wide_.Row(0), wide_.stride, count);
+  coupling.second.Run(hidden_.Row(0), hidden_.stride(), wide_.Row(0), wide_.stride(), count);
   for (long i = 0; i < count; ++i) {
     float* h = state(i) + hidden;
     flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
@@ -139,7 +130,7 @@ void PackedTile::Couple(std::span<FlowRow> rows, int step) {
     std::copy_n(z_.Row(i), flow.low(), input_.Row(i) + flow.condition);
   }
   Hidden(rows, step);
-  coupling.last.Run(hidden_.Row(0), hidden_.stride, ab_.Row(0), ab_.stride, count);
+  coupling.last.Run(hidden_.Row(0), hidden_.stride(), ab_.Row(0), ab_.stride(), count);
   for (long i = 0; i < count; ++i) {
     const double deltas = flow.kernels.coupling({.ab = ab_.Row(i),
                                                  .high = z_.Row(i) + flow.low(),
@@ -148,7 +139,7 @@ void PackedTile::Couple(std::span<FlowRow> rows, int step) {
                                                  .delta_floor = kDeltaFloor});
     rows[static_cast<size_t>(i)].log_likelihood += static_cast<float>(std::log(deltas));
   }
-  coupling.unmix.Run(z_.Row(0), z_.stride, mixed_.Row(0), mixed_.stride, count);
+  coupling.unmix.Run(z_.Row(0), z_.stride(), mixed_.Row(0), mixed_.stride(), count);
   std::swap(z_, mixed_);
 }
 

@@ -33,14 +33,6 @@ class PackedTile : public FlowTile {
     long hoisted_from = 0;
     std::vector<float> state;  // [flow_steps, h0 h1 c0 c1, hidden]
   };
-  /// Floats of a tile's rows, one row after another.
-  struct Buffer {
-    Buffer() = default;
-    explicit Buffer(long width) : stride(width), pages(static_cast<size_t>(kRows * width)) {}
-    float* Row(long row) { return pages.data() + row * stride; }
-    long stride = 0;
-    LargePages pages;
-  };
 
   void Hoist(Slot* slot, long frame);
   void Condition(std::span<const FlowRow> rows);
@@ -49,13 +41,13 @@ class PackedTile : public FlowTile {
 
   std::shared_ptr<const PackedFlow> flow_;
   std::vector<Slot> slots_;
-  Buffer live_;      // past and music, standardised
-  Buffer encoding_;  // behind the encoding's first layer
-  Buffer input_;     // of a coupling: condition, z_lo, own hidden state
-  Buffer wide_;      // gates, or the first hidden layer
-  Buffer hidden_;    // of the last layer; recurrent: [h0 | h1] before
-  Buffer ab_;
-  Buffer z_, mixed_;
+  RowBuffer live_;      // past and music, standardised
+  RowBuffer encoding_;  // behind the encoding's first layer
+  RowBuffer input_;     // of a coupling: condition, z_lo, own hidden state
+  RowBuffer wide_;      // gates
+  RowBuffer hidden_;    // of the last layer; [h0 | h1] before
+  RowBuffer ab_;
+  RowBuffer z_, mixed_;
 };
 
 }  // namespace choreo

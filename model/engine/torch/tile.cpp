@@ -94,7 +94,7 @@ void TorchTile::Compute() {
   const FlowModelImpl::StepResult result = model->Step(
       Input(kPast).reshape({padded_, tau, -1}), Input(kAudio).reshape({padded_, tau + 1, -1}),
       Input(kHasAudio), Input(kCondition), Input(kNoise), weights_->inverse_weights, &state);
-  if (state.size(1) > 0) states_.index_copy_(0, slots_, state);
+  states_.index_copy_(0, slots_, state);
   host_output_.copy_(torch::cat({result.features, result.log_likelihood.unsqueeze(1)}, 1),
                      /*non_blocking=*/true);
 }
