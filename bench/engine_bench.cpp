@@ -75,10 +75,10 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.has_audio = model.audio_features > 0;
   spec.audio_history = Eigen::MatrixXf::Zero(model.audio_features, model.history_frames);
   if (model.root_path) {
-    const Eigen::Vector3f from = spec.history.back().root_position.cast<float>();
-    const Eigen::Vector3f way = key.root_position.cast<float>() - from;
+    const Eigen::Vector3d from = spec.history.back().root_position;
+    const Eigen::Vector3d way = key.root_position - from;
     spec.controls.root_path =
-        (way * Eigen::RowVectorXf::LinSpaced(kFrames, 1.0F / kFrames, 1)).colwise() + from;
+        (way * Eigen::RowVectorXd::LinSpaced(kFrames, 1.0 / kFrames, 1)).colwise() + from;
   }
   return spec;
 }

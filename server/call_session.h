@@ -123,7 +123,7 @@ class CallSession : public Call {
     if (!outbox_.open()) throw Error(ErrorCode::kCancelled, "", "the call is over");
   }
 
-  void SendHeader(const ModelInfo& model, const v1::DanceConfig& message, const DanceConfig& config,
+  void SendHeader(const ModelInfo& model, const v1::DanceConfig& message, const DanceStart& config,
                   int64_t first_frame, bool exact_resume) {
     Response response;
     v1::Header* header = response.mutable_header();

@@ -1,6 +1,7 @@
 #include "server/read_controls.h"
 
 #include "model/core/error.h"
+#include "model/dance/validation.h"
 #include "server/read_pose.h"
 
 namespace choreo {

@@ -39,10 +39,6 @@ Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
-std::string At(const std::string& field, int64_t index) {
-  return field + '[' + std::to_string(index) + ']';
-}
-
 int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field) {
   switch (encoding) {
     case v1::ROTATION_ENCODING_UNSPECIFIED:
@@ -91,9 +87,9 @@ Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& f
           .rotations = ToRotations(pose, skeleton, field)};
 }
 
-WorldTarget ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
-                     const std::string& pose_field, const std::string& mask_field) {
-  WorldTarget target;
+Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
+                const std::string& pose_field, const std::string& mask_field) {
+  Target target;
   target.pose.rotations = ToRotations(pose, skeleton, pose_field);
   target.mask.root_position = pose.has_root_position();
   if (pose.has_root_position()) target.pose.root_position = ToVector(pose.root_position());

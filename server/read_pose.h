@@ -14,9 +14,6 @@
 /// beginning with `field`. Pure functions, thread-safe.
 namespace choreo {
 
-/// Path of an element, as in "keyframes[3]".
-std::string At(const std::string& field, int64_t index);
-
 /// Numbers a joint of an encoding: 3, 4 or 9.
 int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field);
 
@@ -28,7 +25,7 @@ Eigen::Matrix3Xd ToRotations(const v1::Pose& pose, const Skeleton& skeleton,
 Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field);
 
 /// A key pose and what it asks for. `mask` null: all joints.
-WorldTarget ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
-                     const std::string& pose_field, const std::string& mask_field);
+Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
+                const std::string& pose_field, const std::string& mask_field);
 
 }  // namespace choreo

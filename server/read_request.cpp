@@ -18,12 +18,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
 
-int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
-  if (value >= least && value <= most) return value;
-  throw InvalidArgument(field, std::to_string(value) + " is not in [" + std::to_string(least) +
-                                   ", " + std::to_string(most) + "]");
-}
-
 void CheckBeat(double beat, double most, const std::string& field) {
   if (beat >= 0 && beat <= most) return;
   throw InvalidArgument(field, Show(beat) + " s is not in [0, " + Show(most) + "]");
@@ -91,10 +85,9 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
   return continuation;
 }
 
-// What both RPCs read from a configuration. DanceConfig and GroupRequest share these names.
-template <class Out>
+// What both RPCs read from a configuration.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
-                Out* out) {
+                DanceStart* out) {
   NumbersPerJoint(config.encoding(), "config.encoding");
   out->output_fps = config.frame_rate() == 0 ? model.fps : config.frame_rate();
   ValidateOutputFps(out->output_fps, "config.frame_rate");
@@ -140,6 +133,11 @@ void CheckMusic(const v1::AudioFormat& format) {
   }
 }
 
+DanceStart::Audio SamplesOf(const v1::AudioFormat& format) {
+  return {static_cast<double>(format.sample_rate()), static_cast<int>(format.channels()),
+          format.first_sample()};
+}
+
 }  // namespace
 
 KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& field) {
@@ -181,15 +179,12 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
   if (message.has_audio_format()) {
     const v1::AudioFormat& format = message.audio_format();
     CheckMusic(format);
-    config.audio =
-        format.encoding() == v1::AUDIO_ENCODING_FILE
-            ? DanceConfig::Audio{kFileAudioRate, 1, 0}
-            : DanceConfig::Audio{static_cast<double>(format.sample_rate()),
-                                 static_cast<int>(format.channels()), format.first_sample()};
+    config.audio = format.encoding() == v1::AUDIO_ENCODING_FILE
+                       ? DanceConfig::Audio{kFileAudioRate, 1, 0}
+                       : SamplesOf(format);
   }
   if (config.audio) {
-    ValidateAudioStart(model, config.audio->sample_rate, config.audio->channels,
-                       config.audio->first_sample, config.FirstFrame(), "config.audio_format");
+    ValidateAudioStart(model, *config.audio, config.FirstFrame(), "config.audio_format");
   }
   config.Validate(model);
   return config;
@@ -247,9 +242,7 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
                       std::to_string(format.first_sample()));
     }
     if (format.encoding() != v1::AUDIO_ENCODING_FILE) {
-      request.sample_rate = format.sample_rate();
-      request.channels = static_cast<int>(format.channels());
-      request.first_sample = format.first_sample();
+      request.audio = SamplesOf(format);
       request.samples = ToSamples(message.audio().data(), format, "audio.data");
     }
   } else if (message.has_audio()) {

@@ -188,7 +188,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     const ModelInfo& model = scheduler_->model();
     const std::string field = "keyframes[" + std::to_string(keyframes_) + ']';
     if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
-    const WorldTarget target =
+    const Target target =
         ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr, model.skeleton,
                  field, field + ".mask");
     stream.SetKey(keyframe.id(), ToMoment(keyframe, model.fps, field), target.pose, target.mask);

@@ -104,8 +104,7 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     request->samples =
         DecodeMono(AudioReader::OpenMemory(std::as_bytes(std::span(audio.data())), "audio"),
                    [this] { RequireOpen(); });
-    request->sample_rate = kModelSampleRate;
-    request->channels = 1;
+    request->audio = DanceStart::Audio{.sample_rate = kModelSampleRate, .channels = 1};
     if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
   }
 
@@ -116,17 +115,8 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     if (message.config().has_audio_format()) audio_ = message.config().audio_format();
     seed_ = request.seed;
 
-    DanceConfig config;  // as far as the header tells of it
-    config.seed = request.seed;
-    config.temperature = request.temperature;
-    config.output_fps = request.output_fps;
-    if (request.sample_rate != 0) {
-      config.audio = DanceConfig::Audio{request.sample_rate, request.channels, 0};
-    }
-    const auto& continuation = request.continuation;
-    SendHeader(model, message.config(), config,
-               continuation ? continuation->frame : request.first_frame,
-               !continuation || continuation->fingerprint == model.fingerprint);
+    SendHeader(model, message.config(), request, request.FirstFrame(),
+               !request.ResumesInexactly(model));
     Adopt(std::make_shared<TransitionGroup>(*scheduler_, request, shared_from_this()));
   }
 

@@ -21,6 +21,15 @@ std::array<float, kMfccCount> SilenceRow() {
 
 }  // namespace
 
+void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample) {
+  if (interleaved.size() % static_cast<size_t>(channels) != 0) {
+    throw InvalidArgument("audio.data", std::to_string(interleaved.size()) +
+                                            " values are no multiple of the " +
+                                            std::to_string(channels) + " channels");
+  }
+  CheckFinite(interleaved, channels, first_sample);
+}
+
 AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
     : sample_rate_(sample_rate),
       channels_(channels),
@@ -42,19 +51,14 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                     (first_sample > expected ? " leaves a gap" : " overlaps") +
                     ": the sample expected is " + std::to_string(expected));
   }
+  CheckSamples(interleaved, channels_, expected);
   const size_t channels = static_cast<size_t>(channels_);
-  if (interleaved.size() % channels != 0) {
-    throw InvalidArgument("audio.data", std::to_string(interleaved.size()) +
-                                            " values are no multiple of the " +
-                                            std::to_string(channels) + " channels");
-  }
   const int64_t end = expected + static_cast<int64_t>(interleaved.size() / channels);
   if (static_cast<double>(end) > kMaxAudioSeconds * sample_rate_) {
     throw InvalidArgument("audio.data",
                           "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
                               " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
   }
-  CheckFinite(interleaved, channels_, expected);
   const size_t second = static_cast<size_t>(sample_rate_) * channels;
   while (!interleaved.empty()) {
     const size_t count = std::min(second, interleaved.size());

@@ -15,6 +15,10 @@
 
 namespace choreo {
 
+/// Throws Error(kInvalidArgument, "audio.data") unless these are whole sample frames of finite
+/// numbers; the message counts from `first_sample`.
+void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
+
 /// Samples on one side, the model's audio rows on the other. One thread at a time pushes; any
 /// thread reads, and never waits for a transform: rows are computed apart and handed over in short
 /// turns.

@@ -58,7 +58,7 @@ const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const
   return said != paths_.rend() ? &said->control : nullptr;
 }
 
-Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>& key_on_it) const {
+Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
   Pose stance = RestPose(model_->skeleton);
   const PathCurve* curve = CurveAt(first_frame, first_frame);
   // Before a key that she stands in, she does not move: feet that glide are never planted.
@@ -69,7 +69,8 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>&
     stance.root_position.y() = height;
   }
   if (!key_on_it) return stance;
-  const auto& [pose, mask] = *key_on_it;
+  const Pose& pose = key_on_it->pose;
+  const PoseMask& mask = key_on_it->mask;
   stance = Masked(pose, mask, std::move(stance));
   if (mask.root_position) return stance;
   if (HasHeights(curve)) {
@@ -80,45 +81,45 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<WorldTarget>&
   return stance;
 }
 
-void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pose> history,
-                            const std::optional<WorldTarget>& target, const std::string& key_id,
-                            TransitionControls* out) const {
-  LeadRequest request;
-  request.first_frame = first_frame;
-  request.fps = model_->fps;
-  for (int frame = 0; frame < frames; ++frame) {
-    request.curves.push_back(CurveAt(first_frame + frame, first_frame));
-  }
-  if (std::ranges::count(request.curves, nullptr) == frames) return;
+void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request,
+                           std::vector<DanceWarning>* warnings) const {
+  const int frames = request->frames;
+  const int64_t first_frame = request->first_frame;
+  const std::vector<Pose>& history = request->history;
+  const std::optional<Target>& target = request->target;
+  LeadRequest way;
+  way.first_frame = first_frame;
+  way.fps = model_->fps;
+  for (int frame = 0; frame < frames; ++frame)
+    way.curves.push_back(CurveAt(first_frame + frame, first_frame));
+  if (std::ranges::count(way.curves, nullptr) == frames) return;
   const Eigen::Vector3d start = history.back().root_position;
-  request.start.position = start;
-  if (history.size() > 1) request.start.velocity = start - history.rbegin()[1].root_position;
-  if (target && target->mask.root_position) {
-    request.end.emplace().position = target->pose.root_position;
-  }
-  WarnOfDistance(request, &out->warnings);
-  const Lead floor = LeadPath(request);
+  way.start.position = start;
+  if (history.size() > 1) way.start.velocity = start - history.rbegin()[1].root_position;
+  if (target && target->mask.root_position) way.end.emplace().position = target->pose.root_position;
+  WarnOfDistance(way, warnings);
+  const Lead floor = LeadPath(way);
 
-  out->controls.path_heights = std::ranges::any_of(request.curves, HasHeights);
-  request.axes = {0, 1, 0};
-  for (const PathCurve*& curve : request.curves) {
+  request->controls.path_heights = std::ranges::any_of(way.curves, HasHeights);
+  way.axes = {0, 1, 0};
+  for (const PathCurve*& curve : way.curves) {
     if (!HasHeights(curve)) curve = nullptr;
   }
   const std::optional<double> standing =
       target ? StandingHeight(model_->skeleton, target->pose, target->mask) : std::nullopt;
-  const bool has_place = request.end.has_value();
-  request.end_wins = has_place;
-  if (!has_place && request.curves.back() == nullptr)
-    request.end.emplace().position.y() = standing.value_or(model_->skeleton.pelvis_height);
-  const Lead height = LeadPath(request);
+  const bool has_place = way.end.has_value();
+  way.end_wins = has_place;
+  if (!has_place && way.curves.back() == nullptr)
+    way.end.emplace().position.y() = standing.value_or(model_->skeleton.pelvis_height);
+  const Lead height = LeadPath(way);
 
-  Eigen::Matrix3Xd& path = out->controls.root_path;
+  Eigen::Matrix3Xd& path = request->controls.root_path;
   path = floor.path + height.path;
   const int64_t last = first_frame + frames - 1;
   const double missed = (floor.missed + height.missed).norm();
-  if (missed > kKeyTolerance) out->warnings.push_back(KeyOffPath(key_id, last, missed));
+  if (missed > kKeyTolerance) warnings->push_back(KeyOffPath(key_id, last, missed));
   if (standing && !has_place && std::abs(path(1, frames - 1) - *standing) > kKeyTolerance)
-    out->warnings.push_back(KeyOffHeight(key_id, last, *standing, path(1, frames - 1)));
+    warnings->push_back(KeyOffHeight(key_id, last, *standing, path(1, frames - 1)));
   double fastest = 0;
   int where = 0;
   for (int frame = 0; frame < frames; ++frame) {
@@ -128,9 +129,8 @@ void ControlTrack::FillPath(int64_t first_frame, int frames, std::span<const Pos
     fastest = speed;
     where = frame;
   }
-  if (fastest > RequiredSpeed::kRootLimit) {
-    out->warnings.push_back(PathTooFast(first_frame + where, fastest));
-  }
+  if (fastest > RequiredSpeed::kRootLimit)
+    warnings->push_back(PathTooFast(first_frame + where, fastest));
 }
 
 void ControlTrack::WarnOfDistance(const LeadRequest& request,
@@ -147,24 +147,24 @@ void ControlTrack::WarnOfDistance(const LeadRequest& request,
   }
 }
 
-void ControlTrack::FillVelocities(int64_t first_frame, int frames, TransitionControls* out) const {
+void ControlTrack::AskVelocities(TransitionRequest* request) const {
+  const int64_t first_frame = request->first_frame;
   if (velocities_.empty() || velocities_.front().from > first_frame) return;
-  auto& factors = out->controls.velocity_factors;
-  factors.resize(kBodyParts, frames);
+  auto& factors = request->controls.velocity_factors;
+  factors.resize(kBodyParts, request->frames);
   VelocityRequest usual;
   usual.values = {1};
   for (int part = 0; part < kBodyParts; ++part) {
-    bool& asks = out->controls.parts_asked[static_cast<size_t>(part)];
+    bool& asks = request->controls.parts_asked[static_cast<size_t>(part)];
     asks = false;
-    for (int frame = 0; frame < frames; ++frame) {
-      const int64_t at = first_frame + frame;
+    for (int frame = 0; frame < request->frames; ++frame) {
       const auto body_part = static_cast<BodyPart>(part);
       const auto said = std::find_if(
           velocities_.rbegin(), velocities_.rend(),
           [&](const auto& one) { return one.from <= first_frame && one.control.Names(body_part); });
       const VelocityRequest& asked = said == velocities_.rend() ? usual : said->control;
       asks = asks || said != velocities_.rend();
-      factors(part, frame) = asked.At(at, body_part, *model_);
+      factors(part, frame) = asked.At(first_frame + frame, body_part, *model_);
     }
   }
 }
@@ -193,13 +193,10 @@ std::optional<DanceWarning> ControlTrack::SpeedsMissed(const QualityReport& repo
   return VelocityNotMet(report.first_frame + report.frames - 1, misses);
 }
 
-TransitionControls ControlTrack::For(int64_t first_frame, int frames, std::span<const Pose> history,
-                                     const std::optional<WorldTarget>& target,
-                                     const std::string& key_id) const {
-  TransitionControls out;
-  FillPath(first_frame, frames, history, target, key_id, &out);
-  FillVelocities(first_frame, frames, &out);
-  return out;
+void ControlTrack::Ask(const std::string& key_id, TransitionRequest* request,
+                       std::vector<DanceWarning>* warnings) const {
+  AskPath(key_id, request, warnings);
+  AskVelocities(request);
 }
 
 }  // namespace choreo

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -29,12 +28,6 @@ struct ControlRequest {
   /// Throws Error(kInvalidArgument) below `field` for bad values and for a control that the model
   /// does not take.
   void Validate(const ModelInfo& model, const std::string& field) const;
-};
-
-/// What is asked of one transition, frame by frame, and where it contradicts itself.
-struct TransitionControls {
-  WorldControls controls;
-  std::vector<DanceWarning> warnings;
 };
 
 /// The controls of one dance. Of those that were set for transitions from a frame on, the last one
@@ -69,12 +62,12 @@ class ControlTrack {
   /// How a dancer of whom nothing is known stands before `first_frame`: at rest, facing +Z, where a
   /// path that has this frame goes on from, or else at the origin. What a key on that very frame
   /// asks, she has done already.
-  Pose Stance(int64_t first_frame, const std::optional<WorldTarget>& key_on_it) const;
+  Pose Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const;
 
-  /// Of the frames [first_frame, first_frame + frames). `history` is the transition's, at least one
-  /// pose; `key_id` is how warnings call the target.
-  TransitionControls For(int64_t first_frame, int frames, std::span<const Pose> history,
-                         const std::optional<WorldTarget>& target, const std::string& key_id) const;
+  /// Fills in the request's controls by its first frame, length, history (at least one pose) and
+  /// target, which warnings call `key_id`; `warnings` tell where what is asked contradicts itself.
+  void Ask(const std::string& key_id, TransitionRequest* request,
+           std::vector<DanceWarning>* warnings) const;
 
   /// The path that was set last, if frames before `end` are none of its.
   std::optional<DanceWarning> BehindEnd(int64_t end) const;
@@ -91,10 +84,9 @@ class ControlTrack {
 
   const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;
   void WarnOfDistance(const LeadRequest& request, std::vector<DanceWarning>* warnings) const;
-  void FillPath(int64_t first_frame, int frames, std::span<const Pose> history,
-                const std::optional<WorldTarget>& target, const std::string& key_id,
-                TransitionControls* out) const;
-  void FillVelocities(int64_t first_frame, int frames, TransitionControls* out) const;
+  void AskPath(const std::string& key_id, TransitionRequest* request,
+               std::vector<DanceWarning>* warnings) const;
+  void AskVelocities(TransitionRequest* request) const;
 
   const ModelInfo* model_;
   std::vector<Since<PathCurve>> paths_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/ask_transition.h"
 #include "model/dance/dance_chain_job.h"
 #include "model/dance/playback_clock.h"
 #include "model/dance/warning.h"
@@ -155,34 +156,15 @@ void DanceChain::Advance(bool inherits) {
 void DanceChain::Start(const Segment& segment) {
   // Who waited for itself is due from now on: no right to be first grows out of waiting.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
-  TransitionRequest request;
-  request.frames = static_cast<int>(segment.to - segment.from);
-  if (segment.key) request.target = WorldTarget{segment.key->pose, segment.key->mask};
-  if (history_.empty()) {
-    const Pose stance =
-        controls_.Stance(segment.from, request.frames == 1 ? request.target : std::nullopt);
-    history_ = FillHistory(model_, {&stance, 1});
-  }
-  request.history = history_;
-  request.stage = stage_;
-  request.seed = config_.seed;
-  request.candidate = config_.candidate;
-  request.first_frame = segment.from;
-  request.beats = beats_.Around(segment.from, segment.to);
-  request.style = config_.style;
-  request.temperature = config_.TemperatureOn(model_);
   try {
-    if (audio_) {
-      request.has_audio = true;
-      request.audio_history = audio_->History(segment.from, model_.history_frames);
-      // The next one may begin a frame later.
-      audio_->Forget(segment.from - model_.history_frames);
-    }
-    TransitionControls asked = controls_.For(request.first_frame, request.frames, request.history,
-                                             request.target, segment.key ? segment.key->id : "");
-    request.controls = std::move(asked.controls);
-    auto job = std::make_shared<Job>(shared_from_this(), segment, std::move(request),
-                                     std::move(asked.warnings));
+    AskedTransition asked = AskTransition(config_, model_, controls_, audio(), segment, history_);
+    asked.request.candidate = config_.candidate;
+    asked.request.stage = stage_;
+    asked.request.beats = beats_.Around(segment.from, segment.to);
+    history_ = asked.request.history;
+    // The next one may begin a frame later.
+    if (audio_) audio_->Forget(segment.from - model_.history_frames);
+    auto job = std::make_shared<Job>(shared_from_this(), segment, std::move(asked));
     job_ = job.get();
     scheduler_.Submit(std::move(job));
   } catch (const Error& error) {

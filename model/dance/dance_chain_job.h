@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/dance/ask_transition.h"
 #include "model/dance/dance_chain.h"
 #include "model/dance/scheduled_transition.h"
 #include "model/dance/warning.h"
@@ -16,13 +17,12 @@ namespace choreo {
 /// One transition of the chain. Its run changes with the chain's mutex held.
 class DanceChain::Job : public ScheduledTransition {
  public:
-  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, TransitionRequest request,
-      std::vector<DanceWarning> warnings)
-      : ScheduledTransition(chain->model_, std::move(request), chain->audio()),
+  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, AskedTransition asked)
+      : ScheduledTransition(chain->model_, std::move(asked.request), chain->audio()),
         chain_(std::move(chain)),
         segment_(segment),
         start_time_(chain_->start_time_),
-        warnings_(std::move(warnings)) {}
+        warnings_(std::move(asked.warnings)) {}
 
   bool NextInput(StepInput* input) override {
     std::lock_guard lock(chain_->mutex_);

@@ -31,19 +31,11 @@ void DanceStart::ValidateStart(const ModelInfo& model, const std::string& path) 
 void DanceConfig::Validate(const ModelInfo& model) const {
   ValidateStart(model, "config.");
   const int64_t first = FirstFrame();
-  if (end_frame && (*end_frame <= 0 || *end_frame < first || *end_frame > kMaxDanceFrames)) {
-    throw InvalidArgument("config.frames", std::to_string(*end_frame) + " is not in [" +
-                                               std::to_string(std::max<int64_t>(first, 1)) + ", " +
-                                               std::to_string(kMaxDanceFrames) + "]");
-  }
-  if (generate_until && (*generate_until < 0 || *generate_until > kMaxDanceFrames)) {
-    throw InvalidArgument("config.generate_until", std::to_string(*generate_until) +
-                                                       " is not in [0, " +
-                                                       std::to_string(kMaxDanceFrames) + "]");
-  }
+  if (end_frame)
+    CheckedIn(*end_frame, std::max<int64_t>(first, 1), kMaxDanceFrames, "config.frames");
+  if (generate_until) CheckedIn(*generate_until, 0, kMaxDanceFrames, "config.generate_until");
   if (audio) {
-    ValidateAudioStart(model, audio->sample_rate, audio->channels, audio->first_sample, first,
-                       "config.audio");
+    ValidateAudioStart(model, *audio, first, "config.audio");
     if (continuation && continuation->audio_from_sample &&
         audio->first_sample > *continuation->audio_from_sample) {
       throw Error(ErrorCode::kOutOfRange, "config.audio.first_sample",
@@ -73,16 +65,16 @@ bool TakesMusic(const ModelInfo& model) {
   return model.audio_features == kMfccCount && model.fps == 30;
 }
 
-void ValidateAudioStart(const ModelInfo& model, double sample_rate, int channels,
-                        int64_t first_sample, int64_t first_frame, const std::string& field) {
+void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio, int64_t first_frame,
+                        const std::string& field) {
   if (!TakesMusic(model)) {
     throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
   }
-  CheckAudioFormat(sample_rate, channels, field);
-  const int64_t latest = LatestFirstSample(first_frame, sample_rate, model);
-  if (first_sample < 0 || first_sample > latest) {
+  CheckAudioFormat(audio.sample_rate, audio.channels, field);
+  const int64_t latest = LatestFirstSample(first_frame, audio.sample_rate, model);
+  if (audio.first_sample < 0 || audio.first_sample > latest) {
     throw Error(ErrorCode::kOutOfRange, field + ".first_sample",
-                std::to_string(first_sample) + " is not in [0, " + std::to_string(latest) +
+                std::to_string(audio.first_sample) + " is not in [0, " + std::to_string(latest) +
                     "], so frame " + std::to_string(first_frame) +
                     " could not hear what lies before it");
   }

@@ -27,11 +27,17 @@ struct DanceStart {
   /// Seconds, ascending: the dance is timed to them. None: to what a dance hears of the music.
   std::vector<double> music_beats;
 
+  struct Audio {
+    double sample_rate = 0;  ///< 8000..192000
+    int channels = 0;        ///< 1..8, interleaved
+    /// The first sample frame that comes, absolute: at most LatestFirstSample, and 0 for a fresh
+    /// dance. Nothing before it is heard.
+    int64_t first_sample = 0;
+  };
+  std::optional<Audio> audio;  ///< none: the model dances without music
+
   /// The poses before the first frame, wherever they are told.
   const std::vector<Pose>& Before() const { return continuation ? continuation->poses : history; }
-  float TemperatureOn(const ModelInfo& model) const {
-    return temperature.value_or(static_cast<float>(model.default_temperature));
-  }
   bool ResumesInexactly(const ModelInfo& model) const {
     return continuation && continuation->fingerprint != model.fingerprint;
   }
@@ -48,15 +54,6 @@ struct DanceConfig : DanceStart {
   /// The dance is frames [first, end_frame), model rate, absolute. Without it a dance with music
   /// ends with the music or the last key, whichever is later, one without music at the last key.
   std::optional<int64_t> end_frame;
-
-  struct Audio {
-    double sample_rate = 0;  ///< 8000..192000
-    int channels = 0;        ///< 1..8, interleaved
-    /// The first sample frame that will be pushed, absolute. 0 for a fresh dance; one that begins
-    /// in the middle may start later, at most at LatestFirstSample, and hears nothing before it.
-    int64_t first_sample = 0;
-  };
-  std::optional<Audio> audio;  ///< none: the model dances without music
   /// As DanceStream::GenerateUntil, before all messages: keys then grant nothing.
   std::optional<int64_t> generate_until;
 
@@ -81,9 +78,8 @@ int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const Model
 bool TakesMusic(const ModelInfo& model);
 
 /// Throws Error(kUnimplemented) if the model takes no music, Error(kInvalidArgument) for a format
-/// out of range, Error(kOutOfRange) unless 0 <= first_sample <= LatestFirstSample. `field` is the
-/// path of the audio.
-void ValidateAudioStart(const ModelInfo& model, double sample_rate, int channels,
-                        int64_t first_sample, int64_t first_frame, const std::string& field);
+/// out of range, Error(kOutOfRange) unless 0 <= first_sample <= LatestFirstSample.
+void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio, int64_t first_frame,
+                        const std::string& field);
 
 }  // namespace choreo

@@ -138,7 +138,7 @@ void DanceStream::HalfClose() {
 void DanceStream::SetPaused(bool paused) { impl_->chain->SetPaused(paused); }
 void DanceStream::Cancel() noexcept { impl_->chain->Cancel(); }
 
-int DanceStream::LatencyFrames(const DanceConfig& config, const ModelInfo& model) {
+int DanceStream::LatencyFrames(const DanceStart& config, const ModelInfo& model) {
   double seconds = 0;
   if (config.audio) {
     seconds +=

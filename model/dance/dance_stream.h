@@ -78,7 +78,7 @@ class DanceStream {
 
   /// By how many frames of output the dance lags behind the music: the audio window and the
   /// resampling.
-  static int LatencyFrames(const DanceConfig& config, const ModelInfo& model);
+  static int LatencyFrames(const DanceStart& config, const ModelInfo& model);
 
  private:
   struct Impl;

@@ -11,21 +11,10 @@
 namespace choreo {
 
 void GroupRequest::Validate(const ModelInfo& model) const {
-  if (candidates < 1 || candidates > kMaxCandidates) {
-    throw InvalidArgument("candidates", std::to_string(candidates) + " is not in [1, " +
-                                            std::to_string(kMaxCandidates) + "]");
-  }
-  const int longest = std::min(kMaxTransitionFrames, model.max_transition_frames);
-  if (frames < 1 || frames > longest) {
-    throw InvalidArgument(
-        "frames", std::to_string(frames) + " is not in [1, " + std::to_string(longest) + "]");
-  }
+  CheckedIn(candidates, 1, kMaxCandidates, "candidates");
+  CheckedIn(frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames), "frames");
   ValidateStart(model, "");
-  const int64_t first = FirstFrame();
-  if (first < 0 || first > kMaxDanceFrames) {
-    throw InvalidArgument("first_frame", std::to_string(first) + " is not in [0, " +
-                                             std::to_string(kMaxDanceFrames) + "]");
-  }
+  CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "first_frame");
   if (target) {
     ValidatePose(model.skeleton, target->pose, "target");
     ValidateMask(model.skeleton, target->mask, "target.mask");
@@ -36,18 +25,13 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     ValidatePose(model.skeleton, *after, "after");
   }
   controls.Validate(model, "controls");
-  if (!has_audio()) {
+  if (!audio) {
     if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
     return;
   }
-  ValidateAudioStart(model, sample_rate, channels, first_sample, first, "audio");
+  ValidateAudioStart(model, *audio, FirstFrame(), "audio");
   if (samples.empty()) throw InvalidArgument("audio", "has no samples");
-  if (samples.size() % static_cast<size_t>(channels) != 0) {
-    throw InvalidArgument("audio.data", std::to_string(samples.size()) +
-                                            " values are no multiple of the " +
-                                            std::to_string(channels) + " channels");
-  }
-  CheckFinite(samples, channels, first_sample);
+  CheckSamples(samples, audio->channels, audio->first_sample);
 }
 
 }  // namespace choreo

@@ -16,20 +16,15 @@ struct GroupRequest : DanceStart {
   int candidates = 1;       ///< 1..32, numbered from 0
   int frames = 0;           ///< 1..min(1800, the model's longest)
   int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
-  std::optional<WorldTarget> target;
+  std::optional<Target> target;
   std::string target_id = "target";  ///< how warnings and the report call it
   std::optional<Pose> after;
   ControlRequest controls;
 
-  /// The music around the transition, whole: samples from `first_sample` (absolute) on. It must
-  /// begin no later than LatestFirstSample; beyond its end is silence. Empty samples
-  /// with a rate of 0: no music.
-  double sample_rate = 0;
-  int channels = 0;
-  int64_t first_sample = 0;
+  /// The music around the transition, from audio->first_sample on, interleaved; beyond its end is
+  /// silence.
   std::vector<float> samples;
 
-  bool has_audio() const { return sample_rate != 0; }
   /// Number of the first frame to be made.
   int64_t FirstFrame() const { return continuation ? continuation->frame : first_frame; }
 

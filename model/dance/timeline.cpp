@@ -37,13 +37,8 @@ Timeline::Timeline(Options options) : options_(options), planned_to_(options.fir
 
 int64_t Timeline::Resolve(const KeyMoment& when, const std::string& field) const {
   const double longest = kMaxDanceFrames / options_.fps;
-  if (const auto* at = std::get_if<AtFrame>(&when)) {
-    if (at->frame < 0 || at->frame > kMaxDanceFrames) {
-      throw InvalidArgument(field + ".frame",
-                            Frames(at->frame) + " is not in [0, " + Frames(kMaxDanceFrames) + "]");
-    }
-    return at->frame;
-  }
+  if (const auto* at = std::get_if<AtFrame>(&when))
+    return CheckedIn(at->frame, 0, kMaxDanceFrames, field + ".frame");
   if (const auto* at = std::get_if<AtTime>(&when)) {
     const double seconds = FiniteSeconds(at->seconds, field + ".time");
     if (seconds < 0 || seconds > longest) {

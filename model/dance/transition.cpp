@@ -37,8 +37,7 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
 }
 
 // Where a key leaves its place open, a path says where it is.
-std::optional<WorldTarget> Placed(std::optional<WorldTarget> target,
-                                  const WorldControls& controls) {
+std::optional<Target> Placed(std::optional<Target> target, const Controls& controls) {
   const Eigen::Matrix3Xd& path = controls.root_path;
   if (target && !target->mask.root_position && path.cols() > 0) {
     target->pose.root_position = path.col(path.cols() - 1);
@@ -52,16 +51,17 @@ Pose Near(Pose pose, const Pose& previous) {
   return pose;
 }
 
+// GCC 12's SLP vectoriser folds double -> float -> double of neighbours into nothing (as in Eigen's
+// cast<float>().cast<double>() of a Vector3d at -O3); it can't see through a volatile.
+double ToFloat(double value) {
+  volatile float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+
 }  // namespace
 
 Pose RoundToFloat(const Pose& pose) {
-  // GCC 12's SLP vectoriser folds double -> float -> double of neighbours into nothing (as in
-  // Eigen's cast<float>().cast<double>() of a Vector3d at -O3); it can't see through a volatile.
-  const auto round = [](double value) {
-    volatile float rounded = static_cast<float>(value);
-    return static_cast<double>(rounded);
-  };
-  return {pose.root_position.unaryExpr(round), pose.rotations.unaryExpr(round)};
+  return {pose.root_position.unaryExpr(&ToFloat), pose.rotations.unaryExpr(&ToFloat)};
 }
 
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses) {
@@ -93,7 +93,7 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
 }
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
-    : model_(&model), world_target_(Placed(request.target, request.controls)) {
+    : model_(&model), spec_(request), world_target_(Placed(request.target, request.controls)) {
   const int limit = std::min(model.max_transition_frames, kMaxTransitionFrames);
   if (request.frames < 1 || request.frames > limit) {
     throw InvalidArgument(
@@ -116,31 +116,17 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   const std::vector<Pose> history = FillHistory(model, request.history);
   world_ = history.back();
   ground_ = GroundFrame::Of(world_);
-  spec_.frames = request.frames;
   spec_.history = CanonicalHistory(ground_, history);
   stage_ = request.stage.value_or(world_.root_position);
   spec_.stage = ground_.ToLocal(stage_);
-  spec_.has_audio = request.has_audio;
-  if (request.has_audio) spec_.audio_history = request.audio_history;
-  spec_.beats = request.beats;
-  spec_.seed = request.seed;
-  spec_.candidate = request.candidate;
-  spec_.first_frame = request.first_frame;
-  spec_.temperature = request.temperature;
-  spec_.style = request.style;
   if (world_target_) {
-    const auto& [pose, mask] = *world_target_;
+    const Pose& pose = world_target_->pose;
+    const PoseMask& mask = world_target_->mask;
     spec_.target = Target{Near(ground_.ToLocal(pose), spec_.history.back()), mask};
     if (!mask.root_position) spec_.target->height = StandingHeight(model.skeleton, pose, mask);
   }
-  spec_.controls.root_path.resize(3, request.controls.root_path.cols());
-  for (Eigen::Index frame = 0; frame < request.controls.root_path.cols(); ++frame) {
-    spec_.controls.root_path.col(frame) =
-        ground_.ToLocal(request.controls.root_path.col(frame)).cast<float>();
-  }
-  spec_.controls.path_heights = request.controls.path_heights;
-  spec_.controls.velocity_factors = request.controls.velocity_factors;
-  spec_.controls.parts_asked = request.controls.parts_asked;
+  for (auto place : spec_.controls.root_path.colwise())
+    place = ground_.ToLocal(Eigen::Vector3d(place)).unaryExpr(&ToFloat);
   if (request.foot_lock && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
     foot_lock_.emplace(model.skeleton, model.fps, request.frames, spec_.history, spec_.target);
   }

@@ -15,42 +15,12 @@
 
 namespace choreo {
 
-/// A pose to reach, in the world.
-struct WorldTarget {
-  Pose pose;
-  PoseMask mask;
-};
-
-/// What is asked of a transition frame by frame: engine's Controls, in the world.
-struct WorldControls {
-  Eigen::Matrix3Xd root_path;  ///< [3, frames], metres, or empty
-  bool path_heights = true;
-  Eigen::Matrix<float, kBodyParts, Eigen::Dynamic>
-      velocity_factors;  ///< [kBodyParts, frames], metres a frame, or empty
-  std::array<bool, kBodyParts> parts_asked = {true, true, true, true, true};
-};
-
-/// One transition as its caller knows it: everything in the world frame, at the model's rate.
-struct TransitionRequest {
-  int frames = 0;             ///< N, 1..max; with a target, frame N - 1 is the key's
-  std::vector<Pose> history;  ///< oldest first; any number: the last tau count, fewer are filled by
-                              ///< holding the earliest, none is the neutral stance at the origin
-  std::optional<WorldTarget> target;  ///< none: music alone
-  /// The middle of the floor that the dance keeps to while nothing says its place; none: where the
-  /// history ends.
-  std::optional<Eigen::Vector3d> stage = {};
+/// One transition as its caller knows it: a spec in the world frame. Its history may have any
+/// number of poses: the last tau count, fewer are filled by holding the earliest, none is the
+/// neutral stance at the origin. What height a target without a place has need not be said.
+struct TransitionRequest : TransitionSpec {
   std::optional<Pose>
       after;  ///< one frame after the key, where the motion that follows stands already
-  bool has_audio = false;
-  Eigen::MatrixXf audio_history;  ///< [audio_features, tau] rows of the frames before the first;
-                                  ///< unread without audio
-  std::vector<double> beats;      ///< as BeatsAround has them; empty: unknown
-  WorldControls controls;
-  uint64_t seed = 0;
-  uint32_t candidate = 0;
-  int64_t first_frame = 0;  ///< absolute
-  float temperature = 0.3F;
-  std::string style = {};  ///< one of the model's, or empty: any
   /// To measure the model alone: arrival.frames = 0, foot_lock = false.
   Arrival::Options arrival;
   bool foot_lock = true;
@@ -137,7 +107,7 @@ class TransitionRun {
 
   const ModelInfo* model_;
   TransitionSpec spec_;
-  std::optional<WorldTarget> world_target_;
+  std::optional<Target> world_target_;
   GroundFrame ground_;
   std::optional<Arrival> arrival_;
   std::optional<FootLock> foot_lock_;

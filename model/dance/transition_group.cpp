@@ -7,15 +7,12 @@
 #include <tuple>
 #include <utility>
 
-#include "model/audio/format.h"
 #include "model/core/error.h"
-#include "model/dance/audio_feed.h"
+#include "model/dance/ask_transition.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
 #include "model/dance/playback_clock.h"
 #include "model/dance/scheduled_transition.h"
-#include "model/dance/timeline.h"
-#include "model/dance/validation.h"
 
 namespace choreo {
 namespace {
@@ -62,7 +59,6 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   const int64_t first_frame_;
   const GroupRequest request_;  // without its samples
   std::optional<AudioFeed> audio_;
-  Eigen::MatrixXf audio_history_;
   ControlTrack controls_;
   Mailbox<GroupSink> mailbox_;
   std::atomic<bool> cancelled_ = false;
@@ -81,7 +77,7 @@ class TransitionGroup::Impl::Job : public ScheduledTransition {
       : ScheduledTransition(group->model_, request, group->audio_ ? &*group->audio_ : nullptr),
         group_(std::move(group)),
         candidate_(candidate),
-        history_(FillHistory(group_->model_, request.history)),
+        history_(request.history),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
                 history_.back()),
@@ -136,9 +132,8 @@ class TransitionGroup::Impl::Job : public ScheduledTransition {
   Continuation GoesOn() const {
     Continuation end{NextFrame(), history_, group_->model_.fingerprint};
     end.stage = run().stage();
-    if (group_->request_.has_audio())
-      end.audio_from_sample =
-          LatestFirstSample(end.frame, group_->request_.sample_rate, group_->model_);
+    if (const auto& audio = group_->request_.audio)
+      end.audio_from_sample = LatestFirstSample(end.frame, audio->sample_rate, group_->model_);
     return end;
   }
 
@@ -171,49 +166,36 @@ TransitionGroup::Impl::Impl(Scheduler& scheduler, const GroupRequest& request,
       }()),
       controls_(model_),
       mailbox_(std::move(sink)) {
-  if (!request.has_audio()) return;
+  if (!request.audio) return;
   // Of a long song only what the transition hears.
-  const int64_t first = LatestFirstSample(first_frame_, request.sample_rate, model_);
-  const size_t channels = static_cast<size_t>(request.channels);
-  const size_t skipped = std::min(static_cast<size_t>(first - request.first_sample) * channels,
-                                  request.samples.size());
+  const auto& [rate, channel_count, first_sample] = *request.audio;
+  const int64_t first = LatestFirstSample(first_frame_, rate, model_);
+  const size_t channels = static_cast<size_t>(channel_count);
+  const size_t skipped =
+      std::min(static_cast<size_t>(first - first_sample) * channels, request.samples.size());
   std::span<const float> rest = std::span(request.samples).subspan(skipped);
-  const int64_t begin = request.first_sample + static_cast<int64_t>(skipped / channels);
-  audio_.emplace(request.sample_rate, request.channels, begin);
-  const size_t second = static_cast<size_t>(request.sample_rate) * channels;
+  audio_.emplace(rate, channel_count, first_sample + static_cast<int64_t>(skipped / channels));
+  const size_t second = static_cast<size_t>(rate) * channels;
   while (!rest.empty() && audio_->ready() < first_frame_ + request.frames) {
     const size_t count = std::min(second, rest.size());
     audio_->Push(rest.first(count), audio_->next_sample(), [] {});
     rest = rest.subspan(count);
   }
   if (rest.empty()) audio_->Finish();
-  audio_history_ = audio_->History(first_frame_, model_.history_frames);
 }
 
 void TransitionGroup::Impl::Begin() {
-  TransitionRequest transition;
-  transition.frames = request_.frames;
-  transition.target = request_.target;
-  transition.after = request_.after;
-  transition.has_audio = audio_.has_value();
-  transition.audio_history = audio_history_;
-  transition.seed = request_.seed;
-  transition.first_frame = first_frame_;
-  transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, transition.frames);
-  transition.style = request_.style;
-  transition.temperature = request_.TemperatureOn(model_);
-
   controls_.Set(request_.controls, first_frame_, "controls");
-  const Pose stance =
-      controls_.Stance(first_frame_, transition.frames == 1 ? transition.target : std::nullopt);
-  const std::vector<Pose>& given = request_.Before();
-  transition.history =
-      FillHistory(model_, given.empty() ? std::span(&stance, 1) : std::span(given));
+  const int64_t end = first_frame_ + request_.frames;
+  Segment segment{first_frame_, end, std::nullopt};
+  if (const auto& target = request_.target)
+    segment.key = Key{request_.target_id, end - 1, target->pose, target->mask};
+  AskedTransition asked = AskTransition(request_, model_, controls_, audio_ ? &*audio_ : nullptr,
+                                        segment, request_.Before());
+  TransitionRequest& transition = asked.request;
+  transition.after = request_.after;
+  transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);
   if (request_.continuation) transition.stage = request_.continuation->stage;
-  TransitionControls asked = controls_.For(first_frame_, transition.frames, transition.history,
-                                           transition.target, request_.target_id);
-  transition.controls = std::move(asked.controls);
-  const int64_t end = first_frame_ + transition.frames;
   if (const auto warning = controls_.BehindEnd(end)) asked.warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;
   if (path && path->frames.back() < first_frame_)

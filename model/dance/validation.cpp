@@ -10,10 +10,6 @@
 namespace choreo {
 namespace {
 
-std::string At(const std::string& field, int64_t index) {
-  return field + "[" + std::to_string(index) + "]";
-}
-
 void CheckPose(const Skeleton& skeleton, const Pose& pose, double max_rotation,
                const std::string& limit_name, const std::string& field) {
   if (pose.rotations.cols() != skeleton.joints()) {
@@ -25,6 +21,16 @@ void CheckPose(const Skeleton& skeleton, const Pose& pose, double max_rotation,
 }
 
 }  // namespace
+
+int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
+  if (value >= least && value <= most) return value;
+  throw InvalidArgument(field, std::to_string(value) + " is not in [" + std::to_string(least) +
+                                   ", " + std::to_string(most) + "]");
+}
+
+std::string At(const std::string& field, int64_t index) {
+  return field + '[' + std::to_string(index) + ']';
+}
 
 std::string Show(double value) {
   char text[32];
@@ -65,11 +71,7 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
 
 void ValidateFrames(std::span<const int64_t> frames, const std::string& field) {
   for (size_t i = 0; i < frames.size(); ++i) {
-    if (frames[i] < 0 || frames[i] > kMaxDanceFrames) {
-      throw InvalidArgument(
-          At(field, static_cast<int64_t>(i)),
-          std::to_string(frames[i]) + " is not in [0, " + std::to_string(kMaxDanceFrames) + "]");
-    }
+    CheckedIn(frames[i], 0, kMaxDanceFrames, At(field, static_cast<int64_t>(i)));
     if (i > 0 && frames[i] <= frames[i - 1]) {
       throw InvalidArgument(At(field, static_cast<int64_t>(i)),
                             std::to_string(frames[i]) + " is not after the frame before it, " +
@@ -104,10 +106,7 @@ void ValidateOutputFps(double fps, const std::string& field) {
 
 bool ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field) {
-  if (continuation.frame < 0 || continuation.frame > kMaxDanceFrames) {
-    throw InvalidArgument(field + ".frame", std::to_string(continuation.frame) + " is not in [0, " +
-                                                std::to_string(kMaxDanceFrames) + "]");
-  }
+  CheckedIn(continuation.frame, 0, kMaxDanceFrames, field + ".frame");
   if (static_cast<int>(continuation.poses.size()) != model.history_frames) {
     throw InvalidArgument(field + ".poses", std::to_string(continuation.poses.size()) +
                                                 " poses, the model needs " +

@@ -24,6 +24,12 @@ inline constexpr size_t kMaxFingerprintLength = 1024;  ///< bytes
 inline constexpr double kMinOutputFps = 1;
 inline constexpr double kMaxOutputFps = 120;
 
+/// The value; throws unless it is in [least, most].
+int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);
+
+/// What element `index` of a list is called: "frames[3]".
+std::string At(const std::string& field, int64_t index);
+
 /// A pose of this skeleton: joint count, finite, position within kMaxPosition, every angle at most
 /// kMaxRotation. Degrees of freedom that the mask leaves free are checked alike. `field` is the
 /// path of the pose: "keyframes[3]".

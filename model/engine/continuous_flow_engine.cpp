@@ -25,8 +25,8 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
       request.key->root_position.y() = *spec.target->height;
     }
   }
-  request.stage = spec.stage;
-  request.path = spec.controls.root_path.cast<double>();
+  request.stage = spec.stage.value_or(Eigen::Vector3d::Zero());
+  request.path = spec.controls.root_path;
   request.path_heights = spec.controls.path_heights;
   request.beats = spec.beats;
   request.energy = spec.controls.velocity_factors.cast<double>();

@@ -47,7 +47,7 @@ Eigen::Matrix3Xd SmoothPath(const TransitionSpec& spec) {
 
 Controls DenseControls(const TransitionSpec& spec, const ModelInfo& model) {
   Controls dense = spec.controls;
-  if (dense.root_path.cols() == 0) dense.root_path = SmoothPath(spec).cast<float>();
+  if (dense.root_path.cols() == 0) dense.root_path = SmoothPath(spec);
   if (dense.velocity_factors.cols() == 0) {
     const auto& median = model.velocity_references.front().factors;
     dense.velocity_factors.resize(kBodyParts, spec.frames);

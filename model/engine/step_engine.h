@@ -47,7 +47,7 @@ struct ModelInfo {
 
 /// The key pose at the end of a transition.
 struct Target {
-  Pose pose;  ///< canonical frame
+  Pose pose;
   PoseMask mask;
   /// The root's above the floor, metres, of a key that leaves its position open. None: open too.
   std::optional<double> height = {};
@@ -56,9 +56,9 @@ struct Target {
 /// What is asked of a transition beside its key (paper C, Section 3.3). What is left empty, the
 /// model chooses.
 struct Controls {
-  /// [3, frames] or empty: where the root should be in each frame, metres, canonical frame; from
-  /// the history's last root to the target's (dance/path_lead.h bends it there).
-  Eigen::Matrix3Xf root_path;
+  /// [3, frames] or empty: where the root should be in each frame, metres; from the history's last
+  /// root to the target's (dance/path_lead.h bends it there).
+  Eigen::Matrix3Xd root_path;
   bool path_heights = true;  ///< whether somebody asked for its heights; else they are a guess
   /// [kBodyParts, frames] or empty: how lively each part should be in each frame
   /// (motion/velocity_factors.h), metres a frame, at least 0.
@@ -73,9 +73,9 @@ struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one stands right before frame 0
   std::optional<Target> target;  ///< none: music alone
-  /// The middle of the floor that the dance keeps to where nothing says its place; its height is
-  /// unread.
-  Eigen::Vector3d stage = Eigen::Vector3d::Zero();
+  /// The middle of the floor that the dance keeps to where nothing says its place, its height
+  /// unread. None: where the history ends.
+  std::optional<Eigen::Vector3d> stage = {};
   bool has_audio = false;  ///< false: audio rows are ignored, the model dances without music
   Eigen::MatrixXf
       audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first

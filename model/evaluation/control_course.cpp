@@ -78,9 +78,10 @@ void ControlCourse::Redraw(const Draw& draw) {
     asked.root_path = draw(&windows_[i]);
     ControlTrack track(model_);
     track.Set(asked, 0, "path");
-    const TransitionRequest request = InputFor(i).request;
-    windows_[i].path =
-        track.For(0, frames_, request.history, request.target, "key").controls.root_path;
+    TransitionRequest request = InputFor(i).request;
+    std::vector<DanceWarning> warnings;
+    track.Ask("key", &request, &warnings);
+    windows_[i].path = request.controls.root_path;
     windows_[i].factors.resize(kBodyParts, 0);
   }
 }

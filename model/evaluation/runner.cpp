@@ -16,7 +16,7 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
   const auto next = key == plan.keys.end() ? std::nullopt : std::optional<int64_t>(key->first);
   const auto to = static_cast<int>(TransitionEnd(at, next, model.max_transition_frames));
   request.frames = std::min(to, plan.frames) - at;
-  if (next && *next + 1 == to) request.target = WorldTarget{key->second, {}};
+  if (next && *next + 1 == to) request.target = Target{key->second, {}};
   request.history = plan.history;
   request.stage = chain.stage;
   const auto known = std::min<std::ptrdiff_t>(at, model.history_frames);

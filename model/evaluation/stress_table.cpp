@@ -53,21 +53,21 @@ Pose Lying(const Skeleton& skeleton, const Pose& standing) {
 }
 
 // The key of a case, from the real one; none without.
-std::optional<WorldTarget> KeyOf(const Case& one, const Skeleton& skeleton,
-                                 const TransitionRequest& request) {
+std::optional<Target> KeyOf(const Case& one, const Skeleton& skeleton,
+                            const TransitionRequest& request) {
   if (one.way == Way::kReal) return request.target;
   if (one.way == Way::kNoKey) return std::nullopt;
   const Pose& from = request.history.back();
   Pose key = one.way == Way::kLying ? Lying(skeleton, from) : from;
   const double heading = Heading(ExpMap(from.rotations.col(0)));
   key.root_position += HeadingRotation(heading) * Eigen::Vector3d(0, 0, one.shift_m);
-  return WorldTarget{key, {}};
+  return Target{key, {}};
 }
 
 // What became of one window: two frames of its history, then the way.
 struct Danced {
   Motion motion;
-  std::optional<WorldTarget> key;
+  std::optional<Target> key;
   std::optional<RequiredSpeed> asked;  // none without a key
 };
 

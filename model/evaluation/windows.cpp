@@ -48,7 +48,7 @@ TransitionInput InputOf(const ModelInfo& model, const ClipSet& set, const EvalWi
   TransitionInput input;
   input.request.frames = frames;
   input.request.history.assign(first - model.history_frames, first);
-  input.request.target = WorldTarget{first[frames - 1], {}};
+  input.request.target = Target{first[frames - 1], {}};
   input.request.temperature = temperature;
   input.request.seed = number;
   input.request.beats =

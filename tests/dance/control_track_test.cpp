@@ -28,8 +28,19 @@ class ControlTrackTest : public testing::Test {
   }
   static ControlRequest Velocity(VelocityRequest velocity) { return {{}, std::move(velocity)}; }
 
-  TransitionControls For(int64_t first_frame, int frames) const {
-    return track_.For(first_frame, frames, {&here_, 1}, target_, "landing");
+  struct Asked {
+    Controls controls;
+    std::vector<DanceWarning> warnings;
+  };
+  Asked For(int64_t first_frame, int frames) const {
+    TransitionRequest request;
+    request.first_frame = first_frame;
+    request.frames = frames;
+    request.history = {here_};
+    request.target = target_;
+    std::vector<DanceWarning> warnings;
+    track_.Ask("landing", &request, &warnings);
+    return {request.controls, warnings};
   }
   void AimAt(double x) {
     target_.emplace().pose = here_;
@@ -44,7 +55,7 @@ class ControlTrackTest : public testing::Test {
   const double standing_ = engine_.model().skeleton.pelvis_height;
   ControlTrack track_{engine_.model()};
   Pose here_ = RestPose(engine_.model().skeleton);
-  std::optional<WorldTarget> target_;
+  std::optional<Target> target_;
 };
 
 TEST_F(ControlTrackTest, SaysNothingWhereNothingWasSaid) {
@@ -210,7 +221,7 @@ TEST_F(ControlTrackTest, NamesAPathThatBeginsBehindTheEnd) {
 TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   AimAt(1.09);
-  const TransitionControls asked = For(0, 90);
+  const Asked asked = For(0, 90);
   EXPECT_NEAR(asked.controls.root_path(0, 89), 1.09, 1e-9);
   ASSERT_EQ(asked.warnings.size(), 1u);
   EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
@@ -230,7 +241,7 @@ TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
   track_.Set(Way({0, 88}, {0, 2}), 0, "controls");
   AimAt(2.5);
   for (const int frames : {90, 91}) {
-    const TransitionControls asked = For(0, frames);
+    const Asked asked = For(0, frames);
     ASSERT_EQ(asked.warnings.size(), 1u) << "a key right behind the end";
     EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
     EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.4"));
@@ -252,7 +263,7 @@ TEST_F(ControlTrackTest, APathThatNobodyCanWalkIsSaidToBeTooFast) {
   track_.Set(Way({0, 30}, {0, 4.5}), 0, "controls");
   EXPECT_TRUE(For(0, 31).warnings.empty());
   track_.Set(Way({0, 30}, {0, 6}), 0, "controls");
-  const TransitionControls asked = For(0, 31);
+  const Asked asked = For(0, 31);
   ASSERT_EQ(asked.warnings.size(), 1u);
   EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kPathTooFast);
   EXPECT_THAT(asked.warnings[0].message, HasSubstr("m/s; people reach 5"));

@@ -357,7 +357,7 @@ TEST_F(ControlledDanceTest, ASingleTransitionIsThatOfTheStream) {
       90);
   GroupRequest request;
   request.frames = 90;
-  request.target = WorldTarget{key, {}};
+  request.target = Target{key, {}};
   request.controls = path;
   auto sink = std::make_shared<GroupRecorder>();
   const TransitionGroup group(*scheduler_, request, sink);

@@ -66,7 +66,7 @@ GroupRequest RandomRequest(uint32_t seed) {
   request.seed = seed;
   request.frames = 20 + static_cast<int>(random() % 30);
   request.history = MotionTo(RandomPose(random), 10, random);
-  request.target = WorldTarget{RandomPose(random), {}};
+  request.target = Target{RandomPose(random), {}};
   return request;
 }
 
@@ -135,15 +135,14 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
       request.candidates = 2;
       request.output_fps = fps;
       request.continuation = continuation;
-      request.sample_rate = 22050;
-      request.channels = 1;
+      request.audio = DanceStart::Audio{.sample_rate = 22050, .channels = 1};
       request.samples = dance.samples;
       request.music_beats = dance.config.music_beats;
       const int64_t from = continuation ? continuation->frame : 0;
       const bool has_key = key < dance.keys.size() && dance.keys[key].frame + 1 == end.frame;
       request.frames = has_key ? static_cast<int>(end.frame - from) : kFreeTransitionFrames;
       if (has_key) {
-        request.target = WorldTarget{dance.keys[key].pose, dance.keys[key].mask};
+        request.target = Target{dance.keys[key].pose, dance.keys[key].mask};
         ++key;
       }
       const auto sink = Generate(*scheduler, request);
@@ -170,7 +169,7 @@ TEST(TransitionGroup, MeetsTheMotionThatFollows) {
   std::mt19937 random(4);
   GroupRequest request = RandomRequest(4);
   const std::vector<Pose> next = MotionTo(RandomPose(random), 2, random, 0.02);
-  request.target = WorldTarget{next[0], {}};
+  request.target = Target{next[0], {}};
   const auto last_step = [&](const std::vector<Pose>& poses) -> Eigen::Vector3d {
     return poses.back().root_position - poses[poses.size() - 2].root_position;
   };

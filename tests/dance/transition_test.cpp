@@ -15,7 +15,7 @@ TransitionRequest RandomRequest(uint32_t seed) {
   TransitionRequest request;
   request.frames = 30;
   request.history = MotionTo(RandomPose(random), 10, random);
-  request.target = WorldTarget{RandomPose(random), {}};
+  request.target = Target{RandomPose(random), {}};
   request.seed = seed;
   return request;
 }
@@ -102,7 +102,7 @@ TEST(Transition, SpeedsThatTheWayAsksFor) {
   Pose pose = RestPose(Skeleton::Smpl24());
   pose.root_position.z() += 3;
   pose.rotations.col(18) = Eigen::Vector3d(0, 2, 0);
-  request.target = WorldTarget{pose, {}};
+  request.target = Target{pose, {}};
   RequiredSpeed speed = *TransitionRun(engine.model(), request).required_speed();
   EXPECT_NEAR(speed.root_m_per_s, 6, 1e-5);
   EXPECT_NEAR(speed.joint_rad_per_s, 4, 1e-5);

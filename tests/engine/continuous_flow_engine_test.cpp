@@ -188,7 +188,7 @@ TEST_F(ContinuousFlowEngineTest, AServedTransitionArrivesExactly) {
   request.frames = 30;
   request.seed = 4;
   request.temperature = 0.7F;
-  WorldTarget target{RestPose(Skeleton::Smpl24()), {}};
+  Target target{RestPose(Skeleton::Smpl24()), {}};
   target.pose.rotations(2, 16) = 1.0;
   request.target = target;
   const auto arrival = DanceTransitions(*engine_, {&input, 1}).front().arrival;

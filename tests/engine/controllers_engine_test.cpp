@@ -95,7 +95,7 @@ TEST_F(ControllersEngineTest, FollowsItsPathAndReachesItsKey) {
   for (int t = 0; t < 60; ++t) {
     const double u = (t + 1) / 60.0;
     const Eigen::Vector3d bow(0.3 * std::sin(std::numbers::pi * u), 0, 0);
-    spec.controls.root_path.col(t) = (from + u * way + bow).cast<float>();
+    spec.controls.root_path.col(t) = from + u * way + bow;
   }
   int slot = engine_->Admit(spec);
   Pose last = spec.history.back();
@@ -104,7 +104,7 @@ TEST_F(ControllersEngineTest, FollowsItsPathAndReachesItsKey) {
     StepOutput out;
     engine_->Step({&in, 1}, {&out, 1});
     last = out.pose;
-    EXPECT_LT((last.root_position - spec.controls.root_path.col(t).cast<double>()).norm(), 0.2);
+    EXPECT_LT((last.root_position - spec.controls.root_path.col(t)).norm(), 0.2);
   }
   engine_->Release(slot);
   EXPECT_LT((last.root_position - spec.target->pose.root_position).norm(), 0.01);
@@ -117,7 +117,7 @@ TEST_F(ControllersEngineTest, DancesOnTheServedPipeline) {
   Pose there = RestPose(engine_->model().skeleton);
   there.root_position += Eigen::Vector3d(0.4, 0, 0.6);
   there.rotations(2, 16) = 0.8;
-  request.target = WorldTarget{there, {}};
+  request.target = Target{there, {}};
   const auto [frames, arrival, speed, stage] = DanceTransitions(*engine_, {&input, 1}).front();
   ASSERT_EQ(frames.size(), 30U);
   ASSERT_TRUE(arrival);

@@ -88,8 +88,9 @@ class FakeEngine : public StepEngine {
   // The history's last pose where the target does not ask for a degree of freedom, on the stage.
   Eigen::VectorXd Goal(const TransitionSpec& spec) const {
     Pose last = spec.history.back();
-    last.root_position.x() = spec.stage.x();
-    last.root_position.z() = spec.stage.z();
+    const Eigen::Vector3d stage = spec.stage.value_or(Eigen::Vector3d::Zero());
+    last.root_position.x() = stage.x();
+    last.root_position.z() = stage.z();
     return Flat(spec.target ? Masked(spec.target->pose, spec.target->mask, last) : last);
   }
 
@@ -132,8 +133,7 @@ class FakeEngine : public StepEngine {
 
   // So that a test can see in the dance what was asked of the model.
   void Obey(const Controls& controls, int frame, Eigen::VectorXd* next) const {
-    if (controls.root_path.cols() > 0)
-      next->head<3>() = controls.root_path.col(frame).cast<double>();
+    if (controls.root_path.cols() > 0) next->head<3>() = controls.root_path.col(frame);
     if (controls.velocity_factors.cols() == 0) return;
     for (int part = 0; part < kBodyParts; ++part) {
       const auto& joint = kTellingJoints[static_cast<size_t>(part)];

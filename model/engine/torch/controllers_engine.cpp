@@ -89,7 +89,7 @@ WalkedTransition ControllersEngine::Begin(const TransitionSpec& spec, int /*slot
   transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
   transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
   const Controls dense = DenseControls(spec, model());
-  transition.path = RowsOf(dense.root_path);
+  transition.path = RowsOf(dense.root_path.cast<float>());
   transition.factors = RowsOf(dense.velocity_factors);
 
   walk.given = network_->Prepare(transition);
