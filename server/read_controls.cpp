@@ -2,7 +2,6 @@
 
 #include "model/core/error.h"
 #include "model/dance/validation.h"
-#include "server/read_pose.h"
 
 namespace choreo {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "model/plan/plan_stage.h"
+#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
@@ -83,7 +83,8 @@ SampledTransition ContinuousFlowEngine::Begin(const TransitionSpec& spec, int /*
               .beats = spec.beats,
               .keyed = Keyed(spec),
               .has_path = spec.controls.root_path.cols() > 0,
-              .has_heights = spec.controls.path_heights},
+              .has_heights = spec.controls.path_heights,
+              .fps = model().fps},
              &transition.poses);
   Motion motion{.fps = model().fps, .frames = {spec.history.back()}};
   motion.frames.insert(motion.frames.end(), transition.poses.begin(), transition.poses.end());

@@ -1,14 +1,13 @@
-#include "model/plan/floor_return.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "model/motion/kinematics.h"
+#include "model/plan/plan_stages.h"
 
 namespace choreo {
 
-void FloorReturn::Apply(const PlanContext& context, std::vector<Pose>* plan) const {
+void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan) {
   if (context.keyed || (context.has_path && context.has_heights)) return;
   const Skeleton& skeleton = context.skeleton;
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));

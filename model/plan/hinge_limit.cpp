@@ -1,26 +1,28 @@
-#include "model/plan/hinge_limit.h"
-
 #include <cmath>
+
+#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
 
+constexpr double kSoftness = 0.03;  // radians of bend, over which a hinge is led to a stop
+constexpr double kFolded = 2.7;     // radians: a calf on its thigh
+
 // As max(0, bend), but smooth.
-double SoftBend(double bend, double softness) {
-  const double share = bend / softness;
-  return share > 30 ? bend : softness * std::log1p(std::exp(share));
+double SoftBend(double bend) {
+  const double share = bend / kSoftness;
+  return share > 30 ? bend : kSoftness * std::log1p(std::exp(share));
 }
 
 }  // namespace
 
-void HingeLimit::Apply(const PlanContext& context, std::vector<Pose>* plan) const {
+void LimitHinges(const PlanContext& context, std::vector<Pose>* plan) {
   const std::vector<Hinge> hinges = Hinges(context.skeleton);
-  const double folded = options_.folded_rad, softness = options_.softness_rad;
   for (Pose& pose : *plan) {
     for (const Hinge& hinge : hinges) {
       auto rotation = pose.rotations.col(hinge.joint);
       const double bend = hinge.axis.dot(rotation);
-      const double possible = folded - SoftBend(folded - SoftBend(bend, softness), softness);
+      const double possible = kFolded - SoftBend(kFolded - SoftBend(bend));
       rotation += (possible - bend) * hinge.axis;
     }
   }

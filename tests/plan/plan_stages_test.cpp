@@ -1,12 +1,10 @@
-#include "model/plan/plan_stage.h"
+#include "model/plan/plan_stages.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "model/motion/kinematics.h"
-#include "model/plan/floor_return.h"
-#include "model/plan/hinge_limit.h"
 
 namespace choreo {
 namespace {
@@ -16,11 +14,11 @@ const Skeleton& Body() { return Skeleton::Smpl24(); }
 double Bent(const Hinge& hinge, double bend) {
   std::vector<Pose> plan = {RestPose(Body())};
   plan[0].rotations.col(hinge.joint) = bend * hinge.axis;
-  HingeLimit().Apply({Body(), {}}, &plan);
+  LimitHinges({Body(), {}}, &plan);
   return hinge.axis.dot(plan[0].rotations.col(hinge.joint));
 }
 
-TEST(HingeLimit, HingesStopSoftlyWhereTheyAreStraight) {
+TEST(LimitHinges, HingesStopSoftlyWhereTheyAreStraight) {
   const std::vector<Hinge> hinges = Hinges(Body());
   ASSERT_EQ(hinges.size(), 4U);
   for (const Hinge& hinge : hinges) {
@@ -36,11 +34,11 @@ TEST(HingeLimit, HingesStopSoftlyWhereTheyAreStraight) {
   }
 }
 
-TEST(HingeLimit, WhatIsNoHingeAndWhatTurnsAboutOtherAxesStays) {
+TEST(LimitHinges, WhatIsNoHingeAndWhatTurnsAboutOtherAxesStays) {
   Pose before = RestPose(Body());
   before.rotations.setConstant(0.3);
   std::vector<Pose> plan = {before};
-  HingeLimit().Apply({Body(), {}}, &plan);
+  LimitHinges({Body(), {}}, &plan);
   for (int j = 0; j < Body().joints(); ++j) {
     Eigen::Vector3d change = plan[0].rotations.col(j) - before.rotations.col(j);
     for (const Hinge& hinge : Hinges(Body())) {
@@ -50,21 +48,21 @@ TEST(HingeLimit, WhatIsNoHingeAndWhatTurnsAboutOtherAxesStays) {
   }
 }
 
-TEST(FloorReturn, AFloatingDanceComesDownAndOneOnTheFloorStays) {
+TEST(ReturnToFloor, AFloatingDanceComesDownAndOneOnTheFloorStays) {
   for (const double height : {0.2, 0.0, -0.1}) {
     std::vector<Pose> poses(60, RestPose(Body()));
     for (Pose& pose : poses) pose.root_position.y() += height;
     const double first = poses.front().root_position.y();
     const std::vector<Pose> before = poses;
-    FloorReturn().Apply({.skeleton = Body(), .history = {}, .keyed = true}, &poses);
+    ReturnToFloor({.skeleton = Body(), .history = {}, .keyed = true}, &poses);
     EXPECT_EQ(poses.back().root_position, before.back().root_position) << "a key says where";
-    FloorReturn().Apply({Body(), {}}, &poses);
+    ReturnToFloor({Body(), {}}, &poses);
     EXPECT_NEAR(poses.back().root_position.y(), RestPose(Body()).root_position.y(), 1e-9);
     EXPECT_NEAR(poses.front().root_position.y(), first, 1e-3);
   }
 }
 
-TEST(HingeLimit, NoLimbFoldsThroughItself) {
+TEST(LimitHinges, NoLimbFoldsThroughItself) {
   for (const Hinge& hinge : Hinges(Body())) {
     double before = 0;
     for (double bend = 2; bend < 3.5; bend += 0.1) {

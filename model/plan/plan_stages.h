@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// What is done to a plan, between the model and arrival: what no network can know, or what a rule
+/// does better. Stages are pure functions, thread-safe. One more is listed in plan_stages.cpp.
+namespace choreo {
+
+/// What is known of a plan: the poses that a model proposes for a whole transition, in the
+/// transition's canonical frame.
+struct PlanContext {
+  const Skeleton& skeleton;
+  std::span<const Pose> history;       ///< before the first frame, oldest first, at least one
+  std::span<const double> beats = {};  ///< frames from the first, ascending
+  bool keyed = false;                  ///< it ends on a key
+  bool has_path = false, has_heights = false;  ///< the root's place, and its height, were asked for
+  double fps = 30;                             ///< the model's
+};
+
+/// Knees and elbows bend one way, until the limb is folded: the bend of each about its hinge is led
+/// softly to a stop at both ends. One that is a tenth of a radian from both stays as it is.
+void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
+
+/// Whoever dances for seconds touches the floor: by the last pose of a plan without key or path
+/// heights the root is as much lower, or higher, as the lowest foot of all poses was above the
+/// floor, or below it. The first poses stay.
+void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan);
+
+/// The dancer of a plan goes fastest on the music's beats, which is what a kinematic beat is (paper
+/// F, Section 4.2). Where a path says when to be where, time is not the beats' to bend.
+void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
+
+/// All of them, in this order.
+void FinishPlan(const PlanContext& context, std::vector<Pose>* plan);
+
+}  // namespace choreo
