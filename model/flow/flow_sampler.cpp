@@ -57,6 +57,89 @@ void PlaceJoints(const Skeleton& skeleton, std::span<const Pose> poses,
   }
 }
 
+// Where the root is asked to be: of which axes, [3, w] as residuals x, and those white.
+struct KnownPath {
+  KnownPath(const WindowRequest& request, const FlowWindow& window) {
+    if (request.path.cols() == 0) return;
+    axes = {0, 2};
+    if (request.path_heights) axes.push_back(1);
+    x = request.path.colwise() - request.history.back().root_position;
+    x -= window.mean().topRows<3>();
+    z.resize(3, x.cols());
+    for (int axis = 0; axis < 3; ++axis)
+      z.row(axis) = window.Whiten(axis, x.row(axis).transpose()).transpose();
+  }
+
+  std::vector<int> axes;
+  Eigen::MatrixXd x, z;
+};
+
+// F of one window, with beats' guidance.
+class Field {
+ public:
+  Field(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
+        const FlowWindow& window)
+      : model_(model),
+        network_(network),
+        window_(window),
+        guidance_(request.beats.empty() ? 1 : model.config.beat_guidance) {
+    const auto tau = static_cast<Eigen::Index>(request.history.size());
+    mean_.resize(model.prior.dimensions(), tau + window.frames());
+    mean_ << window.history().cast<float>(), window.mean().cast<float>();
+    poses_ = mean_;
+    joints_.resize(3 * model.skeleton.joints(), mean_.cols());
+    PlaceJoints(model.skeleton, request.history, joints_.leftCols(tau));
+    const auto describe = [&] {
+      return DescribeWindow(model.skeleton, model.config, model.prior, request, window);
+    };
+    features_ = describe();
+    // What the network says without beats, for guidance: nothing else reads them.
+    request.beats.clear();
+    if (guidance_ != 1) unheard_ = describe();
+  }
+
+  // Where the flow stands at `angle`: z = size (cos noise + sin motion), size = 1 / (cos + sin).
+  Eigen::MatrixXd At(const Eigen::MatrixXd& w, double angle) {
+    const double size = 1 / (std::cos(angle) + std::sin(angle));
+    const Eigen::MatrixXd z = size * w;
+    const Eigen::MatrixXd x = window_.Colour(z);
+    poses_.rightCols(x.cols()) = (window_.mean() + x).cast<float>();
+    PlaceJoints(model_.skeleton, window_.Decode(x), joints_.rightCols(x.cols()));
+    const auto f = [&](const WindowFeatures& of) -> Eigen::MatrixXd {
+      const auto t = static_cast<float>(size * std::sin(angle));
+      return network_.Evaluate(z.cast<float>(), poses_, joints_, mean_, of, t).cast<double>();
+    };
+    if (!unheard_) return f(features_);
+    return guidance_ * f(features_) - (guidance_ - 1) * f(*unheard_);
+  }
+
+ private:
+  const FlowModelParts& model_;
+  const FlowNetwork& network_;
+  const FlowWindow& window_;
+  double guidance_;
+  Eigen::MatrixXf mean_, poses_, joints_;
+  WindowFeatures features_;
+  std::optional<WindowFeatures> unheard_;
+};
+
+// From noise to motion; what is known fades into its noise.
+Eigen::MatrixXd Solve(Field* field, const KnownPath& known, const Eigen::MatrixXd& start,
+                      int steps) {
+  const double step = std::numbers::pi / 2 / steps;
+  Eigen::MatrixXd w = start, before;
+  for (int k = 0; k < steps; ++k) {
+    const double angle = k * step;
+    for (const int axis : known.axes)
+      w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * known.z.row(axis);
+    const Eigen::MatrixXd f = field->At(w, angle);
+    w += step * (k == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before));
+    w = w.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
+    before = f;
+  }
+  return w;
+}
+
 }  // namespace
 
 EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request) {
@@ -77,73 +160,17 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
                                WindowRequest request, const FlowNoise& noise) {
   FillInEnergy(model, noise, &request);
   const FlowWindow window(model.prior, request);
-  const auto describe = [&] {
-    return DescribeWindow(model.skeleton, model.config, model.prior, request, window);
-  };
-  const WindowFeatures features = describe();
-  // What the network says without beats, for guidance: nothing else reads them.
-  const double guidance = request.beats.empty() ? 1 : model.config.beat_guidance;
-  request.beats.clear();
-  const std::optional<WindowFeatures> unheard =
-      guidance == 1 ? std::nullopt : std::optional(describe());
-  const int frames = window.frames(), tau = static_cast<int>(request.history.size());
-  std::vector<int> led;  // axes of the root's position that are known
-  if (request.path.cols() > 0) led = {0, 2};
-  if (request.path.cols() > 0 && request.path_heights) led.push_back(1);
-
-  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(model.prior.dimensions(), frames);
+  const KnownPath known(request, window);
   const double temperature = std::min(noise.temperature, kHottest);
-  if (temperature > 0) start = Noise(model, noise, frames);
-  // Where the root is asked to be is known: its noise fades into that.
-  Eigen::MatrixXd path_x, path_z;
-  if (!led.empty()) {
-    path_x = request.path.colwise() - request.history.back().root_position;
-    path_x -= window.mean().topRows<3>();
-    path_z.resize(3, frames);
-    for (int axis = 0; axis < 3; ++axis)
-      path_z.row(axis) = window.Whiten(axis, path_x.row(axis).transpose()).transpose();
-  }
-  Eigen::MatrixXf mean(start.rows(), tau + frames), poses;
-  mean << window.history().cast<float>(), window.mean().cast<float>();
-  poses = mean;
-  Eigen::MatrixXf joints(3 * model.skeleton.joints(), tau + frames);
-  PlaceJoints(model.skeleton, request.history, joints.leftCols(tau));
-  // F where the flow stands at `angle`: z = size (cos noise + sin motion), size = 1 / (cos + sin).
-  const auto evaluate = [&](const Eigen::MatrixXd& w, double angle) {
-    const double size = 1 / (std::cos(angle) + std::sin(angle));
-    const Eigen::MatrixXd z = size * w;
-    const Eigen::MatrixXd x = window.Colour(z);
-    poses.rightCols(frames) = (window.mean() + x).cast<float>();
-    PlaceJoints(model.skeleton, window.Decode(x), joints.rightCols(frames));
-    const auto f = [&](const WindowFeatures& of) {
-      return Eigen::MatrixXd(network
-                                 .Evaluate(z.cast<float>(), poses, joints, mean, of,
-                                           static_cast<float>(size * std::sin(angle)))
-                                 .cast<double>());
-    };
-    if (!unheard) return f(features);
-    return Eigen::MatrixXd(guidance * f(features) - (guidance - 1) * f(*unheard));
-  };
-
+  const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window.frames());
+  const Eigen::MatrixXd start = temperature > 0 ? Noise(model, noise, window.frames()) : still;
+  Field field(model, network, std::move(request), window);
   Eigen::MatrixXd mean_way;
-  if (temperature != 1) mean_way = evaluate(Eigen::MatrixXd::Zero(start.rows(), frames), 0);
-  Eigen::MatrixXd w = start;
-  if (temperature > 0) {
-    const double step = std::numbers::pi / 2 / model.config.steps;
-    Eigen::MatrixXd before;
-    for (int k = 0; k < model.config.steps; ++k) {
-      const double angle = k * step;
-      for (const int axis : led)
-        w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * path_z.row(axis);
-      const Eigen::MatrixXd f = evaluate(w, angle);
-      w += step * (k == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before));
-      w = w.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
-      before = f;
-    }
-  }
+  if (temperature != 1) mean_way = field.At(still, 0);
+  Eigen::MatrixXd w = temperature > 0 ? Solve(&field, known, start, model.config.steps) : start;
   if (temperature != 1) w = mean_way + temperature * (w - mean_way);
   Eigen::MatrixXd x = window.Colour(w);
-  for (const int axis : led) x.row(axis) = path_x.row(axis);
+  for (const int axis : known.axes) x.row(axis) = known.x.row(axis);
   return window.Decode(x);
 }
 
@@ -155,27 +182,10 @@ std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwor
   for (int block = 0, from = 0; block < blocks; ++block) {
     const int frames = request.frames * (block + 1) / blocks - from;
     const GroundFrame ground = GroundFrame::Of(emitted.back());
-    WindowRequest here{.frames = frames, .mask = request.mask, .height = request.height};
-    for (size_t i = emitted.size() - tau; i < emitted.size(); ++i)
-      here.history.push_back(ground.ToLocal(emitted[i]));
-    if (request.key) {
-      here.key = ground.ToLocal(*request.key);
-      here.to_key = request.to_key - from;
-    }
-    if (request.path.cols() > 0) {
-      here.path.resize(3, frames);
-      for (int i = 0; i < frames; ++i)
-        here.path.col(i) = ground.ToLocal(Eigen::Vector3d(request.path.col(from + i)));
-    }
-    here.path_heights = request.path_heights;
-    for (const double beat : request.beats) here.beats.push_back(beat - from);
-    if (request.energy.cols() > 0) here.energy = request.energy.middleCols(from, frames);
-    here.asked = request.asked;
-    here.style = request.style;
-    if (request.stage) here.stage = ground.ToLocal(*request.stage);
     FlowNoise from_here = noise;
     from_here.first_frame += from;
-    for (const Pose& pose : SampleWindow(model, network, here, from_here)) {
+    WindowRequest here = request.Part(from, frames, std::span(emitted).last(tau), ground);
+    for (const Pose& pose : SampleWindow(model, network, std::move(here), from_here)) {
       emitted.push_back(ground.ToWorld(pose));
       MakeContinuous(emitted.back(), emitted[emitted.size() - 2]);
     }

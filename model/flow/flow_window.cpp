@@ -18,6 +18,23 @@ constexpr double kFastest = 8;
 
 }  // namespace
 
+WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> poses,
+                                  const GroundFrame& ground) const {
+  WindowRequest part = *this;
+  part.frames = count;
+  part.history.clear();
+  for (const Pose& pose : poses) part.history.push_back(ground.ToLocal(pose));
+  if (key) part.key = ground.ToLocal(*key);
+  part.to_key = to_key - from;
+  part.turning.reset();  // the history, by then, says it
+  if (path.cols() > 0) part.path = path.middleCols(from, count);
+  for (auto place : part.path.colwise()) place = ground.ToLocal(Eigen::Vector3d(place));
+  for (double& beat : part.beats) beat -= from;
+  if (energy.cols() > 0) part.energy = energy.middleCols(from, count);
+  if (stage) part.stage = ground.ToLocal(*stage);
+  return part;
+}
+
 std::array<std::optional<double>, kBodyParts> LevelsOf(
     const WindowRequest& request, const std::array<double, kBodyParts>& medians) {
   std::array<std::optional<double>, kBodyParts> levels;

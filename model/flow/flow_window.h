@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/flow/motion_prior.h"
+#include "model/motion/canonical.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
@@ -37,6 +38,10 @@ struct WindowRequest {
   /// says where the root goes.
   std::optional<Eigen::Vector3d> stage = {};
 
+  /// What is asked of its frames [from, from + count) alone, behind `poses` instead of its history;
+  /// those, and all else, stand in the frame that `ground` is of the request's.
+  WindowRequest Part(int from, int count, std::span<const Pose> poses,
+                     const GroundFrame& ground) const;
   bool StageCounts() const { return stage && path.cols() == 0 && !(key && mask.root_position); }
 };
 
