@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/core/smooth_step.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -75,8 +76,7 @@ Pose Arrival::Apply(const Pose& raw) {
     Remember(raw);
     return raw;
   }
-  const double x = std::min(1.0, (window_ - left + 1) / (kFull * window_));
-  const double w = x * x * (3 - 2 * x);
+  const double w = SmoothStep(std::min(1.0, (window_ - left + 1) / (kFull * window_)));
   Pose emitted = raw;
   if (target_.mask.root_position) {
     const Eigen::Vector3d way = target_.pose.root_position - previous_.root_position;

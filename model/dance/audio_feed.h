@@ -36,8 +36,7 @@ class AudioFeed {
   void Finish();
   bool finished() const { return features_.finished(); }  // pushing side
 
-  int64_t next_sample() const { return features_.next_sample(); }        // pushing side
-  int64_t samples_pushed() const { return features_.samples_pushed(); }  // pushing side
+  int64_t next_sample() const { return features_.next_sample(); }  // pushing side
   /// Frames that start before the end of the samples so far, counted from time 0: ceil(samples fps
   /// / rate). Pushing side.
   int64_t EndFrame(double fps) const;

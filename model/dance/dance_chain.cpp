@@ -7,7 +7,6 @@
 #include "model/core/error.h"
 #include "model/dance/ask_transition.h"
 #include "model/dance/dance_chain_job.h"
-#include "model/dance/playback_clock.h"
 #include "model/dance/warning.h"
 
 namespace choreo {
@@ -89,28 +88,25 @@ void DanceChain::SetMusicBeats(const std::vector<double>& seconds) {
 void DanceChain::SetPaused(bool paused) {
   paused_ = paused;
   if (paused) return;
-  try {
-    {
-      std::lock_guard lock(mutex_);
-      Advance(/*inherits=*/false);
-      WakeJob();
-    }
-    mailbox_.Deliver();
-  } catch (...) {
-    GiveUp();
-  }
+  Act([this] {
+    Advance(/*inherits=*/false);
+    WakeJob();
+  });
 }
 
 void DanceChain::Cancel() noexcept {
   cancelled_ = true;
+  Act([this] {
+    if (job_ == nullptr) Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
+    WakeJob();  // OnDone follows
+  });
+}
+
+void DanceChain::Act(const std::function<void()>& act) noexcept {
   try {
     {
       std::lock_guard lock(mutex_);
-      if (job_ != nullptr) {
-        WakeJob();  // OnDone follows
-      } else {
-        Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
-      }
+      act();
     }
     mailbox_.Deliver();
   } catch (...) {

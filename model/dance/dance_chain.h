@@ -61,7 +61,9 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
  private:
   class Job;
 
-  // When something failed that would have told the sink what failed. Without mutex_.
+  // Those two without mutex_. Acts with it held, and tells the sink what came of it.
+  void Act(const std::function<void()>& act) noexcept;
+  // When something failed that would have told the sink what failed.
   void GiveUp() noexcept;
 
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }

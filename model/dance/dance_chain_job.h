@@ -55,22 +55,13 @@ class DanceChain::Job : public ScheduledTransition {
   }
 
   void OnDone(const Error* failure) noexcept override {
-    try {
-      {
-        std::lock_guard lock(chain_->mutex_);
-        chain_->job_ = nullptr;
-        if (failure != nullptr && !retired_) {
-          chain_->Fail(*failure);
-        } else {
-          chain_->timeline_.Finish();
-          if (danced() > 0) chain_->PostContinuation();
-          chain_->Advance(/*inherits=*/true);
-        }
-      }
-      chain_->mailbox_.Deliver();
-    } catch (...) {
-      chain_->GiveUp();
-    }
+    chain_->Act([this, failure] {
+      chain_->job_ = nullptr;
+      if (failure != nullptr && !retired_) return chain_->Fail(*failure);
+      chain_->timeline_.Finish();
+      if (danced() > 0) chain_->PostContinuation();
+      chain_->Advance(/*inherits=*/true);
+    });
   }
 
   double NextDeadline() const override {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "model/engine/scheduler.h"
 
 namespace choreo {
+
+class AudioFeed;
+class DanceChain;
 
 /// A dance in progress: a chain of transitions folded over messages. What is danced is a function
 /// of the config and of the order of SetKey, RemoveKey, SetControls, GiveBeats, GenerateUntil and
@@ -81,8 +85,17 @@ class DanceStream {
   static int LatencyFrames(const DanceStart& config, const ModelInfo& model);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  AudioFeed& Audio(const char* field);
+  void FinishAudio();
+  void CompleteKeys();
+
+  const ModelInfo& model_;
+  const bool has_end_frame_;
+  std::shared_ptr<DanceChain> chain_;
+  std::mutex
+      messages_;  // of what follows, and of the audio's pushing side; before the chain's lock
+  int keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0;  // messages so far
+  bool complete_ = false;
 };
 
 }  // namespace choreo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/smooth_step.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -21,8 +22,6 @@ constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height a
 constexpr int kFewestStepFrames = 4;
 constexpr int kHalvings = 12;
 constexpr double kLandsAhead = 0.1;  // seconds before the key, which a landing would jolt
-
-double SmoothStep(double u) { return u * u * (3 - 2 * u); }
 
 double Apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::hypot(a.x() - b.x(), a.z() - b.z());

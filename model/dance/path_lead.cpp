@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/core/smooth_step.h"
+
 namespace choreo {
 namespace {
 
@@ -9,10 +11,7 @@ constexpr double kDetourSpeed = 1.0;  // m/s, at its fastest
 constexpr double kLeastDetour = 0.5;  // seconds
 constexpr double kPushOff = 10;       // m/s^2; nobody pushes off much harder than she weighs
 
-double Smooth(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * (3 - 2 * s);
-}
+double Smooth(double s) { return SmoothStep(std::clamp(s, 0.0, 1.0)); }
 
 class Leader {
  public:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "model/engine/scheduler.h"
 
 namespace choreo {
+
+/// The clock of StepJob::NextDeadline, seconds. It decides who goes first, never what is danced.
+inline double PlaybackClock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// A transition on its way through the scheduler, be it a stream's or one of a group's candidates:
 /// makes its inputs, takes its frames, and after a restart tells none twice. Model and feed must

@@ -5,20 +5,13 @@
 
 #include "model/core/error.h"
 #include "model/dance/timeline.h"
+#include "model/dance/validation.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/motion/signs.h"
 
 namespace choreo {
 namespace {
-
-void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
-  if (pose.rotations.cols() != skeleton.joints()) {
-    throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
-                                                    " joints, the model has " +
-                                                    std::to_string(skeleton.joints()));
-  }
-}
 
 // On the shortest vectors for the last pose, continuous backwards from there: what motion of the
 // training data looks like, however many turns a dance has made by then.
@@ -94,11 +87,8 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
     : model_(&model), spec_(request), world_target_(Placed(request.target, request.controls)) {
-  const int limit = std::min(model.max_transition_frames, kMaxTransitionFrames);
-  if (request.frames < 1 || request.frames > limit) {
-    throw InvalidArgument(
-        "frames", std::to_string(request.frames) + " is not in [1, " + std::to_string(limit) + "]");
-  }
+  CheckedIn(request.frames, 1, std::min(model.max_transition_frames, kMaxTransitionFrames),
+            "frames");
   for (size_t i = 0; i < request.history.size(); ++i) {
     CheckJoints(model.skeleton, request.history[i], "history[" + std::to_string(i) + "]");
   }

@@ -53,7 +53,6 @@ std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
           continue;
         }
         result.arrival = one.run.arrival();
-        result.required_speed = one.run.required_speed();
         result.stage = one.run.stage();
         engine.Release(one.slot);
       }

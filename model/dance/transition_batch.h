@@ -20,7 +20,6 @@ struct TransitionInput {
 struct TransitionResult {
   std::vector<DanceFrame> frames;
   std::optional<ArrivalResult> arrival;             ///< none without a target
-  std::optional<RequiredSpeed> required_speed;      ///< none without a target
   Eigen::Vector3d stage = Eigen::Vector3d::Zero();  ///< TransitionRun::stage at the end
 };
 

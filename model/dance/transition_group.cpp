@@ -11,7 +11,6 @@
 #include "model/dance/ask_transition.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
-#include "model/dance/playback_clock.h"
 #include "model/dance/scheduled_transition.h"
 
 namespace choreo {

@@ -12,11 +12,7 @@ namespace {
 
 void CheckPose(const Skeleton& skeleton, const Pose& pose, double max_rotation,
                const std::string& limit_name, const std::string& field) {
-  if (pose.rotations.cols() != skeleton.joints()) {
-    throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
-                                                    " joints, the model has " +
-                                                    std::to_string(skeleton.joints()));
-  }
+  CheckJoints(skeleton, pose, field);
   CheckPoseLimits(pose, max_rotation, limit_name, field);
 }
 
@@ -104,7 +100,7 @@ void ValidateOutputFps(double fps, const std::string& field) {
   }
 }
 
-bool ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
+void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field) {
   CheckedIn(continuation.frame, 0, kMaxDanceFrames, field + ".frame");
   if (static_cast<int>(continuation.poses.size()) != model.history_frames) {
@@ -120,13 +116,13 @@ bool ValidateContinuation(const ModelInfo& model, const Continuation& continuati
                                                   Show(kMaxPosition) + " m of the origin");
     }
   }
-  if (continuation.fingerprint == model.fingerprint) return true;
+  if (continuation.fingerprint == model.fingerprint) return;
   if (continuation.fingerprint.size() > kMaxFingerprintLength) {
     throw InvalidArgument(field + ".fingerprint",
                           "has " + std::to_string(continuation.fingerprint.size()) +
                               " bytes, at most " + std::to_string(kMaxFingerprintLength));
   }
-  if (allow_inexact) return false;
+  if (allow_inexact) return;
   throw Error(ErrorCode::kFailedPrecondition, field + ".fingerprint",
               "\"" + continuation.fingerprint + "\" is not this server's, \"" + model.fingerprint +
                   "\": the dance would go on differently");

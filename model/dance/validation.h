@@ -54,9 +54,8 @@ void ValidateTemperature(float temperature, const std::string& field);
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
 /// tau poses, a frame of a dance, and this model's fingerprint: another one throws
-/// Error(kFailedPrecondition) unless `allow_inexact`; what can't be one throws as the rest. Returns
-/// whether going on from it is exact.
-bool ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
+/// Error(kFailedPrecondition) unless `allow_inexact`; what can't be one throws as the rest.
+void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field);
 
 /// A number as messages show it: short, without trailing zeros.

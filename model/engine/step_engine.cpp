@@ -7,13 +7,6 @@
 namespace choreo {
 namespace {
 
-void CheckJoints(const Pose& pose, const ModelInfo& model, const std::string& field) {
-  if (pose.rotations.cols() != model.skeleton.joints()) {
-    throw InvalidArgument(field, std::to_string(pose.rotations.cols()) + " joints, must be " +
-                                     std::to_string(model.skeleton.joints()));
-  }
-}
-
 template <typename Matrix>
 void CheckControl(const Matrix& values, bool taken, int frames, const ModelInfo& model,
                   const std::string& field) {
@@ -27,6 +20,13 @@ void CheckControl(const Matrix& values, bool taken, int frames, const ModelInfo&
 }
 
 }  // namespace
+
+void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
+  if (pose.rotations.cols() == skeleton.joints()) return;
+  throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
+                                                  " joints, the model has " +
+                                                  std::to_string(skeleton.joints()));
+}
 
 bool Keyed(const TransitionSpec& spec) {
   if (!spec.target) return false;
@@ -46,10 +46,10 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
                                          std::to_string(history));
   }
   for (size_t i = 0; i < spec.history.size(); ++i) {
-    CheckJoints(spec.history[i], model, "history[" + std::to_string(i) + "]");
+    CheckJoints(model.skeleton, spec.history[i], "history[" + std::to_string(i) + "]");
   }
   if (spec.target) {
-    CheckJoints(spec.target->pose, model, "target");
+    CheckJoints(model.skeleton, spec.target->pose, "target");
     const size_t masked = spec.target->mask.joints.size();
     if (masked != 0 && static_cast<int>(masked) != model.skeleton.joints()) {
       throw InvalidArgument("target.mask", std::to_string(masked) + " joints, must be 0 or " +
@@ -92,7 +92,7 @@ void ValidateSteps(std::span<const StepInput> in, size_t outputs, int slots, con
       throw InvalidArgument("previous", slot->frame > 0 ? "is missing after the first frame"
                                                         : "is given before the first frame");
     }
-    if (input.previous != nullptr) CheckJoints(*input.previous, model, "previous");
+    if (input.previous != nullptr) CheckJoints(model.skeleton, *input.previous, "previous");
     if (slot->hears && static_cast<int>(input.audio_row.size()) != model.audio_features) {
       throw InvalidArgument("audio_row", std::to_string(input.audio_row.size()) +
                                              " values, must be " +

@@ -94,6 +94,9 @@ struct TransitionSpec {
 /// Whether its target asks for the root's position or a joint.
 bool Keyed(const TransitionSpec& spec);
 
+/// Throws Error(kInvalidArgument, field) unless the pose has the skeleton's joints.
+void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field);
+
 /// Throws Error(kInvalidArgument) naming the field unless the spec has the model's shape: frames,
 /// history, joints, mask, music rows and controls; a control that the model does not take is
 /// refused too.

@@ -6,8 +6,6 @@ namespace choreo {
 
 using torch::Tensor;
 using torch::indexing::Ellipsis;
-using torch::indexing::None;
-using torch::indexing::Slice;
 
 Tensor ExpMapBatch(const Tensor& w) {
   // The small constant keeps the gradient of the norm finite at zero; its effect on the angle is
@@ -51,15 +49,6 @@ Tensor LogMapBatch(const Tensor& r) {
 
 Tensor SixDBatch(const Tensor& r) {
   return torch::cat({r.index({Ellipsis, 0}), r.index({Ellipsis, 1})}, -1);
-}
-
-Tensor MatrixFromSixDBatch(const Tensor& d) {
-  const auto unit = [](const Tensor& v) { return v / (v.square().sum(-1, true) + 1e-12).sqrt(); };
-  const Tensor a = d.index({Ellipsis, Slice(0, 3)}), b = d.index({Ellipsis, Slice(3, 6)});
-  const Tensor x = unit(a);
-  const Tensor y = unit(b - (x * b).sum(-1, true) * x);
-  const Tensor z = torch::cross(x, y, -1);
-  return torch::stack({x, y, z}, -1);
 }
 
 TorchKinematics::TorchKinematics(const Skeleton& skeleton) {

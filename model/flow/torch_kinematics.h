@@ -15,8 +15,6 @@ torch::Tensor ExpMapBatch(const torch::Tensor& w);
 torch::Tensor LogMapBatch(const torch::Tensor& r);
 /// [..., 3, 3] → [..., 6]: the first two columns, stacked.
 torch::Tensor SixDBatch(const torch::Tensor& r);
-/// [..., 6] → [..., 3, 3] by Gram-Schmidt.
-torch::Tensor MatrixFromSixDBatch(const torch::Tensor& d);
 
 /// Forward kinematics of one skeleton, level by level of its tree.
 class TorchKinematics {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/core/smooth_step.h"
 #include "model/motion/kinematics.h"
 #include "model/plan/plan_stages.h"
 
@@ -21,7 +22,7 @@ void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan) {
   if (!std::isfinite(clearance)) return;
   for (size_t i = 0; i < plan->size(); ++i) {
     const double u = static_cast<double>(i + 1) / static_cast<double>(plan->size());
-    (*plan)[i].root_position.y() -= u * u * (3 - 2 * u) * clearance;
+    (*plan)[i].root_position.y() -= SmoothStep(u) * clearance;
   }
 }
 

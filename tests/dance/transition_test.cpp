@@ -67,7 +67,7 @@ TEST(Transition, FramesAreFloatsAndHitTheKey) {
   FakeEngine engine;
   const TransitionRequest request = RandomRequest(3);
   const TransitionInput input{request, {}};
-  const auto [frames, arrival, speed, stage] = DanceTransitions(engine, {&input, 1}).front();
+  const auto [frames, arrival, stage] = DanceTransitions(engine, {&input, 1}).front();
   ASSERT_EQ(frames.size(), 30u);
   EXPECT_EQ(engine.free_slots(), engine.slots());
   for (const DanceFrame& frame : frames) {
@@ -85,7 +85,7 @@ TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   request.arrival.frames = 0;
   request.temperature = 1;
   const TransitionInput input{request, {}};
-  const auto [frames, arrival, speed, stage] = DanceTransitions(engine, {&input, 1}).front();
+  const auto [frames, arrival, stage] = DanceTransitions(engine, {&input, 1}).front();
   ASSERT_TRUE(arrival);
   const PoseError error =
       ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.target->pose);
