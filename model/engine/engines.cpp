@@ -122,7 +122,6 @@ ModelInfo InfoOf(const Checkpoint& checkpoint, const Config& config, const Skele
           .licence = LicenceOf(checkpoint.card),
           .card = checkpoint.card,
           .skeleton = skeleton,
-          .fps = 30,
           .history_frames = config.history_frames,
           .max_transition_frames = config.max_transition_frames,
           .velocity_references = {}};
@@ -174,7 +173,6 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
     network = MakeTorchFlowNetwork(checkpoint.model, there);
   }
   ModelInfo info = InfoOf(checkpoint, config, skeleton, kernels);
-  info.audio_features = 40;
   info.hears_music = false;  // but its beats
   info.default_temperature = config.temperature;
   info.root_path = info.velocity_factors = true;

@@ -14,10 +14,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec&
       past_(static_cast<size_t>(tau_ * codec_.width())),
       audio_(static_cast<size_t>((tau_ + 1) * audio_features_)),
       frames_(spec.frames),
-      seed_(spec.seed),
-      candidate_(spec.candidate),
-      first_frame_(spec.first_frame),
-      noise_(spec.temperature),
+      first_noise_{spec.seed, spec.first_frame, spec.candidate, spec.temperature},
       has_audio_(spec.has_audio && model.hears_music),
       last_(spec.history.back()),
       contacts_(model.skeleton) {

@@ -37,8 +37,9 @@ class TransitionWindow {
   std::span<const float> audio() const { return audio_; }  ///< [tau + 1, audio_features]
   /// Its noise, temperature applied.
   FrameNoise noise() const {
-    return {
-        .seed = seed_, .frame = first_frame_ + frame_, .candidate = candidate_, .spread = noise_};
+    FrameNoise noise = first_noise_;
+    noise.frame += frame_;
+    return noise;
   }
 
   /// Follows the model's features [width] of the frame and decodes them; the frame is then done.
@@ -57,10 +58,7 @@ class TransitionWindow {
 
   int frames_;     // N
   int frame_ = 0;  // next to be stepped
-  uint64_t seed_;
-  uint32_t candidate_;
-  int64_t first_frame_;
-  float noise_;  // standard deviation
+  FrameNoise first_noise_;
   bool has_audio_;
   Pose last_;  // emitted before `frame_`
   JointPlacement last_placement_;

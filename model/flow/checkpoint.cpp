@@ -14,6 +14,17 @@ namespace {
 // Raised when the meaning of a stored tensor or field changes.
 constexpr const char* kFormat = "choreo-flow-1";
 
+// Refuses by name what is danced no more.
+struct NoFormerFlow {};
+void from_json(const nlohmann::json& config, NoFormerFlow& /*none*/) {
+  if (config.contains("planner") && config["planner"].value("width", 0) > 0) {
+    throw InvalidArgument("planner",
+                          "networks around a planner are no longer danced; train --preset default");
+  }
+  if (!config.value("recurrent", true))
+    throw InvalidArgument("recurrent", "false: flows without memory are no longer danced");
+}
+
 }  // namespace
 
 void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
@@ -62,6 +73,7 @@ Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
 
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) {
   const CheckpointFile file(content, name, kFormat);
+  file.Get<NoFormerFlow>("config");
   Checkpoint checkpoint{.model = FlowModel(file.Get<FlowConfig>("config"), file.skeleton()),
                         .card = file.card(),
                         .hash = file.hash()};

@@ -1,39 +1,13 @@
 #include "model/flow/flow_config.h"
 
-#include <nlohmann/json.hpp>
-
 #include "model/core/error.h"
+#include "model/flow/json_fields.h"
 
 namespace choreo {
 
-// One list serves both directions, so that a field can't be written and not read.
-#define CHOREO_FLOW_CONFIG_FIELDS(apply)                                                         \
-  apply(history_frames) apply(audio_features) apply(hears_music) apply(flow_steps) apply(hidden) \
-      apply(condition_width) apply(max_transition_frames) apply(temperature) apply(keys)         \
-          apply(key_loss) apply(time_embedding) apply(forward_embedding) apply(history_dropout)  \
-              apply(history_noise)
-
-void to_json(nlohmann::json& json, const FlowConfig& config) {
-  json = nlohmann::json::object();
-  json["name"] = config.name;
-#define CHOREO_WRITE(field) json[#field] = config.field;
-  CHOREO_FLOW_CONFIG_FIELDS(CHOREO_WRITE)
-#undef CHOREO_WRITE
-}
-
-void from_json(const nlohmann::json& json, FlowConfig& config) {
-  if (json.contains("planner") && json["planner"].value("width", 0) > 0) {
-    throw InvalidArgument("planner",
-                          "networks around a planner are no longer danced; train "
-                          "--preset default");
-  }
-  if (!json.value("recurrent", true))
-    throw InvalidArgument("recurrent", "false: flows without memory are no longer danced");
-  json.at("name").get_to(config.name);
-#define CHOREO_READ(field) json.at(#field).get_to(config.field);
-  CHOREO_FLOW_CONFIG_FIELDS(CHOREO_READ)
-#undef CHOREO_READ
-}
+CHOREO_JSON_FIELDS(FlowConfig, name, history_frames, audio_features, hears_music, flow_steps,
+                   hidden, condition_width, max_transition_frames, temperature, keys, key_loss,
+                   time_embedding, forward_embedding, history_dropout, history_noise)
 
 FlowConfig FlowConfig::Preset(const std::string& name) {
   FlowConfig config;

@@ -145,7 +145,7 @@ TEST_P(EnginesTest, RefusesWhatDoesNotFitAndStaysUsable) {
   EXPECT_THAT(refused([](auto& spec) { spec.frames = 201; }), HasSubstr("frames: 201"));
   EXPECT_THAT(refused([](auto& spec) { spec.history.pop_back(); }), HasSubstr("history: 9 poses"));
   EXPECT_THAT(refused([](auto& spec) { spec.history[4].rotations.resize(3, 22); }),
-              HasSubstr("history[4]: 22 joints"));
+              HasSubstr("history[4].rotations: 22 joints"));
   EXPECT_THAT(refused([](auto& spec) { spec.target->mask.joints.resize(3); }),
               HasSubstr("target.mask: 3 joints"));
   EXPECT_THAT(refused([](auto& spec) { spec.audio_history.resize(40, 3); }),
