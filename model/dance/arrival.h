@@ -9,19 +9,13 @@
 
 namespace choreo {
 
-/// Leads a model's frames onto a key, frame by frame, without look-ahead.
-///
-/// Over the last A frames of a transition the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is
-/// the model's frame, w rises smoothly from 0 to 1 over the first two thirds of them, and h_t is
-/// the next frame of the path from y_{t-1}, with the velocity that y has there, to the key. Of all
-/// paths it is the one with the least sum of squared accelerations (second differences) that passes
-/// the key with the velocity of the model's own frames, so that the dance moves on through the key.
-/// (With a free end it would race through the key with what it has to make up for, and be braked by
-/// what follows. Measured on real dances with keys set 10 cm off: docs/decisions.md.) Followed from
-/// frame to frame it closes the loop: what the model adds in between is made up for in the frames
-/// that are left, and with w = 1 in the last ones the key is hit to rounding. Root position and
-/// joint rotations (on the tangent space at y_{t-1}) are treated alike; degrees of freedom that the
-/// key's mask leaves free pass through untouched.
+/// Leads a model's frames onto a key, frame by frame, without look-ahead. Over the last A frames of
+/// a transition the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is the model's frame, w
+/// rises smoothly from 0 to 1 over the first two thirds of them, and h_t is the next frame of the
+/// path from y_{t-1} to the key that has the least sum of squared second differences and passes the
+/// key with the velocity of the model's own frames (with a free end it would race through the key:
+/// docs/decisions.md). Root and joints (on the tangent space at y_{t-1}) are treated alike; what
+/// the key's mask leaves free passes through.
 ///
 /// All poses stand in one frame (the transition's canonical one). Not thread-safe.
 class Arrival {

@@ -30,25 +30,16 @@ struct ControlRequest {
   void Validate(const ModelInfo& model, const std::string& field) const;
 };
 
-/// The controls of one dance. Of those that were set for transitions from a frame on, the last one
-/// counts: for a root path of those that speak of a frame, so that a path may come piece by piece,
-/// and one of which no frame is danced changes nothing; for velocity factors part by part. What a
-/// transition is asked is a function of what was set for its frames, its history and its key:
-/// nothing else is remembered, so a dance that is resumed and told the same again is asked the same
-/// again. Not thread-safe.
+/// The controls of one dance. Of those set for transitions from a frame on, the last counts: of
+/// root paths the last that speaks of a frame, of velocity factors part by part; parts and frames
+/// that nobody speaks of have the model's first reference. What a transition is asked is a function
+/// of what was set, its history and its key, so a resumed dance is asked the same again.
 ///
-/// Root path, in frames from its first point to its last: the curve of PathCurve. Where it passes
-/// the dancer by at the transition's start, or the key at its end, it is bent smoothly to them: the
-/// key wins, and a warning tells by how much, as it does where a path takes over more than half a
-/// metre from the dancer. From the dancer to a first point further ahead, and
-/// from a last point to the key, a cubic leads; to a key too soon behind it the path is bent as to
-/// one on it. Without a key the last point holds. A height that
-/// nobody asks for leads from the dancer's to the key's: the one it states, or that at which its
-/// pose stands on the floor (StandingHeight); without a key, to standing at rest. Where a path with
-/// heights has such a pose elsewhere, the path wins, and a warning tells by how much. A transition
-/// that the path has no frame of is left to the model.
-///
-/// Velocity factors: parts, and frames, that nobody speaks of have the model's first reference.
+/// A path is the curve of PathCurve, bent smoothly to the dancer at a transition's start and to the
+/// key at its end (LeadPath): the key wins, and a warning tells by how much. Heights that nobody
+/// asks for lead to the key's: the one it states, or that at which its pose stands on the floor; a
+/// path with heights wins over the latter. A transition that the path has no frame of is left to
+/// the model. Not thread-safe.
 class ControlTrack {
  public:
   /// The model must outlive the track.

@@ -19,20 +19,17 @@ class AudioFeed;
 class DanceChain;
 
 /// A dance in progress: a chain of transitions folded over messages. What is danced is a function
-/// of the config and of the order of SetKey, RemoveKey, SetControls, GiveBeats, GenerateUntil and
-/// KeysComplete among themselves (see Timeline), of the samples, and of where the music ends. It
-/// does not depend on the clock, on how samples are cut into messages, on how audio and key
-/// messages interleave, or on what else the scheduler does.
+/// of the config, of the order of SetKey, RemoveKey, SetControls, GiveBeats, GenerateUntil and
+/// KeysComplete among themselves (see Timeline), of the samples, and of where the music ends; not
+/// of the clock, of how samples are cut, of how they interleave with the rest, or of other streams.
 ///
 /// Resuming: a new stream with the last continuation, the same config and the same messages again
-/// in the same order (but those that were rejected) goes on bit for bit as the first would have.
-/// Keys before the continuation's frame are answered by a rejection, controls hold from where they
-/// held; audio starts at ResumeSample. Frames between that continuation and the point where the
-/// first stream broke come again, equal.
+/// in the same order (but those that were rejected) goes on bit for bit; audio starts at
+/// ResumeSample. Frames between that continuation and where the first stream broke come again.
 ///
-/// A message that throws leaves the stream as it was; its sender decides whether to end the stream
-/// by Cancel. After the last callback messages are ignored. Thread-safe; messages of one stream are
-/// taken one at a time. Destruction cancels. The scheduler must outlive the stream's last callback.
+/// A message that throws leaves the stream as it was. After the last callback messages are ignored.
+/// Thread-safe; messages are taken one at a time. Destruction cancels. The scheduler must outlive
+/// the last callback.
 class DanceStream {
  public:
   /// Throws as DanceConfig::Validate does.
@@ -57,14 +54,12 @@ class DanceStream {
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
               const PoseMask& mask = {});
   void RemoveKey(const std::string& id);
-  /// See ControlTrack. Holds from the first frame that is not frozen: that of the last
-  /// GenerateUntil, or, in a stream without, the one behind the last key. Errors name
-  /// "controls[i]", i counting the calls; none may come after KeysComplete, which freezes all.
+  /// See ControlTrack. Holds from the first frame that is not frozen. Errors name "controls[i]", i
+  /// counting the calls; none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
-  /// Beats ahead, seconds, ascending, at least one: they hold from the first of them on, in place
-  /// of what was given or heard, for transitions that begin behind the frozen frames. Those in
-  /// frozen frames are left out, and told of by a DanceWarning. Errors name "music_beats[i].times",
-  /// i counting the calls; none may come after KeysComplete.
+  /// Seconds, ascending, at least one: see MusicBeats::Give. Those in frozen frames are left out,
+  /// and told of by a DanceWarning. Errors name "music_beats[i].times", i counting the calls; none
+  /// may come after KeysComplete.
   void GiveBeats(const std::vector<double>& seconds);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.

@@ -12,18 +12,14 @@
 
 namespace choreo {
 
-/// Keeps feet from sliding: what every learnt dance does, and paper C names as its limit. A model's
-/// mean motion glides where a dancer steps. So the toes of a foot that is on the floor stay where
-/// they touched down, and when the body has gone on too far (or the model lifts the foot) they
-/// travel in one step through the air, one foot at a time. The legs follow by inverse kinematics;
-/// all else stays.
+/// Keeps feet from sliding: a model's mean motion glides where a dancer steps. The toes of a foot
+/// on the floor stay where they touched down, and when the body has gone on too far (or the model
+/// lifts the foot) they travel in one step through the air, one foot at a time. The legs follow by
+/// inverse kinematics; all else stays.
 ///
-/// Frame by frame, without look-ahead, after arrival. A transition's last steps are planned from
-/// its beginning: they land where the key pose has its feet, a tenth of a second ahead of it where
-/// there is time, so the correction is zero at the key and nothing jolts it.
-/// The state at the beginning follows from the history, and the transition stays a pure function.
-///
-/// All poses stand in one frame, whose floor is y = 0. Not thread-safe.
+/// Frame by frame, without look-ahead, after arrival. The state at the beginning follows from the
+/// history; the last steps land where the key has its feet, a tenth of a second ahead of it where
+/// there is time. All poses stand in one frame, whose floor is y = 0. Not thread-safe.
 class FootLock {
  public:
   /// False for a skeleton without legs and for a transition too short to step in.

@@ -68,27 +68,19 @@ struct Segment {
 /// longest at most, so that what is left before a key after a cut is never shorter than that.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 
-/// The keys of one dance, the frozen frontier, and the plan that follows from them.
-///
-/// What is planned depends on the order of the calls alone, never on when Current is called: each
-/// call plans, before it returns, every transition of which a frame is granted by then.
+/// The keys of one dance, the frozen frontier, and the plan that follows from them. Each call
+/// plans, before it returns, every transition of which a frame is granted by then: to the next key,
+/// or of kFreeTransitionFrames where none stands ahead within the longest transition. So the plan
+/// depends on the order of the calls alone.
 /// - `GenerateUntil(f)` grants (and freezes) the frames before f. Keys before f are late.
 /// - Where it has never been called, and Options has no grant, each accepted key grants up to and
 ///   with itself, so such keys come in order of time.
 /// - `Complete()` grants everything.
-/// The next transition leads from where the last ended to the next key. Where no key stands ahead,
-/// or one further than the longest transition, a transition of kFreeTransitionFrames without target
-/// comes first.
 ///
-/// Of a transition whose end is not granted yet what lies ahead may still change. A grant alone
-/// never plans anew: the transition goes on as long as it is the one that would be planned from its
-/// first frame now, and nobody said Disturb. Otherwise it stops at the frontier, where the next
-/// grant begins another.
-///
-/// A dance that goes on is told the same again and plans the same again, from its first frame on:
-/// keys before that stand where they stood, and are answered by a rejection.
-///
-/// Not thread-safe.
+/// A transition that reaches over the frontier goes on as long as it is the one that would be
+/// planned from its first frame now, and nobody said Disturb; else it stops at the frontier. A
+/// dance that goes on is told the same again and plans the same again: keys before its first frame
+/// stand where they stood, and are answered by a rejection. Not thread-safe.
 class Timeline {
  public:
   struct Options {

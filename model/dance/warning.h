@@ -33,19 +33,14 @@ DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, i
 DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& model);
 
 DanceWarning PathTooFast(int64_t frame, double m_per_s);
-DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres);
-/// The path ends before frame `earliest`, the first that is not frozen.
-DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest);
-/// The first `count` of the beats that came lie before frame `earliest`, the first one at `frame`.
-DanceWarning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest);
-/// The path begins at or behind `end`, before which the dance ends.
-DanceWarning PathBehindEnd(int64_t first_frame, int64_t end);
-/// A key without a root position stands on the floor with its root at `standing`, and the path is
-/// at `height`; metres.
-DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height);
-
-/// A path that takes over at `frame` is `metres` from the dancer.
 DanceWarning PathAway(int64_t frame, double metres);
+DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres);
+/// Root heights of the standing key and of the path, metres.
+DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height);
+/// `earliest`: the first frame that is not frozen.
+DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest);
+DanceWarning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest);
+DanceWarning PathBehindEnd(int64_t first_frame, int64_t end);
 /// `misses`: "left_leg 1.69 instead of 0.70", of at least one part, centimetres a frame.
 DanceWarning VelocityNotMet(int64_t last_frame, const std::string& misses);
 

@@ -32,13 +32,10 @@ AvailableDevices TorchDevices();
 void SetTorchThreads(int threads);
 
 /// Loads a checkpoint once and makes an engine on each device, with `slots` slots each; engines of
-/// one device share its weights. Throws as LoadCheckpoint does (model/flow/checkpoint.h), and
-/// Error(kInvalidArgument) unless slots is in [1, 4096], and for kPacked on another device than the
-/// CPU, or kPackedBf16 on one without AVX512-BF16.
-///
-/// `kernels`: a PackedKernels::name, so that packed engines on different CPUs have one fingerprint;
-/// empty: the fastest here. Throws Error(kInvalidArgument, "kernels") for those that this machine
-/// or `kind` does not have. What LibTorch runs is left alone.
+/// one device share its weights. `kernels`: a PackedKernels::name, so that packed engines on
+/// different CPUs have one fingerprint; empty: the fastest here; what LibTorch runs is left alone.
+/// Throws as LoadCheckpoint does (model/flow/checkpoint.h), and Error(kInvalidArgument) unless
+/// slots is in [1, 4096], and for a kind or kernels that the device or this machine does not have.
 std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& checkpoint,
                                                      std::span<const Device> devices, int slots,
                                                      EngineKind kind = EngineKind::kAuto,

@@ -12,12 +12,10 @@
 
 namespace choreo {
 
-/// One transition as the scheduler sees it. All calls but Cancelled come from a worker thread, one
-/// at a time, with no lock of the scheduler held: a job may call Submit, Wake, Stop and stats from
-/// inside them. None may block. Implemented by dance/ (and by fakes in tests).
-/// A transition is a pure function, so a job that sleeps can lose its slot and be run again from
-/// its first frame later (OnRestart): its bits are the same. What spec, NextInput or OnFrame throw
-/// ends this job alone, as a failure.
+/// One transition as the scheduler sees it. Calls come from a worker thread, one at a time, with no
+/// lock of the scheduler held, so they may call it; none may block. A job that sleeps can lose its
+/// slot and be run again from its first frame later (OnRestart): its bits are the same. What spec,
+/// NextInput or OnFrame throw ends this job alone, as a failure.
 class StepJob {
  public:
   virtual ~StepJob() = default;
@@ -56,18 +54,15 @@ class StepJob {
   virtual bool Cancelled() const = 0;
 };
 
-/// Feeds engines: one worker thread per engine; ready jobs step together; earliest deadline first;
-/// no added delay. Admission takes as long as many steps, so there are few between two steps: a
-/// crowd that comes at once, or whose transitions end at once, does not stop those who dance. A job
-/// goes to the engine with most free slots, or waits until some slot is free. Who waits is given a
-/// slot when one is left, earliest deadline first, or when somebody who has one has slept for
-/// `max_sleep`: who waits for music or for its reader holds up nobody else.
+/// Feeds engines, one worker thread each: ready jobs step together, earliest deadline first, with
+/// no added delay, and few are admitted between two steps, so that a crowd does not stop those who
+/// dance. A job goes to the engine with most free slots. Who waits is given a slot when one is
+/// left, or when somebody who has one has slept for `max_sleep`.
 ///
-/// There are jobs of dances, which were admitted elsewhere and are never refused for want of room,
-/// and jobs of groups, which are charged here and hold half of the slots at most (at least one), so
-/// that no burst of groups stands in a dance's way. Nobody plays a group's frames as they come:
-/// they are made where no frame of a dance is due. Submit and SubmitGroup never block.
-/// Thread-safe. A job is held from its submission until its OnDone has returned.
+/// Jobs of dances were admitted elsewhere and are never refused for want of room. Jobs of groups
+/// are charged here and hold half of the slots at most (at least one); their frames are made where
+/// no frame of a dance is due. Submit and SubmitGroup never block. Thread-safe. A job is held from
+/// its submission until its OnDone has returned.
 class Scheduler {
  public:
   struct Options {

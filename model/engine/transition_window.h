@@ -12,12 +12,9 @@
 
 namespace choreo {
 
-/// What an engine keeps of one transition in progress, whatever computes its network: the features
-/// of the last tau emitted frames, the last tau + 1 music rows, and where it stands.
-///
-/// What a frame's history holds is what was emitted: its features are encoded anew from the poses
-/// that StepInput::previous hands back (velocities between them, contacts as motion/contacts.h
-/// detects them), so a transition is a function of poses alone.
+/// What paper F's engine keeps of one transition in progress: the features of the last tau emitted
+/// frames, the last tau + 1 music rows, and where it stands. Features are encoded anew from the
+/// poses that StepInput::previous hands back, so a transition is a function of poses alone.
 ///
 /// Per frame: Advance, read the inputs, Finish. Nothing allocates there. Not thread-safe.
 class TransitionWindow {
