@@ -78,20 +78,17 @@ Pose Arrival::Apply(const Pose& raw) {
   }
   const double w = SmoothStep(std::min(1.0, (window_ - left + 1) / (kFull * window_)));
   Pose emitted = raw;
-  if (target_.mask.root_position) {
-    const Eigen::Vector3d way = target_.pose.root_position - previous_.root_position;
-    const Eigen::Vector3d end_velocity = after_ ? after_->root : model_velocity_.root;
-    const Eigen::Vector3d path =
-        previous_.root_position + Step(way, velocity_.root, end_velocity, left);
-    emitted.root_position += w * (path - raw.root_position);
-    if (left == 1) emitted.root_position = target_.pose.root_position;
-  } else if (target_.height) {
-    const Eigen::Vector3d way(0, *target_.height - previous_.root_position.y(), 0);
-    const Eigen::Vector3d end_velocity = after_ ? after_->root : model_velocity_.root;
-    const double path =
-        previous_.root_position.y() + Step(way, velocity_.root, end_velocity, left).y();
-    emitted.root_position.y() += w * (path - raw.root_position.y());
-    if (left == 1) emitted.root_position.y() = *target_.height;
+  const Velocity& end_velocity = after_ ? *after_ : model_velocity_;
+  const bool has_place = target_.mask.root_position;
+  Eigen::Vector3d place = target_.pose.root_position;
+  if (!has_place && target_.height) place.y() = *target_.height;
+  const Eigen::Vector3d way_there = place - previous_.root_position;
+  const Eigen::Vector3d path_there =
+      previous_.root_position + Step(way_there, velocity_.root, end_velocity.root, left);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!has_place && !(axis == 1 && target_.height)) continue;
+    double& at = emitted.root_position[axis];
+    at = left == 1 ? place[axis] : at + w * (path_there[axis] - at);
   }
   for (int joint = 0; joint < raw.rotations.cols(); ++joint) {
     if (!target_.mask.Asks(joint)) continue;
@@ -100,9 +97,8 @@ Pose Arrival::Apply(const Pose& raw) {
     Eigen::Vector3d way = RotationDifference(from, target_.pose.rotations.col(joint));
     // Near half a turn the shorter way changes sides with every small step; keep to the one begun.
     if (has_expected_way_) way = NearestBranch(way, expected_way_.col(joint));
-    const Eigen::Vector3d end_velocity = (after_ ? *after_ : model_velocity_).joints.col(joint);
-    const Eigen::Vector3d path =
-        RotationCompose(from, Step(way, velocity_.joints.col(joint), end_velocity, left));
+    const Eigen::Vector3d path = RotationCompose(
+        from, Step(way, velocity_.joints.col(joint), end_velocity.joints.col(joint), left));
     emitted.rotations.col(joint) = RotationCompose(model, w * RotationDifference(model, path));
     expected_way_.col(joint) = way - RotationDifference(from, emitted.rotations.col(joint));
   }

@@ -1,6 +1,7 @@
 #include "model/dance/output_rate.h"
 
 #include <cmath>
+#include <utility>
 
 #include "model/motion/resample.h"
 #include "model/motion/signs.h"
@@ -19,10 +20,7 @@ OutputRate::OutputRate(double model_fps, double output_fps, int64_t first_frame,
   // The first output frame later than the model's frame before, which the part before has given.
   const double before_at = static_cast<double>(first_frame - 1) * output_fps_ / model_fps_;
   next_output_ = static_cast<int64_t>(std::floor(before_at + kOnFrame)) + 1;
-  if (before) {
-    last_ = *before;
-    has_last_ = true;
-  }
+  last_ = std::move(before);
 }
 
 OutputFrames OutputRate::Push(const DanceFrame& frame) {
@@ -32,17 +30,16 @@ OutputFrames OutputRate::Push(const DanceFrame& frame) {
   for (;; ++next_output_) {
     const double at = static_cast<double>(next_output_) * model_fps_ / output_fps_;
     if (at > now + kOnFrame) break;
-    if (at >= now - kOnFrame || !has_last_) {
+    if (at >= now - kOnFrame || !last_) {
       out.poses.push_back(frame.pose);
       out.contacts.push_back(frame.contacts);
       continue;
     }
     const double t = at - (now - 1);
-    out.poses.push_back(RoundToFloat(KeepSigns(InterpolatePoses(last_, frame.pose, t), last_)));
+    out.poses.push_back(RoundToFloat(KeepSigns(InterpolatePoses(*last_, frame.pose, t), *last_)));
     out.contacts.push_back(frame.contacts);
   }
   last_ = frame.pose;
-  has_last_ = true;
   ++next_input_;
   return out;
 }

@@ -33,8 +33,7 @@ class OutputRate {
   double output_fps_;
   int64_t next_input_;
   int64_t next_output_ = 0;
-  Pose last_;
-  bool has_last_ = false;
+  std::optional<Pose> last_;
 };
 
 }  // namespace choreo

@@ -7,18 +7,14 @@ namespace choreo {
 Scheduler::Scheduler(std::vector<std::unique_ptr<StepEngine>> engines, Options options)
     : impl_(std::make_unique<Impl>()) {
   if (engines.empty()) throw InvalidArgument("engines", "is empty; at least 1 is needed");
-  if (options.max_waiting < 0) {
-    throw InvalidArgument("max_waiting", std::to_string(options.max_waiting) + " is below 0");
-  }
-  if (options.max_batch < 1) {
-    throw InvalidArgument("max_batch", std::to_string(options.max_batch) + " is below 1");
-  }
-  if (options.max_admissions < 1) {
-    throw InvalidArgument("max_admissions", std::to_string(options.max_admissions) + " is below 1");
-  }
-  if (options.max_sleep.count() < 0) {
-    throw InvalidArgument("max_sleep", std::to_string(options.max_sleep.count()) + " is below 0");
-  }
+  const auto check = [](const char* field, int64_t value, int64_t least) {
+    if (value >= least) return;
+    throw InvalidArgument(field, std::to_string(value) + " is below " + std::to_string(least));
+  };
+  check("max_waiting", options.max_waiting, 0);
+  check("max_batch", options.max_batch, 1);
+  check("max_admissions", options.max_admissions, 1);
+  check("max_sleep", options.max_sleep.count(), 0);
   impl_->options = options;
   int slots_of_all = 0;
   const std::string fingerprint = engines[0]->model().fingerprint;
