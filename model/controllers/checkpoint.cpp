@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "model/controllers/random_controllers.h"
-#include "model/flow/checkpoint.h"
-#include "model/flow/checkpoint_file.h"
 
 namespace choreo {
 namespace {
@@ -23,14 +21,8 @@ bool HoldsControllers(const Safetensors& content) {
 
 ControllersCheckpoint ParseControllers(const Safetensors& content, const std::string& name) {
   const CheckpointFile file(content, name, kFormat);
-  ControllersCheckpoint checkpoint{
-      .model = ControllersModel(file.Get<ControllersConfig>("config"), file.skeleton()),
-      .median_factors = file.Get<std::array<double, kBodyParts>>("median_factors"),
-      .card = file.card(),
-      .hash = file.hash()};
-  ImportTensors(content, "", checkpoint.model.get());
-  checkpoint.model->eval();
-  return checkpoint;
+  return {TakeUp<ControllersModel, ControllersConfig>(file, content),
+          file.Get<std::array<double, kBodyParts>>("median_factors")};
 }
 
 std::string SaveControllers(const std::filesystem::path& path, ControllersModel& model,
@@ -47,11 +39,7 @@ void WriteRandomControllers(const std::filesystem::path& path, const Controllers
                             const Skeleton& skeleton, uint64_t seed) {
   torch::manual_seed(seed);
   ControllersModel model(config, skeleton);
-  torch::NoGradGuard no_grad;
-  for (auto& parameter : model->parameters()) {
-    // What starts as zero would hide everything before it.
-    if (!parameter.any().item<bool>()) parameter.copy_(0.05 * torch::randn_like(parameter));
-  }
+  FillZeros(model.get());
   const int64_t others = skeleton.joints() - 1;
   model->SetNormalisation(torch::zeros({others, 3}), torch::full({others, 3}, 0.1),
                           torch::full({kBodyParts}, 0.01));

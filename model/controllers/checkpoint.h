@@ -6,18 +6,15 @@
 #include <string>
 
 #include "model/controllers/controllers_model.h"
-#include "model/core/safetensors.h"
+#include "model/flow/checkpoint.h"
 #include "model/motion/velocity_factors.h"
 
 /// Checkpoints of the controllers network, as those of the flow (model/flow/checkpoint.h): one
 /// safetensors file that has everything, guarded by a content hash.
 namespace choreo {
 
-struct ControllersCheckpoint {
-  ControllersModel model{nullptr};                     ///< in eval mode, on the CPU
+struct ControllersCheckpoint : CheckpointOf<ControllersModel> {
   std::array<double, kBodyParts> median_factors = {};  ///< of the training clips, metres a frame
-  std::string card;                                    ///< JSON text
-  std::string hash;                                    ///< 128-bit content hash, hex
 };
 
 /// Whether this file holds a controllers network (by its metadata).

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "model/core/error.h"
-#include "model/flow/checkpoint_file.h"
 #include "model/flow/random_checkpoint.h"
 
 namespace choreo {
@@ -59,6 +57,13 @@ void ImportTensors(const Safetensors& content, const std::string& prefix,
   for (auto& item : module->named_buffers()) take(item.key(), item.value());
 }
 
+void FillZeros(torch::nn::Module* module) {
+  torch::NoGradGuard no_grad;
+  for (auto& parameter : module->parameters()) {
+    if (!parameter.any().item<bool>()) parameter.copy_(0.05 * torch::randn_like(parameter));
+  }
+}
+
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card) {
   Safetensors content;
@@ -74,24 +79,14 @@ Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) {
   const CheckpointFile file(content, name, kFormat);
   file.Get<NoFormerFlow>("config");
-  Checkpoint checkpoint{.model = FlowModel(file.Get<FlowConfig>("config"), file.skeleton()),
-                        .card = file.card(),
-                        .hash = file.hash()};
-  ImportTensors(content, "", checkpoint.model.get());
-  checkpoint.model->eval();
-  return checkpoint;
+  return TakeUp<FlowModel, FlowConfig>(file, content);
 }
 
 void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,
                            const Skeleton& skeleton, uint64_t seed) {
   torch::manual_seed(seed);
   FlowModel model(config, skeleton);
-  torch::NoGradGuard no_grad;
-  for (auto& item : model->named_parameters()) {
-    // What starts as zero would hide everything before it.
-    const bool zero = !item.value().any().item<bool>();
-    if (zero) item.value().copy_(0.05 * torch::randn_like(item.value()));
-  }
+  FillZeros(model.get());
   model->SetFeatureNormalisation(0.05 * torch::randn({model->feature_width()}),
                                  0.02 + 0.1 * torch::rand({model->feature_width()}));
   model->SetAudioNormalisation(torch::randn({config.audio_features}),

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "model/core/safetensors.h"
+#include "model/flow/checkpoint_file.h"
 #include "model/flow/flow_model.h"
 
 /// Checkpoints: safetensors with everything inside that is needed to dance - weights,
@@ -12,11 +12,13 @@
 /// figures). A content hash guards the whole.
 namespace choreo {
 
-struct Checkpoint {
-  FlowModel model{nullptr};  ///< in eval mode, on the CPU
-  std::string card;          ///< JSON text
-  std::string hash;          ///< 128-bit content hash, hex
+template <typename Model>
+struct CheckpointOf {
+  Model model{nullptr};  ///< in eval mode, on the CPU
+  std::string card;      ///< JSON text
+  std::string hash;      ///< 128-bit content hash, hex
 };
+using Checkpoint = CheckpointOf<FlowModel>;
 
 /// Throws Error(kNotFound) or Error(kInvalidArgument): no such file, truncated, another format
 /// version, wrong hash, or tensors that do not fit the configuration; the message says which.
@@ -33,5 +35,19 @@ void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
                    Safetensors* content);
 void ImportTensors(const Safetensors& content, const std::string& prefix,
                    torch::nn::Module* module);
+
+/// What `file` holds, whose tensors are in `content`. Throws as LoadCheckpoint does.
+template <typename Model, typename Config>
+CheckpointOf<Model> TakeUp(const CheckpointFile& file, const Safetensors& content) {
+  CheckpointOf<Model> checkpoint{.model = Model(file.Get<Config>("config"), file.skeleton()),
+                                 .card = file.card(),
+                                 .hash = file.hash()};
+  ImportTensors(content, "", checkpoint.model.get());
+  checkpoint.model->eval();
+  return checkpoint;
+}
+
+/// Gives what starts as zero, and would hide everything before it, random values.
+void FillZeros(torch::nn::Module* module);
 
 }  // namespace choreo

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/flow/checkpoint.h"
-#include "model/flow/checkpoint_file.h"
 #include "model/flow/flow_tokens.h"
 #include "model/flow/random_checkpoint.h"
 #include "model/flow/time_attention.h"
@@ -276,14 +274,8 @@ bool HoldsContinuousFlow(const Safetensors& content) {
 }
 
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
-  const CheckpointFile file(content, name, kFormat);
-  ContinuousFlowCheckpoint checkpoint{
-      .model = ContinuousFlow(file.Get<ContinuousFlowConfig>("config"), file.skeleton()),
-      .card = file.card(),
-      .hash = file.hash()};
-  ImportTensors(content, "", checkpoint.model.get());
-  checkpoint.model->eval();
-  return checkpoint;
+  return TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat),
+                                                      content);
 }
 
 std::string SaveContinuousFlow(const std::filesystem::path& path, const ContinuousFlow& model,
@@ -297,11 +289,7 @@ void WriteRandomContinuousFlow(const std::filesystem::path& path,
                                uint64_t seed) {
   torch::manual_seed(seed);
   ContinuousFlow model(config, skeleton);
-  torch::NoGradGuard no_grad;
-  for (auto& parameter : model->parameters()) {
-    // What starts as zero would hide everything before it.
-    if (!parameter.any().item<bool>()) parameter.copy_(0.05 * torch::randn_like(parameter));
-  }
+  FillZeros(model.get());
   Safetensors weights;
   ExportTensors(*model, "", &weights);
   SaveContinuousFlow(path, model, std::move(weights), {{"licence", "none: random weights"}});

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "model/core/safetensors.h"
+#include "model/flow/checkpoint.h"
 #include "model/flow/flow_sampler.h"
 
 namespace choreo {
@@ -61,11 +62,7 @@ std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model,
                                                   torch::Device device = torch::kCPU);
 
 /// Checkpoints of it, as those of the other networks (model/flow/checkpoint.h).
-struct ContinuousFlowCheckpoint {
-  ContinuousFlow model{nullptr};  ///< in eval mode, on the CPU
-  std::string card;               ///< JSON text
-  std::string hash;               ///< 128-bit content hash, hex
-};
+using ContinuousFlowCheckpoint = CheckpointOf<ContinuousFlow>;
 bool HoldsContinuousFlow(const Safetensors& content);
 /// `name` is what errors call it. Throws as ParseCheckpoint does.
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name);
