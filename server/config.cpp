@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
+#include "model/core/programs.h"
 #include "model/engine/devices.h"
 #include "model/engine/engine_kind.h"
 #include "server/config_flags.h"
@@ -20,9 +21,6 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kLogLevels = {"trace", "debug",    "info", "warning",
                                                         "error", "critical", "off"};
-
-/// What the process exits with then.
-constexpr int kMisused = 2;
 
 void CheckRange(const std::string& name, double value, double least, double most) {
   if (value >= least && value <= most) return;

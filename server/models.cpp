@@ -7,12 +7,10 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/programs.h"
 
 namespace choreo {
 namespace {
-
-// Paths and velocity factors had a model of their own before 0.2.0.
-constexpr const char* kFormerControls = "controllers";
 
 void Add(const Models::Figures& more, Models::Figures* to) {
   Scheduler::Stats& stats = to->stats;

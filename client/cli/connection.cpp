@@ -9,12 +9,10 @@
 
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
+#include "model/core/programs.h"
 
 namespace choreo::cli {
 namespace {
-
-// Paths and velocity factors had a model of their own before 0.2.0; servers take its name, too.
-constexpr const char* kFormerControls = "controllers";
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kOfOneLoss{5};

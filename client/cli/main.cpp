@@ -9,11 +9,11 @@
 #include "client/cli/interruption.h"
 #include "client/cli/misspelling.h"
 #include "model/core/error.h"
+#include "model/core/programs.h"
 
 namespace {
 
 constexpr int kFailed = 1;
-constexpr int kMisused = 2;
 constexpr int kInterrupted = 130;  // as shells say it of Ctrl-C
 
 }  // namespace
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     // Help and version come this way too, with code 0.
-    return program.exit(error) == 0 ? 0 : kMisused;
+    return program.exit(error) == 0 ? 0 : choreo::kMisused;
   } catch (const std::exception& error) {
     if (choreo::cli::Interruption::Came()) return kInterrupted;
     std::cerr << "choreo: " << error.what() << std::endl;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/audio/beats.h"
 #include "model/core/rounded.h"
 
 namespace choreo::cli {
 namespace {
 
 constexpr double kRounding = 1e-6;  // of frame numbers
-constexpr double kBeatGap = 2;      // frames, as the server counts hits
 
 int64_t FirstFrameOfFile(const client::Header& header) {
   const double first = static_cast<double>(header.first_frame) * header.fps / header.model_fps;

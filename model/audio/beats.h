@@ -6,6 +6,9 @@
 
 namespace choreo {
 
+/// Frames of the model between a dancer's beat and the music's that she still hits.
+inline constexpr double kBeatGap = 2;
+
 /// Where a dancer would count.
 struct BeatTrack {
   double tempo_bpm = 0;         ///< 0 where nothing was heard

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/audio/beats.h"
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/motion/kinematics.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kToeHeight = 0.05;          // metres
 constexpr double kSkateSpeed = 0.2;          // metres a second
-constexpr double kBeatGap = 2;               // frames
 constexpr double kBeatDeviation = 1.0 / 12;  // seconds, of the Gaussian over speeds
 constexpr int64_t kFramesAroundKey = 2;
 

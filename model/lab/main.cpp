@@ -3,6 +3,7 @@
 #include <string>
 
 #include "model/core/error.h"
+#include "model/core/programs.h"
 #include "model/core/threads.h"
 #include "model/engine/devices.h"
 #include "model/engine/engines.h"
@@ -16,7 +17,6 @@
 namespace {
 
 constexpr int kFailed = 1;
-constexpr int kMisused = 2;
 
 /// The one device that a name stands for; a model is trained on one.
 std::string OneDevice(const std::string& name) {
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version come this way too, with code 0.
-    return app.exit(error) == 0 ? 0 : kMisused;
+    return app.exit(error) == 0 ? 0 : choreo::kMisused;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "choreo-lab: %s\n", error.what());
     return kFailed;

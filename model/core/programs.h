@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string_view>
+
+namespace choreo {
+
+/// Exit status of a program that was called wrongly.
+inline constexpr int kMisused = 2;
+
+/// What the first model was called before 0.2.0 where controls were wanted; server and client take
+/// it still, with a warning.
+inline constexpr std::string_view kFormerControls = "controllers";
+
+}  // namespace choreo
