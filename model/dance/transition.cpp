@@ -17,14 +17,10 @@ namespace {
 // training data looks like, however many turns a dance has made by then.
 std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<Pose>& world) {
   std::vector<Pose> local(world.size());
-  for (size_t i = world.size(); i-- > 0;) {
+  Pose near{{}, Eigen::Matrix3Xd::Zero(3, world.back().rotations.cols())};
+  for (size_t i = world.size(); i-- > 0; near = local[i]) {
     local[i] = ground.ToLocal(world[i]);
-    for (int joint = 0; joint < local[i].rotations.cols(); ++joint) {
-      const Eigen::Vector3d near = i + 1 < local.size()
-                                       ? Eigen::Vector3d(local[i + 1].rotations.col(joint))
-                                       : Eigen::Vector3d::Zero();
-      local[i].rotations.col(joint) = NearestBranch(local[i].rotations.col(joint), near);
-    }
+    MakeContinuous(local[i], near);
   }
   return local;
 }
@@ -37,11 +33,6 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
     target->mask.root_position = true;
   }
   return target;
-}
-
-Pose Near(Pose pose, const Pose& previous) {
-  MakeContinuous(pose, previous);
-  return pose;
 }
 
 // GCC 12's SLP vectoriser folds double -> float -> double of neighbours into nothing (as in Eigen's
@@ -110,10 +101,12 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   stage_ = request.stage.value_or(world_.root_position);
   spec_.stage = ground_.ToLocal(stage_);
   if (world_target_) {
-    const Pose& pose = world_target_->pose;
-    const PoseMask& mask = world_target_->mask;
-    spec_.target = Target{Near(ground_.ToLocal(pose), spec_.history.back()), mask};
-    if (!mask.root_position) spec_.target->height = StandingHeight(model.skeleton, pose, mask);
+    Target& target = spec_.target.emplace(*world_target_);
+    target.pose = ground_.ToLocal(target.pose);
+    MakeContinuous(target.pose, spec_.history.back());
+    target.height = target.mask.root_position
+                        ? std::nullopt
+                        : StandingHeight(model.skeleton, world_target_->pose, target.mask);
   }
   for (auto place : spec_.controls.root_path.colwise())
     place = ground_.ToLocal(Eigen::Vector3d(place)).unaryExpr(&ToFloat);

@@ -16,6 +16,22 @@ constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
 // Times a velocity's spread: a history that is faster was forced by a key, and does not go on so.
 constexpr double kFastest = 8;
 
+// The way from one pose to another, [dimensions]: of the root, and of each joint as the first's
+// tangent space has it; and there.
+Eigen::VectorXd Way(const Pose& from, const Pose& to) {
+  Eigen::VectorXd way(3 + 3 * from.rotations.cols());
+  way.head<3>() = to.root_position - from.root_position;
+  for (Eigen::Index j = 0; j < from.rotations.cols(); ++j)
+    way.segment<3>(3 + 3 * j) = RotationDifference(from.rotations.col(j), to.rotations.col(j));
+  return way;
+}
+void Go(const Eigen::VectorXd& way, Pose* pose) {
+  pose->root_position += way.head<3>();
+  for (Eigen::Index j = 0; j < pose->rotations.cols(); ++j) {
+    pose->rotations.col(j) = RotationCompose(pose->rotations.col(j), way.segment<3>(3 + 3 * j));
+  }
+}
+
 }  // namespace
 
 WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> poses,
@@ -54,14 +70,8 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   displacement_ = Eigen::VectorXd::Zero(dimensions);
   history_ = Eigen::MatrixXd::Zero(dimensions, tau);
   Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(dimensions, MotionPrior::kPast);
-  for (int i = 0; i < tau; ++i) {
-    const Pose& pose = request.history[static_cast<size_t>(i)];
-    history_.col(i).head<3>() = pose.root_position - last.root_position;
-    for (int j = 0; j < joints; ++j) {
-      history_.col(i).segment<3>(3 + 3 * j) =
-          RotationDifference(last.rotations.col(j), pose.rotations.col(j));
-    }
-  }
+  for (int i = 0; i < tau; ++i)
+    history_.col(i) = Way(last, request.history[static_cast<size_t>(i)]);
   for (int p = 0; p < MotionPrior::kPast && p + 1 < tau; ++p) {
     velocity.col(p) = history_.col(tau - 1 - p) - history_.col(tau - 2 - p);
   }
@@ -69,22 +79,15 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   for (int p = 0; p < MotionPrior::kPast; ++p)
     velocity.col(p) = velocity.col(p).array().min(fastest).max(-fastest);
   if (request.key) {
-    const Pose& key = *request.key;
     const PoseMask& mask = request.mask;
     keyed_[0] = keyed_[2] = mask.root_position;
     keyed_[1] = mask.root_position || request.height;
-    displacement_.head<3>() = key.root_position - last.root_position;
-    for (int j = 0; j < joints; ++j) {
-      Eigen::Vector3d turn = RotationDifference(last.rotations.col(j), key.rotations.col(j));
-      if (j == 0) {
-        const Eigen::Vector3d ahead =
-            std::min<double>(kTurnHorizon, request.to_key) * velocity.col(0).segment<3>(3);
-        turn = NearerWayRound(turn, request.turning.value_or(ahead));
-      }
-      displacement_.segment<3>(3 + 3 * j) = turn;
-      for (int axis = 0; axis < 3; ++axis)
-        keyed_[static_cast<size_t>(3 + 3 * j + axis)] = mask.Asks(j);
-    }
+    displacement_ = Way(last, *request.key);
+    const Eigen::Vector3d ahead =
+        std::min<double>(kTurnHorizon, request.to_key) * velocity.col(0).segment<3>(3);
+    displacement_.segment<3>(3) =
+        NearerWayRound(displacement_.segment<3>(3), request.turning.value_or(ahead));
+    for (int d = 3; d < dimensions; ++d) keyed_[static_cast<size_t>(d)] = mask.Asks(d / 3 - 1);
     for (int d = 0; d < dimensions; ++d) {
       if (!keyed_[static_cast<size_t>(d)]) displacement_[d] = 0;
     }
@@ -94,17 +97,13 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   if (!whole) free_ = prior.Bridges(request.frames, 0);
   Eigen::VectorXd way = displacement_;  // to the key or to the usual pose
   if (const Pose& usual = prior.usual().pose; !whole && usual.rotations.cols() == joints) {
-    Eigen::VectorXd back(dimensions);
-    Eigen::Vector3d place = usual.root_position;
+    Pose home = usual;
     if (request.StageCounts()) {
       stage_ = prior.StageBridges(request.frames);
-      place.x() += request.stage->x();
-      place.z() += request.stage->z();
+      home.root_position.x() += request.stage->x();
+      home.root_position.z() += request.stage->z();
     }
-    back.head<3>() = place - last.root_position;
-    for (int j = 0; j < joints; ++j)
-      back.segment<3>(3 + 3 * j) =
-          RotationDifference(last.rotations.col(j), usual.rotations.col(j));
+    const Eigen::VectorXd back = Way(last, home);
     for (int d = 0; d < dimensions; ++d) {
       if (!keyed_[static_cast<size_t>(d)]) way[d] = back[d];
     }
@@ -132,23 +131,15 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   if (known > 0) surprise_ = squares / known;
   scales_ = prior.Scales(surprise_, LevelsOf(request, prior.powers().medians));
   base_.resize(static_cast<size_t>(request.frames), last);
-  for (int i = 0; i < request.frames; ++i) {
-    Pose& pose = base_[static_cast<size_t>(i)];
-    pose.root_position += mean_.col(i).head<3>();
-    for (int j = 0; j < joints; ++j) {
-      pose.rotations.col(j) =
-          RotationCompose(last.rotations.col(j), mean_.col(i).segment<3>(3 + 3 * j));
-    }
-  }
+  for (int i = 0; i < request.frames; ++i) Go(mean_.col(i), &base_[static_cast<size_t>(i)]);
 }
 
 std::optional<Eigen::MatrixXd> FlowWindow::Encode(std::span<const Pose> poses) const {
   Eigen::MatrixXd x(mean_.rows(), mean_.cols());
   for (int i = 0; i < frames(); ++i) {
-    const Pose &pose = poses[static_cast<size_t>(i)], &base = base_[static_cast<size_t>(i)];
-    x.col(i).head<3>() = pose.root_position - base.root_position;
-    for (Eigen::Index j = 0; j < pose.rotations.cols(); ++j) {
-      Eigen::Vector3d turn = RotationDifference(base.rotations.col(j), pose.rotations.col(j));
+    x.col(i) = Way(base_[static_cast<size_t>(i)], poses[static_cast<size_t>(i)]);
+    for (Eigen::Index j = 0; 3 + 3 * j < x.rows(); ++j) {
+      Eigen::Vector3d turn = x.col(i).segment<3>(3 + 3 * j);
       if (i > 0) turn = NearestBranch(turn, x.col(i - 1).segment<3>(3 + 3 * j));
       const bool keyed = keyed_[static_cast<size_t>(3 + 3 * j)];
       if (turn.norm() > (keyed ? kKeyedReach : kFreeReach)) return std::nullopt;
@@ -160,14 +151,7 @@ std::optional<Eigen::MatrixXd> FlowWindow::Encode(std::span<const Pose> poses) c
 
 std::vector<Pose> FlowWindow::Decode(const Eigen::MatrixXd& x) const {
   std::vector<Pose> poses = base_;
-  for (int i = 0; i < frames(); ++i) {
-    Pose& pose = poses[static_cast<size_t>(i)];
-    pose.root_position += x.col(i).head<3>();
-    for (Eigen::Index j = 0; j < pose.rotations.cols(); ++j) {
-      pose.rotations.col(j) =
-          RotationCompose(pose.rotations.col(j), x.col(i).segment<3>(3 + 3 * j));
-    }
-  }
+  for (int i = 0; i < frames(); ++i) Go(x.col(i), &poses[static_cast<size_t>(i)]);
   return poses;
 }
 

@@ -87,9 +87,9 @@ std::vector<Pose> Retime(std::span<const Pose> history, std::span<const Pose> pl
                                    weights[2] * curve.Step(at, joint) +
                                    weights[3] * curve.Between(at, at + 2, joint);
       pose.rotations.col(joint) =
-          NearestBranch(ExpFromQuaternion(curve.Rotation(at, joint) * QuaternionFromExp(turn)),
-                        last->rotations.col(joint));
+          ExpFromQuaternion(curve.Rotation(at, joint) * QuaternionFromExp(turn));
     }
+    MakeContinuous(pose, *last);
     last = &pose;
   }
   return timed;

@@ -151,18 +151,14 @@ void PackedFlowNetwork::Transform(const Block& block, const Eigen::VectorXf& con
       work->x.Head(i, width_).array() += (1 + by.array()) * work->added.Head(i, width_).array();
   };
   Normalise(work->x, part(1), part(0), tokens, &work->normal);
-  block.qkv.Run(work->normal.Row(0), work->normal.stride(), work->qkv.Row(0), work->qkv.stride(),
-                tokens);
+  block.qkv.Run(work->normal, &work->qkv, tokens);
   Attend(block, tokens, work);
-  block.out.Run(work->mixed.Row(0), work->mixed.stride(), work->added.Row(0), work->added.stride(),
-                tokens);
+  block.out.Run(work->mixed, &work->added, tokens);
   add(part(2));
   Normalise(work->x, part(4), part(3), tokens, &work->normal);
-  block.up.Run(work->normal.Row(0), work->normal.stride(), work->wide.Row(0), work->wide.stride(),
-               tokens);
+  block.up.Run(work->normal, &work->wide, tokens);
   for (long i = 0; i < tokens; ++i) kernels_.gelu(work->wide.Row(i), 3 * width_);
-  block.down.Run(work->wide.Row(0), work->wide.stride(), work->added.Row(0), work->added.stride(),
-                 tokens);
+  block.down.Run(work->wide, &work->added, tokens);
   add(part(5));
 }
 

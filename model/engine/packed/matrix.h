@@ -66,6 +66,9 @@ class PackedLinear {
   void Run(const float* x, long x_stride, float* y, long y_stride, long rows) const {
     Multiply(x, x_stride, bias_.data(), 0, y, y_stride, rows);
   }
+  void Run(const RowBuffer& x, RowBuffer* y, long rows) const {
+    Run(x.Row(0), x.stride(), y->Row(0), y->stride(), rows);
+  }
   /// y += x W, without the bias
   void Add(const float* x, long x_stride, float* y, long y_stride, long rows) const {
     Multiply(x, x_stride, y, y_stride, y, y_stride, rows);

@@ -67,7 +67,7 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
     live[flow.live - 1] = row.has_audio ? 1.0F : 0.0F;
   }
   if (!flow.encoded) return;
-  flow.encode_live.Run(live_.Row(0), live_.stride(), encoding_.Row(0), encoding_.stride(), count);
+  flow.encode_live.Run(live_, &encoding_, count);
   for (long i = 0; i < count; ++i) {
     const FlowRow& row = rows[static_cast<size_t>(i)];
     const Slot& slot = slots_[static_cast<size_t>(row.slot)];
@@ -77,7 +77,7 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
   }
   flow.kernels.silu(encoding_.Row(0), count * encoding_.stride());
   // live_ has done its part, and is wider.
-  flow.encode.Run(encoding_.Row(0), encoding_.stride(), live_.Row(0), live_.stride(), count);
+  flow.encode.Run(encoding_, &live_, count);
   for (long i = 0; i < count; ++i) {
     flow.kernels.silu(live_.Row(i), flow.condition);
     std::copy_n(live_.Row(i), flow.condition, input_.Row(i));
@@ -97,7 +97,7 @@ void PackedTile::Hidden(std::span<const FlowRow> rows, int step) {
   for (long i = 0; i < count; ++i)
     std::copy_n(state(i), hidden, input_.Row(i) + flow.condition + flow.low());
   if (flow.encoded) {
-    coupling.first.Run(input_.Row(0), input_.stride(), wide_.Row(0), wide_.stride(), count);
+    coupling.first.Run(input_, &wide_, count);
   } else {
     for (long i = 0; i < count; ++i) {
       const FlowRow& row = rows[static_cast<size_t>(i)];
@@ -113,7 +113,7 @@ void PackedTile::Hidden(std::span<const FlowRow> rows, int step) {
     flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
     std::copy_n(h, 2 * hidden, hidden_.Row(i));
   }
-  coupling.second.Run(hidden_.Row(0), hidden_.stride(), wide_.Row(0), wide_.stride(), count);
+  coupling.second.Run(hidden_, &wide_, count);
   for (long i = 0; i < count; ++i) {
     float* h = state(i) + hidden;
     flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
@@ -130,7 +130,7 @@ void PackedTile::Couple(std::span<FlowRow> rows, int step) {
     std::copy_n(z_.Row(i), flow.low(), input_.Row(i) + flow.condition);
   }
   Hidden(rows, step);
-  coupling.last.Run(hidden_.Row(0), hidden_.stride(), ab_.Row(0), ab_.stride(), count);
+  coupling.last.Run(hidden_, &ab_, count);
   for (long i = 0; i < count; ++i) {
     const double deltas = flow.kernels.coupling({.ab = ab_.Row(i),
                                                  .high = z_.Row(i) + flow.low(),
@@ -139,7 +139,7 @@ void PackedTile::Couple(std::span<FlowRow> rows, int step) {
                                                  .delta_floor = kDeltaFloor});
     rows[static_cast<size_t>(i)].log_likelihood += static_cast<float>(std::log(deltas));
   }
-  coupling.unmix.Run(z_.Row(0), z_.stride(), mixed_.Row(0), mixed_.stride(), count);
+  coupling.unmix.Run(z_, &mixed_, count);
   std::swap(z_, mixed_);
 }
 
