@@ -47,6 +47,9 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
 
   // When something failed that would have told the sink what failed.
   void GiveUp() noexcept;
+  void Warn(const DanceWarning& warning) {
+    mailbox_.Post([warning](GroupSink& sink) { sink.OnWarning(warning); });
+  }
 
   // With mutex_ held.
   void Done(CandidateReport report);
@@ -195,28 +198,22 @@ void TransitionGroup::Impl::Begin() {
   transition.after = request_.after;
   transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);
   if (request_.continuation) transition.stage = request_.continuation->stage;
-  if (const auto warning = controls_.BehindEnd(end)) asked.warnings.push_back(*warning);
-  const auto& path = request_.controls.root_path;
-  if (path && path->frames.back() < first_frame_)
-    asked.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
 
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
     transition.candidate = static_cast<uint32_t>(candidate);
     jobs.push_back(std::make_shared<Job>(shared_from_this(), candidate, transition));
   }
-  if (request_.ResumesInexactly(model_)) {
-    mailbox_.Post([warning = InexactResume(*request_.continuation, model_)](GroupSink& sink) {
-      sink.OnWarning(warning);
-    });
-  }
+  if (request_.ResumesInexactly(model_)) Warn(InexactResume(*request_.continuation, model_));
+  for (const DanceWarning& warning : asked.warnings) Warn(warning);
+  if (const auto warning = controls_.BehindEnd(end)) Warn(*warning);
+  const auto& path = request_.controls.root_path;
+  if (path && path->frames.back() < first_frame_)
+    Warn(ControlsTooLate(path->frames.back(), first_frame_));
   const std::optional<RequiredSpeed> speed = jobs.front()->run().required_speed();
   if (speed && speed->TooFast()) {
-    asked.warnings.push_back(IntervalTooShort(model_.skeleton, request_.target_id, first_frame_,
-                                              request_.frames, *speed));
-  }
-  for (const DanceWarning& warning : asked.warnings) {
-    mailbox_.Post([warning](GroupSink& sink) { sink.OnWarning(warning); });
+    Warn(IntervalTooShort(model_.skeleton, request_.target_id, first_frame_, request_.frames,
+                          *speed));
   }
   {
     std::lock_guard lock(mutex_);
@@ -269,8 +266,7 @@ void TransitionGroup::Impl::Done(CandidateReport report) {
   if (over_ || --running_ > 0) return;
   over_ = true;
   RankCandidates(reports_);
-  if (const auto warning = controls_.SpeedsMissed(reports_.front().quality))
-    mailbox_.Post([warning](GroupSink& sink) { sink.OnWarning(*warning); });
+  if (const auto warning = controls_.SpeedsMissed(reports_.front().quality)) Warn(*warning);
   mailbox_.Post([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
 }
 

@@ -68,6 +68,8 @@ struct KernelSet {
   /// Of the networks: the exact ones, or those of bfloat16, whose dances have the same figures
   /// (docs/decisions.md, 32).
   const PackedKernels* products;
+
+  std::string Name() const { return kPackedPrefix + std::string(products->name); }
 };
 
 // What this machine and this engine have, fastest first.
@@ -100,17 +102,14 @@ KernelSet ChooseKernels(EngineKind kind, const std::string& name) {
   throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
 }
 
-bool Packs(EngineKind kind, const Device& device) {
+// Those that a flow is computed with here; none: LibTorch does it.
+std::optional<KernelSet> PackedSet(EngineKind kind, const Device& device, const std::string& name) {
   const bool on_cpu = device.kind == Device::Kind::kCpu;
   const bool packs = kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16;
   if (packs && !on_cpu)
     throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
-  return packs || (kind == EngineKind::kAuto && on_cpu);
-}
-
-std::string Fingerprint(const std::string& preset, const std::string& hash,
-                        const std::string& kernels) {
-  return preset + "/" + hash + "/choreo " CHOREO_VERSION + ", " + BuildIdentity() + "/" + kernels;
+  if (!packs && !(kind == EngineKind::kAuto && on_cpu)) return std::nullopt;
+  return ChooseKernels(kind, name);
 }
 
 // What is the same of every checkpoint.
@@ -118,7 +117,8 @@ template <typename Checkpoint, typename Config>
 ModelInfo InfoOf(const Checkpoint& checkpoint, const Config& config, const Skeleton& skeleton,
                  const std::string& kernels) {
   return {.name = config.name,
-          .fingerprint = Fingerprint(config.name, checkpoint.hash, kernels),
+          .fingerprint = config.name + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION + ", " +
+                         BuildIdentity() + "/" + kernels,
           .licence = LicenceOf(checkpoint.card),
           .card = checkpoint.card,
           .skeleton = skeleton,
@@ -162,11 +162,10 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
   const auto parts = std::make_shared<const FlowModelParts>(checkpoint.model->Parts());
   std::shared_ptr<const FlowNetwork> network;
   std::string kernels;
-  if (Packs(kind, device)) {
-    const KernelSet set = ChooseKernels(kind, kernel_name);
-    kernels = kPackedPrefix + std::string(set.products->name);
-    network = std::make_shared<const PackedFlowNetwork>(content, config, skeleton, *set.exact,
-                                                        *set.products);
+  if (const auto set = PackedSet(kind, device, kernel_name)) {
+    kernels = set->Name();
+    network = std::make_shared<const PackedFlowNetwork>(content, config, skeleton, *set->exact,
+                                                        *set->products);
   } else {
     const torch::Device there = ToTorch(device);
     kernels = TorchKernels(there);
@@ -183,15 +182,6 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
   };
 }
 
-std::shared_ptr<TorchWeights> ToTorchWeights(FlowModel model, const Device& device) {
-  auto weights = std::make_shared<TorchWeights>();
-  weights->device = ToTorch(device);
-  model->to(weights->device);
-  weights->inverse_weights = model->InverseWeights();
-  weights->model = std::move(model);
-  return weights;
-}
-
 Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
                  const Device& device, EngineKind kind, const std::string& kernel_name) {
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
@@ -199,14 +189,15 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
   const FlowConfig& config = model->config();
   std::function<std::unique_ptr<FlowTile>(int slots)> tile;
   std::string kernels;
-  if (Packs(kind, device)) {
-    const KernelSet set = ChooseKernels(kind, kernel_name);
-    kernels = kPackedPrefix + std::string(set.products->name);
+  if (const auto set = PackedSet(kind, device, kernel_name)) {
+    kernels = set->Name();
     const auto packed = std::make_shared<const PackedFlow>(content, config, model->skeleton(),
-                                                           *set.exact, *set.products);
+                                                           *set->exact, *set->products);
     tile = [packed](int slots) { return std::make_unique<PackedTile>(packed, slots); };
   } else {
-    const auto weights = ToTorchWeights(model, device);
+    model->to(ToTorch(device));
+    const auto weights = std::make_shared<TorchWeights>(
+        TorchWeights{model, model->InverseWeights(), ToTorch(device)});
     const int rows = TorchTile::VerifiedRows(weights);
     if (rows == 1) {
       std::clog << "choreo: on " << device.name()
