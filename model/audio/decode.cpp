@@ -22,7 +22,7 @@ constexpr size_t kPieceSamples = 65536;
 
 /// Where libsndfile is in a ByteSource.
 struct Cursor {
-  ByteSource* source;
+  ByteSource source;
   /// Asked for the end of an MP3 file, libmpg123 guesses its length from the first frame's bit rate
   /// and libsndfile stops there: a song of varying bit rate and without a Xing header would lose
   /// its end. Unable to seek there, they read on to the last frame.
@@ -30,21 +30,21 @@ struct Cursor {
   int64_t position = 0;
 };
 
-sf_count_t CursorSize(void* user) { return static_cast<Cursor*>(user)->source->size(); }
+sf_count_t CursorSize(void* user) { return static_cast<Cursor*>(user)->source.size; }
 
 sf_count_t CursorSeek(sf_count_t offset, int whence, void* user) {
   Cursor& cursor = *static_cast<Cursor*>(user);
   if (whence == SEEK_END && !cursor.can_seek_from_end) return -1;
   const int64_t base = whence == SEEK_SET   ? 0
                        : whence == SEEK_CUR ? cursor.position
-                                            : cursor.source->size();
+                                            : cursor.source.size;
   if (base + offset < 0) return -1;
   return cursor.position = base + offset;
 }
 
 sf_count_t CursorRead(void* data, sf_count_t count, void* user) {
   Cursor& cursor = *static_cast<Cursor*>(user);
-  const size_t read = cursor.source->ReadAt(
+  const size_t read = cursor.source.read_at(
       cursor.position, {static_cast<std::byte*>(data), static_cast<size_t>(count)});
   cursor.position += static_cast<int64_t>(read);
   return static_cast<sf_count_t>(read);
@@ -55,9 +55,9 @@ sf_count_t CursorTell(void* user) { return static_cast<Cursor*>(user)->position;
 sf_count_t NoWrite(const void*, sf_count_t, void*) { return 0; }
 
 /// Begins with an ID3 tag or the eleven set bits of a frame header.
-bool LooksLikeMp3(ByteSource& source) {
+bool LooksLikeMp3(const ByteSource& source) {
   std::array<std::byte, 3> head{};
-  source.ReadAt(0, head);
+  source.read_at(0, head);
   const bool is_tag = std::memcmp(head.data(), "ID3", 3) == 0;
   return is_tag || (head[0] == std::byte{0xff} && (head[1] & std::byte{0xe0}) == std::byte{0xe0});
 }
@@ -83,7 +83,6 @@ struct CloseFile {
 }  // namespace
 
 struct AudioReader::State {
-  std::unique_ptr<ByteSource> source;
   std::string name;
   Cursor cursor{};
   SF_INFO info{};
@@ -107,15 +106,13 @@ struct AudioReader::State {
   }
 };
 
-AudioReader::AudioReader(std::unique_ptr<ByteSource> source, std::string name)
-    : state_(std::make_unique<State>()) {
+AudioReader::AudioReader(ByteSource source, std::string name) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  s.source = std::move(source);
   s.name = std::move(name);
-  if (s.source->size() == 0) throw InvalidArgument(s.name, "0 bytes of audio");
-  CheckNotTruncated(*s.source, s.name);
-  s.cursor.source = s.source.get();
-  s.cursor.can_seek_from_end = !LooksLikeMp3(*s.source);
+  if (source.size == 0) throw InvalidArgument(s.name, "0 bytes of audio");
+  CheckNotTruncated(source, s.name);
+  s.cursor.can_seek_from_end = !LooksLikeMp3(source);
+  s.cursor.source = std::move(source);
   SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, NoWrite, CursorTell};
   s.file.reset(sf_open_virtual(&io, SFM_READ, &s.info, &s.cursor));
   if (!s.file) {

@@ -14,18 +14,13 @@
 
 namespace choreo {
 
-class ByteSource;
+struct ByteSource;
 
-/// A sound file read from its beginning to its end, in pieces: WAV, FLAC, Ogg (Vorbis, Opus) and
-/// MP3, from a file or from memory, within the limits of format.h. Not thread-safe; readers of
-/// different files are independent.
-///
-/// Errors are Error(kInvalidArgument), or kNotFound for a file that cannot be opened. Their field
-/// begins with the path, or the name given for memory; the message states value and limit. Refused
-/// are: empty input, what is not such audio, a sample rate, number of channels or duration beyond
-/// the limits, no samples, samples that are NaN or infinite, and truncated files as far as the
-/// format lets one know (WAV and FLAC state their length, Ogg marks its last page, MP3 ends with
-/// a whole frame).
+/// A sound file read in pieces: WAV, FLAC, Ogg (Vorbis, Opus) and MP3, within the limits of
+/// format.h. Not thread-safe; readers of different files are independent. Errors are
+/// Error(kInvalidArgument), or kNotFound for a file that cannot be opened, whose field begins with
+/// the path, or the name given for memory. Refused are what is not such audio or beyond the limits,
+/// no samples, samples that are NaN or infinite, and truncated files as far as the format tells.
 class AudioReader {
  public:
   static AudioReader OpenFile(const std::filesystem::path& path);
@@ -48,7 +43,7 @@ class AudioReader {
 
  private:
   struct State;
-  AudioReader(std::unique_ptr<ByteSource> source, std::string name);
+  AudioReader(ByteSource source, std::string name);
 
   std::unique_ptr<State> state_;
 };

@@ -14,13 +14,9 @@
 namespace choreo {
 
 /// Music as the models hear it, while it arrives: push samples of any format, read MFCC rows at 30
-/// a second.
-///
-/// Row r is centred at second r / 30 of the absolute audio clock, that is at sample 735 r of 22 050
-/// Hz; it is that of Mfcc() without top_db. Audio before 0 and after the end is silence. A row's
-/// bits depend on the samples near it alone, neither on how they are chunked nor on where the
-/// stream starts. Memory: 40 floats a row, and of the samples only what the next rows need. Not
-/// thread-safe.
+/// a second. Row r is centred at second r / 30 of the absolute audio clock; it is that of Mfcc()
+/// without top_db. Audio before 0 and after the end is silence. A row's bits depend on the samples
+/// near it alone, neither on how they are chunked nor on where the stream starts. Not thread-safe.
 class FeatureStream {
  public:
   /// Half an analysis window and, at the lowest input rate, half the resampling filter, in samples

@@ -67,22 +67,24 @@ struct MelSpectrum::Tables {
       window[static_cast<size_t>(i)] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / kFftSize);
     }
   }
+
+  static const Tables& Shared() {
+    static const Tables tables;
+    return tables;
+  }
 };
 
-MelSpectrum::MelSpectrum() : fourier_(kFftSize), windowed_(kFftSize) {
-  static const std::shared_ptr<const Tables> tables = std::make_shared<Tables>();
-  tables_ = tables;
-}
+MelSpectrum::MelSpectrum() : tables_(Tables::Shared()), fourier_(kFftSize), windowed_(kFftSize) {}
 
 std::span<const double, kMelBands> MelSpectrum::Power(std::span<const float> samples) {
   for (size_t i = 0; i < kFftSize; ++i) {
-    windowed_[i] = tables_->window[i] * static_cast<double>(samples[i]);
+    windowed_[i] = tables_.window[i] * static_cast<double>(samples[i]);
   }
   const auto spectrum = fourier_.Forward(windowed_);
   // From here on windowed_ holds the power of each bin.
   for (size_t bin = 0; bin < spectrum.size(); ++bin) windowed_[bin] = std::norm(spectrum[bin]);
   for (size_t b = 0; b < power_.size(); ++b) {
-    const Band& band = tables_->bands[b];
+    const Band& band = tables_.bands[b];
     double sum = 0;
     for (size_t i = 0; i < band.weights.size(); ++i) {
       sum += band.weights[i] * windowed_[band.first_bin + i];

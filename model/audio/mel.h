@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,7 +29,7 @@ class MelSpectrum {
 
  private:
   struct Tables;
-  std::shared_ptr<const Tables> tables_;
+  const Tables& tables_;
   RealFourier fourier_;
   std::vector<double> windowed_;
   std::array<double, kMelBands> power_{};

@@ -9,15 +9,11 @@ namespace choreo {
 
 class PolyphaseKernel;
 
-/// Any sample rate and channel count -> mono at 22 050 Hz, as a stream: push interleaved samples,
-/// pull what is ready.
-///
-/// Channels are averaged. The filter is a Kaiser-windowed sinc of finite length: flat to 0.01 dB
-/// below 0.9 of the lower of the two Nyquist frequencies, below -95 dB from that Nyquist frequency
-/// on. Output sample n lies at input position n * sample_rate / 22 050, counted from absolute
-/// sample 0, and is computed from the `half_length()` input samples on either side alone. So its
-/// bits depend neither on how the input is chunked nor on where the stream starts. Audio before
-/// sample 0 and after the end is silence. At 22 050 Hz samples pass unfiltered. Not thread-safe.
+/// Any sample rate and channel count -> mono at 22 050 Hz, as a stream. Channels are averaged and
+/// filtered by a Kaiser-windowed sinc: flat to 0.01 dB below 0.9 of the lower Nyquist frequency,
+/// below -95 dB from that on. Output sample n lies at input position n * sample_rate / 22 050 and
+/// depends on the `half_length()` input samples on either side alone, not on chunks or where the
+/// stream starts. Audio before sample 0 and after the end is silence. Not thread-safe.
 class Resampler {
  public:
   /// `first_sample`: absolute index of the first sample that will be pushed, within
