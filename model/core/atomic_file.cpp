@@ -3,10 +3,19 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 
 #include "model/core/error.h"
 
 namespace choreo {
+
+std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
+  }
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 AtomicFile::AtomicFile(const std::filesystem::path& path)
     : path_(path), place_(path), partial_(path) {

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace choreo {
+
+/// All bytes of a file. Throws Error(kNotFound) whose field is the path.
+std::string ReadFile(const std::filesystem::path& path);
 
 /// A file that appears when all of it is written, or not at all: what stood in its place stays
 /// until then. It is written beside its place and renamed. A link stays one; what is no plain file

@@ -1,13 +1,11 @@
 #include "model/core/npy.h"
 
-#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -22,44 +20,35 @@ constexpr size_t kMaxDimensions = 4;
 /// NumPy pads the header so that the values start at a multiple of this.
 constexpr size_t kAlignment = 64;
 
-struct Header {
-  std::string descr;
-  bool fortran_order = false;
-  std::vector<int64_t> shape;
-};
-
 /// Reads the header's Python literal, as in {'descr': '<f4', 'fortran_order': False, 'shape': (3,
 /// 4), }. Keys come in any order; every key is required.
 class HeaderParser {
  public:
   HeaderParser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
-  Header Parse() {
-    Header header;
-    bool has_descr = false, has_order = false, has_shape = false;
+  NpyParts Parse() {
+    NpyParts header;
+    std::set<std::string> keys;
     Expect('{');
     while (!Accept('}')) {
       const std::string key = String();
       Expect(':');
       if (key == "descr") {
         header.descr = String();
-        has_descr = true;
       } else if (key == "fortran_order") {
         header.fortran_order = Bool();
-        has_order = true;
       } else if (key == "shape") {
         header.shape = Tuple();
-        has_shape = true;
       } else {
         Fail("unknown key '" + key + "'");
       }
+      keys.insert(key);
       if (!Accept(',')) {
         Expect('}');
         break;
       }
     }
-    if (!has_descr || !has_order || !has_shape)
-      Fail("a key of descr, fortran_order, shape is absent");
+    if (keys.size() < 3) Fail("a key of descr, fortran_order, shape is absent");
     return header;
   }
 
@@ -156,22 +145,21 @@ std::vector<T> FromFortranOrder(const std::vector<T>& values, const std::vector<
 }
 
 template <typename T>
-std::vector<T> ReadValues(std::span<const std::byte> bytes, const Header& header,
-                          const std::string& name) {
-  const std::optional<int64_t> count = Product(header.shape);
+std::vector<T> ReadValues(const NpyParts& parts, const std::string& name) {
+  const std::optional<int64_t> count = Product(parts.shape);
   if (!count || *count > std::numeric_limits<int64_t>::max() / int64_t{sizeof(T)}) {
-    throw InvalidArgument(name, "shape " + ShapeText(header.shape) + " is too large");
+    throw InvalidArgument(name, "shape " + ShapeText(parts.shape) + " is too large");
   }
-  const size_t expected = static_cast<size_t>(*count) * sizeof(T);
-  if (bytes.size() != expected) {
-    throw InvalidArgument(name, std::to_string(bytes.size()) + " bytes of values, but shape " +
-                                    ShapeText(header.shape) + " of '" + header.descr + "' takes " +
+  const size_t held = parts.values.size(), expected = static_cast<size_t>(*count) * sizeof(T);
+  if (held != expected) {
+    throw InvalidArgument(name, std::to_string(held) + " bytes of values, but shape " +
+                                    ShapeText(parts.shape) + " of '" + parts.descr + "' takes " +
                                     std::to_string(expected) +
-                                    (bytes.size() < expected ? " (the file is truncated)" : ""));
+                                    (held < expected ? " (the file is truncated)" : ""));
   }
   std::vector<T> values(static_cast<size_t>(*count));
-  if (expected > 0) std::memcpy(values.data(), bytes.data(), expected);
-  return header.fortran_order ? FromFortranOrder(values, header.shape) : values;
+  if (expected > 0) std::memcpy(values.data(), parts.values.data(), expected);
+  return parts.fortran_order ? FromFortranOrder(values, parts.shape) : values;
 }
 
 template <typename T>
@@ -185,22 +173,15 @@ constexpr std::string_view kDescr<int32_t> = "<i4";
 template <>
 constexpr std::string_view kDescr<int64_t> = "<i8";
 
-uint32_t LittleEndian(std::span<const std::byte> bytes) {
-  uint32_t value = 0;
-  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | std::to_integer<uint32_t>(bytes[i]);
-  return value;
-}
-
 }  // namespace
 
 int64_t NpyArray::size() const { return Product(shape).value_or(-1); }
 
-NpyArray ParseNpy(std::span<const std::byte> bytes, const std::string& name) {
-  if (bytes.size() < kMagic.size() + 4 ||
-      std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
+NpyParts SplitNpy(std::string_view bytes, const std::string& name) {
+  if (bytes.size() < kMagic.size() + 4 || !bytes.starts_with(kMagic)) {
     throw InvalidArgument(name, "not an .npy array: its first bytes are not \\x93NUMPY");
   }
-  const int version = std::to_integer<int>(bytes[kMagic.size()]);
+  const int version = static_cast<unsigned char>(bytes[kMagic.size()]);
   if (version < 1 || version > 3) {
     throw InvalidArgument(name,
                           ".npy version " + std::to_string(version) + " is not one of 1 to 3");
@@ -208,43 +189,57 @@ NpyArray ParseNpy(std::span<const std::byte> bytes, const std::string& name) {
   const size_t length_size = version == 1 ? 2 : 4;
   const size_t start = kMagic.size() + 2 + length_size;
   if (bytes.size() < start) throw InvalidArgument(name, "the .npy header is truncated");
-  const size_t length = LittleEndian(bytes.subspan(kMagic.size() + 2, length_size));
+  uint32_t length = 0;
+  std::memcpy(&length, &bytes[kMagic.size() + 2], length_size);
   if (bytes.size() - start < length) {
     throw InvalidArgument(
         name, "the .npy header is truncated: " + std::to_string(bytes.size() - start) + " of " +
                   std::to_string(length) + " bytes");
   }
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()) + start, length);
-  Header header = HeaderParser(text, name).Parse();
-  if (header.shape.size() > kMaxDimensions) {
-    throw InvalidArgument(name, std::to_string(header.shape.size()) + " dimensions, at most " +
+  NpyParts parts = HeaderParser(bytes.substr(start, length), name).Parse();
+  parts.values = bytes.substr(start + length);
+  return parts;
+}
+
+std::string JoinNpy(const NpyParts& parts) {
+  std::string header = "{'descr': '" + parts.descr +
+                       "', 'fortran_order': False, 'shape': " + ShapeText(parts.shape) + ", }";
+  const size_t unpadded = kMagic.size() + 4 + header.size() + 1;
+  header.append((kAlignment - unpadded % kAlignment) % kAlignment, ' ');
+  header += '\n';
+  std::string bytes(kMagic);
+  bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff),
+            static_cast<char>(header.size() >> 8)};
+  return bytes.append(header).append(parts.values);
+}
+
+NpyArray ReadNpyParts(const NpyParts& parts, const std::string& name) {
+  if (parts.shape.size() > kMaxDimensions) {
+    throw InvalidArgument(name, std::to_string(parts.shape.size()) + " dimensions, at most " +
                                     std::to_string(kMaxDimensions) + " are read");
   }
-  const std::span<const std::byte> body = bytes.subspan(start + length);
-  NpyArray array;
-  if (header.descr == kDescr<float>) {
-    array.values = ReadValues<float>(body, header, name);
-  } else if (header.descr == kDescr<double>) {
-    array.values = ReadValues<double>(body, header, name);
-  } else if (header.descr == kDescr<int32_t>) {
-    array.values = ReadValues<int32_t>(body, header, name);
-  } else if (header.descr == kDescr<int64_t>) {
-    array.values = ReadValues<int64_t>(body, header, name);
+  NpyArray array{parts.shape, {}};
+  if (parts.descr == kDescr<float>) {
+    array.values = ReadValues<float>(parts, name);
+  } else if (parts.descr == kDescr<double>) {
+    array.values = ReadValues<double>(parts, name);
+  } else if (parts.descr == kDescr<int32_t>) {
+    array.values = ReadValues<int32_t>(parts, name);
+  } else if (parts.descr == kDescr<int64_t>) {
+    array.values = ReadValues<int64_t>(parts, name);
   } else {
     throw InvalidArgument(name,
-                          "values of type '" + header.descr + "', not one of <f4, <f8, <i4, <i8");
+                          "values of type '" + parts.descr + "', not one of <f4, <f8, <i4, <i8");
   }
-  array.shape = std::move(header.shape);
   return array;
 }
 
+NpyArray ParseNpy(std::string_view bytes, const std::string& name) {
+  return ReadNpyParts(SplitNpy(bytes, name), name);
+}
+
 NpyArray ReadNpy(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  }
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  return ParseNpy(std::as_bytes(std::span(bytes)), path.string());
+  return ParseNpy(ReadFile(path), path.string());
 }
 
 std::string SerializeNpy(const NpyArray& array) {
@@ -255,19 +250,10 @@ std::string SerializeNpy(const NpyArray& array) {
           throw InvalidArgument("shape", ShapeText(array.shape) + " does not hold " +
                                              std::to_string(values.size()) + " values");
         }
-        std::string header = "{'descr': '" + std::string(kDescr<T>) +
-                             "', 'fortran_order': False, 'shape': " + ShapeText(array.shape) +
-                             ", }";
-        const size_t unpadded = kMagic.size() + 4 + header.size() + 1;
-        header.append((kAlignment - unpadded % kAlignment) % kAlignment, ' ');
-        header += '\n';
-
-        std::string bytes(kMagic);
-        bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff),
-                  static_cast<char>(header.size() >> 8)};
-        bytes += header;
-        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-        return bytes;
+        return JoinNpy(
+            {.descr = std::string(kDescr<T>),
+             .shape = array.shape,
+             .values = {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}});
       },
       array.values);
 }

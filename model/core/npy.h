@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -31,9 +29,25 @@ struct NpyArray {
   }
 };
 
-/// Throws Error(kInvalidArgument) whose field is `name` for bytes that are not such an array, that
-/// are too few for the shape that the header states, or that go on after it.
-NpyArray ParseNpy(std::span<const std::byte> bytes, const std::string& name);
+/// An array of any kind, as it lies in a file.
+struct NpyParts {
+  std::string descr;  ///< the type of its values, as in "<f4"
+  bool fortran_order = false;
+  std::vector<int64_t> shape;
+  std::string_view values = {};  ///< bytes
+};
+
+/// The values of `parts` point into `bytes`. Throws Error(kInvalidArgument) whose field is `name`
+/// for what does not begin as such a file does.
+NpyParts SplitNpy(std::string_view bytes, const std::string& name);
+/// The inverse, in C order.
+std::string JoinNpy(const NpyParts& parts);
+
+/// Throws Error(kInvalidArgument) whose field is `name` for values that are none of the above, that
+/// are too few for the shape, or that go on after it.
+NpyArray ReadNpyParts(const NpyParts& parts, const std::string& name);
+/// Both: an array in a file's bytes.
+NpyArray ParseNpy(std::string_view bytes, const std::string& name);
 /// As ParseNpy; Error(kNotFound) where the file cannot be opened.
 NpyArray ReadNpy(const std::filesystem::path& path);
 

@@ -22,18 +22,13 @@ double Seconds(Clock::duration duration) { return std::chrono::duration<double>(
 }  // namespace
 
 std::string FormatDuration(double seconds) {
-  const auto whole = static_cast<int64_t>(std::llround(std::max(0.0, seconds)));
-  char text[48];
-  if (whole < 60) {
-    std::snprintf(text, sizeof(text), "%lld s", static_cast<long long>(whole));
-  } else if (whole < 3600) {
-    std::snprintf(text, sizeof(text), "%lld min %02lld s", static_cast<long long>(whole / 60),
-                  static_cast<long long>(whole % 60));
-  } else {
-    std::snprintf(text, sizeof(text), "%lld h %02lld min", static_cast<long long>(whole / 3600),
-                  static_cast<long long>(whole % 3600 / 60));
-  }
-  return text;
+  const auto whole = std::llround(std::max(0.0, seconds));
+  const auto two = [](long long number) {
+    return (number < 10 ? "0" : "") + std::to_string(number);
+  };
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + two(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + two(whole % 3600 / 60) + " min";
 }
 
 ProgressBar::ProgressBar(std::string title, int64_t total)

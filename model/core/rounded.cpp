@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 
 namespace choreo {
@@ -16,10 +15,11 @@ std::string Rounded(double value) {
                         ? 0
                         : -1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
   const int decimals = kDecimals + zeros;
-  const int size = std::snprintf(nullptr, 0, "%.*f", decimals, value);
-  std::string text(static_cast<size_t>(size) + 1, '\0');
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  text.pop_back();
+  char digits[400];  // 1.8e308 has 309 of them
+  const auto end =
+      std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::fixed, decimals)
+          .ptr;
+  std::string text(digits, end);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text;

@@ -7,7 +7,7 @@
 
 #include "model/engine/step_engine.h"
 #include "model/motion/contacts.h"
-#include "model/motion/leg.h"
+#include "model/motion/limb.h"
 #include "model/motion/motion.h"
 
 namespace choreo {

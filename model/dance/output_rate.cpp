@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "model/motion/resample.h"
-#include "model/motion/signs.h"
 
 namespace choreo {
 namespace {

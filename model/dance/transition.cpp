@@ -8,7 +8,6 @@
 #include "model/dance/validation.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
-#include "model/motion/signs.h"
 
 namespace choreo {
 namespace {

@@ -1,7 +1,6 @@
 #include "model/fit/bone_normaliser.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/core/error.h"
 #include "model/core/quantile.h"
@@ -18,13 +17,13 @@ BoneNormaliser::BoneNormaliser(const Skeleton& skeleton, const SourceMapping& ma
     const Landmark& landmark = mapping.landmarks[i];
     Mark mark;
     for (const auto& [name, weight] : landmark.source) {
-      const auto found = std::find(joint_names.begin(), joint_names.end(), name);
-      if (found == joint_names.end()) {
+      const int joint = IndexOf(joint_names, name);
+      if (joint < 0) {
         throw InvalidArgument("joint_names", "'" + name + "' is missing, which the landmark '" +
                                                  landmark.name + "' of the source '" +
                                                  mapping.name + "' needs");
       }
-      mark.source.emplace_back(static_cast<int>(found - joint_names.begin()), weight);
+      mark.source.emplace_back(joint, weight);
     }
     mark.parent = landmark.parent;
     mark.rigid = landmark.rigid;

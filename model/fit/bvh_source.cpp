@@ -7,6 +7,7 @@
 #include "model/core/quantile.h"
 #include "model/fit/human_bones.h"
 #include "model/fit/mapping_builder.h"
+#include "model/motion/mirror.h"
 
 namespace choreo {
 namespace {
@@ -37,24 +38,6 @@ class ClipBones {
   const std::vector<std::string>& names_;
   HumanBones found_;
 };
-
-struct SideNames {
-  std::string hip, knee, ankle, shoulder, elbow, wrist;
-  std::optional<std::string> toes, hand, eye, collar;
-};
-
-SideNames FindSide(const ClipBones& bones, const std::string& side) {
-  return {.hip = bones.Need(side + "hip"),
-          .knee = bones.Need(side + "knee"),
-          .ankle = bones.Need(side + "ankle"),
-          .shoulder = bones.Need(side + "shoulder"),
-          .elbow = bones.Need(side + "elbow"),
-          .wrist = bones.Need(side + "wrist"),
-          .toes = bones.Any(side + "foot"),
-          .hand = bones.Any(side + "hand"),
-          .eye = bones.Any(side + "eye"),
-          .collar = bones.Any(side + "collar")};
-}
 
 double MedianDistance(const PositionClip& clip, const JointBlend& a, const JointBlend& b) {
   const auto point = [&clip](const JointBlend& blend, const Eigen::Matrix3Xd& frame) {
@@ -128,34 +111,32 @@ constexpr double kShoulderShare = 0.4;
 // much further: seen from where our collarbone turns, an arm that hangs down would draw the
 // shoulder right through it. So the shoulder is taken as a blend of the source's and of a place
 // fixed to the chest.
-void AddCollar(const PositionClip& clip, const SpineChain& spine, const SideNames& left,
-               const SideNames& right, bool is_left, MappingBuilder& builder) {
-  const SideNames& side = is_left ? left : right;
-  const SideNames& other = is_left ? right : left;
+void AddCollar(const PositionClip& clip, const SpineChain& spine, const ClipBones& bones,
+               const std::string& side, MappingBuilder& builder) {
   // Across the chest, outwards on this side.
-  const std::string& inner = side.collar && other.collar ? *side.collar : side.shoulder;
-  const std::string& outer = side.collar && other.collar ? *other.collar : other.shoulder;
+  const bool collars = bones.Any("left_collar") && bones.Any("right_collar");
+  const char* joint = collars ? "collar" : "shoulder";
+  const std::string inner = bones.Need(side + joint), outer = bones.Need(OtherSide(side) + joint);
   const double width = MedianDistance(clip, {{inner, 1.0}}, {{outer, 1.0}});
   const double unit = width > 1e-6 ? spine.length() / width : 0.0;
   const JointBlend across = Scaled({{inner, 1.0}, {outer, -1.0}}, unit);
   const JointBlend collar = Sum(spine.At(kCollarHeight), Scaled(across, kHalfCollarWidth));
   const JointBlend up = Sum(spine.At(1.0), Scaled(spine.At(1.0 - kShoulderUp), -1.0));
   const JointBlend held_out = Sum(collar, Sum(Scaled(across, kShoulderOut), up));
-  const JointBlend shoulder =
-      Sum(Scaled({{side.shoulder, 1.0}}, kShoulderShare), Scaled(held_out, 1.0 - kShoulderShare));
-  const std::string prefix = is_left ? "left_" : "right_";
-  builder.Add(prefix + "collar", "neck", collar, {{.joint = prefix + "collar"}}, 0.7);
-  builder.Add(prefix + "shoulder", prefix + "collar", shoulder, {{.joint = prefix + "shoulder"}});
+  const JointBlend shoulder = Sum(Scaled({{bones.Need(side + "shoulder"), 1.0}}, kShoulderShare),
+                                  Scaled(held_out, 1.0 - kShoulderShare));
+  builder.Add(side + "collar", "neck", collar, {{.joint = side + "collar"}}, 0.7);
+  builder.Add(side + "shoulder", side + "collar", shoulder, {{.joint = side + "shoulder"}});
 }
 
-void AddTrunk(const PositionClip& clip, const ClipBones& bones, const SideNames& left,
-              const SideNames& right, MappingBuilder& builder) {
+void AddTrunk(const PositionClip& clip, const ClipBones& bones, MappingBuilder& builder) {
   const std::string neck = bones.Need("neck");
-  const JointBlend hips = {{left.hip, 0.5}, {right.hip, 0.5}};
+  const std::string left_hip = bones.Need("left_hip"), right_hip = bones.Need("right_hip");
+  const JointBlend hips = {{left_hip, 0.5}, {right_hip, 0.5}};
   const SpineChain spine(clip, bones, hips, neck);
   builder.Add("hips", "", hips, MappingBuilder::Between("left_hip", "right_hip"));
-  builder.AddJoint("left_hip", "hips", left.hip);
-  builder.AddJoint("right_hip", "hips", right.hip);
+  builder.AddJoint("left_hip", "hips", left_hip);
+  builder.AddJoint("right_hip", "hips", right_hip);
   if (spine.has_joints()) {
     // The first spine joint is fixed to the pelvis and stands straight above the hips.
     builder.Add("lumbar", "hips", spine.first_joint(),
@@ -166,15 +147,16 @@ void AddTrunk(const PositionClip& clip, const ClipBones& bones, const SideNames&
   if (const auto head = bones.Any("head")) {
     // Straight above the neck, where ours leads forward.
     builder.Add("head", "neck", {{*head, 1.0}}, {MappingBuilder::At("neck", 0, 0.09, 0.012)});
-    if (left.eye && right.eye) {
-      builder.Add("left_eye", "head", {{*left.eye, 1.0}},
+    const auto left_eye = bones.Any("left_eye"), right_eye = bones.Any("right_eye");
+    if (left_eye && right_eye) {
+      builder.Add("left_eye", "head", {{*left_eye, 1.0}},
                   {MappingBuilder::At("head", 0.03, 0.07, 0.032)}, 0.5);
-      builder.Add("right_eye", "head", {{*right.eye, 1.0}},
+      builder.Add("right_eye", "head", {{*right_eye, 1.0}},
                   {MappingBuilder::At("head", -0.03, 0.07, 0.032)}, 0.5);
     }
   }
-  AddCollar(clip, spine, left, right, true, builder);
-  AddCollar(clip, spine, left, right, false, builder);
+  AddCollar(clip, spine, bones, "left_", builder);
+  AddCollar(clip, spine, bones, "right_", builder);
 }
 
 // Where a toe joint stands on a flat foot, forward of the ankle and up: 33 degrees below it
@@ -185,20 +167,24 @@ Eigen::Vector2d ToePoint(const std::string& toes) {
   return {0.082, -0.055};
 }
 
-void AddLimbs(const SideNames& side, bool left, MappingBuilder& builder) {
-  const std::string prefix = left ? "left_" : "right_";
-  const double out = left ? 1 : -1;
-  builder.AddJoint(prefix + "elbow", prefix + "shoulder", side.elbow);
-  builder.AddJoint(prefix + "wrist", prefix + "elbow", side.wrist);
-  if (side.hand) builder.AddJoint(prefix + "hand", prefix + "wrist", *side.hand, 0.7);
-  builder.AddJoint(prefix + "knee", prefix + "hip", side.knee);
-  builder.AddJoint(prefix + "ankle", prefix + "knee", side.ankle);
-  builder.AddFoot(side.ankle);
-  if (!side.toes) return;
-  const Eigen::Vector2d point = ToePoint(*side.toes);
-  builder.Add(prefix + "toes", prefix + "ankle", {{*side.toes, 1.0}},
-              {MappingBuilder::At(prefix + "ankle", out * 0.02, point.y(), point.x())});
-  builder.AddFoot(*side.toes);
+void AddLimbs(const ClipBones& bones, const std::string& side, MappingBuilder& builder) {
+  const auto add = [&](const std::string& joint, const std::string& parent) {
+    builder.AddJoint(side + joint, side + parent, bones.Need(side + joint));
+  };
+  add("elbow", "shoulder");
+  add("wrist", "elbow");
+  if (const auto hand = bones.Any(side + "hand"))
+    builder.AddJoint(side + "hand", side + "wrist", *hand, 0.7);
+  add("knee", "hip");
+  add("ankle", "knee");
+  builder.AddFoot(bones.Need(side + "ankle"));
+  const auto toes = bones.Any(side + "foot");
+  if (!toes) return;
+  const Eigen::Vector2d point = ToePoint(*toes);
+  const double out = side == "left_" ? 1 : -1;
+  builder.Add(side + "toes", side + "ankle", {{*toes, 1.0}},
+              {MappingBuilder::At(side + "ankle", out * 0.02, point.y(), point.x())});
+  builder.AddFoot(*toes);
 }
 
 }  // namespace
@@ -206,12 +192,13 @@ void AddLimbs(const SideNames& side, bool left, MappingBuilder& builder) {
 SourceMapping BvhSource(const PositionClip& clip) {
   ValidateClip(clip);
   const ClipBones bones(clip);
-  const SideNames left = FindSide(bones, "left_");
-  const SideNames right = FindSide(bones, "right_");
+  for (const std::string side : {"left_", "right_"}) {
+    for (const char* bone : kNeededLimbBones) bones.Need(side + bone);
+  }
   MappingBuilder builder("bvh", 0.01);
-  AddTrunk(clip, bones, left, right, builder);
-  AddLimbs(left, true, builder);
-  AddLimbs(right, false, builder);
+  AddTrunk(clip, bones, builder);
+  AddLimbs(bones, "left_", builder);
+  AddLimbs(bones, "right_", builder);
   return builder.Take();
 }
 

@@ -78,14 +78,9 @@ class BodyBuilder {
 
   int Add(const std::string& joint, int node, int parent, const Eigen::Vector3d& offset,
           const Eigen::Matrix3d& turn) {
-    Skeleton& skeleton = body_.skeleton;
-    skeleton.joint_names.push_back(joint);
-    skeleton.parents.push_back(parent);
-    skeleton.offsets.conservativeResize(3, skeleton.joints());
-    skeleton.offsets.rightCols<1>() = offset;
     body_.nodes.push_back(node);
     body_.turns.push_back(turn);
-    return skeleton.joints() - 1;
+    return body_.skeleton.AddJoint(joint, parent, offset);
   }
 
   int AddBone(const std::string& bone, int parent, const Eigen::Matrix3d& turn) {
@@ -203,7 +198,7 @@ class BodyBuilder {
 std::string MissingBone(const HumanBones& bones) {
   if (bones.Find("pelvis") < 0) return "pelvis";
   for (const std::string side : {"left_", "right_"}) {
-    for (const char* bone : {"hip", "knee", "ankle", "shoulder", "elbow", "wrist"}) {
+    for (const char* bone : kNeededLimbBones) {
       if (bones.Find(side + bone) < 0) return side + bone;
     }
   }

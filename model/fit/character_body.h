@@ -19,13 +19,11 @@ struct CharacterBody {
   std::vector<Eigen::Matrix3d> turns;
 };
 
-/// `places` [3, nodes]: where the rig's nodes stand at rest, a person upright with the arms
-/// anywhere between hanging and held out. Which way is up, and ahead, is taken from the body. The
-/// floor is y = 0, as in all files, or just below feet that stand elsewhere.
-///
-/// Throws Error(kInvalidArgument) whose field is `bones`: for one that is needed and missing
-/// (pelvis, neck or head, and on both sides hip, knee, ankle, shoulder, elbow, wrist), two that are
-/// one node or stand in one place, and left and right exchanged.
+/// `places` [3, nodes]: where the rig's nodes stand at rest, upright, in any facing. The floor is
+/// y = 0, or just below feet that stand elsewhere. Throws Error(kInvalidArgument) whose field is
+/// `bones`: for one that is needed and missing (pelvis, neck or head, and on both sides hip, knee,
+/// ankle, shoulder, elbow, wrist), two that are one node or stand in one place, and left and right
+/// exchanged.
 CharacterBody MakeCharacterBody(const HumanBones& bones, const Eigen::Matrix3Xd& places);
 
 /// The first bone that is needed and missing; empty where none is.

@@ -31,16 +31,9 @@ FitStart::FitStart(const Skeleton& skeleton, const LandmarkSet& marks,
   rest_marks_ = marks_.Positions(rest);
 }
 
-bool FitStart::IsBelow(int joint, int ancestor) const {
-  for (joint = skeleton_.parents[joint]; joint >= 0; joint = skeleton_.parents[joint]) {
-    if (joint == ancestor) return true;
-  }
-  return false;
-}
-
 bool FitStart::InTrunk(int joint) const {
-  return joint > 0 && IsBelow(skeleton_.left_shoulder, joint) &&
-         IsBelow(skeleton_.right_shoulder, joint);
+  return joint > 0 && IsBelow(skeleton_.left_shoulder, joint, skeleton_.parents) &&
+         IsBelow(skeleton_.right_shoulder, joint, skeleton_.parents);
 }
 
 double FitStart::TrunkTurn(const Pose& pose) const {
@@ -73,7 +66,8 @@ void FitStart::Start(const Eigen::Matrix3Xd& targets, Pose& pose) const {
       below[i] =
           (parent >= 0 || i > 0) &&
           std::all_of(marks_[i].points.begin(), marks_[i].points.end(), [&](const auto& point) {
-            return IsBelow(point.joint, joint) || (point.joint == joint && !point.offset.isZero());
+            return IsBelow(point.joint, joint, skeleton_.parents) &&
+                   (point.joint != joint || !point.offset.isZero());
           });
     }
     // Where nothing tells, the parent's rotation goes on. The trunk's landmarks stand nearly on one

@@ -22,7 +22,6 @@ class FitStart {
   double TrunkTurn(const Pose& pose) const;
 
  private:
-  bool IsBelow(int joint, int ancestor) const;
   bool InTrunk(int joint) const;  ///< between the root and both shoulders
 
   const Skeleton& skeleton_;

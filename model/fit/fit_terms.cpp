@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "model/motion/cross_matrix.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -162,9 +160,7 @@ JointTerm::JointTerm(const Skeleton& skeleton, const FitOptions& options, double
 // A hinge that is bent far and turned about its limb as well is turned by more than half a turn:
 // the shorter way round, on which it would be bent backwards, is not the way that it went.
 Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
-  const double angle = w.norm();
-  if (angle < kMostShortWay || hinge_axis.dot(w) >= 0) return w;
-  return w * (1 - 2 * std::numbers::pi / angle);
+  return w.norm() < kMostShortWay || hinge_axis.dot(w) >= 0 ? w : OtherWayRound(w);
 }
 
 // By how much a hinge is bent less than straight, below zero, or more than a body allows, above it.

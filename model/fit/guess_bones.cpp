@@ -6,6 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "model/motion/mirror.h"
+#include "model/motion/skeleton.h"
+
 namespace choreo {
 namespace {
 
@@ -37,7 +40,10 @@ class BodyGuess {
                           Extreme([&](int n) { return -X(n); })};
     const int top = Extreme([&](int n) { return Y(n); });
     const int pelvis = Common(feet[0], feet[1]), chest = Common(hands[0], hands[1]);
-    if (pelvis < 0 || chest < 0 || !IsBelow(chest, pelvis) || !IsBelow(top, chest)) return {};
+    if (pelvis < 0 || chest < 0 || !IsBelow(chest, pelvis, parents_) ||
+        !IsBelow(top, chest, parents_)) {
+      return {};
+    }
     Set("pelvis", pelvis);
     const std::vector<int> spine = Path(pelvis, chest);
     for (size_t i = 0; i < std::min<size_t>(spine.size(), 6); ++i)
@@ -75,20 +81,12 @@ class BodyGuess {
     return *std::ranges::max_element(nodes_, {}, value);
   }
 
-  std::vector<int> Ancestors(int node) const {  // itself included
-    std::vector<int> out;
-    for (; node >= 0; node = parents_[static_cast<size_t>(node)]) out.push_back(node);
-    return out;
-  }
-  bool IsBelow(int node, int ancestor) const {
-    return std::ranges::count(Ancestors(node), ancestor) > 0;
-  }
+  // The lowest node from which both hang.
   int Common(int a, int b) const {
-    const std::vector<int> above = Ancestors(a);
-    for (const int node : Ancestors(b)) {
-      if (node != a && node != b && std::ranges::count(above, node) > 0) return node;
-    }
-    return -1;
+    int node = parents_[static_cast<size_t>(b)];
+    while (node >= 0 && (node == a || !IsBelow(a, node, parents_)))
+      node = parents_[static_cast<size_t>(node)];
+    return node;
   }
   // From below `ancestor` to `node`.
   std::vector<int> Path(int ancestor, int node) const {
@@ -160,15 +158,7 @@ void TurnRound(const Eigen::Matrix3Xd& places, HumanBones* found) {
   }
   if (ahead >= 0) return;
   std::map<std::string, int> turned;
-  for (const auto& [bone, node] : found->bones) {
-    if (bone.starts_with("left_")) {
-      turned["right_" + bone.substr(5)] = node;
-    } else if (bone.starts_with("right_")) {
-      turned["left_" + bone.substr(6)] = node;
-    } else {
-      turned[bone] = node;
-    }
-  }
+  for (const auto& [bone, node] : found->bones) turned[OtherSide(bone)] = node;
   found->bones = std::move(turned);
 }
 

@@ -9,14 +9,6 @@
 namespace choreo {
 namespace {
 
-using Column = std::string_view Rig::*;
-constexpr std::pair<std::string_view, Column> kMiddle[] = {{"pelvis", &Rig::pelvis},
-                                                           {"head", &Rig::head}};
-constexpr std::pair<std::string_view, Column> kSide[] = {
-    {"hip", &Rig::hip},     {"knee", &Rig::knee},     {"ankle", &Rig::ankle},
-    {"foot", &Rig::toes},   {"collar", &Rig::collar}, {"shoulder", &Rig::shoulder},
-    {"elbow", &Rig::elbow}, {"wrist", &Rig::wrist},   {"hand", &Rig::hand},
-    {"eye", &Rig::eye}};
 constexpr int kMostSpines = 6, kMostNecks = 3;
 
 std::vector<std::string_view> Split(std::string_view names) {
@@ -34,7 +26,7 @@ std::string OnSide(std::string_view name, const Rig& rig, bool left) {
   std::string out;
   for (const char letter : name) {
     if (letter == '*') {
-      out += left ? rig.left : rig.right;
+      out += rig.side_names[left ? 0 : 1];
     } else if (letter == '@') {
       out += left ? "left" : "right";
     } else {
@@ -78,12 +70,13 @@ HumanBones FindIn(const Rig& rig, const std::string& prefix, const Names& names)
       if (index >= 0) found.bones[Numbered(bone, ++number, first_bare)] = index;
     }
   };
-  for (const auto& [bone, column] : kMiddle) any(std::string(bone), rig.*column, true);
-  all("spine", rig.spine, false);
-  all("neck", rig.neck, true);
+  any("pelvis", rig.trunk.pelvis, true);
+  any("head", rig.trunk.head, true);
+  all("spine", rig.trunk.spine, false);
+  all("neck", rig.trunk.neck, true);
   for (const bool left : {true, false}) {
-    for (const auto& [bone, column] : kSide)
-      any((left ? "left_" : "right_") + std::string(bone), rig.*column, left);
+    for (size_t i = 0; i < std::size(kLimbBones); ++i)
+      any((left ? "left_" : "right_") + std::string(kLimbBones[i]), rig.limbs[i], left);
   }
   return found;
 }
@@ -98,7 +91,7 @@ bool IsPrefix(std::string_view prefix) {
 std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::string>& names) {
   constexpr size_t kMost = 8;  // a hostile file has as many as bones
   std::vector<std::string> prefixes = {"", "DEF-"};
-  for (const std::string_view candidate : Split(rig.hip)) {
+  for (const std::string_view candidate : Split(rig.limbs[0])) {
     const std::string thigh = OnSide(candidate, rig, true);
     for (const std::string& name : names) {
       if (!name.ends_with(thigh) || prefixes.size() == kMost) continue;
@@ -114,7 +107,7 @@ std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::strin
 std::pair<int, size_t> Score(const HumanBones& found) {
   int needed = found.Find("head") >= 0 || found.Find("neck") >= 0 ? 1 : 0;
   for (const char* side : {"left_", "right_"}) {
-    for (const char* bone : {"hip", "knee", "ankle", "shoulder", "elbow", "wrist"})
+    for (const char* bone : kNeededLimbBones)
       needed += found.Find(std::string(side) + bone) >= 0 ? 1 : 0;
   }
   return {needed, found.bones.size()};
@@ -141,7 +134,7 @@ std::vector<int> HumanBones::Neck() const { return Chain(*this, "neck", true); }
 
 HumanBones FindHumanBones(const std::vector<std::string>& names) {
   const Names index(names);
-  HumanBones best{.rig = kHumanIk.name, .bones = {}};
+  HumanBones best{.rig = kHumanIkRig, .bones = {}};
   for (const Rig& rig : kRigs) {
     for (const std::string& prefix : PrefixesOf(rig, names)) {
       HumanBones found = FindIn(rig, prefix, index);
@@ -160,7 +153,7 @@ const std::vector<std::string>& AllHumanBones() {
       all.push_back(Numbered("neck", number, true));
     all.emplace_back("head");
     for (const char* side : {"left_", "right_"}) {
-      for (const auto& [bone, column] : kSide) all.push_back(side + std::string(bone));
+      for (const std::string_view bone : kLimbBones) all.push_back(side + std::string(bone));
     }
     return all;
   }();
@@ -175,16 +168,15 @@ std::string NameInRig(std::string_view rig_name, const std::string& bone) {
   };
   for (int number = 1; number <= kMostSpines; ++number) {
     const auto index = static_cast<size_t>(number) - 1;
-    if (bone == Numbered("spine", number, false)) return nth(rig.spine, index);
-    if (bone == Numbered("neck", number, true)) return nth(rig.neck, index);
+    if (bone == Numbered("spine", number, false)) return nth(rig.trunk.spine, index);
+    if (bone == Numbered("neck", number, true)) return nth(rig.trunk.neck, index);
   }
-  for (const auto& [name, column] : kMiddle) {
-    if (bone == name) return nth(rig.*column, 0);
-  }
+  if (bone == "pelvis") return nth(rig.trunk.pelvis, 0);
+  if (bone == "head") return nth(rig.trunk.head, 0);
   const bool left = bone.starts_with("left_");
-  for (const auto& [name, column] : kSide) {
-    if (bone == (left ? "left_" : "right_") + std::string(name))
-      return OnSide(nth(rig.*column, 0), rig, left);
+  for (size_t i = 0; i < std::size(kLimbBones); ++i) {
+    if (bone == (left ? "left_" : "right_") + std::string(kLimbBones[i]))
+      return OnSide(nth(rig.limbs[i], 0), rig, left);
   }
   return "";
 }

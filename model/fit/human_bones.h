@@ -36,6 +36,10 @@ const std::vector<std::string>& AllHumanBones();
 /// What a rig calls a bone, without a prefix; empty where it has none. `rig` is a HumanBones::rig.
 std::string NameInRig(std::string_view rig, const std::string& bone);
 
+/// Of both sides: nobody dances without them.
+inline constexpr const char* kNeededLimbBones[] = {"hip",      "knee",  "ankle",
+                                                   "shoulder", "elbow", "wrist"};
+
 inline constexpr std::string_view kHumanIkRig = "Mixamo and HumanIK";
 inline constexpr std::string_view kUnrealRig = "Unreal";
 

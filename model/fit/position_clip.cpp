@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/core/error.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 namespace {
@@ -43,8 +44,7 @@ void ValidateClip(const PositionClip& clip) {
   }
   if (clip.frames.empty()) throw InvalidArgument("clip.frames", "0 frames, at least 1 is needed");
   for (size_t frame = 0; frame < clip.frames.size(); ++frame) {
-    std::string field = "clip.frames[";
-    field.append(std::to_string(frame)).append("]");
+    const std::string field = "clip.frames[" + std::to_string(frame) + "]";
     if (clip.frames[frame].cols() != static_cast<Eigen::Index>(clip.joint_names.size())) {
       throw InvalidArgument(field, std::to_string(clip.frames[frame].cols()) + " joints, must be " +
                                        std::to_string(clip.joint_names.size()));
@@ -54,8 +54,7 @@ void ValidateClip(const PositionClip& clip) {
 }
 
 int FindJoint(const PositionClip& clip, const std::string& joint_name) {
-  const auto found = std::find(clip.joint_names.begin(), clip.joint_names.end(), joint_name);
-  return found == clip.joint_names.end() ? -1 : static_cast<int>(found - clip.joint_names.begin());
+  return IndexOf(clip.joint_names, joint_name);
 }
 
 PositionClip LowPass(const PositionClip& clip, double cutoff_hz) {

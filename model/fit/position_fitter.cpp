@@ -17,75 +17,56 @@ constexpr double kWoundTurn = 2.6;
 
 }  // namespace
 
-class PositionFitter::Solver {
- public:
-  Solver(const Skeleton& skeleton, const SourceMapping& mapping, const FitOptions& options,
-         double fps)
-      : problem_(skeleton, mapping, options, fps), options_(options) {}
-
-  const Pose& Next(const Eigen::Matrix3Xd& targets, const Pose* after) {
-    if (targets.cols() != problem_.landmarks_count() || !targets.allFinite()) {
-      throw InvalidArgument("targets", std::to_string(targets.cols()) + " landmarks, must be " +
-                                           std::to_string(problem_.landmarks_count()) +
-                                           " and finite");
-    }
-    if (!has_previous_) {
-      problem_.Start(targets, pose_);
-      problem_.Solve(targets, {}, options_.first_iterations, pose_);
-    } else {
-      previous_ = pose_;
-      const FitNeighbours neighbours = {.before = &previous_, .after = after};
-      const double distance = problem_.Solve(targets, neighbours, options_.iterations, pose_);
-      if (options_.recover &&
-          (distance > kLostDistance || problem_.TrunkTurn(pose_) > kWoundTurn)) {
-        Recover(targets, neighbours, distance);
-      }
-      MakeContinuous(pose_, previous_);
-    }
-    has_previous_ = true;
-    return pose_;
-  }
-
-  FitProblem problem_;
-  FitOptions options_;
-  Pose pose_, previous_, fresh_;
-  bool has_previous_ = false;
-
- private:
-  // Tries again from scratch, and keeps that only where it is much nearer, or as near and unwound:
-  // a clip that does not fit at all should at least be smooth.
-  void Recover(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours, double distance) {
-    problem_.Start(targets, fresh_);
-    const double again = problem_.Solve(targets, {}, options_.first_iterations, fresh_);
-    const bool unwound = problem_.TrunkTurn(pose_) > kWoundTurn &&
-                         problem_.TrunkTurn(fresh_) < kWoundTurn &&
-                         again < std::max(distance, kLostDistance);
-    if (again < 0.5 * distance || unwound) {
-      std::swap(pose_, fresh_);
-    } else {
-      problem_.Solve(targets, neighbours, options_.iterations, pose_);
-    }
-  }
-};
-
 PositionFitter::PositionFitter(const Skeleton& skeleton, const SourceMapping& mapping,
                                const FitOptions& options, double fps)
-    : solver_(std::make_unique<Solver>(skeleton, mapping, options, fps)) {}
+    : problem_(std::make_unique<FitProblem>(skeleton, mapping, options, fps)), options_(options) {}
 PositionFitter::~PositionFitter() = default;
 PositionFitter::PositionFitter(PositionFitter&&) noexcept = default;
 PositionFitter& PositionFitter::operator=(PositionFitter&&) noexcept = default;
 
 const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets, const Pose* after) {
-  return solver_->Next(targets, after);
+  if (targets.cols() != problem_->landmarks_count() || !targets.allFinite()) {
+    throw InvalidArgument("targets", std::to_string(targets.cols()) + " landmarks, must be " +
+                                         std::to_string(problem_->landmarks_count()) +
+                                         " and finite");
+  }
+  if (!has_previous_) {
+    problem_->Start(targets, pose_);
+    problem_->Solve(targets, {}, options_.first_iterations, pose_);
+  } else {
+    previous_ = pose_;
+    const FitNeighbours neighbours = {.before = &previous_, .after = after};
+    const double distance = problem_->Solve(targets, neighbours, options_.iterations, pose_);
+    if (options_.recover && (distance > kLostDistance || problem_->TrunkTurn(pose_) > kWoundTurn)) {
+      Recover(targets, neighbours, distance);
+    }
+    MakeContinuous(pose_, previous_);
+  }
+  has_previous_ = true;
+  return pose_;
 }
 
-const Eigen::Matrix3Xd& PositionFitter::landmarks() const { return solver_->problem_.landmarks(); }
+// Tries again from scratch, and keeps that only where it is much nearer, or as near and unwound: a
+// clip that does not fit at all should at least be smooth.
+void PositionFitter::Recover(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
+                             double distance) {
+  problem_->Start(targets, fresh_);
+  const double again = problem_->Solve(targets, {}, options_.first_iterations, fresh_);
+  const bool unwound = problem_->TrunkTurn(pose_) > kWoundTurn &&
+                       problem_->TrunkTurn(fresh_) < kWoundTurn &&
+                       again < std::max(distance, kLostDistance);
+  if (again < 0.5 * distance || unwound) {
+    std::swap(pose_, fresh_);
+  } else {
+    problem_->Solve(targets, neighbours, options_.iterations, pose_);
+  }
+}
 
-void PositionFitter::Reset() { solver_->has_previous_ = false; }
+const Eigen::Matrix3Xd& PositionFitter::landmarks() const { return problem_->landmarks(); }
 
 void PositionFitter::Reset(const Pose& previous) {
-  solver_->pose_ = previous;
-  solver_->has_previous_ = true;
+  pose_ = previous;
+  has_previous_ = true;
 }
 
 }  // namespace choreo

@@ -26,6 +26,9 @@ struct FitOptions {
   bool ground = true;              ///< FitClip alone: bring the body down to the floor
 };
 
+class FitProblem;
+struct FitNeighbours;
+
 /// Fits frame after frame, causally: a frame's result depends on it and the frames before. Not
 /// thread-safe; one per stream.
 class PositionFitter {
@@ -45,13 +48,17 @@ class PositionFitter {
   const Eigen::Matrix3Xd& landmarks() const;
 
   /// Forgets the frame before.
-  void Reset();
+  void Reset() { has_previous_ = false; }
   /// Goes on from this pose, as if it had been the frame before.
   void Reset(const Pose& previous);
 
  private:
-  class Solver;
-  std::unique_ptr<Solver> solver_;
+  void Recover(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours, double distance);
+
+  std::unique_ptr<FitProblem> problem_;
+  FitOptions options_;
+  Pose pose_, previous_, fresh_;
+  bool has_previous_ = false;
 };
 
 }  // namespace choreo

@@ -15,8 +15,6 @@ bool IsBelowWrist(const Skeleton& skeleton, int joint) {
   return parent >= 0;
 }
 
-constexpr double kTangAccuracy = 0.015;
-
 double Out(const std::string& side) { return side == "left" ? 1.0 : -1.0; }
 
 OurPoint Temple(const std::string& side) {

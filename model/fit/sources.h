@@ -52,6 +52,8 @@ struct SourceMapping {
 /// weight of joints below the wrists.
 SourceMapping IdentitySource(const Skeleton& skeleton, double hands = 1);
 
+inline constexpr double kTangAccuracy = 0.015;  ///< of tang2018's points, metres
+
 /// "Dance with Melody" (Tang et al. 2018): 23 joints. `Tang2018JointNames` names them in file order
 /// (row 0 of the .npy, the world centre, is not among them).
 const std::vector<std::string>& Tang2018JointNames();

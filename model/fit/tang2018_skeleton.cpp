@@ -79,10 +79,7 @@ class SkeletonBuilder {
   SkeletonBuilder() { skeleton_.name = "tang2018"; }
 
   void Add(const std::string& name, const std::string& parent, const Eigen::Vector3d& offset) {
-    skeleton_.parents.push_back(skeleton_.Find(parent));
-    skeleton_.joint_names.push_back(name);
-    skeleton_.offsets.conservativeResize(3, skeleton_.joints());
-    skeleton_.offsets.rightCols<1>() = offset;
+    skeleton_.AddJoint(name, skeleton_.Find(parent), offset);
   }
 
   Skeleton Take() {
@@ -158,7 +155,7 @@ NativeTang2018 MeasureTang2018(std::span<const PositionClip> clips) {
   }
   native.skeleton = builder.Take();
 
-  MappingBuilder mapping("tang2018", 0.015);
+  MappingBuilder mapping("tang2018", kTangAccuracy);
   mapping.Add("hips", "", {{"left_hip", 0.5}, {"right_hip", 0.5}},
               MappingBuilder::Between("left_hip", "right_hip"));
   mapping.AddJoint("left_hip", "hips", "left_hip");

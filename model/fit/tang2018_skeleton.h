@@ -16,23 +16,10 @@ struct NativeTang2018 {
 };
 
 /// Makes that skeleton from recordings in metres with Tang2018JointNames: every bone has the mean
-/// over the clips of its median length.
-///
-/// As many joints as recorded points, but not quite the same: a skeleton of rotations needs a joint
-/// wherever the body bends. Recorded are 21 of them: the waist (the root, a point on the belly) and
-/// hip, knee, ankle, heel, toes, shoulder, elbow, wrist, hand and thumb of either side. The two
-/// temples are points of one bone, the head; it turns about its joint halfway between shoulders and
-/// temples. The joint that this leaves over is the chest, which carries shoulders and head and
-/// bends against the hips: without it the dance would have lost its hips.
-///
-/// At rest: legs straight down, the waist 19 degrees in front of the hips' vertical (every genre's
-/// median), the chest's joint above the hips at the waist's height, shoulders and head straight
-/// above it, arms held out sideways, heels and toes on the floor. Trunk, legs and upper arms are
-/// mirror images; the points below the elbows are not at the same places on the two sides of the
-/// recordings, and stay where they are.
-///
-/// Throws Error(kInvalidArgument) for no clips, a clip that lacks a joint, or bones that no body
-/// has.
+/// over the clips of its median length. Of the points the two temples are one joint, the head; the
+/// chest, which bends against the hips, is added. At rest legs hang, arms are held out, heels and
+/// toes stand on the floor. Below the elbows the sides differ, as recorded. Throws
+/// Error(kInvalidArgument) for no clips, a clip that lacks a joint, or bones that no body has.
 NativeTang2018 MeasureTang2018(std::span<const PositionClip> clips);
 
 }  // namespace choreo

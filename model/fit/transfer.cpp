@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "model/motion/kinematics.h"
-#include "model/motion/leg.h"
 #include "model/motion/limb.h"
 #include "model/motion/rotation.h"
 

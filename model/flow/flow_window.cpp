@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "model/motion/rotation.h"
-#include "model/motion/way_round.h"
 
 namespace choreo {
 namespace {
@@ -15,6 +14,8 @@ namespace {
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
 // Times a velocity's spread: a history that is faster was forced by a key, and does not go on so.
 constexpr double kFastest = 8;
+// Frames that a dancer goes on turning as she does.
+constexpr double kTurnHorizon = 12;
 
 // The way from one pose to another, [dimensions]: of the root, and of each joint as the first's
 // tangent space has it; and there.

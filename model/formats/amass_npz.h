@@ -17,10 +17,8 @@
 /// | AIST++  | smpl_poses [F,72], smpl_trans, smpl_scaling            | y  | pelvis minus J0 |
 /// | EDGE    | smpl_poses [F,72], smpl_trans                          | z  | the pelvis      |
 ///
-/// J0 is SMPL's rest pelvis: the model's translation moves the whole rest body, whose pelvis is not
-/// at its origin; files with 55 joints mean SMPL-X's. Of 52 (SMPL-H) and 55 (SMPL-X) joints the 22
-/// of the body are read; the two hand joints of SMPL then stay at rest. Body shape (betas) is not
-/// applied: ours is the neutral body.
+/// J0 is the rest pelvis of SMPL, or of SMPL-X in files with 55 joints. Of 52 (SMPL-H) and 55
+/// joints the body's 22 are read. Body shape (betas) is not applied: ours is the neutral body.
 namespace choreo {
 
 /// Rest position of the neutral body's pelvis in SMPL's own coordinates, metres.

@@ -28,6 +28,10 @@ enum class BvhChannel : uint8_t {
   kZRotation,
 };
 
+/// As files call them, in that order.
+inline constexpr std::string_view kBvhChannelNames[] = {"Xposition", "Yposition", "Zposition",
+                                                        "Xrotation", "Yrotation", "Zrotation"};
+
 struct BvhJoint {
   std::string name;  ///< an End Site is named after its parent + "_end"
   int parent = -1;   ///< -1 for the root; parents stand before their children

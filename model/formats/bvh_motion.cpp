@@ -1,12 +1,10 @@
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
-#include "model/formats/bvh_placement.h"
 #include "model/formats/own_arrays.h"
 #include "model/formats/own_skeleton.h"
 #include "model/motion/resample.h"
@@ -15,12 +13,32 @@
 namespace choreo {
 namespace {
 
-constexpr double kRadians = M_PI / 180;
 constexpr double kSameOffset = 0.001;  // metres
 constexpr double kMetresBelow = 5;     // a body of less units than these is in metres
 
 constexpr BvhChannel kRotations[] = {BvhChannel::kZRotation, BvhChannel::kXRotation,
                                      BvhChannel::kYRotation};
+
+/// Where a joint stands in its parent, file units, and how it is turned there.
+struct BvhPlacement {
+  Eigen::Vector3d position;
+  Eigen::Matrix3d rotation;
+};
+
+/// Of the joint's channels, `values` are those of one frame.
+BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
+  BvhPlacement local{joint.offset, Eigen::Matrix3d::Identity()};
+  for (const BvhChannel channel : joint.channels) {
+    const double value = *values++;
+    const int axis = static_cast<int>(channel) % 3;
+    if (channel <= BvhChannel::kZPosition) {
+      local.position[axis] = value;
+    } else {
+      local.rotation *= Eigen::AngleAxisd(value * M_PI / 180, Eigen::Vector3d::Unit(axis)).matrix();
+    }
+  }
+  return local;
+}
 
 // Angles z, x, y (radians) with R = Rz Rx Ry, of the two solutions (and their whole turns) the one
 // nearest to `previous`.
@@ -129,6 +147,43 @@ std::optional<BvhLayout> LayoutOf(const BvhFile& file, const Skeleton& skeleton)
 
 }  // namespace
 
+double BvhFile::fps() const { return WholeRate(1 / frame_time); }
+
+std::vector<std::string> BvhFile::JointNames() const {
+  std::vector<std::string> names;
+  for (const BvhJoint& joint : joints) names.push_back(joint.name);
+  return names;
+}
+
+Eigen::Matrix3Xd BvhPositions(const BvhFile& file, int64_t frame) {
+  Eigen::Matrix3Xd positions(3, file.joints.size());
+  std::vector<Eigen::Matrix3d> rotations(file.joints.size());
+  const double* values = file.values.col(frame).data();
+  for (size_t i = 0; i < file.joints.size(); ++i) {
+    const BvhJoint& joint = file.joints[i];
+    const BvhPlacement local = PlaceBvhJoint(joint, values);
+    values += joint.channels.size();
+    if (joint.parent < 0) {
+      positions.col(i) = local.position;
+      rotations[i] = local.rotation;
+    } else {
+      positions.col(i) = positions.col(joint.parent) + rotations[joint.parent] * local.position;
+      rotations[i] = rotations[joint.parent] * local.rotation;
+    }
+  }
+  return positions;
+}
+
+PositionClip BvhToPositions(const BvhFile& file, double metres_per_unit) {
+  PositionClip clip;
+  clip.fps = file.fps();
+  clip.joint_names = file.JointNames();
+  for (int64_t frame = 0; frame < file.frames(); ++frame) {
+    clip.frames.push_back(BvhPositions(file, frame) * metres_per_unit);
+  }
+  return clip;
+}
+
 BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLayout& layout) {
   RequireWritable(skeleton, motion);
   if (layout.names != JointNames::kSmpl && skeleton.joint_names != Skeleton::Smpl24().joint_names) {
@@ -150,7 +205,7 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
     for (const int joint : order) {
       if (joint < 0) continue;
       euler.col(joint) = EulerZxy(ExpMap(pose.rotations.col(joint)), euler.col(joint));
-      values.segment<3>(row) = euler.col(joint) / kRadians;
+      values.segment<3>(row) = euler.col(joint) / (M_PI / 180);
       row += 3;
     }
   }

@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <optional>
 #include <sstream>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
 #include "model/motion/pose_limits.h"
@@ -121,14 +119,12 @@ class Tokens {
 };
 
 BvhChannel ReadChannel(Tokens& tokens, const std::vector<BvhChannel>& earlier) {
-  static constexpr std::string_view kNames[] = {"Xposition", "Yposition", "Zposition",
-                                                "Xrotation", "Yrotation", "Zrotation"};
   const std::string_view token = tokens.Next("a channel");
-  const auto* found =
-      std::find_if(std::begin(kNames), std::end(kNames),
-                   [&](std::string_view name) { return Tokens::SameWord(name, token); });
-  if (found == std::end(kNames)) tokens.Fail("a channel such as Xposition or Zrotation", token);
-  const auto channel = static_cast<BvhChannel>(found - std::begin(kNames));
+  const auto* found = std::ranges::find_if(
+      kBvhChannelNames, [&](std::string_view name) { return Tokens::SameWord(name, token); });
+  if (found == std::end(kBvhChannelNames))
+    tokens.Fail("a channel such as Xposition or Zrotation", token);
+  const auto channel = static_cast<BvhChannel>(found - kBvhChannelNames);
   if (std::count(earlier.begin(), earlier.end(), channel) > 0) {
     tokens.Fail("a channel that this joint does not have already", token);
   }
@@ -217,10 +213,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
 }
 
 BvhFile ReadBvh(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  return ParseBvh(text, path.string());
+  return ParseBvh(ReadFile(path), path.string());
 }
 
 }  // namespace choreo

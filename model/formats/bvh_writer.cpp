@@ -8,9 +8,6 @@
 namespace choreo {
 namespace {
 
-constexpr const char* kChannelNames[] = {"Xposition", "Yposition", "Zposition",
-                                         "Xrotation", "Yrotation", "Zrotation"};
-
 void AppendNumber(std::string& text, double value) {
   char number[48];
   std::snprintf(number, sizeof(number), " %.6f", value);
@@ -52,7 +49,7 @@ void AppendJoint(const BvhFile& file, int index, int depth, int& next, std::stri
     text += indent + "  CHANNELS " + std::to_string(joint.channels.size());
     for (const BvhChannel channel : joint.channels) {
       text += " ";
-      text += kChannelNames[static_cast<int>(channel)];
+      text += kBvhChannelNames[static_cast<int>(channel)];
     }
     text += "\n";
   }

@@ -112,19 +112,10 @@ CharacterFile::~CharacterFile() = default;
 CharacterFile::CharacterFile(CharacterFile&&) noexcept = default;
 
 const std::vector<std::string>& CharacterFile::names() const { return contents_->nodes.names(); }
-int CharacterFile::parent(int node) const {
-  return contents_->nodes.parent(static_cast<size_t>(node));
-}
+int CharacterFile::parent(int node) const { return contents_->nodes.parents()[node]; }
 const std::vector<bool>& CharacterFile::joints() const { return contents_->joints; }
 
-Eigen::Matrix3Xd CharacterFile::places() const {
-  const GltfNodes& nodes = contents_->nodes;
-  const std::vector<Eigen::Affine3d> world = nodes.Place(nodes.rest());
-  Eigen::Matrix3Xd places(3, std::ssize(world));
-  for (Eigen::Index node = 0; node < places.cols(); ++node)
-    places.col(node) = world[static_cast<size_t>(node)].translation();
-  return places;
-}
+Eigen::Matrix3Xd CharacterFile::places() const { return PlacesOf(contents_->nodes.PlaceAtRest()); }
 
 HumanBones CharacterFile::FindBones() const {
   HumanBones vrm = FindHumanBones(VrmNames(contents_->document, names().size()));

@@ -33,15 +33,11 @@ class CharacterFile {
   /// be missing.
   HumanBones FindBones() const;
 
-  /// Writes the character with the dance as its first animation, "dance", whose extras hold `fps`;
-  /// animations that it has follow. Rotations of the body's nodes, the place of the pelvis, and of
-  /// bones that hang on none of the bones above them. All else stays: JSON as it was, its data byte
-  /// for byte, with the animation's behind it. The dance stands in the file's world as in ours: Y
-  /// up, +Z ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, which
-  /// is of this file.
-  ///
-  /// Throws Error(kInvalidArgument) for a motion without frames, scales that are zero, or
-  /// more than 4 GiB; Error(kInternal) where the file cannot be written.
+  /// Writes the character with the dance as its first animation, "dance", whose extras hold `fps`.
+  /// All else stays, byte for byte. The dance stands in the file's world as in ours: Y up, +Z
+  /// ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, which is of
+  /// this file. Throws Error(kInvalidArgument) for a motion without frames, scales that are zero,
+  /// or more than 4 GiB; Error(kInternal) where the file cannot be written.
   void WriteDance(const std::filesystem::path& out, const CharacterBody& body,
                   const Motion& motion) const;
 

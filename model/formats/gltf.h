@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "model/formats/skeleton_npz.h"
+#include "model/formats/own_arrays.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -17,16 +17,13 @@ namespace choreo {
 /// Error(kInternal) where the file cannot be written.
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
 
-/// The first animation of a file. Nodes that have our joints' names, parents and rest offsets (2
-/// mm) are taken as they are, whatever frames their bones have at rest: those of `wanted`, if any,
-/// of SMPL's skeleton, or of the file's own (own_skeleton.h). Other skeletons are fitted to SMPL's
-/// by their joints' names (fit/sources.h: Mixamo's and others). Meshes do not matter. At the
-/// rate of extras.fps, else of the channel with most keys; 30 where that is below 20, because few
-/// keys are poses to pass rather than frames.
-///
-/// Throws Error(kNotFound) where the file cannot be opened, Error(kInvalidArgument) whose field is
-/// the path and whose message names the part: no glTF, no animation, cubic splines, sparse
-/// accessors, data outside its buffer, files beside this one, more than a million frames.
+/// The first animation of a file: of `wanted`, if any, of SMPL's skeleton or of the file's own
+/// (own_skeleton.h), where names, parents and rest offsets (2 mm) are theirs; any other skeleton is
+/// fitted to SMPL's (fit/fit_clip.h). At the rate of extras.fps, else of the channel with most
+/// keys, or 30 where that is below 20: few keys are poses to pass. Throws Error(kNotFound) where
+/// the file cannot be opened, Error(kInvalidArgument) whose field is the path and whose message
+/// names the part: no glTF, no animation, cubic splines, sparse accessors, data outside its buffer,
+/// files beside this one, more than a million frames.
 SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted = nullptr);
 
 }  // namespace choreo

@@ -8,11 +8,8 @@
 
 namespace choreo {
 
-// In one expression GCC 12 sees an overlap in operator+ that is not there (-Wrestrict).
 std::string GltfItem(const char* list, size_t index) {
-  std::string item = list;
-  item.append("[").append(std::to_string(index)).append("]");
-  return item;
+  return std::string(list) + "[" + std::to_string(index) + "]";
 }
 
 tinygltf::Model ParseGlb(const std::filesystem::path& path) {
@@ -100,14 +97,6 @@ Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int ty
   }
   if (!values.allFinite()) throw InvalidArgument(name, "holds values that are not finite");
   return values;
-}
-
-void AppendTurn(Eigen::Quaterniond turn, std::vector<float>* turns) {
-  Eigen::Quaternionf before = Eigen::Quaternionf::Identity();
-  if (turns->size() >= 4) before = Eigen::Quaternionf(&*(turns->end() - 4));
-  if (turn.dot(before.cast<double>()) < 0) turn.coeffs() = -turn.coeffs();
-  const Eigen::Vector4f coefficients = turn.normalized().coeffs().cast<float>();  // x y z w
-  turns->insert(turns->end(), coefficients.begin(), coefficients.end());
 }
 
 }  // namespace choreo

@@ -3,7 +3,6 @@
 #include <tiny_gltf.h>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -37,9 +36,5 @@ tinygltf::Model ParseGlb(std::string_view bytes);
 /// An accessor's elements, [components, count]; normalised integers become -1 to 1. `type` is a
 /// TINYGLTF_TYPE. Throws Error(kInvalidArgument) naming the accessor.
 Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type);
-
-/// Appends x, y, z, w, of the sign that is nearer to the four before: readers interpolate along the
-/// shorter way between neighbours of one sign.
-void AppendTurn(Eigen::Quaterniond turn, std::vector<float>* turns);
 
 }  // namespace choreo

@@ -1,6 +1,5 @@
 #include "model/formats/gltf_nodes.h"
 
-#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -33,6 +32,12 @@ GltfPlacement ReadPlacement(const tinygltf::Node& node, const std::string& name)
 
 }  // namespace
 
+Eigen::Matrix3Xd PlacesOf(const std::vector<Eigen::Affine3d>& world) {
+  Eigen::Matrix3Xd places(3, std::ssize(world));
+  for (size_t node = 0; node < world.size(); ++node) places.col(node) = world[node].translation();
+  return places;
+}
+
 GltfNodes::GltfNodes(const tinygltf::Model& model) {
   const size_t count = model.nodes.size();
   parents_.assign(count, -1);
@@ -55,11 +60,6 @@ GltfNodes::GltfNodes(const tinygltf::Model& model) {
       order_.push_back(static_cast<size_t>(child));
   }
   if (order_.size() != count) throw InvalidArgument("nodes", "some are their own ancestors");
-}
-
-int GltfNodes::Find(const std::string& name) const {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
 }
 
 std::vector<Eigen::Affine3d> GltfNodes::Place(const std::vector<GltfPlacement>& local) const {

@@ -23,6 +23,9 @@ struct GltfPlacement {
   }
 };
 
+/// [3, nodes]
+Eigen::Matrix3Xd PlacesOf(const std::vector<Eigen::Affine3d>& world);
+
 /// The nodes of a glTF file, at rest. Immutable. Private to this folder.
 class GltfNodes {
  public:
@@ -31,15 +34,15 @@ class GltfNodes {
   explicit GltfNodes(const tinygltf::Model& model);
 
   const std::vector<std::string>& names() const { return names_; }
-  int parent(size_t node) const { return parents_[node]; }     ///< -1: none
-  const std::vector<size_t>& order() const { return order_; }  ///< all nodes, parents first
+  const std::vector<int>& parents() const { return parents_; }  ///< -1: none
+  const std::vector<size_t>& order() const { return order_; }   ///< all nodes, parents first
   const std::vector<GltfPlacement>& rest() const { return rest_; }
-  /// The first node of this name, or -1.
-  int Find(const std::string& name) const;
 
   /// Where all nodes are in the world. Throws Error(kInvalidArgument) for one that is further away
   /// than any motion goes.
   std::vector<Eigen::Affine3d> Place(const std::vector<GltfPlacement>& local) const;
+  /// The same at rest.
+  std::vector<Eigen::Affine3d> PlaceAtRest() const { return Place(rest_); }
 
  private:
   std::vector<std::string> names_;

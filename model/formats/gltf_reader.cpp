@@ -14,16 +14,16 @@ namespace {
 constexpr double kSameRest = 0.002;  // metres
 
 // The nodes that are our joints, or nothing if the file's skeleton is another one.
-std::optional<std::vector<int>> FindOurs(const GltfScene& scene, const Skeleton& skeleton) {
-  const std::vector<Eigen::Affine3d> rest = scene.Rest();
+std::optional<std::vector<int>> FindOurs(const GltfNodes& file, const Skeleton& skeleton) {
+  const Eigen::Matrix3Xd rest = PlacesOf(file.PlaceAtRest());
   std::vector<int> nodes;
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    const int node = scene.Find(skeleton.joint_names[joint]);
+    const int node = IndexOf(file.names(), skeleton.joint_names[joint]);
     if (node < 0) return std::nullopt;
     if (joint > 0) {
       const int parent = nodes[skeleton.parents[joint]];
-      const Eigen::Vector3d offset = rest[node].translation() - rest[parent].translation();
-      if (scene.parent(node) != parent ||
+      const Eigen::Vector3d offset = rest.col(node) - rest.col(parent);
+      if (file.parents()[node] != parent ||
           (offset - skeleton.offsets.col(joint)).norm() > kSameRest) {
         return std::nullopt;
       }
@@ -33,22 +33,11 @@ std::optional<std::vector<int>> FindOurs(const GltfScene& scene, const Skeleton&
   return nodes;
 }
 
-std::optional<Skeleton> FindOwn(const GltfScene& scene) {
-  const std::vector<Eigen::Affine3d> rest = scene.Rest();
-  std::vector<int> parents;
-  Eigen::Matrix3Xd places(3, std::ssize(rest));
-  for (int node = 0; node < std::ssize(rest); ++node) {
-    parents.push_back(scene.parent(node));
-    places.col(node) = rest[static_cast<size_t>(node)].translation();
-  }
-  return OwnSkeleton(scene.names(), parents, places);
-}
-
 Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Skeleton& skeleton) {
   const auto turn = [](const Eigen::Affine3d& transform) -> Eigen::Matrix3d {
     return transform.linear().colwise().normalized();
   };
-  const std::vector<Eigen::Affine3d> rest = scene.Rest();
+  const std::vector<Eigen::Affine3d> rest = scene.nodes().PlaceAtRest();
   Motion motion;
   motion.fps = scene.fps();
   for (int64_t frame = 0; frame < scene.frames(); ++frame) {
@@ -72,13 +61,9 @@ Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Ske
 Motion FitOthers(const GltfScene& scene, const Skeleton& skeleton) {
   PositionClip clip;
   clip.fps = scene.fps();
-  clip.joint_names = scene.names();
-  for (int64_t frame = 0; frame < scene.frames(); ++frame) {
-    const std::vector<Eigen::Affine3d> now = scene.Frame(frame);
-    Eigen::Matrix3Xd& positions = clip.frames.emplace_back(3, now.size());
-    for (size_t node = 0; node < now.size(); ++node)
-      positions.col(static_cast<Eigen::Index>(node)) = now[node].translation();
-  }
+  clip.joint_names = scene.nodes().names();
+  for (int64_t frame = 0; frame < scene.frames(); ++frame)
+    clip.frames.push_back(PlacesOf(scene.Frame(frame)));
   return FitClip(clip, BvhSource(clip), skeleton).motion;
 }
 
@@ -88,11 +73,12 @@ SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted
   try {
     const GltfScene scene(ParseGlb(path));
     const Skeleton& smpl = Skeleton::Smpl24();
-    const auto own = FindOwn(scene);
+    const GltfNodes& nodes = scene.nodes();
+    const auto own = OwnSkeleton(nodes.names(), nodes.parents(), PlacesOf(nodes.PlaceAtRest()));
     for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
       if (known == nullptr) continue;
-      if (const auto nodes = FindOurs(scene, *known))
-        return {*known, TakeOurs(scene, *nodes, *known)};
+      if (const auto ours = FindOurs(nodes, *known))
+        return {*known, TakeOurs(scene, *ours, *known)};
     }
     return {smpl, FitOthers(scene, smpl)};
   } catch (const Error& error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/formats/own_arrays.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
@@ -102,12 +103,7 @@ void GltfScene::ChooseTimes(const tinygltf::Animation& animation) {
     if (fps_ < kSparseRate) fps_ = kDefaultRate;
   }
   if (animation.extras.IsObject() && animation.extras.Has("fps")) {
-    const double stated = animation.extras.Get("fps").GetNumberAsDouble();
-    if (!(stated >= 1 && stated <= 1000)) {
-      throw InvalidArgument("animations[0].extras.fps",
-                            std::to_string(stated) + ", must be 1 to 1000 frames a second");
-    }
-    fps_ = stated;
+    fps_ = CheckRate("animations[0].extras.fps", animation.extras.Get("fps").GetNumberAsDouble());
   }
   // Times are floats: the last frame may lie a little behind the end.
   const double frames = std::floor((end - start_) * fps_ + 0.01) + 1;
@@ -116,8 +112,8 @@ void GltfScene::ChooseTimes(const tinygltf::Animation& animation) {
                                                std::to_string(fps_) +
                                                " fps, at most 1000000 frames are read");
   }
-  if (frames * static_cast<double>(names().size()) > kMaxPlaces) {
-    throw InvalidArgument("nodes", std::to_string(names().size()) + " in " +
+  if (frames * static_cast<double>(nodes_.names().size()) > kMaxPlaces) {
+    throw InvalidArgument("nodes", std::to_string(nodes_.names().size()) + " in " +
                                        std::to_string(static_cast<int64_t>(frames)) +
                                        " frames, at most 30000000 places are read");
   }

@@ -19,13 +19,9 @@ class GltfScene {
 
   double fps() const { return fps_; }
   int64_t frames() const { return frames_; }
-  const std::vector<std::string>& names() const { return nodes_.names(); }
-  int parent(int node) const { return nodes_.parent(static_cast<size_t>(node)); }
-  /// The first node of this name, or -1.
-  int Find(const std::string& name) const { return nodes_.Find(name); }
+  const GltfNodes& nodes() const { return nodes_; }
 
   /// Where all nodes are in the world.
-  std::vector<Eigen::Affine3d> Rest() const { return nodes_.Place(nodes_.rest()); }
   std::vector<Eigen::Affine3d> Frame(int64_t frame) const;
 
  private:

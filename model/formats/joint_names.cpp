@@ -6,18 +6,10 @@
 #include "model/fit/human_bones.h"
 
 namespace choreo {
+
 std::string_view NameOf(JointNames names) {
-  switch (names) {
-    case JointNames::kSmpl:
-      return "smpl";
-    case JointNames::kMixamo:
-      return "mixamo";
-    case JointNames::kHumanIk:
-      return "humanik";
-    case JointNames::kUnreal:
-      return "ue";
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"smpl", "mixamo", "humanik", "ue"};
+  return kNames[static_cast<size_t>(names)];
 }
 
 JointNames ParseJointNames(std::string_view text, const std::string& field) {

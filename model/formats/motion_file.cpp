@@ -35,33 +35,18 @@ SkeletonMotion FromBvh(const BvhFile& file, const Skeleton* wanted) {
 }
 
 // `wanted`: a skeleton to try first, or none.
-SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) {
+SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) try {
   RequireMotionFile(path);
   const std::string extension = SmallExtension(path);
-  SkeletonMotion read;
-  const auto named = [&](const auto& parse) {
-    try {
-      read = parse();
-    } catch (const Error& error) {
-      throw Error(error.code(), path.string(), error.what());
-    }
-  };
-  if (extension == ".glb") {
-    read = ReadGlb(path, wanted);
-  } else if (extension == ".npz") {
-    const NpzArchive npz = NpzArchive::Read(path);
-    named([&] { return FromNpz(npz); });
-  } else {
-    const BvhFile file = ReadBvh(path);
-    named([&] { return FromBvh(file, wanted); });
-  }
-  if (read.motion.frames.empty()) throw InvalidArgument(path.string(), "has no frames");
-  try {
-    CheckMotionLimits(read.motion);
-  } catch (const Error& error) {
-    throw InvalidArgument(path.string(), error.what());
-  }
+  SkeletonMotion read = extension == ".glb"   ? ReadGlb(path, wanted)
+                        : extension == ".npz" ? FromNpz(NpzArchive::Read(path))
+                                              : FromBvh(ReadBvh(path), wanted);
+  if (read.motion.frames.empty()) throw InvalidArgument("", "has no frames");
+  CheckMotionLimits(read.motion);
   return read;
+} catch (const Error& error) {
+  if (error.field().starts_with(path.string())) throw;
+  throw Error(error.code(), path.string(), error.what());
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/formats/skeleton_npz.h"
+#include "model/formats/own_arrays.h"
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -23,7 +23,7 @@ bool IsMotionFile(const std::filesystem::path& path);
 void RequireMotionFile(const std::filesystem::path& path);
 
 /// A motion from a file, and the skeleton that it is of: SMPL's, or the one that an npz holds
-/// (skeleton_npz.h) or that a BVH or glTF has (own_skeleton.h); any other BVH or glTF is fitted to
+/// (own_arrays.h) or that a BVH or glTF has (own_skeleton.h); any other BVH or glTF is fitted to
 /// SMPL's (fit/fit_clip.h): sized by its legs, turned into rotations, put on the floor. At the
 /// file's own rate. Throws Error(kInvalidArgument) whose field begins with the path for other
 /// extensions, files without frames, values beyond motion/pose_limits.h and what the formats

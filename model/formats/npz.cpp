@@ -3,11 +3,10 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <boost/locale/encoding_utf.hpp>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <memory>
-#include <vector>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -15,8 +14,10 @@
 namespace choreo {
 namespace {
 
+using boost::locale::conv::conversion_error;
+using boost::locale::conv::utf_to_utf;
+
 constexpr uint64_t kMaxBytes = uint64_t{4} << 30;
-constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);
 
 struct Discard {
   void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -43,48 +44,6 @@ bool ReadAll(zip_file_t* file, uint64_t size, std::string* bytes) {
   }
   char beyond;
   return zip_fread(file, &beyond, 1) == 0;
-}
-
-// numpy's str is UCS-4. Refuses what RFC 3629 does not allow, as far as the decoding shows it.
-std::u32string DecodeUtf8(const std::string& text) {
-  std::u32string points;
-  for (size_t i = 0; i < text.size();) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    const int length = first < 0x80   ? 1
-                       : first < 0xC2 ? 0
-                       : first < 0xE0 ? 2
-                       : first < 0xF0 ? 3
-                       : first < 0xF5 ? 4
-                                      : 0;
-    if (length == 0 || i + length > text.size()) throw InvalidArgument("text", "is not UTF-8");
-    char32_t point = length == 1 ? first : first & (0x7F >> length);
-    for (int k = 1; k < length; ++k) {
-      const auto next = static_cast<unsigned char>(text[i + k]);
-      if ((next & 0xC0) != 0x80) throw InvalidArgument("text", "is not UTF-8");
-      point = point << 6 | (next & 0x3F);
-    }
-    points.push_back(point);
-    i += length;
-  }
-  return points;
-}
-
-void AppendUtf8(char32_t point, std::string& text) {
-  if (point < 0x80) {
-    text += static_cast<char>(point);
-  } else if (point < 0x800) {
-    text += static_cast<char>(0xC0 | point >> 6);
-    text += static_cast<char>(0x80 | (point & 0x3F));
-  } else if (point < 0x10000) {
-    text += static_cast<char>(0xE0 | point >> 12);
-    text += static_cast<char>(0x80 | (point >> 6 & 0x3F));
-    text += static_cast<char>(0x80 | (point & 0x3F));
-  } else {
-    text += static_cast<char>(0xF0 | point >> 18);
-    text += static_cast<char>(0x80 | (point >> 12 & 0x3F));
-    text += static_cast<char>(0x80 | (point >> 6 & 0x3F));
-    text += static_cast<char>(0x80 | (point & 0x3F));
-  }
 }
 
 }  // namespace
@@ -157,41 +116,32 @@ const std::string& NpzArchive::Member(const std::string& key) const {
 }
 
 NpyArray NpzArchive::Array(const std::string& key) const {
-  const std::string& bytes = Member(key);
-  return ParseNpy(std::as_bytes(std::span(bytes)), name_ + ":" + key);
+  return ParseNpy(Member(key), name_ + ":" + key);
 }
 
+// numpy's str is UCS-4.
 std::string NpzArchive::Text(const std::string& key) const {
-  const std::string& bytes = Member(key);
+  const std::string name = name_ + ":" + key;
+  const NpyParts parts = SplitNpy(Member(key), name);
   const auto fail = [&] {
-    return InvalidArgument(name_ + ":" + key,
-                           "is not a text (a str or bytes array of one element)");
+    return InvalidArgument(name, "is not a text (a str or bytes array of one element)");
   };
-  // Version 1 and a header such as {'descr': '<U7', 'fortran_order': False, 'shape': (), }.
-  if (!bytes.starts_with(kMagic) || bytes.size() < 10) throw fail();
-  const size_t header_size =
-      static_cast<unsigned char>(bytes[8]) + size_t{256} * static_cast<unsigned char>(bytes[9]);
-  if (bytes.size() < 10 + header_size) throw fail();
-  const std::string_view header(bytes.data() + 10, header_size);
-  const std::string_view data = std::string_view(bytes).substr(10 + header_size);
-  const auto value_of = [&](std::string_view name) {
-    const size_t at = header.find(name);
-    return at == std::string_view::npos ? std::string_view() : header.substr(at + name.size());
-  };
-  const std::string_view shape = value_of("'shape': ");
-  if (!shape.starts_with("()") && !shape.starts_with("(1,)")) throw fail();
-  const std::string_view type = value_of("'descr': '");
-  const bool wide = type.starts_with("<U");
-  if (!wide && !type.starts_with("|S")) throw fail();
-  size_t length = 0;
-  std::from_chars(type.data() + 2, type.data() + type.size(), length);
-  if (length > data.size() || data.size() != length * (wide ? 4 : 1)) throw fail();
-  std::string text;
-  for (size_t i = 0; i < length; ++i) {
-    char32_t point = static_cast<unsigned char>(data[wide ? 4 * i : i]);
-    if (wide) std::memcpy(&point, data.data() + 4 * i, 4);
-    if (point > 0x10FFFF) throw fail();
-    wide ? AppendUtf8(point, text) : text.push_back(static_cast<char>(point));
+  const bool wide = parts.descr.starts_with("<U");
+  const size_t length = parts.values.size() / (wide ? sizeof(char32_t) : 1);
+  if ((!wide && !parts.descr.starts_with("|S")) || parts.shape.size() > 1 ||
+      (parts.shape.size() == 1 && parts.shape[0] != 1) ||
+      parts.descr.substr(2) != std::to_string(length)) {
+    throw fail();
+  }
+  std::string text(parts.values);
+  if (wide) {
+    std::u32string points(length, 0);
+    std::memcpy(points.data(), parts.values.data(), length * sizeof(char32_t));
+    try {
+      text = utf_to_utf<char>(points, boost::locale::conv::stop);
+    } catch (const conversion_error&) {
+      throw fail();
+    }
   }
   text.resize(text.find_last_not_of('\0') + 1);  // numpy pads with zeros
   return text;
@@ -201,19 +151,15 @@ void NpzArchive::SetArray(const std::string& key, const NpyArray& array) {
   members_[key] = SerializeNpy(array);
 }
 
-void NpzArchive::SetText(const std::string& key, const std::string& text) {
-  std::u32string points = DecodeUtf8(text);
+void NpzArchive::SetText(const std::string& key, const std::string& text) try {
+  std::u32string points = utf_to_utf<char32_t>(text, boost::locale::conv::stop);
   if (points.empty()) points.push_back(0);  // numpy has no strings of length 0
-  std::string header =
-      "{'descr': '<U" + std::to_string(points.size()) + "', 'fortran_order': False, 'shape': (), }";
-  while ((header.size() + 11) % 64 != 0) header += ' ';
-  header += '\n';
-  std::string bytes(kMagic);
-  bytes += static_cast<char>(header.size() % 256);
-  bytes += static_cast<char>(header.size() / 256);
-  bytes += header;
-  bytes.append(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(char32_t));
-  members_[key] = std::move(bytes);
+  members_[key] = JoinNpy(
+      {.descr = "<U" + std::to_string(points.size()),
+       .shape = {},
+       .values = {reinterpret_cast<const char*>(points.data()), points.size() * sizeof(char32_t)}});
+} catch (const conversion_error&) {
+  throw InvalidArgument("text", "is not UTF-8");
 }
 
 }  // namespace choreo

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/motion/skeleton_json.h"
 
 namespace choreo {
 
@@ -52,6 +53,19 @@ Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz) {
   const int joints = skeleton.joints();
   return MotionOfRows(NpzRows(npz, "root_positions", {3}), NpzRows(npz, "rotations", {3 * joints}),
                       joints, joints, CheckRate("fps", NpzNumber(npz, "fps")), "rotations");
+}
+
+void AddSkeletonMotion(const Skeleton& skeleton, const Motion& motion,
+                       const std::vector<Contacts>* contacts, NpzArchive& npz) {
+  AddOwnArrays(skeleton, motion, contacts, npz);
+  npz.SetText("skeleton", SkeletonToJson(skeleton));
+}
+
+bool HasSkeletonMotion(const NpzArchive& npz) { return npz.Has("skeleton"); }
+
+SkeletonMotion ReadSkeletonMotion(const NpzArchive& npz) {
+  const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));
+  return {skeleton, ReadOwnArrays(skeleton, npz)};
 }
 
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,

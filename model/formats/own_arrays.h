@@ -10,21 +10,34 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Motion in npz files, array by array, and what every writer asks of a motion. Private to this
-/// folder.
+/// Motion of any skeleton in npz files, array by array, and what every writer asks of a motion.
+/// What has SMPL's skeleton is written as amass_npz.h says, so that SMPL's tools can read it.
 namespace choreo {
+
+/// A motion and the skeleton that it is of.
+struct SkeletonMotion {
+  Skeleton skeleton;
+  Motion motion;
+};
 
 /// Throws Error(kInvalidArgument) for no frames, a frame of another joint count than the skeleton's
 /// or with values that are not finite, and contacts of another length.
 void RequireWritable(const Skeleton& skeleton, const Motion& motion,
                      const std::vector<Contacts>* contacts = nullptr);
 
-/// Adds root_positions [F, 3], rotations [F, joints, 3], fps, and contacts [F, 4] if they are
-/// given. Throws as RequireWritable.
+/// Adds root_positions [F, 3] of joint 0, metres, Y up; rotations [F, joints, 3], axis-angle,
+/// local; fps; and contacts [F, 4] if they are given. Throws as RequireWritable.
 void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
                   const std::vector<Contacts>* contacts, NpzArchive& npz);
 /// The inverse, without contacts. Throws Error(kInvalidArgument) naming the array.
 Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
+
+/// The same arrays and `skeleton`, the text of motion/skeleton_json.h. Throws as above, and what
+/// SkeletonFromJson refuses.
+void AddSkeletonMotion(const Skeleton& skeleton, const Motion& motion,
+                       const std::vector<Contacts>* contacts, NpzArchive& npz);
+bool HasSkeletonMotion(const NpzArchive& npz);
+SkeletonMotion ReadSkeletonMotion(const NpzArchive& npz);
 
 /// An array as [columns, F], finite; the shape [F, a, b] is accepted where a x b is one of
 /// `columns`.

@@ -7,20 +7,10 @@
 namespace choreo {
 namespace {
 
-int Find(const std::vector<std::string>& names, const char* name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-}
-
-bool IsBelow(int node, int ancestor, const std::vector<int>& parents) {
-  while (node >= 0 && node != ancestor) node = parents[static_cast<size_t>(node)];
-  return node == ancestor;
-}
-
 // Where hips and shoulders come together, or -1.
 int FindRoot(const std::vector<std::string>& names, const std::vector<int>& parents) {
-  const int limbs[] = {Find(names, "left_hip"), Find(names, "right_hip"),
-                       Find(names, "left_shoulder"), Find(names, "right_shoulder")};
+  const int limbs[] = {IndexOf(names, "left_hip"), IndexOf(names, "right_hip"),
+                       IndexOf(names, "left_shoulder"), IndexOf(names, "right_shoulder")};
   const auto carries_all = [&](int node) {
     return std::all_of(std::begin(limbs), std::end(limbs), [&](int limb) {
       return limb >= 0 && limb != node && IsBelow(limb, node, parents);
@@ -44,14 +34,15 @@ std::optional<Skeleton> OwnSkeleton(const std::vector<std::string>& names,
   std::vector<int> joint_of(names.size(), -1);
   for (int node = 0; node < static_cast<int>(names.size()); ++node) {
     if (!IsBelow(node, root, parents)) continue;
-    const int above = parents[static_cast<size_t>(node)];
-    if (node != root && above > node) return std::nullopt;
-    joint_of[static_cast<size_t>(node)] = skeleton.joints();
-    skeleton.joint_names.push_back(names[static_cast<size_t>(node)]);
-    skeleton.parents.push_back(node == root ? -1 : joint_of[static_cast<size_t>(above)]);
-    skeleton.offsets.conservativeResize(3, skeleton.joints());
-    skeleton.offsets.rightCols<1>().setZero();
-    if (node != root) skeleton.offsets.rightCols<1>() = places.col(node) - places.col(above);
+    int parent = -1;
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+    if (node != root) {
+      const int above = parents[node];
+      if (above > node) return std::nullopt;
+      parent = joint_of[above];
+      offset = places.col(node) - places.col(above);
+    }
+    joint_of[node] = skeleton.AddJoint(names[node], parent, offset);
   }
   skeleton.AssignRoles();
   skeleton.StandOnFloor();

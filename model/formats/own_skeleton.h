@@ -12,11 +12,9 @@ namespace choreo {
 /// The skeleton of a file that names its joints as ours do, if it has one: what we write for a
 /// dance on a skeleton of its own, which no SMPL body could stand in for. `names` and `parents`
 /// (-1: none) are those of its nodes, `places` [3, nodes] where they stand at rest, metres, Y up,
-/// facing +Z. Its root is the joint from which hips and shoulders come; what does not hang from
-/// that is no joint. At rest its lowest joint stands 2 cm above the floor. Named "own".
-///
-/// None where a role of Skeleton::AssignRoles is not played, where the root is SMPL's pelvis (such
-/// a file is one of SMPL's body, of whatever build), or where a parent stands behind its child.
+/// facing +Z. Its root is the joint from which hips and shoulders come. Named "own". None where a
+/// role of Skeleton::AssignRoles is not played, where the root is SMPL's pelvis (such a file is one
+/// of SMPL's body, of whatever build), or where a parent stands behind its child.
 std::optional<Skeleton> OwnSkeleton(const std::vector<std::string>& names,
                                     const std::vector<int>& parents,
                                     const Eigen::Matrix3Xd& places);

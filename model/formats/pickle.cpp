@@ -4,19 +4,17 @@
 #include <bit>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/npy.h"
 
@@ -187,15 +185,12 @@ class Unpickler {
   void Fill(const Ref& array, const Ref& shape, const Ref& dtype, bool fortran, const Ref& values) {
     // However often the same bytes are used.
     if ((filled_ += values->text.size()) > bytes_.size()) Refuse("more values than the file has");
-    std::string header = "{'descr': '" + dtype->text +
-                         "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': (";
-    for (const Ref& extent : shape->items)
-      header += std::to_string(Integer(Expect(extent, kNumber))) + ",";
-    header += ")}";
-    const auto size = static_cast<uint32_t>(header.size());
-    std::string npy("\x93NUMPY\x02\0", 8);
-    npy.append(reinterpret_cast<const char*>(&size), sizeof size) += header + values->text;
-    array->array = ParseNpy(std::as_bytes(std::span(npy)), name_);
+    NpyParts parts{dtype->text, fortran, {}, values->text};
+    for (const Ref& extent : shape->items) {
+      parts.shape.push_back(Integer(Expect(extent, kNumber)));
+      if (parts.shape.back() < 0) Refuse("an extent below 0");
+    }
+    array->array = ReadNpyParts(parts, name_);
   }
   int64_t Integer(const Ref& number) const {
     return std::visit(
@@ -283,11 +278,7 @@ NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name) {
 }
 
 NpzArchive ReadPickledArrays(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  return ParsePickledArrays(bytes, path.string());
+  return ParsePickledArrays(ReadFile(path), path.string());
 }
 
 }  // namespace choreo

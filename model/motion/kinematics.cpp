@@ -71,15 +71,19 @@ PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
   return error;
 }
 
-std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
-                                     const PoseMask& mask) {
-  CheckMask(skeleton, mask);
-  // Where a joint is depends on the rotations of those above it.
+std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask) {
   std::vector<bool> known(static_cast<size_t>(skeleton.joints()), true);
   for (size_t joint = 1; joint < known.size(); ++joint) {
     const int parent = skeleton.parents[joint];
     known[joint] = known[static_cast<size_t>(parent)] && mask.Asks(parent);
   }
+  return known;
+}
+
+std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
+                                     const PoseMask& mask) {
+  CheckMask(skeleton, mask);
+  const std::vector<bool> known = KnownPlaces(skeleton, mask);
   const Eigen::RowVectorXd rest = JointPositions(skeleton, RestPose(skeleton)).row(1);
   Eigen::RowVectorXd least = Eigen::RowVectorXd::Constant(rest.cols(), rest.minCoeff());
   for (const int foot : skeleton.feet) {

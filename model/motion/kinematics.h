@@ -37,6 +37,10 @@ struct PoseError {
 PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
                        const PoseMask& mask = {});
 
+/// [joints] Whether `mask` tells where a joint is, seen from the root: it asks for the rotations
+/// of all joints above.
+std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask);
+
 /// How high the root of a pose is that stands on the floor: no joint is lower than the lowest one
 /// at rest, and no foot joint lower than it is at rest. None where `mask` leaves open how the feet
 /// hang below the root, and for a skeleton without feet.

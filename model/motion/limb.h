@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
@@ -15,14 +16,35 @@ struct Limb {
 };
 
 /// Two-bone inverse kinematics: turns the upper two joints so that the end comes to `goal`, seen
-/// from the upper joint, and keeps its global rotation. The limb bends in its present plane (a
-/// straight one, and one that is bent the wrong way: about `hinge`, a direction in the world by
-/// which it bends as a body does), and swings by the smallest angle. Continuous in pose and goal:
-/// asked for what is there, it changes nothing; towards its full length a limb straightens ever
-/// more slowly, so that the end may stay behind by a centimetre, and out of reach it points at the
-/// goal. `placement` is the forward kinematics of `pose`; afterwards it is stale. Rotations stay on
-/// their branch.
+/// from the upper joint, and keeps its global rotation. The limb bends in its present plane, a
+/// straight one about `hinge` (a direction in the world by which it bends as a body does).
+/// Continuous in pose and goal; near its full length the end may stay behind by a centimetre, out
+/// of reach the limb points at the goal. `placement` is of `pose`; afterwards it is stale.
 void PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
               const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose);
+
+/// Hip, knee, ankle and toes of one leg, by joint index.
+struct Leg {
+  int hip = -1, knee = -1, ankle = -1, toes = -1;
+
+  /// Whether both legs are chains of these four joints.
+  static bool In(const Skeleton& skeleton);
+  /// Left, right; of a skeleton that has them.
+  static std::array<Leg, 2> Of(const Skeleton& skeleton);
+};
+
+/// How far the toes can be from the hip with the foot turned as it is, as a share of the length of
+/// thigh and shin: below 1 the ankle of `placement` could be put where `toes` asks for it.
+double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vector3d& toes);
+
+/// `toes`, or where the leg is as straight as `most` (a Reach) on the way there from where
+/// `placement` has the toes; they stay where that is farther already.
+Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
+                            const Eigen::Vector3d& toes, double most);
+
+/// Turns hip and knee so that the toes come to `toes`, the foot keeping its global rotation
+/// (limb.h: PlaceEnd); a straight knee bends forward. `toes` stands in the frame of `pose`.
+void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
+               const Eigen::Vector3d& toes, Pose* pose);
 
 }  // namespace choreo

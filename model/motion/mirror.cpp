@@ -1,19 +1,14 @@
 #include "model/motion/mirror.h"
 
-#include <string>
-
 #include "model/core/error.h"
 
 namespace choreo {
-namespace {
 
 std::string OtherSide(const std::string& name) {
   if (name.starts_with("left_")) return std::string("right_").append(name, 5);
   if (name.starts_with("right_")) return std::string("left_").append(name, 6);
   return name;
 }
-
-}  // namespace
 
 std::vector<int> MirrorPairs(const Skeleton& skeleton) {
   std::vector<int> pairs;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/motion/motion.h"
@@ -13,6 +14,9 @@ namespace choreo {
 /// [joints] the joint on the other side. Throws Error(kInvalidArgument) naming a left_ or right_
 /// joint without a counterpart.
 std::vector<int> MirrorPairs(const Skeleton& skeleton);
+
+/// left_x of right_x and the other way round; any other name as it is.
+std::string OtherSide(const std::string& name);
 
 Pose Mirror(const std::vector<int>& pairs, const Pose& pose);
 Pose Mirror(const Skeleton& skeleton, const Pose& pose);

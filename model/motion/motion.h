@@ -26,6 +26,13 @@ void MakeContinuous(Pose& pose, const Pose& previous);
 /// The same from frame to frame; the first frame stays as it is.
 void MakeContinuous(Motion& motion);
 
+/// The same pose, each rotation written so that its quaternion (QuaternionFromExp) has the sign of
+/// `previous`'s, their product not negative: of those vectors the nearest to `previous`. From frame
+/// to frame quaternions then never jump. The vectors are those of MakeContinuous, but around whole
+/// turns about an axis that tilts, where no choice of vectors is continuous in time. Pure,
+/// thread-safe.
+Pose KeepSigns(Pose pose, const Pose& previous);
+
 /// Which of a pose's degrees of freedom a key asks for. An empty joint mask means every joint.
 struct PoseMask {
   bool root_position = true;

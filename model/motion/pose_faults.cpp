@@ -1,8 +1,6 @@
 #include "model/motion/pose_faults.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "model/core/rounded.h"
 #include "model/motion/floor_clearance.h"
@@ -19,16 +17,6 @@ constexpr double kFolded = 165;       // degrees
 constexpr double kInAir = 0.15;       // metres; less may be tiptoe
 constexpr double kLongestJump = 1.0;  // seconds
 constexpr double kLimbSpeed = 7;      // m/s, about the body
-
-/// Where each joint is, as far as the rotations above it are asked for.
-std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask) {
-  std::vector<bool> known(static_cast<size_t>(skeleton.joints()), true);
-  for (size_t joint = 1; joint < known.size(); ++joint) {
-    const int parent = skeleton.parents[joint];
-    known[joint] = known[static_cast<size_t>(parent)] && mask.Asks(parent);
-  }
-  return known;
-}
 
 bool AsksForAll(const PoseMask& mask) {
   return mask.root_position && std::ranges::find(mask.joints, false) == mask.joints.end();

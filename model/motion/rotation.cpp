@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "model/core/error.h"
-#include "model/motion/cross_matrix.h"
 
 namespace choreo {
+
 Eigen::Matrix3d ExpMap(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   const Eigen::Matrix3d k = CrossMatrix(w);
@@ -72,6 +72,17 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w) {
   const double second =
       small ? 1.0 / 6 - square / 120 : (angle - std::sin(angle)) / (square * angle);
   return Eigen::Matrix3d::Identity() - first * k + second * k * k;
+}
+
+Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn) {
+  constexpr double kLeastTurn = 1e-3;  // radians
+  const double angle = turn.norm();
+  return angle < kLeastTurn ? turn : turn * (1 - 2 * std::numbers::pi / angle);
+}
+
+Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected) {
+  const Eigen::Vector3d other = OtherWayRound(turn);
+  return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
 }
 
 Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r) {

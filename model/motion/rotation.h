@@ -11,6 +11,11 @@ namespace choreo {
 
 inline constexpr double kDegrees = 180 / std::numbers::pi;  ///< a radian
 
+/// w x v as a product with v.
+inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
+  return (Eigen::Matrix3d() << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0).finished();
+}
+
 /// Rodrigues' formula; accurate to 1e-12 down to the zero vector. Grassia 1998, paper F's reference
 /// [47].
 Eigen::Matrix3d ExpMap(const Eigen::Vector3d& w);
@@ -36,6 +41,12 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
 
 /// log(exp(a) exp(delta)), on the branch nearest to a.
 Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d& delta);
+
+/// The other of two turns that end alike, by the rest of a whole turn the other way; `turn` itself
+/// where it is next to none, whose axis is noise.
+Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn);
+/// Of the two, the one nearer to `expected`.
+Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);
 
 /// First two columns of the matrix, stacked.
 Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r);

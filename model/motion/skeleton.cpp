@@ -50,23 +50,12 @@ constexpr RestJoint kSmplJoints[] = {
 Skeleton MakeSmpl24() {
   Skeleton skeleton;
   skeleton.name = "smpl24";
-  skeleton.offsets.resize(3, std::size(kSmplJoints));
-  for (const RestJoint& joint : kSmplJoints) {
-    skeleton.offsets.col(skeleton.joints()) << joint.x, joint.y, joint.z;
-    skeleton.joint_names.emplace_back(joint.name);
-    skeleton.parents.push_back(joint.parent);
-  }
+  for (const RestJoint& joint : kSmplJoints)
+    skeleton.AddJoint(joint.name, joint.parent, {joint.x, joint.y, joint.z});
   skeleton.AssignRoles();
   skeleton.StandOnFloor();
   skeleton.Validate();
   return skeleton;
-}
-
-std::string Index(int joint) {
-  // In one expression GCC 12 sees an overlap in operator+ that is not there (-Wrestrict).
-  std::string index = "[";
-  index.append(std::to_string(joint)).append("]");
-  return index;
 }
 
 int FindAny(const Skeleton& skeleton, std::initializer_list<const char*> names) {
@@ -76,39 +65,43 @@ int FindAny(const Skeleton& skeleton, std::initializer_list<const char*> names) 
   return -1;
 }
 
-std::array<std::pair<std::string_view, int>, 12> Roles(const Skeleton& s) {
-  return {{{"left_hip", s.left_hip},
-           {"right_hip", s.right_hip},
-           {"left_knee", s.left_knee},
-           {"right_knee", s.right_knee},
-           {"left_shoulder", s.left_shoulder},
-           {"right_shoulder", s.right_shoulder},
-           {"left_elbow", s.left_elbow},
-           {"right_elbow", s.right_elbow},
-           {"left_ankle", s.feet[0]},
-           {"left_toes", s.feet[1]},
-           {"right_ankle", s.feet[2]},
-           {"right_toes", s.feet[3]}}};
+// Of a skeleton, const or not.
+auto Roles(auto& s) {
+  return std::array{
+      std::pair{"left_hip", &s.left_hip},           std::pair{"right_hip", &s.right_hip},
+      std::pair{"left_knee", &s.left_knee},         std::pair{"right_knee", &s.right_knee},
+      std::pair{"left_shoulder", &s.left_shoulder}, std::pair{"right_shoulder", &s.right_shoulder},
+      std::pair{"left_elbow", &s.left_elbow},       std::pair{"right_elbow", &s.right_elbow},
+      std::pair{"left_ankle", &s.feet[0]},          std::pair{"left_toes", &s.feet[1]},
+      std::pair{"right_ankle", &s.feet[2]},         std::pair{"right_toes", &s.feet[3]}};
 }
 
 }  // namespace
 
-int Skeleton::Find(const std::string& joint_name) const {
-  const auto found = std::find(joint_names.begin(), joint_names.end(), joint_name);
-  return found == joint_names.end() ? -1 : static_cast<int>(found - joint_names.begin());
+int IndexOf(const std::vector<std::string>& names, std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+bool IsBelow(int node, int ancestor, const std::vector<int>& parents) {
+  while (node >= 0 && node != ancestor) node = parents[static_cast<size_t>(node)];
+  return node == ancestor;
+}
+
+int Skeleton::Find(std::string_view joint_name) const { return IndexOf(joint_names, joint_name); }
+
+int Skeleton::AddJoint(const std::string& joint_name, int parent, const Eigen::Vector3d& offset) {
+  joint_names.push_back(joint_name);
+  parents.push_back(parent);
+  offsets.conservativeResize(3, joints());
+  offsets.rightCols<1>() = offset;
+  return joints() - 1;
 }
 
 void Skeleton::AssignRoles() {
-  left_hip = Find("left_hip");
-  right_hip = Find("right_hip");
-  left_knee = Find("left_knee");
-  right_knee = Find("right_knee");
-  left_shoulder = Find("left_shoulder");
-  right_shoulder = Find("right_shoulder");
-  left_elbow = Find("left_elbow");
-  right_elbow = Find("right_elbow");
-  feet = {Find("left_ankle"), FindAny(*this, {"left_foot", "left_toes", "left_toe"}),
-          Find("right_ankle"), FindAny(*this, {"right_foot", "right_toes", "right_toe"})};
+  for (const auto& [role, joint] : Roles(*this)) *joint = Find(role);
+  feet[1] = FindAny(*this, {"left_foot", "left_toes", "left_toe"});
+  feet[3] = FindAny(*this, {"right_foot", "right_toes", "right_toe"});
 }
 
 std::string Skeleton::Describe() const {
@@ -138,7 +131,7 @@ void Skeleton::Validate() const {
   }
   std::set<std::string> seen;
   for (int joint = 0; joint < joints(); ++joint) {
-    const std::string index = Index(joint);
+    const std::string index = "[" + std::to_string(joint) + "]";
     if (joint_names[joint].empty() || !seen.insert(joint_names[joint]).second) {
       throw InvalidArgument("skeleton.joint_names" + index,
                             "'" + joint_names[joint] + "' is empty or names a second joint");
@@ -161,23 +154,21 @@ void Skeleton::Validate() const {
   }
   std::set<int> playing;
   for (const auto& [role, joint] : Roles(*this)) {
-    if (joint < -1 || joint >= joints()) {
+    if (*joint < -1 || *joint >= joints()) {
       throw InvalidArgument("skeleton." + std::string(role),
-                            std::to_string(joint) + ", must be -1 or the index of one of " +
+                            std::to_string(*joint) + ", must be -1 or the index of one of " +
                                 std::to_string(joints()) + " joints");
     }
-    if (joint >= 0 && !playing.insert(joint).second) {
+    if (*joint >= 0 && !playing.insert(*joint).second) {
       throw InvalidArgument("skeleton." + std::string(role),
-                            "'" + joint_names[joint] + "' plays another role already");
+                            "'" + joint_names[*joint] + "' plays another role already");
     }
   }
 }
 
 void Skeleton::RequireRoles() const {
   for (const auto& [role, joint] : Roles(*this)) {
-    if (joint < 0) {
-      throw InvalidArgument("skeleton", Describe() + ": none of them is the " + std::string(role));
-    }
+    if (*joint < 0) throw InvalidArgument("skeleton", Describe() + ": none of them is the " + role);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace choreo {
@@ -29,7 +30,10 @@ struct Skeleton {
   std::string Describe() const;
 
   /// Index of a joint by name, or -1.
-  int Find(const std::string& joint_name) const;
+  int Find(std::string_view joint_name) const;
+
+  /// Appends a joint and returns its index.
+  int AddJoint(const std::string& joint_name, int parent, const Eigen::Vector3d& offset);
 
   /// Sets the roles above from the joint names: left_hip, right_hip, left_knee, ..., left_ankle,
   /// and for the toes left_foot, left_toes or left_toe. A role that no joint plays stays -1.
@@ -50,6 +54,12 @@ struct Skeleton {
   /// stands 2 cm above the floor, which puts the ankles about 8 cm above it.
   static const Skeleton& Smpl24();
 };
+
+/// The first of these names, or -1.
+int IndexOf(const std::vector<std::string>& names, std::string_view name);
+
+/// Whether `node` is `ancestor` or hangs from it. `parents`: -1 for none.
+bool IsBelow(int node, int ancestor, const std::vector<int>& parents);
 
 /// Whether poses of one are poses of the other: the same joints and tree, bones that differ by less
 /// than a millimetre (files and messages round them).

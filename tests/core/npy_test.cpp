@@ -30,7 +30,7 @@ std::string Raw(const std::vector<T>& values) {
 }
 
 NpyArray Parse(const std::string& bytes) {
-  return ParseNpy(std::as_bytes(std::span(bytes)), "array");
+  return ParseNpy(bytes, "array");
 }
 
 std::string Refusal(const std::string& bytes) {

@@ -10,20 +10,15 @@
 #include "model/fit/fit_clip.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
+#include "tests/fit/fit_fixtures.h"
 #include "tests/motion/motion_fixtures.h"
 
 namespace choreo {
 namespace {
 
-const Skeleton& Smpl() { return Skeleton::Smpl24(); }
+using fixtures::Positions;
 
-PositionClip Positions(const Skeleton& skeleton, const Motion& motion) {
-  PositionClip clip;
-  clip.fps = motion.fps;
-  clip.joint_names = skeleton.joint_names;
-  for (const Pose& pose : motion.frames) clip.frames.push_back(JointPositions(skeleton, pose));
-  return clip;
-}
+const Skeleton& Smpl() { return Skeleton::Smpl24(); }
 
 double MeanJointError(const Motion& a, const Motion& b) {
   double sum = 0;
@@ -245,70 +240,6 @@ TEST(Fit, UnwindsATrunk) {
     EXPECT_LT(pose.rotations.col(Smpl().Find(joint)).norm(), 0.1) << joint;
   }
   EXPECT_LT((JointPositions(Smpl(), pose) - targets).colwise().norm().maxCoeff(), 0.001);
-}
-
-TEST(Fit, GivesTheSameBitsAgain) {
-  const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 12, 30));
-  const Motion a = FitClip(clip, IdentitySource(Smpl()), Smpl()).motion;
-  const Motion b = FitClip(clip, IdentitySource(Smpl()), Smpl()).motion;
-  for (size_t frame = 0; frame < a.frames.size(); ++frame) {
-    EXPECT_EQ(a.frames[frame].rotations, b.frames[frame].rotations);
-    EXPECT_EQ(a.frames[frame].root_position, b.frames[frame].root_position);
-  }
-}
-
-TEST(Fit, StandsTheDancerOnTheFloor) {
-  Motion motion = fixtures::SmoothMotion(Smpl(), 13, 5);
-  motion.frames.assign(30, RestPose(Smpl()));
-  for (Pose& pose : motion.frames) pose.root_position.y() += 0.4;
-  const FitResult result = FitClip(Positions(Smpl(), motion), IdentitySource(Smpl()), Smpl());
-  EXPECT_NEAR(result.report.ground_shift_m, -0.4, 0.002);
-  EXPECT_NEAR(result.motion.frames[7].root_position.y(), Smpl().pelvis_height, 0.002);
-}
-
-TEST(Fit, GroundsDriftButNotJumps) {
-  Motion motion;
-  motion.frames.assign(600, RestPose(Smpl()));
-  for (int frame = 0; frame < 600; ++frame) {
-    const bool jumps = frame >= 300 && frame < 315;
-    motion.frames[frame].root_position.y() += 0.2 + 0.01 * frame / 30.0 + (jumps ? 0.4 : 0.0);
-  }
-  const Motion grounded = FitClip(Positions(Smpl(), motion), IdentitySource(Smpl()), Smpl()).motion;
-  for (int frame = 60; frame < 540; ++frame) {
-    const bool jumps = frame >= 300 && frame < 315;
-    EXPECT_NEAR(grounded.frames[frame].root_position.y(),
-                Smpl().pelvis_height + (jumps ? 0.4 : 0.0), 0.02)
-        << frame;
-  }
-}
-
-TEST(Fit, ReportsWhatItDid) {
-  const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 14, 20));
-  const FitReport report = FitClip(clip, IdentitySource(Smpl()), Smpl()).report;
-  ASSERT_EQ(report.landmark_names.size(), 24U);
-  ASSERT_EQ(report.landmark_error_m.size(), 24U);
-  double sum = 0;
-  for (const double error : report.landmark_error_m) sum += error;
-  EXPECT_NEAR(sum / 24, report.mean_error_m, 1e-9);
-  EXPECT_LE(report.mean_error_m, report.p95_error_m);
-  EXPECT_LE(report.p95_error_m, report.max_error_m);
-  EXPECT_GT(report.max_error_m, 0);
-}
-
-TEST(Fit, NamesWhatIsMissing) {
-  PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 15, 3));
-  clip.joint_names[5] = "nobody";
-  try {
-    FitClip(clip, IdentitySource(Smpl()), Smpl());
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("right_knee"), std::string::npos);
-  }
-  clip.frames[1](0, 0) = std::nan("");
-  EXPECT_THROW(FitClip(clip, IdentitySource(Smpl()), Smpl()), Error);
-  EXPECT_THROW(FitClip(PositionClip{}, IdentitySource(Smpl()), Smpl()), Error);
-  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
-  EXPECT_THROW(fitter.Next(Eigen::Matrix3Xd::Zero(3, 23)), Error);
 }
 
 }  // namespace

@@ -4,31 +4,22 @@
 
 #include <cmath>
 #include <iostream>
-#include <numbers>
 
-#include "model/fit/character_body.h"
-#include "model/fit/guess_bones.h"
 #include "model/motion/contacts.h"
 #include "model/motion/kinematics.h"
-#include "model/motion/leg.h"
 #include "model/motion/limb.h"
 #include "model/motion/rotation.h"
-#include "tests/motion/motion_fixtures.h"
-#include "tests/support/expect_error.h"
+#include "tests/fit/fit_fixtures.h"
 #include "tests/support/proportions.h"
 
 namespace choreo {
 namespace {
 
+using fixtures::Rigged;
 using testing_support::ChildBody;
 using testing_support::LongLegs;
 
 const Skeleton& Smpl() { return Skeleton::Smpl24(); }
-
-// A rig by SMPL's names that stands in this pose at rest.
-CharacterBody Rigged(const Skeleton& body, const Pose& rest) {
-  return MakeCharacterBody(FindHumanBones(body.joint_names), JointPositions(body, rest));
-}
 
 // She sways and bends her knees on feet that stand, and claps in front of her chest.
 Motion Clapping() {
@@ -177,11 +168,8 @@ TEST(Transfer, OneSpineBoneBendsAsMuchAsThree) {
       offset += Smpl().offsets.col(parent);
       parent = Smpl().parents[static_cast<size_t>(parent)];
     }
-    body.joint_names.push_back(name);
-    body.parents.push_back(parent < 0 ? -1
-                                      : body.Find(Smpl().joint_names[static_cast<size_t>(parent)]));
-    body.offsets.conservativeResize(3, body.joints());
-    body.offsets.rightCols<1>() = offset;
+    body.AddJoint(
+        name, parent < 0 ? -1 : body.Find(Smpl().joint_names[static_cast<size_t>(parent)]), offset);
   }
   body.AssignRoles();
   body.StandOnFloor();
@@ -201,105 +189,6 @@ TEST(Transfer, OneSpineBoneBendsAsMuchAsThree) {
     EXPECT_LT(turned("head", "head"), 1e-9);
     EXPECT_LT(turned("left_elbow", "left_elbow"), 1e-9);
   }
-}
-
-TEST(CharacterBody, StandsAsSmplDoesWhateverItsRestPose) {
-  for (const Skeleton& body : {Smpl(), ChildBody(), LongLegs()}) {
-    Pose rest = RestPose(body);
-    rest.rotations.col(0) << 0, 2.0, 0;
-    rest.rotations.col(body.left_shoulder) << 0.1, 0.2, -0.9;
-    rest.rotations.col(body.right_shoulder) << 0, 0, 1.2;
-    rest.rotations.col(body.left_elbow) << 0, -0.4, 0;
-    // Legs apart, feet flat on the floor.
-    rest.rotations.col(body.left_hip) << 0, 0, 0.2;
-    rest.rotations.col(body.feet[0]) << 0, 0, -0.2;
-    rest.rotations.col(body.right_hip) << 0, 0, -0.2;
-    rest.rotations.col(body.feet[2]) << 0, 0, 0.2;
-    rest.root_position.y() = *StandingHeight(body, rest);
-    const CharacterBody made = Rigged(body, rest);
-    const Eigen::Matrix3Xd smpl = JointPositions(Smpl(), RestPose(Smpl()));
-    const Eigen::Matrix3Xd stands = JointPositions(made.skeleton, RestPose(made.skeleton));
-    for (const auto& [from, to] :
-         {std::pair("left_shoulder", "left_elbow"), std::pair("left_elbow", "left_wrist"),
-          std::pair("right_shoulder", "right_elbow"), std::pair("left_hip", "left_knee"),
-          std::pair("right_knee", "right_ankle")}) {
-      const auto direction = [&](const Skeleton& skeleton, const Eigen::Matrix3Xd& places) {
-        return (places.col(skeleton.Find(to)) - places.col(skeleton.Find(from)))
-            .normalized()
-            .eval();
-      };
-      EXPECT_GT(direction(made.skeleton, stands).dot(direction(Smpl(), smpl)), 1 - 1e-9) << to;
-    }
-    EXPECT_NEAR(stands(1, made.skeleton.feet[1]), 0.02 * CharacterSize(made.skeleton), 0.02);
-    EXPECT_GT(stands(2, made.skeleton.feet[1]) - stands(2, made.skeleton.feet[0]), 0.05);
-  }
-}
-
-TEST(CharacterBody, LyingFilesAndThoseWithoutToesAreStoodUp) {
-  const Eigen::Matrix3Xd places = JointPositions(Smpl(), RestPose(Smpl()));
-  HumanBones bones = FindHumanBones(Smpl().joint_names);
-  // Z is up, and a unit is a centimetre.
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX()).matrix();
-  const Eigen::Matrix3Xd lying = 100 * turn * places;
-  bones.bones.erase("left_foot");
-  bones.bones.erase("right_foot");
-  const CharacterBody made = MakeCharacterBody(bones, lying);
-  const Eigen::Matrix3Xd stands = JointPositions(made.skeleton, RestPose(made.skeleton));
-  EXPECT_NEAR(stands(1, 0), 100 * Smpl().pelvis_height, 2);
-  EXPECT_NEAR(stands(1, made.skeleton.feet[1]), 2, 1);
-  EXPECT_EQ(made.nodes[static_cast<size_t>(made.skeleton.feet[1])], -1);
-}
-
-TEST(CharacterBody, RefusesWhatIsNoBody) {
-  const Eigen::Matrix3Xd places = JointPositions(Smpl(), RestPose(Smpl()));
-  const HumanBones all = FindHumanBones(Smpl().joint_names);
-  const auto refuse = [&](const std::string& message, const HumanBones& bones,
-                          const Eigen::Matrix3Xd& at) {
-    ExpectError(ErrorCode::kInvalidArgument, message, [&] { MakeCharacterBody(bones, at); });
-  };
-  HumanBones bones = all;
-  bones.bones.erase("right_knee");
-  refuse("bones: none of them is the right_knee", bones, places);
-  bones = all;
-  bones.bones["left_knee"] = bones.bones["left_ankle"];
-  refuse("bones: left_ankle and left_knee are one node", bones, places);
-  bones = all;
-  bones.bones.erase("spine1");
-  refuse("those of the spine are not numbered one after the other", bones, places);
-  bones = all;
-  for (const char* bone : {"hip", "knee", "ankle", "foot", "shoulder", "elbow", "wrist", "collar"})
-    std::swap(bones.bones[std::string("left_") + bone], bones.bones[std::string("right_") + bone]);
-  refuse("left and right are exchanged", bones, places);
-  Eigen::Matrix3Xd flat = places;
-  flat.col(Smpl().left_elbow) = flat.col(Smpl().left_shoulder);
-  refuse("left_elbow stands where left_shoulder does", all, flat);
-  refuse("stand in one place", all, Eigen::Matrix3Xd::Zero(3, 24));
-}
-
-TEST(GuessBones, FindsABodyByWhereItStands) {
-  for (const Skeleton& body : {Smpl(), ChildBody(), LongLegs()}) {
-    for (const double facing : {0.0, std::numbers::pi}) {
-      for (const double down : {0.0, 0.8}) {
-        Pose rest = RestPose(body);
-        rest.rotations.col(0) << 0, facing, 0;
-        rest.rotations.col(body.left_shoulder) << 0, 0, -down;
-        rest.rotations.col(body.right_shoulder) << 0, 0, down;
-        const HumanBones guess = GuessBones(body.parents, JointPositions(body, rest),
-                                            std::vector<bool>(body.parents.size(), true));
-        EXPECT_EQ(MissingBone(guess), "");
-        for (const auto& [bone, node] : guess.bones)
-          EXPECT_EQ(body.joint_names[static_cast<size_t>(node)], bone) << facing << " " << down;
-      }
-    }
-  }
-}
-
-TEST(GuessBones, GuessesNothingOfWhatIsNoBody) {
-  const Eigen::Matrix3Xd line = Eigen::Matrix3Xd::Zero(3, 30);
-  std::vector<int> parents;
-  for (int i = 0; i < 30; ++i) parents.push_back(i - 1);
-  EXPECT_NE(MissingBone(GuessBones(parents, line, std::vector<bool>(30, true))), "");
-  EXPECT_NE(MissingBone(GuessBones({}, Eigen::Matrix3Xd(3, 0), {})), "");
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include "model/flow/flow_sampler.h"
-#include "model/motion/way_round.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +6,7 @@
 
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo {

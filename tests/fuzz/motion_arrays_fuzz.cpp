@@ -4,7 +4,7 @@
 #include <string>
 
 #include "model/formats/amass_npz.h"
-#include "model/formats/skeleton_npz.h"
+#include "model/formats/own_arrays.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace choreo {

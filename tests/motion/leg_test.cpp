@@ -1,4 +1,4 @@
-#include "model/motion/leg.h"
+#include "model/motion/limb.h"
 
 #include <gtest/gtest.h>
 

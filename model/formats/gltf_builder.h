@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace choreo {
+
+/// The way of a node through a dance, in numbers as glTF has them.
+struct GltfTrack {
+  int node = -1;
+  std::vector<float> turns;   ///< x y z w, frame after frame
+  std::vector<float> places;  ///< x y z; empty where it stays in its place
+
+  /// Of the two signs of a turn the one that is nearer to the frame before: readers interpolate
+  /// along the shorter way between neighbours of one sign.
+  void AddTurn(Eigen::Quaterniond turn);
+  void AddPlace(const Eigen::Vector3d& place);
+};
+
+/// A glTF document and its binary data, to which more is added. Private to this folder.
+class GltfBuilder {
+ public:
+  using Json = nlohmann::ordered_json;
+
+  GltfBuilder(Json document, std::string_view binary);
+
+  Json& document() { return document_; }
+  /// A member that is a list. Throws Error(kInvalidArgument) naming it where it is something else.
+  Json& List(const char* name);
+
+  /// Adds an accessor with a view of its own, whose elements are packed, and returns its index.
+  /// `type` as in "VEC3"; `target` is the view's, 0 for none.
+  template <typename T>
+  size_t Add(std::span<const T> values, std::string_view type, bool bounds = false,
+             int target = 0) {
+    static_assert(std::is_unsigned_v<T> || std::is_same_v<T, float>);
+    constexpr int kComponent = std::is_same_v<T, float> ? 5126
+                               : sizeof(T) == 4         ? 5125
+                               : sizeof(T) == 2         ? 5123
+                                                        : 5121;
+    const size_t index =
+        AddBytes({reinterpret_cast<const char*>(values.data()), values.size_bytes()}, kComponent,
+                 values.size() / Width(type), type, target);
+    if (bounds) {
+      using Columns = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+      const auto width = static_cast<Eigen::Index>(Width(type));
+      SetBounds(Eigen::Map<const Columns>(values.data(), width, std::ssize(values) / width)
+                    .template cast<double>());
+    }
+    return index;
+  }
+
+  /// Adds an animation before all others, "dance", whose extras hold `fps`. Tracks of no node are
+  /// left out.
+  void AddDance(double fps, size_t frames, const std::vector<GltfTrack>& tracks);
+
+  /// The whole file, with further chunks behind. Throws as JoinGlb.
+  std::string Join(std::string_view others = {});
+
+ private:
+  static size_t Width(std::string_view type);
+  size_t AddBytes(std::string_view bytes, int component, size_t count, std::string_view type,
+                  int target);
+  void SetBounds(const Eigen::MatrixXd& values);
+
+  Json document_;
+  std::string binary_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,46 @@
+#include "model/fit/guess_bones.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "model/fit/character_body.h"
+#include "model/motion/kinematics.h"
+#include "tests/support/proportions.h"
+
+namespace choreo {
+namespace {
+
+using testing_support::ChildBody;
+using testing_support::LongLegs;
+
+const Skeleton& Smpl() { return Skeleton::Smpl24(); }
+
+TEST(GuessBones, FindsABodyByWhereItStands) {
+  for (const Skeleton& body : {Smpl(), ChildBody(), LongLegs()}) {
+    for (const double facing : {0.0, std::numbers::pi}) {
+      for (const double down : {0.0, 0.8}) {
+        Pose rest = RestPose(body);
+        rest.rotations.col(0) << 0, facing, 0;
+        rest.rotations.col(body.left_shoulder) << 0, 0, -down;
+        rest.rotations.col(body.right_shoulder) << 0, 0, down;
+        const HumanBones guess = GuessBones(body.parents, JointPositions(body, rest),
+                                            std::vector<bool>(body.parents.size(), true));
+        EXPECT_EQ(MissingBone(guess), "");
+        for (const auto& [bone, node] : guess.bones)
+          EXPECT_EQ(body.joint_names[static_cast<size_t>(node)], bone) << facing << " " << down;
+      }
+    }
+  }
+}
+
+TEST(GuessBones, GuessesNothingOfWhatIsNoBody) {
+  const Eigen::Matrix3Xd line = Eigen::Matrix3Xd::Zero(3, 30);
+  std::vector<int> parents;
+  for (int i = 0; i < 30; ++i) parents.push_back(i - 1);
+  EXPECT_NE(MissingBone(GuessBones(parents, line, std::vector<bool>(30, true))), "");
+  EXPECT_NE(MissingBone(GuessBones({}, Eigen::Matrix3Xd(3, 0), {})), "");
+}
+
+}  // namespace
+}  // namespace choreo
