@@ -12,9 +12,4 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// a at t = 0, b at t = 1.
-constexpr Colour Mix(const Colour& a, const Colour& b, double t) {
-  return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
-}
-
 }  // namespace choreo

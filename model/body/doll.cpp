@@ -6,12 +6,14 @@
 #include <string>
 #include <string_view>
 
+#include "model/motion/mirror.h"
+
 namespace choreo {
 namespace {
 
 constexpr double kStickRadius = 0.035;  // of a bone that plays no part in a body we know
 constexpr double kTrunkRadius = 0.085;
-constexpr float kBlend = 0.012f;  // metres
+constexpr float kBlend = 0.012f, kBlendReach = 4 * kBlend;  // metres
 
 // A DollBall by its joint's name.
 struct Ball {
@@ -70,10 +72,6 @@ const NamedPart kMiddle[] = {
 
 Ball Mirrored(const Ball& ball) { return {ball.joint, -ball.x, ball.y, ball.z, ball.radius}; }
 
-std::string RightName(const std::string& name) {
-  return name.starts_with("left_") ? "right_" + name.substr(5) : name;
-}
-
 // False where the skeleton does not have a joint that the doll needs.
 bool AddParts(const Skeleton& skeleton, std::vector<DollPart>& doll) {
   const auto ball = [&](const Ball& named, const std::string& joint) {
@@ -90,8 +88,8 @@ bool AddParts(const Skeleton& skeleton, std::vector<DollPart>& doll) {
   for (const NamedPart& part : kSide) {
     if (!add(ball(part.a, part.a.joint), ball(part.b, part.b.joint), part.colour)) return false;
     const bool limb = part.colour.r == kLeftColour.r;
-    if (!add(ball(Mirrored(part.a), RightName(part.a.joint)),
-             ball(Mirrored(part.b), RightName(part.b.joint)), limb ? kRightColour : part.colour)) {
+    if (!add(ball(Mirrored(part.a), OtherSide(part.a.joint)),
+             ball(Mirrored(part.b), OtherSide(part.b.joint)), limb ? kRightColour : part.colour)) {
       return false;
     }
   }
@@ -182,14 +180,27 @@ std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose) 
   return PlaceDoll(MakeDoll(skeleton), ForwardKinematics(skeleton, pose));
 }
 
-Eigen::Vector3f SkinNormal(const std::vector<PlacedPart>& parts, size_t index,
+std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index) {
+  const BoundedCone part(parts[index].shape);
+  std::vector<const PlacedPart*> around;
+  for (const PlacedPart& other : parts) {
+    const BoundedCone bounds(other.shape);
+    const float reach = 1.01f * (part.radius + bounds.radius + kBlendReach);
+    if (&other != &parts[index] && other.colour == parts[index].colour &&
+        (bounds.middle - part.middle).norm() < reach) {
+      around.push_back(&other);
+    }
+  }
+  return around;
+}
+
+Eigen::Vector3f SkinNormal(const std::vector<const PlacedPart*>& around,
                            const Eigen::Vector3f& point, const Eigen::Vector3f& own) {
   Eigen::Vector3f sum = own;
-  for (size_t i = 0; i < parts.size(); ++i) {
-    if (i == index || !(parts[i].colour == parts[index].colour)) continue;
+  for (const PlacedPart* part : around) {
     Eigen::Vector3f normal;
-    const float distance = SurfaceDistance(parts[i].shape, point, normal);
-    if (distance < 4 * kBlend) sum += std::exp(-std::max(0.0f, distance) / kBlend) * normal;
+    const float distance = SurfaceDistance(part->shape, point, normal);
+    if (distance < kBlendReach) sum += std::exp(-std::max(0.0f, distance) / kBlend) * normal;
   }
   return sum.normalized();
 }

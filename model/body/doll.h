@@ -52,9 +52,12 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
 /// not the skeleton's.
 std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
 
-/// Parts of one colour are one piece of skin: the normal of the part `index` at `point` on its
-/// surface, which alone would be `own`, blended with those of the parts that it meets there.
-Eigen::Vector3f SkinNormal(const std::vector<PlacedPart>& parts, size_t index,
+/// Parts of one colour are one piece of skin: those that the part `index` may meet.
+std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index);
+
+/// The normal of a part at `point` on its surface, which alone would be `own`, blended with those
+/// of the parts that it meets there, of `around`.
+Eigen::Vector3f SkinNormal(const std::vector<const PlacedPart*>& around,
                            const Eigen::Vector3f& point, const Eigen::Vector3f& own);
 
 }  // namespace choreo

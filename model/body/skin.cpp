@@ -109,9 +109,9 @@ std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
     }
     const size_t first = patch->positions.size();
     AddCapsule(*patch, parts[i].shape, doll[i].a.joint, Carrier(skeleton, doll[i]));
+    const std::vector<const PlacedPart*> around = SkinAround(parts, i);
     for (size_t vertex = first; vertex < patch->positions.size(); ++vertex) {
-      patch->normals[vertex] =
-          SkinNormal(parts, i, patch->positions[vertex], patch->normals[vertex]);
+      patch->normals[vertex] = SkinNormal(around, patch->positions[vertex], patch->normals[vertex]);
     }
   }
   return patches;

@@ -21,14 +21,16 @@ int CellsIn(float length) {
 FloorLight::FloorLight(const std::vector<BoundedCone>& parts, const Vector3f& lamp,
                        float lamp_spread) {
   constexpr float kSkyMargin = 0.4f;
+  const auto shadow_of = [&](const BoundedCone& part) -> Vector3f {
+    return part.middle - std::max(0.0f, part.middle.y()) / lamp.y() * lamp;
+  };
+  const auto penumbra_of = [&](const BoundedCone& part) {
+    return part.radius * (1 + 1 / lamp.y()) + 2 * lamp_spread * std::max(0.0f, part.middle.y());
+  };
   Eigen::Vector2f low = Eigen::Vector2f::Constant(1e9f), high = -low;
   for (const BoundedCone& part : parts) {
-    const Vector3f& middle = part.middle;
-    const Vector3f shadow = middle - std::max(0.0f, middle.y()) / lamp.y() * lamp;
-    const float margin =
-        part.radius * (1 + 1 / lamp.y()) + 2 * lamp_spread * std::max(0.0f, middle.y());
-    for (const auto& [point, around] :
-         {std::pair(shadow, margin), std::pair(middle, part.radius + kSkyMargin)}) {
+    for (const auto& [point, around] : {std::pair(shadow_of(part), penumbra_of(part)),
+                                        std::pair(part.middle, part.radius + kSkyMargin)}) {
       const Eigen::Vector2f on_floor(point.x(), point.z());
       low = low.cwiseMin(on_floor - Eigen::Vector2f::Constant(around));
       high = high.cwiseMax(on_floor + Eigen::Vector2f::Constant(around));
@@ -37,19 +39,32 @@ FloorLight::FloorLight(const std::vector<BoundedCone>& parts, const Vector3f& la
   low_ = low;
   columns_ = 2 + CellsIn(high.x() - low.x());
   rows_ = 2 + CellsIn(high.y() - low.y());
-  light_.resize(static_cast<size_t>(columns_) * rows_);
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const Vector3f point(low_.x() + static_cast<float>(column) * kShadowCell, 0,
-                           low_.y() + static_cast<float>(row) * kShadowCell);
-      float hidden = 0, open = 1;
-      for (const BoundedCone& part : parts) {
-        hidden = std::max(hidden, ShadowOf(part.shape, point, lamp, lamp_spread));
-        if (part.HidesSky(point)) open *= 1 - OcclusionBy(part.shape, point, Vector3f::UnitY());
+  // Each part darkens the cells around it and around its shadow.
+  std::vector<float> hidden(static_cast<size_t>(columns_) * rows_, 0), open(hidden.size(), 1);
+  const auto each_cell = [&](const Vector3f& middle, float reach, const auto& darken) {
+    const auto cell = [](float from, float to, int count) {
+      return std::clamp(static_cast<int>(std::floor((to - from) / kShadowCell)), 0, count);
+    };
+    const int right = cell(low_.x(), middle.x() + reach + kShadowCell, columns_);
+    const int bottom = cell(low_.y(), middle.z() + reach + kShadowCell, rows_);
+    for (int row = cell(low_.y(), middle.z() - reach, rows_); row < bottom; ++row) {
+      for (int column = cell(low_.x(), middle.x() - reach, columns_); column < right; ++column) {
+        const Vector3f point(low_.x() + static_cast<float>(column) * kShadowCell, 0,
+                             low_.y() + static_cast<float>(row) * kShadowCell);
+        darken(point, static_cast<size_t>(row) * columns_ + column);
       }
-      light_[static_cast<size_t>(row) * columns_ + column] = 0.45f * (1 - hidden) + 0.55f * open;
     }
+  };
+  for (const BoundedCone& part : parts) {
+    each_cell(shadow_of(part), 1.5f * penumbra_of(part) + 0.1f, [&](const Vector3f& at, size_t i) {
+      hidden[i] = std::max(hidden[i], ShadowOf(part.shape, at, lamp, lamp_spread));
+    });
+    each_cell(part.middle, part.SkyReach(), [&](const Vector3f& at, size_t i) {
+      if (part.HidesSky(at)) open[i] *= 1 - OcclusionBy(part.shape, at, Vector3f::UnitY());
+    });
   }
+  for (size_t i = 0; i < hidden.size(); ++i)
+    light_.push_back(0.45f * (1 - hidden[i]) + 0.55f * open[i]);
 }
 
 float FloorLight::At(float x, float z) const {

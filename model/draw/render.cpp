@@ -1,5 +1,6 @@
 #include "model/draw/render.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -22,18 +23,31 @@ Vector3f Linear(const Colour& colour) {
   return {linear(colour.r), linear(colour.g), linear(colour.b)};
 }
 
-uint8_t Encode(float linear) {
+// Linear light, 0 to 1, as a byte of sRGB.
+class Encoding {
+ public:
+  uint8_t operator()(float linear) const {
+    return bytes_[static_cast<size_t>(std::clamp(linear, 0.0f, 1.0f) * kSteps + 0.5f)];
+  }
+
+  static const Encoding& Shared() {
+    static const Encoding encoding;
+    return encoding;
+  }
+
+ private:
   // Fine enough for the steep dark end: a step of the table is less than one of the byte.
-  constexpr int kSteps = 1 << 15;
-  static const std::vector<uint8_t> table = [] {
-    std::vector<uint8_t> bytes(kSteps + 1);
+  static constexpr int kSteps = 1 << 15;
+
+  Encoding() : bytes_(kSteps + 1) {
     for (int i = 0; i <= kSteps; ++i) {
-      bytes[i] = static_cast<uint8_t>(std::lround(255 * std::pow(double{1} * i / kSteps, 1 / 2.2)));
+      bytes_[i] =
+          static_cast<uint8_t>(std::lround(255 * std::pow(double{1} * i / kSteps, 1 / 2.2)));
     }
-    return bytes;
-  }();
-  return table[static_cast<size_t>(std::clamp(linear, 0.0f, 1.0f) * kSteps + 0.5f)];
-}
+  }
+
+  std::vector<uint8_t> bytes_;
+};
 
 float SmoothStep(float from, float to, float value) {
   const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
@@ -44,9 +58,9 @@ class Renderer {
  public:
   Renderer(const std::vector<PlacedPart>& figure, const View& view, const FrameStyle& style,
            const Picture& picture)
-      : figure_(figure),
-        parts_(Bound(figure)),
+      : parts_(Bound(figure)),
         camera_(view, picture.width, picture.height),
+        half_width_(0.5f * static_cast<float>(picture.width)),
         samples_(style.samples),
         middle_(view.target.cast<float>()),
         reach_(static_cast<float>(0.72 * view.extent *
@@ -56,19 +70,22 @@ class Renderer {
         grid_(static_cast<float>(style.grid_m)),
         background_(Linear(style.background)),
         floor_(Linear(style.floor)) {
-    for (const PlacedPart& part : figure) colours_.push_back(Linear(part.colour));
+    for (size_t i = 0; i < figure.size(); ++i) {
+      colours_.push_back(Linear(figure[i].colour));
+      nearby_.push_back(Nearby(parts_[i]));
+      skins_.push_back(SkinAround(figure, i));
+    }
     Enclose(picture);
   }
 
   void Render(Picture& picture) {
-    for (size_t i = 0; i < parts_.size(); ++i) Cast(static_cast<int>(i));
+    Cast();
     picture.rgb.resize(size_t{3} * picture.width * picture.height);
+    uint8_t* rgb = picture.rgb.data();
     for (int y = 0; y < picture.height; ++y) {
+      const FloorRow floor = RowAt(static_cast<float>(y) + 0.5f, 1);
       for (int x = 0; x < picture.width; ++x) {
-        const Vector3f colour = Pixel(x, y);
-        for (int c = 0; c < 3; ++c) {
-          picture.rgb[3 * (static_cast<size_t>(y) * picture.width + x) + c] = Encode(colour[c]);
-        }
+        for (const float value : Pixel(x, y, floor)) *rgb++ = encode_(value);
       }
     }
   }
@@ -86,6 +103,21 @@ class Renderer {
     return Eigen::Vector3d(0.62 * std::sin(side), 1, 0.62 * std::cos(side))
         .normalized()
         .cast<float>();
+  }
+
+  // The parts that may stand between a part's surface and the lamp or the sky.
+  std::vector<const BoundedCone*> Nearby(const BoundedCone& part) const {
+    const float around = part.radius + 2 * kShadowBias;
+    std::vector<const BoundedCone*> nearby;
+    for (const BoundedCone& other : parts_) {
+      const Vector3f to = other.middle - part.middle;
+      const float beside = to.cross(lamp_).norm();
+      const bool shades =
+          beside < around + other.radius && to.dot(lamp_) > -(around + other.radius);
+      if (&other != &part && (shades || to.norm() < around + other.SkyReach()))
+        nearby.push_back(&other);
+    }
+    return nearby;
   }
 
   // The pixels outside of which there is no body.
@@ -128,31 +160,62 @@ class Renderer {
            (static_cast<float>(row) + 0.5f) / static_cast<float>(samples_);
   }
 
-  // Enters one part's nearest points.
-  void Cast(int index) {
-    const RoundedCone& shape = parts_[index].shape;
-    const PixelBox box = BoxOf(shape);
-    const int left = (box.left - box_.left) * samples_, top = (box.top - box_.top) * samples_;
-    const int right = std::min(columns_, (box.right - box_.left) * samples_);
-    const int bottom = std::min(rows_, (box.bottom - box_.top) * samples_);
-    for (int row = top; row < bottom; ++row) {
-      for (int column = left; column < right; ++column) {
-        const Vector3f ray = camera_.Ray(PixelX(column), PixelY(row));
-        if (!parts_[index].MeetsRay(camera_.eye(), ray)) continue;
-        const RayHit hit = Intersect(shape, camera_.eye(), ray);
-        const size_t at = static_cast<size_t>(row) * columns_ + column;
-        if (hit.distance < 0 || (part_[at] >= 0 && distance_[at] <= hit.distance)) continue;
-        distance_[at] = hit.distance;
-        part_[at] = index;
-        normal_[at] = hit.normal;
+  // Enters the parts' nearest points, row by row of samples.
+  void Cast() {
+    std::vector<PixelBox> boxes;  // of samples
+    std::vector<SeenCone> seen;
+    for (const BoundedCone& part : parts_) {
+      seen.emplace_back(part.shape, camera_.eye());
+      const PixelBox box = BoxOf(part.shape);
+      boxes.push_back({(box.left - box_.left) * samples_, (box.top - box_.top) * samples_,
+                       std::min(columns_, (box.right - box_.left) * samples_),
+                       std::min(rows_, (box.bottom - box_.top) * samples_)});
+    }
+    std::vector<Vector3f> rays(static_cast<size_t>(columns_));
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column)
+        rays[column] = camera_.Ray(PixelX(column), PixelY(row));
+      for (size_t i = 0; i < parts_.size(); ++i) {
+        if (row < boxes[i].top || row >= boxes[i].bottom) continue;
+        for (int column = boxes[i].left; column < boxes[i].right; ++column) {
+          const RayHit hit = seen[i].Enter(rays[column]);
+          const size_t at = static_cast<size_t>(row) * columns_ + column;
+          if (hit.distance < 0 || (part_[at] >= 0 && distance_[at] <= hit.distance)) continue;
+          distance_[at] = hit.distance;
+          part_[at] = static_cast<int>(i);
+          normal_[at] = hit.normal;
+        }
       }
     }
   }
 
+  static Eigen::Vector2f OnFloor(const Vector3f& point) { return {point.x(), point.z()}; }
+
+  // Where the points of a row of the picture lie on the floor, x and z: the camera does not lean to
+  // a side, so that they lie on a line, evenly spaced. `next` is the row `size` pixels below.
+  struct FloorLine {
+    Eigen::Vector2f middle, step;  // at the picture's middle, and from pixel to pixel
+    Eigen::Vector2f At(float from_middle) const { return middle + from_middle * step; }
+  };
+  struct FloorRow {
+    bool seen;  // below the horizon
+    float size;
+    FloorLine here, next;
+  };
+  FloorRow RowAt(float y, float size) const {
+    const auto line = [&](float at) -> FloorLine {
+      const Vector3f ray = camera_.Direction(half_width_, at);
+      const float along = -camera_.eye().y() / ray.y();
+      return {OnFloor(camera_.eye() + along * ray), OnFloor(along * camera_.right())};
+    };
+    return {camera_.Direction(half_width_, y).y() < 0, size, line(y), line(y + size)};
+  }
+
   // Floor and parts are smooth: a pixel that shows one of them alone needs no more than one sample.
-  Vector3f Pixel(int x, int y) const {
-    const Vector3f whole(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1);
-    if (x < box_.left || x >= box_.right || y < box_.top || y >= box_.bottom) return Floor(whole);
+  Vector3f Pixel(int x, int y, const FloorRow& floor) const {
+    const float middle = static_cast<float>(x) + 0.5f;
+    if (x < box_.left || x >= box_.right || y < box_.top || y >= box_.bottom)
+      return Floor(floor, middle);
     const int left = (x - box_.left) * samples_, top = (y - box_.top) * samples_;
     const int first = part_[static_cast<size_t>(top) * columns_ + left];
     bool one = true;
@@ -160,7 +223,8 @@ class Renderer {
       const int* parts = &part_[static_cast<size_t>(row) * columns_ + left];
       one = one && std::count(parts, parts + samples_, first) == samples_;
     }
-    if (one) return first < 0 ? Floor(whole) : Sample(left + samples_ / 2, top + samples_ / 2);
+    if (one)
+      return first < 0 ? Floor(floor, middle) : Sample(left + samples_ / 2, top + samples_ / 2);
     Vector3f sum = Vector3f::Zero();
     for (int row = top; row < top + samples_; ++row) {
       for (int column = left; column < left + samples_; ++column) sum += Sample(column, row);
@@ -171,23 +235,22 @@ class Renderer {
   Vector3f Sample(int column, int row) const {
     const size_t at = static_cast<size_t>(row) * columns_ + column;
     const float x = PixelX(column), y = PixelY(row);
-    if (part_[at] < 0) return Floor({x, y, 1 / static_cast<float>(samples_)});
+    if (part_[at] < 0) return Floor(RowAt(y, 1 / static_cast<float>(samples_)), x);
     const Vector3f ray = camera_.Ray(x, y);
     const Vector3f point = camera_.eye() + distance_[at] * ray;
-    return Body(part_[at], point, SkinNormal(figure_, part_[at], point, normal_[at]), ray);
+    return Body(part_[at], point, SkinNormal(skins_[part_[at]], point, normal_[at]), ray);
   }
 
   Vector3f Body(int index, const Vector3f& point, const Vector3f& normal,
                 const Vector3f& ray) const {
     const Vector3f start = point + kShadowBias * normal;
     float lit = 1, open = 1;
-    for (const BoundedCone& part : parts_) {
-      if (&part == &parts_[index]) continue;
-      if (lit > 0 && part.MeetsRay(start, lamp_) &&
-          Intersect(part.shape, start, lamp_).distance > 0) {
+    for (const BoundedCone* part : nearby_[index]) {
+      if (lit > 0 && part->MeetsRay(start, lamp_) &&
+          Intersect(part->shape, start, lamp_).distance > 0) {
         lit = 0;
       }
-      if (part.HidesSky(start)) open *= 1 - 0.7f * OcclusionBy(part.shape, start, normal);
+      if (part->HidesSky(start)) open *= 1 - 0.7f * OcclusionBy(part->shape, start, normal);
     }
     const float lamp = lit * std::max(0.0f, normal.dot(lamp_));
     const float sky = open * (0.5f + 0.5f * normal.y());
@@ -201,12 +264,6 @@ class Renderer {
     return light * colours_[index] + shine;
   }
 
-  // Where a ray meets the floor, x and z.
-  Eigen::Vector2f OnFloor(const Vector3f& ray) const {
-    const float along = -camera_.eye().y() / ray.y();
-    return {camera_.eye().x() + along * ray.x(), camera_.eye().z() + along * ray.z()};
-  }
-
   // How much of a stretch of the floor, `width` wide around `at`, the grid's lines cover.
   float Lines(float at, float width) const {
     const float from_line = std::abs(at - grid_ * std::round(at / grid_));
@@ -214,29 +271,28 @@ class Renderer {
     return std::clamp(covered, 0.0f, std::min(1.0f, 2 * kGridHalfWidth / width));
   }
 
-  // `pixel`: x, y and size.
-  Vector3f Floor(const Vector3f& pixel) const {
-    const Vector3f ray = camera_.Ray(pixel.x(), pixel.y());
-    if (ray.y() > -1e-4f) return background_;
-    const Eigen::Vector2f point = OnFloor(ray);
-    const float away = (point - Eigen::Vector2f(middle_.x(), middle_.z())).norm();
-    if (away > reach_) return background_;
+  Vector3f Floor(const FloorRow& row, float x) const {
+    if (!row.seen) return background_;
+    const Eigen::Vector2f point = row.here.At(x - half_width_);
+    const float away2 = (point - OnFloor(middle_)).squaredNorm();
+    if (!(away2 <= reach_ * reach_)) return background_;
     float shade = floor_light_.At(point.x(), point.y());
     if (grid_ > 0) {
       const Eigen::Vector2f size =
-          (OnFloor(camera_.Ray(pixel.x() + pixel.z(), pixel.y())) - point).cwiseAbs() +
-          (OnFloor(camera_.Ray(pixel.x(), pixel.y() + pixel.z())) - point).cwiseAbs();
+          row.size * row.here.step.cwiseAbs() + (row.next.At(x - half_width_) - point).cwiseAbs();
       const float free = (1 - Lines(point.x(), size.x())) * (1 - Lines(point.y(), size.y()));
       shade *= 1 - 0.20f * (1 - free);
     }
-    const float fade = SmoothStep(0.55f * reach_, reach_, away);
+    const float fade = SmoothStep(0.55f * reach_, reach_, std::sqrt(away2));
     return (1 - fade) * shade * floor_ + fade * background_;
   }
 
-  const std::vector<PlacedPart>& figure_;
   std::vector<BoundedCone> parts_;
+  std::vector<std::vector<const BoundedCone*>> nearby_;  // of each part
+  std::vector<std::vector<const PlacedPart*>> skins_;    // the same
   std::vector<Vector3f> colours_;
   Camera camera_;
+  float half_width_;
   int samples_;
   Vector3f middle_;
   float reach_;
@@ -244,6 +300,7 @@ class Renderer {
   FloorLight floor_light_;
   float grid_;
   Vector3f background_, floor_;
+  const Encoding& encode_ = Encoding::Shared();
   PixelBox box_;
   int columns_ = 0, rows_ = 0;  // of samples, in the box
   std::vector<float> distance_;

@@ -20,10 +20,8 @@ struct VideoFormat {
   double song_start_s = 0;  ///< second of the song that is heard with the first frame
 };
 
-/// Writes an MP4 (H.264, AAC) by the program `ffmpeg`, which runs beside us and takes frames
-/// through its standard input. The file appears when it is complete, or not at all. Equal frames
-/// and songs give equal bytes for one version of ffmpeg. Not thread-safe.
-///
+/// Writes an MP4 (H.264, AAC) by the program `ffmpeg`. The file appears when it is complete, or not
+/// at all. Equal frames and songs give equal bytes for one version of ffmpeg. Not thread-safe.
 /// Members throw Error(kNotFound) if there is no ffmpeg, Error(kInvalidArgument) for sizes and
 /// rates outside their limits, Error(kInternal) whose field is the file and whose message is
 /// ffmpeg's own where it fails.

@@ -11,7 +11,6 @@ namespace choreo {
 namespace {
 
 constexpr double kThreeQuarters = 0.6;  // radians beside the dancer's own heading
-constexpr double kMiddleHeight = 0.95;
 constexpr float kNear = 0.05f;
 
 void CheckWithin(const char* field, double value, double low, double high) {
@@ -25,14 +24,6 @@ void CheckWithin(const char* field, double value, double low, double high) {
 
 double ThreeQuarterAzimuth(const Pose& pose) {
   return WrapAngle(Heading(ExpMap(pose.rotations.col(0))) + kThreeQuarters);
-}
-
-View FollowView(const Pose& pose, double azimuth, double extent) {
-  View view;
-  view.target = {pose.root_position.x(), kMiddleHeight, pose.root_position.z()};
-  view.azimuth = azimuth;
-  view.extent = extent;
-  return view;
 }
 
 Camera::Camera(const View& view, int width, int height)
@@ -55,8 +46,8 @@ Camera::Camera(const View& view, int width, int height)
   focal_ = static_cast<float>(height / 2.0 / slope);
 }
 
-Eigen::Vector3f Camera::Ray(float x, float y) const {
-  return (focal_ * forward_ + (x - width_ / 2) * right_ - (y - height_ / 2) * up_).normalized();
+Eigen::Vector3f Camera::Direction(float x, float y) const {
+  return focal_ * forward_ + (x - width_ / 2) * right_ - (y - height_ / 2) * up_;
 }
 
 Camera::Box Camera::Bounds(const Eigen::Vector3f& centre, float radius) const {

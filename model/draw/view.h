@@ -17,9 +17,6 @@ struct View {
   double field_of_view = 0.45;  ///< vertical, radians, 0.01 to 3
 };
 
-/// Three quarters from the front of a dancer, who stays in the middle.
-View FollowView(const Pose& pose, double azimuth, double extent = 2.4);
-
 /// The azimuth from which a pose is seen three quarters from its front.
 double ThreeQuarterAzimuth(const Pose& pose);
 
@@ -30,8 +27,12 @@ class Camera {
   Camera(const View& view, int width, int height);
 
   const Eigen::Vector3f& eye() const { return eye_; }
-  /// Unit direction through a point of the picture, pixels from the upper left corner.
-  Eigen::Vector3f Ray(float x, float y) const;
+  /// What a ray's direction gains from a column to the next: a unit vector, level.
+  const Eigen::Vector3f& right() const { return right_; }
+  /// Direction through a point of the picture, pixels from the upper left corner.
+  Eigen::Vector3f Direction(float x, float y) const;
+  /// The same of unit length.
+  Eigen::Vector3f Ray(float x, float y) const { return Direction(x, y).normalized(); }
 
   /// Columns and rows, [from, to) in pixels within the picture, outside which a ball is not seen.
   struct Box {

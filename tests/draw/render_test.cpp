@@ -20,6 +20,11 @@ Picture Draw(const Pose& pose, const View& view, const FrameStyle& style = {}) {
   return picture;
 }
 
+// The dancer stays in the middle.
+View FollowView(const Pose& pose, double azimuth) {
+  return {.target = {pose.root_position.x(), 0.95, pose.root_position.z()}, .azimuth = azimuth};
+}
+
 // Mean column and row of the pixels that are coloured like one side of the body, and their number.
 struct Blob {
   double x = 0, y = 0;
