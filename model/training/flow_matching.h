@@ -41,19 +41,4 @@ class FlowMatching {
   std::map<std::pair<int, int>, Spreads> spreads_;
 };
 
-/// How far real windows stray from the mean of `prior`, whose powers are all zero.
-VariancePowers MeasureVariancePowers(const MotionPrior& prior,
-                                     const std::vector<WindowBatch>& batches);
-
-/// How lively real windows are, of which all body parts' energy is told, by what is known of them.
-EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowBatch>& batches);
-
-/// Of real windows: the correlation of white coordinates over dimensions, its Cholesky factor; and
-/// the spread of displacements [dimensions].
-struct WindowStatistics {
-  Eigen::MatrixXd mixing;
-  Eigen::VectorXd spread;
-};
-WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches);
-
 }  // namespace choreo

@@ -10,6 +10,7 @@
 #include "model/motion/resample.h"
 #include "model/training/clip_statistics.h"
 #include "model/training/flow_matching.h"
+#include "model/training/flow_statistics.h"
 #include "model/training/trainer.h"
 #include "model/training/training_run.h"
 #include "model/training/window_clips.h"

@@ -7,7 +7,7 @@
 
 #include "model/motion/mirror.h"
 #include "model/training/clip_statistics.h"
-#include "model/training/flow_matching.h"
+#include "model/training/flow_statistics.h"
 #include "model/training/window_body.h"
 #include "tests/support/synthetic_clips.h"
 

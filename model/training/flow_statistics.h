@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/flow/continuous_flow.h"
+#include "model/training/window_batch.h"
+
+/// What the continuous flow knows of its data before it trains, measured on batches of real
+/// windows.
+namespace choreo {
+
+/// How far real windows stray from the mean of `prior`, whose powers are all zero.
+VariancePowers MeasureVariancePowers(const MotionPrior& prior,
+                                     const std::vector<WindowBatch>& batches);
+
+/// How lively real windows are, of which all body parts' energy is told, by what is known of them.
+EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowBatch>& batches);
+
+/// Of real windows: the correlation of white coordinates over dimensions, its Cholesky factor; and
+/// the spread of displacements [dimensions].
+struct WindowStatistics {
+  Eigen::MatrixXd mixing;
+  Eigen::VectorXd spread;
+};
+WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches);
+
+}  // namespace choreo
