@@ -58,8 +58,7 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
     one.real.assign(poses.begin() + 1, poses.end());
     one.key = one.real.back();
     one.path.resize(3, frames);
-    for (int t = 0; t < frames; ++t)
-      one.path.col(t) = one.real[static_cast<size_t>(t)].root_position;
+    for (int t = 0; t < frames; ++t) one.path.col(t) = one.real[t].root_position;
     one.factors = FactorTrackOf(model_.skeleton, one.before, one.real);
     windows_.push_back(std::move(one));
   }
@@ -89,7 +88,7 @@ void ControlCourse::Redraw(const Draw& draw) {
 void ControlCourse::AskConstant(const std::array<float, kBodyParts>& speeds) {
   for (ControlledWindow& window : windows_) {
     for (int part = 0; part < kBodyParts; ++part)
-      window.factors.row(part).setConstant(speeds[static_cast<size_t>(part)]);
+      window.factors.row(part).setConstant(speeds[part]);
   }
 }
 

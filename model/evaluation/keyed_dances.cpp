@@ -60,10 +60,9 @@ std::vector<Pose> RealThroughFootLock(const ModelInfo& model, const LongPlan& pl
     const int frames = key + 1 - from;
     if (FootLock::Fits(model.skeleton, model.fps, frames)) {
       FootLock lock(model.skeleton, model.fps, frames, emitted, Target{pose, {}});
-      for (; from <= key; ++from)
-        emitted.push_back(RoundToFloat(lock.Apply(real[static_cast<size_t>(from)])));
+      for (; from <= key; ++from) emitted.push_back(RoundToFloat(lock.Apply(real[from])));
     }
-    for (; from <= key; ++from) emitted.push_back(real[static_cast<size_t>(from)]);
+    for (; from <= key; ++from) emitted.push_back(real[from]);
   }
   emitted.erase(emitted.begin(), emitted.begin() + std::ssize(plan.history));
   return emitted;

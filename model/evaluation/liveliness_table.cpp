@@ -39,9 +39,7 @@ class Rows {
   void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio) {
     rows_.push_back({{figure}, {real, locked, danced, ratio}});
   }
-  void AddReal(const std::string& figure, double real) {
-    Add(figure, Plain(real), {}, {}, {});
-  }
+  void AddReal(const std::string& figure, double real) { Add(figure, Plain(real), {}, {}, {}); }
   void AddDanced(const std::string& figure, Cell danced, Cell ratio = {}) {
     Add(figure, {}, {}, danced, ratio);
   }

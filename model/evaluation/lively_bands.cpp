@@ -38,8 +38,7 @@ void FillBands(const Skeleton& skeleton, double fps, const LivelyDances& real,
   table->label_headings = {"joint"};
   for (int band = 0; band < kBands; ++band) {
     char heading[64];
-    std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[static_cast<size_t>(band)],
-                  kBandEdges[static_cast<size_t>(band) + 1]);
+    std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[band], kBandEdges[band + 1]);
     table->columns.push_back({heading, 2});
   }
   const Eigen::MatrixXd theirs = MeanPower(real, fps), ours = MeanPower(danced, fps);
@@ -50,7 +49,7 @@ void FillBands(const Skeleton& skeleton, double fps, const LivelyDances& real,
     names.push_back(name);
     Eigen::VectorXd above = Eigen::VectorXd::Zero(kBands), below = above;
     for (Eigen::Index j = 0; j < ours.cols(); ++j) {
-      if (WithoutSide(skeleton.joint_names[static_cast<size_t>(j)]) != name) continue;
+      if (WithoutSide(skeleton.joint_names[j]) != name) continue;
       above += ours.col(j);
       below += theirs.col(j);
     }

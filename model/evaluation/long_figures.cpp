@@ -52,7 +52,7 @@ double LeastMedian(const std::vector<float>& values, size_t length) {
   const size_t last = values.size() - length;
   const size_t step = std::max<size_t>(1, length / 10);
   for (size_t tried = 0; tried < last + step; tried += step) {
-    const auto from = values.begin() + static_cast<std::ptrdiff_t>(std::min(tried, last));
+    const auto from = values.begin() + std::min(tried, last);
     least = std::min(least, Percentile({from, from + static_cast<std::ptrdiff_t>(length)}, 0.5));
   }
   return least;

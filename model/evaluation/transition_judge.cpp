@@ -21,9 +21,9 @@ Figures TransitionJudge::Run(const Method& method, float temperature, uint32_t c
     const std::vector<Pose> real = RealPoses(evaluation_.set, windows_[i], frames_, kFramesBefore);
     std::vector<Pose> danced = real;
     for (int t = 0; t < frames_; ++t) {
-      Pose& pose = danced[static_cast<size_t>(kFramesBefore + t)];
+      Pose& pose = danced[kFramesBefore + t];
       if (method.kind == Method::Kind::kEngine) {
-        pose = results[i].frames[static_cast<size_t>(t)].pose;
+        pose = results[i].frames[t].pose;
       } else if (method.kind == Method::Kind::kInterpolation && t + 1 < frames_) {
         pose = InterpolatePoses(real[kFramesBefore - 1], real.back(),
                                 static_cast<double>(t + 1) / frames_);

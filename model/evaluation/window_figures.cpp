@@ -17,7 +17,7 @@ namespace {
 Eigen::MatrixXd Stack(const std::vector<Eigen::VectorXd>& columns) {
   if (columns.empty()) return {};
   Eigen::MatrixXd matrix(columns[0].size(), static_cast<Eigen::Index>(columns.size()));
-  for (size_t i = 0; i < columns.size(); ++i) matrix.col(static_cast<Eigen::Index>(i)) = columns[i];
+  for (size_t i = 0; i < columns.size(); ++i) matrix.col(i) = columns[i];
   return matrix;
 }
 
@@ -83,7 +83,7 @@ RealFeatures GatherRealFeatures(const ClipSet& set, int frames) {
     const JointTrack track = TrackJoints(clip.skeleton, clip.motion.frames);
     for (size_t start = 0; start + length <= track.size();
          start += std::max<size_t>(1, length / 2)) {
-      const auto first = track.begin() + static_cast<std::ptrdiff_t>(start);
+      const auto first = track.begin() + start;
       const JointTrack part(first, first + frames);
       if (frames >= 3) kinetic.push_back(KineticFeatures(part, clip.motion.fps));
       if (frames >= 2 && HasGeometricFeatures(clip.skeleton))

@@ -52,11 +52,9 @@ JointTrack LowPass(const JointTrack& track, double fps, double hz) {
   JointTrack smooth = track;
   Eigen::VectorXd values(static_cast<Eigen::Index>(track.size()));
   for (Eigen::Index i = 0; !track.empty() && i < track[0].size(); ++i) {
-    for (Eigen::Index t = 0; t < values.size(); ++t)
-      values[t] = track[static_cast<size_t>(t)].data()[i];
+    for (Eigen::Index t = 0; t < values.size(); ++t) values[t] = track[t].data()[i];
     values = LowPass(values, fps, hz);
-    for (Eigen::Index t = 0; t < values.size(); ++t)
-      smooth[static_cast<size_t>(t)].data()[i] = values[t];
+    for (Eigen::Index t = 0; t < values.size(); ++t) smooth[t].data()[i] = values[t];
   }
   return smooth;
 }

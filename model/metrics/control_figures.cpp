@@ -42,8 +42,7 @@ Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> TrackVelocityFactors(
   Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> factors(kBodyParts, track.size() - 1);
   for (size_t i = 1; i < track.size(); ++i) {
     const auto of_step = VelocityFactors(weights, track[i - 1], track[i]);
-    factors.col(static_cast<Eigen::Index>(i) - 1) =
-        Eigen::Map<const Eigen::Matrix<double, kBodyParts, 1>>(of_step.data());
+    factors.col(i - 1) = Eigen::Map<const Eigen::Matrix<double, kBodyParts, 1>>(of_step.data());
   }
   return factors;
 }
@@ -58,7 +57,7 @@ double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked) {
   CheckFrames(danced.size(), static_cast<size_t>(asked.cols()));
   double sum = 0;
   for (size_t i = 0; i < danced.size(); ++i) {
-    sum += (danced[i].col(0) - asked.col(static_cast<Eigen::Index>(i))).norm();
+    sum += (danced[i].col(0) - asked.col(i)).norm();
   }
   return sum / static_cast<double>(danced.size());
 }
@@ -68,7 +67,7 @@ double TremorShare(const JointTrack& track, double fps) {
   const auto steps = static_cast<Eigen::Index>(track.size()) - 1;
   const Eigen::Index width = 3 * (track.front().cols() - 1);
   const auto from_root = [&](Eigen::Index frame) {
-    const Eigen::Matrix3Xd& joints = track[static_cast<size_t>(frame)];
+    const Eigen::Matrix3Xd& joints = track[frame];
     const Eigen::Matrix3Xd relative = joints.rightCols(joints.cols() - 1).colwise() - joints.col(0);
     return Eigen::RowVectorXd(relative.reshaped().transpose());
   };

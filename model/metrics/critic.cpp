@@ -62,8 +62,7 @@ Eigen::MatrixXd Gather(const CriticWindows& windows, size_t fold, bool of_fold) 
   }
   const Eigen::Index rows = windows.features.empty() ? 0 : windows.features[0].size();
   Eigen::MatrixXd gathered(rows, static_cast<Eigen::Index>(chosen.size()));
-  for (size_t i = 0; i < chosen.size(); ++i)
-    gathered.col(static_cast<Eigen::Index>(i)) = windows.features[chosen[i]];
+  for (size_t i = 0; i < chosen.size(); ++i) gathered.col(i) = windows.features[chosen[i]];
   return gathered;
 }
 

@@ -40,8 +40,7 @@ struct Body {
     }
     const auto rest = [&](int joint) {
       Vector3d at = Vector3d::Zero();
-      for (; joint >= 0; joint = skeleton.parents[static_cast<size_t>(joint)])
-        at += skeleton.offsets.col(joint);
+      for (; joint >= 0; joint = skeleton.parents[joint]) at += skeleton.offsets.col(joint);
       return at;
     };
     upper_arm = (rest(left_shoulder) - rest(left_elbow)).norm();
@@ -169,7 +168,7 @@ Eigen::VectorXd GeometricFeatures(const Skeleton& skeleton, const JointTrack& tr
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(kGeometricFeatures);
   for (size_t t = 1; t < track.size(); ++t) {
     const auto judged = Judge(body, Statements(track[t - 1], track[t], fps));
-    for (int i = 0; i < kGeometricFeatures; ++i) shares[i] += judged[static_cast<size_t>(i)];
+    for (int i = 0; i < kGeometricFeatures; ++i) shares[i] += judged[i];
   }
   return shares / static_cast<double>(track.size() - 1);
 }

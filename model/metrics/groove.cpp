@@ -44,8 +44,7 @@ LimbTravel MeasureLimbTravel(const Skeleton& skeleton, const JointTrack& track,
 
 double PelvisBounce(const JointTrack& track, double fps) {
   Eigen::VectorXd heights(static_cast<Eigen::Index>(track.size()));
-  for (Eigen::Index t = 0; t < heights.size(); ++t)
-    heights[t] = track[static_cast<size_t>(t)](1, 0);
+  for (Eigen::Index t = 0; t < heights.size(); ++t) heights[t] = track[t](1, 0);
   if (heights.size() == 0) return 0;
   return std::sqrt(HighPass(heights, fps, kBounceHz).squaredNorm() /
                    static_cast<double>(heights.size()));

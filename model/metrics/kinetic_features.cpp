@@ -17,8 +17,8 @@ JointTrack Smooth(const JointTrack& track) {
   for (int64_t t = 0; t < frames; ++t) {
     const int64_t first = std::max<int64_t>(0, t - kReach);
     const int64_t last = std::min(frames - 1, t + kReach);
-    Eigen::Matrix3Xd sum = track[static_cast<size_t>(first)];
-    for (int64_t i = first + 1; i <= last; ++i) sum += track[static_cast<size_t>(i)];
+    Eigen::Matrix3Xd sum = track[first];
+    for (int64_t i = first + 1; i <= last; ++i) sum += track[i];
     smooth.push_back(sum / static_cast<double>(last - first + 1));
   }
   return smooth;

@@ -38,7 +38,7 @@ Eigen::MatrixXd GlobalQuaternions(const Skeleton& skeleton, std::span<const Pose
     const auto column = static_cast<Eigen::Index>(t);
     const JointPlacement placement = ForwardKinematics(skeleton, poses[t]);
     for (int joint = 0; joint < skeleton.joints(); ++joint) {
-      const Eigen::Quaterniond q(placement.rotations[static_cast<size_t>(joint)]);
+      const Eigen::Quaterniond q(placement.rotations[joint]);
       Eigen::Vector4d value(q.w(), q.x(), q.y(), q.z());
       const bool flip =
           t == 0 ? value[0] < 0 : value.dot(all.block<4, 1>(4 * joint, column - 1)) < 0;

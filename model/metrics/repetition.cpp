@@ -35,16 +35,13 @@ Repetition MeasureRepetition(const Skeleton& skeleton, std::span<const Pose> pos
   const auto is_still = [&](int begin) {
     Eigen::RowVectorXd way = Eigen::RowVectorXd::Zero(skeleton.joints());
     for (int i = begin + 1; i < begin + window; ++i)
-      way += (local[static_cast<size_t>(i)] - local[static_cast<size_t>(i) - 1]).colwise().norm();
+      way += (local[i] - local[i - 1]).colwise().norm();
     return way.maxCoeff() / (window - 1) * fps < kStill;
   };
   const auto are_alike = [&](int a, int b) {
     double distance = 0;
     for (int i = 0; i < window; ++i) {
-      distance += (local[static_cast<size_t>(a + i)] - local[static_cast<size_t>(b + i)])
-                      .colwise()
-                      .norm()
-                      .mean();
+      distance += (local[a + i] - local[b + i]).colwise().norm().mean();
       if (distance >= kAlike * window) return false;
     }
     return true;

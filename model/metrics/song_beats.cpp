@@ -32,7 +32,7 @@ std::vector<double> Rises(const Eigen::MatrixXf& rows) {
   mel = mel.cwiseMax(mel.maxCoeff() - kRange);
   std::vector<double> rises(static_cast<size_t>(rows.cols()), 0.0);
   for (Eigen::Index t = 1; t < rows.cols(); ++t)
-    rises[static_cast<size_t>(t)] = (mel.col(t) - mel.col(t - 1)).cwiseMax(0).mean();
+    rises[t] = (mel.col(t) - mel.col(t - 1)).cwiseMax(0).mean();
   return rises;
 }
 
@@ -45,7 +45,7 @@ std::vector<int64_t> MotionBeats(std::span<const float> speeds, double fps) {
   for (int64_t i = order; i + 1 < count; ++i) {
     const auto from = speeds.begin() + i - order;
     const auto to = speeds.begin() + std::min(count, i + order + 1);
-    const float speed = speeds[static_cast<size_t>(i)];
+    const float speed = speeds[i];
     if (std::count_if(from, to, [=](float other) { return other <= speed; }) == 1)
       frames.push_back(i + 1);
   }

@@ -14,16 +14,15 @@ constexpr double kRidge = 0.1;  // of a feature's variance
 
 StyleClassifier::StyleClassifier(const CriticWindows& windows, int styles) {
   Eigen::VectorXd count = Eigen::VectorXd::Zero(styles);
-  for (const size_t style : windows.clips) ++count[static_cast<Eigen::Index>(style)];
+  for (const size_t style : windows.clips) ++count[style];
   if (count.minCoeff() == 0) throw InvalidArgument("styles", "one has no window to learn it from");
   const Eigen::Index features = windows.features[0].size();
   // Windows by column, so weighed that each style has the same sum.
   Eigen::MatrixXd seen(features, std::ssize(windows.features));
   Eigen::VectorXd weight(seen.cols());
   for (Eigen::Index i = 0; i < seen.cols(); ++i) {
-    seen.col(i) = windows.features[static_cast<size_t>(i)];
-    weight[i] =
-        1 / (styles * count[static_cast<Eigen::Index>(windows.clips[static_cast<size_t>(i)])]);
+    seen.col(i) = windows.features[i];
+    weight[i] = 1 / (styles * count[windows.clips[i]]);
   }
   mean_ = seen * weight;
   seen.colwise() -= mean_;
@@ -33,8 +32,7 @@ StyleClassifier::StyleClassifier(const CriticWindows& windows, int styles) {
   covariance.diagonal().array() += kRidge;
   Eigen::MatrixXd means = Eigen::MatrixXd::Zero(features, styles);
   for (Eigen::Index i = 0; i < seen.cols(); ++i)
-    means.col(static_cast<Eigen::Index>(windows.clips[static_cast<size_t>(i)])) +=
-        weight[i] * seen.col(i);
+    means.col(windows.clips[i]) += weight[i] * seen.col(i);
   weights_ = covariance.llt().solve(means).transpose();
 }
 

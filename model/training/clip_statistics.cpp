@@ -42,7 +42,7 @@ std::array<double, kBodyParts> MedianFactors(std::span<const ClipTrack> tracks) 
       const auto row = track.energy.row(part);
       values.insert(values.end(), row.begin(), row.end());
     }
-    medians[static_cast<size_t>(part)] = Median(std::move(values));
+    medians[part] = Median(std::move(values));
   }
   return medians;
 }
@@ -57,8 +57,7 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
     const auto& poses = track.poses;
     if (poses.size() < 2) continue;
     Eigen::MatrixXd velocity(dimensions, static_cast<int>(poses.size()) - 1);
-    for (int i = 0; i < velocity.cols(); ++i)
-      velocity.col(i) = Velocity(poses[static_cast<size_t>(i)], poses[static_cast<size_t>(i) + 1]);
+    for (int i = 0; i < velocity.cols(); ++i) velocity.col(i) = Velocity(poses[i], poses[i + 1]);
     for (int lag = 0; lag < std::min<int>(lags, static_cast<int>(velocity.cols())); ++lag) {
       const int count = static_cast<int>(velocity.cols()) - lag;
       sum.col(lag) +=
@@ -75,8 +74,7 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
   Eigen::MatrixXd covariance = sum;
   for (int j = 0; j < skeleton.joints(); ++j) {
     covariance.middleRows<3>(3 + 3 * j) =
-        0.5 *
-        (sum.middleRows<3>(3 + 3 * j) + sum.middleRows<3>(3 + 3 * pairs[static_cast<size_t>(j)]));
+        0.5 * (sum.middleRows<3>(3 + 3 * j) + sum.middleRows<3>(3 + 3 * pairs[j]));
   }
   // Joints that recordings lack never move.
   covariance.col(0) = covariance.col(0).cwiseMax(kLeastSpeed * kLeastSpeed);
@@ -101,14 +99,13 @@ UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> 
   std::vector<Eigen::Matrix3d> turns(static_cast<size_t>(joints), Eigen::Matrix3d::Zero());
   double height = 0, poses = 0;
   visit([&](const Pose& pose) {
-    for (int j = 0; j < joints; ++j) turns[static_cast<size_t>(j)] += ExpMap(pose.rotations.col(j));
+    for (int j = 0; j < joints; ++j) turns[j] += ExpMap(pose.rotations.col(j));
     height += pose.root_position.y();
     ++poses;
   });
   UsualPose usual{.pose = {{0, height / poses, 0}, Eigen::Matrix3Xd(3, joints)},
                   .variance = Eigen::VectorXd::Zero(3 + 3 * joints)};
-  for (int j = 0; j < joints; ++j)
-    usual.pose.rotations.col(j) = LogMap(NearestRotation(turns[static_cast<size_t>(j)]));
+  for (int j = 0; j < joints; ++j) usual.pose.rotations.col(j) = LogMap(NearestRotation(turns[j]));
   visit([&](const Pose& pose) {
     const Eigen::Vector3d off = usual.pose.root_position - pose.root_position;
     const double floor = 0.5 * (off.x() * off.x() + off.z() * off.z());  // facing anywhere

@@ -62,18 +62,16 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
     }
     if (random->Uniform() < variation.hold_history) {
       const int64_t known = random->Integer(1, history);
-      std::fill(poses.begin(), poses.begin() + (history - known + 1),
-                poses[static_cast<size_t>(history - known + 1)]);
+      std::fill(poses.begin(), poses.begin() + (history - known + 1), poses[history - known + 1]);
     }
-    const GroundFrame frame = GroundFrame::Of(poses[static_cast<size_t>(history)]);
+    const GroundFrame frame = GroundFrame::Of(poses[history]);
     Pose previous = frame.ToLocal(poses[0]);
     for (int t = 0; t < window; ++t) {
-      const Pose pose = frame.ToLocal(poses[static_cast<size_t>(t) + 1]);
+      const Pose pose = frame.ToLocal(poses[t + 1]);
       Contacts contacts;
       for (int foot = 0; foot < 4; ++foot) {
         // Contacts stand left then right; a mirrored dancer swaps them.
-        contacts[static_cast<size_t>(foot)] =
-            clip.contacts(mirrored ? (foot + 2) % 4 : foot, start + t);
+        contacts[foot] = clip.contacts(mirrored ? (foot + 2) % 4 : foot, start + t);
       }
       const Eigen::VectorXf x = codec.Encode(pose, previous, contacts, clip.motion.fps);
       std::copy(x.data(), x.data() + width, features[b][t].data_ptr<float>());

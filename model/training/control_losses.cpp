@@ -58,7 +58,7 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
   std::vector<int64_t> parents, feet;
   Tensor lengths = torch::empty({model.skeleton().joints() - 1});
   for (int j = 1; j < model.skeleton().joints(); ++j) {
-    parents.push_back(model.skeleton().parents[static_cast<size_t>(j)]);
+    parents.push_back(model.skeleton().parents[j]);
     lengths[j - 1] = static_cast<float>(model.skeleton().offsets.col(j).norm());
   }
   for (const int foot : model.skeleton().feet) feet.push_back(foot);

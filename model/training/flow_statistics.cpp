@@ -39,11 +39,11 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
         double sum = 0;
         int moving = 0;
         for (int d = 0; d < square.size(); ++d) {
-          if (measured.parts[static_cast<size_t>(d)] != part || !prior.Moves(d)) continue;
+          if (measured.parts[d] != part || !prior.Moves(d)) continue;
           sum += square[d];
           ++moving;
         }
-        if (const auto& level = levels[static_cast<size_t>(part)]; level && moving > 0)
+        if (const auto& level = levels[part]; level && moving > 0)
           parts.push_back({1, surprise, *level, std::log(sum / moving)});
       }
     }
@@ -114,7 +114,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowB
       left += off * off.transpose() / static_cast<double>(inputs.size());
       if (styles[i] < 0) continue;
       measured.styles.col(styles[i]) += off;
-      ++of_style[static_cast<size_t>(styles[i])];
+      ++of_style[styles[i]];
     }
     if (keyed) measured.spread = left.llt().matrixL();
     // So that factors, not their logarithms, are right on average: who stands still for a while has
@@ -136,8 +136,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowB
       measured.most[input] = values[values.size() - 1 - rank];
     }
   }
-  for (size_t i = 0; i < of_style.size(); ++i)
-    measured.styles.col(static_cast<Eigen::Index>(i)) /= of_style[i];
+  for (size_t i = 0; i < of_style.size(); ++i) measured.styles.col(i) /= of_style[i];
   return measured;
 }
 

@@ -101,7 +101,7 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
                        static_cast<Eigen::Index>(frames));
   for (size_t f = 0; f < frames; ++f) {
     const auto row = stream.Row(first + static_cast<int64_t>(f));
-    std::copy(row.begin(), row.end(), rows.col(static_cast<Eigen::Index>(f)).data());
+    std::copy(row.begin(), row.end(), rows.col(f).data());
   }
   return rows;
 }
@@ -135,8 +135,7 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
     PositionClip clip = recording.positions;
     ValidateClip(clip);
     const size_t calibration = SkipCalibration(clip);
-    clip.frames.erase(clip.frames.begin(),
-                      clip.frames.begin() + static_cast<std::ptrdiff_t>(calibration));
+    clip.frames.erase(clip.frames.begin(), clip.frames.begin() + calibration);
     int replaced = 0;
     clip = RemoveSpikes(clip, kTopSpeed, 6, &replaced);
     const auto [begin, end] = LongestCleanRun(clip);
@@ -145,8 +144,7 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
       warnings.push_back("a joint jumps: kept frames " + std::to_string(calibration + begin) +
                          " to " + std::to_string(calibration + end - 1));
     }
-    clip.frames = {clip.frames.begin() + static_cast<std::ptrdiff_t>(begin),
-                   clip.frames.begin() + static_cast<std::ptrdiff_t>(end)};
+    clip.frames = {clip.frames.begin() + begin, clip.frames.begin() + end};
     skipped_s = static_cast<double>(calibration + begin) / clip.fps * recording.time_scale;
     if (recording.cutoff_hz > 0) clip = LowPass(clip, recording.cutoff_hz);
     if (recording.tilted_floor) {

@@ -43,7 +43,7 @@ PreparedClip ReadPreparedClip(const std::filesystem::path& path) {
     throw InvalidArgument(path.string(), "fps '" + content.metadata["fps"] + "' is not above 0");
   clip.motion.frames.resize(static_cast<size_t>(frames));
   for (int64_t f = 0; f < frames; ++f) {
-    Pose& pose = clip.motion.frames[static_cast<size_t>(f)];
+    Pose& pose = clip.motion.frames[f];
     pose.root_position =
         Eigen::Map<const Eigen::Vector3f>(roots.data.data() + 3 * f).cast<double>();
     pose.rotations =

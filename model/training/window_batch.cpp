@@ -56,12 +56,12 @@ struct Lever {
     bones = Eigen::MatrixXd::Zero(3 * joints, frames);
     JointPlacement placement;
     for (int i = 0; i < frames; ++i) {
-      ForwardKinematics(skeleton, truth[static_cast<size_t>(i)], placement);
+      ForwardKinematics(skeleton, truth[i], placement);
       for (int j = 0; j < joints; ++j) {
-        const RowMajor3d axis = placement.rotations[static_cast<size_t>(j)] *
-                                RightJacobian(x.col(i).segment<3>(3 + 3 * j));
+        const RowMajor3d axis =
+            placement.rotations[j] * RightJacobian(x.col(i).segment<3>(3 + 3 * j));
         axes.col(i).segment<9>(9 * j) = axis.reshaped<Eigen::RowMajor>();
-        const int parent = skeleton.parents[static_cast<size_t>(j)];
+        const int parent = skeleton.parents[j];
         if (j > 0)
           bones.col(i).segment<3>(3 * j) =
               placement.positions.col(j) - placement.positions.col(parent);
@@ -90,7 +90,7 @@ bool WindowBatchBuilder::Add(WindowRequest request, std::span<const Pose> truth)
   const WindowFeatures described =
       DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window);
   Eigen::VectorXd fixed(white.rows());
-  for (int d = 0; d < fixed.size(); ++d) fixed[d] = window.keyed()[static_cast<size_t>(d)] ? 1 : 0;
+  for (int d = 0; d < fixed.size(); ++d) fixed[d] = window.keyed()[d] ? 1 : 0;
   z_.push_back(Columns(white));
   mean_.push_back(Columns(lines));
   staged_.push_back(window.staged() ? 1 : 0);

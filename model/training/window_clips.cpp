@@ -71,8 +71,7 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
   }
   if (random->Uniform() < variation.path) {
     request.path.resize(3, frames);
-    for (int i = 0; i < frames; ++i)
-      request.path.col(i) = way[static_cast<size_t>(i)].root_position;
+    for (int i = 0; i < frames; ++i) request.path.col(i) = way[i].root_position;
     if (random->Uniform() < 0.4) request.path = SmoothRows(request.path, kDrawnSigma);
     request.path_heights = random->Uniform() < 0.3;
   }
@@ -135,10 +134,9 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
       turning += RotationDifference(poses[i - 1].rotations.col(0), poses[i].rotations.col(0));
     if (random->Uniform() < variation.hold_history) {
       const int64_t known = random->Integer(1, tau);
-      std::fill(poses.begin(), poses.begin() + (tau - known),
-                poses[static_cast<size_t>(tau - known)]);
+      std::fill(poses.begin(), poses.begin() + (tau - known), poses[tau - known]);
     }
-    const GroundFrame ground = GroundFrame::Of(poses[static_cast<size_t>(tau) - 1]);
+    const GroundFrame ground = GroundFrame::Of(poses[tau - 1]);
     for (Pose& pose : poses) pose = ground.ToLocal(pose);
     Eigen::Vector3d stage = track.stage;
     if (mirrored) stage.x() = -stage.x();
