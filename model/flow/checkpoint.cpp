@@ -25,36 +25,32 @@ void from_json(const nlohmann::json& config, NoFormerFlow& /*none*/) {
 
 }  // namespace
 
+void ExportTensor(const std::string& name, const torch::Tensor& value, Safetensors* content) {
+  const torch::Tensor dense = value.detach().to(torch::kCPU, torch::kFloat32).contiguous();
+  const float* data = dense.data_ptr<float>();
+  content->tensors[name] = {dense.sizes().vec(), {data, data + dense.numel()}};
+}
+
+void ImportTensor(const Safetensors& content, const std::string& name, torch::Tensor value) {
+  torch::NoGradGuard no_grad;
+  const NamedTensor& held = content.Get(name, value.sizes().vec());
+  value.copy_(torch::from_blob(const_cast<float*>(held.data.data()), held.shape, torch::kFloat32));
+}
+
 void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
                    Safetensors* content) {
-  const auto add = [&](const std::string& name, const torch::Tensor& value) {
-    const torch::Tensor dense = value.detach().to(torch::kCPU, torch::kFloat32).contiguous();
-    NamedTensor tensor;
-    tensor.shape = dense.sizes().vec();
-    tensor.data.assign(dense.data_ptr<float>(), dense.data_ptr<float>() + dense.numel());
-    content->tensors[prefix + name] = std::move(tensor);
-  };
-  for (const auto& item : module.named_parameters()) add(item.key(), item.value());
-  for (const auto& item : module.named_buffers()) add(item.key(), item.value());
+  for (const auto& item : module.named_parameters())
+    ExportTensor(prefix + item.key(), item.value(), content);
+  for (const auto& item : module.named_buffers())
+    ExportTensor(prefix + item.key(), item.value(), content);
 }
 
 void ImportTensors(const Safetensors& content, const std::string& prefix,
                    torch::nn::Module* module) {
-  torch::NoGradGuard no_grad;
-  const auto take = [&](const std::string& name, torch::Tensor value) {
-    const auto found = content.tensors.find(prefix + name);
-    if (found == content.tensors.end()) {
-      throw InvalidArgument(prefix + name, "the file has no such tensor");
-    }
-    const NamedTensor& tensor = found->second;
-    if (tensor.shape != value.sizes().vec()) {
-      throw InvalidArgument(prefix + name, "its shape does not fit the configuration");
-    }
-    value.copy_(
-        torch::from_blob(const_cast<float*>(tensor.data.data()), tensor.shape, torch::kFloat32));
-  };
-  for (auto& item : module->named_parameters()) take(item.key(), item.value());
-  for (auto& item : module->named_buffers()) take(item.key(), item.value());
+  for (auto& item : module->named_parameters())
+    ImportTensor(content, prefix + item.key(), item.value());
+  for (auto& item : module->named_buffers())
+    ImportTensor(content, prefix + item.key(), item.value());
 }
 
 void FillZeros(torch::nn::Module* module) {

@@ -30,6 +30,9 @@ Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card);
 
+/// One tensor by name, and back into one of its shape.
+void ExportTensor(const std::string& name, const torch::Tensor& value, Safetensors* content);
+void ImportTensor(const Safetensors& content, const std::string& name, torch::Tensor value);
 /// Parameters and buffers by name, and back. `prefix` keeps several modules apart in one file.
 void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
                    Safetensors* content);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "model/flow/checkpoint.h"
+
 namespace choreo {
 
 namespace {
@@ -51,29 +53,17 @@ void Adam::ZeroGrad() {
 }
 
 void Adam::Export(Safetensors* content) const {
-  const auto add = [&](const std::string& name, const torch::Tensor& value) {
-    const torch::Tensor dense = value.to(torch::kCPU).contiguous();
-    content->tensors[name] = {
-        dense.sizes().vec(),
-        std::vector<float>(dense.data_ptr<float>(), dense.data_ptr<float>() + dense.numel())};
-  };
   for (const Entry& entry : entries_) {
-    add("adam.first." + entry.name, entry.first);
-    add("adam.second." + entry.name, entry.second);
+    ExportTensor("adam.first." + entry.name, entry.first, content);
+    ExportTensor("adam.second." + entry.name, entry.second, content);
   }
   content->metadata["adam.steps"] = std::to_string(steps_);
 }
 
 void Adam::Import(const Safetensors& content) {
-  torch::NoGradGuard no_grad;
-  const auto take = [&](const std::string& name, torch::Tensor* value) {
-    const NamedTensor& held = content.Get(name, value->sizes().vec());
-    value->copy_(
-        torch::from_blob(const_cast<float*>(held.data.data()), held.shape, torch::kFloat32));
-  };
   for (Entry& entry : entries_) {
-    take("adam.first." + entry.name, &entry.first);
-    take("adam.second." + entry.name, &entry.second);
+    ImportTensor(content, "adam.first." + entry.name, entry.first);
+    ImportTensor(content, "adam.second." + entry.name, entry.second);
   }
   steps_ = std::stoll(content.metadata.at("adam.steps"));
 }

@@ -1,15 +1,12 @@
-#include "model/training/aist_recordings.h"
-
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/pickle.h"
+#include "model/training/recordings.h"
 
 namespace choreo {
 namespace {
@@ -100,7 +97,7 @@ std::vector<RecordingSource> ListAistRecordings(const PrepareOptions& options) {
   return sources;
 }
 
-void WriteAistSplits(const PrepareOptions& options) {
+nlohmann::ordered_json AistSplits(const PrepareOptions& options) {
   std::map<std::string, std::string> list_of;  // by name
   nlohmann::ordered_json parts;
   for (const auto& [part, suffix] :
@@ -118,7 +115,7 @@ void WriteAistSplits(const PrepareOptions& options) {
   for (const auto& [name, path] : FindMotions(options.input)) {
     if (!list_of.contains(name)) parts["unused"].push_back(name);
   }
-  WriteFile(options.output / "splits.json", nlohmann::ordered_json{{"aist", parts}}.dump(1) + "\n");
+  return parts;
 }
 
 }  // namespace choreo

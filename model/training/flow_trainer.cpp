@@ -1,9 +1,11 @@
 #include <torch/torch.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
 #include "model/training/losses.h"
-#include "model/training/normalise.h"
 #include "model/training/trainer.h"
 #include "model/training/training_run.h"
 
@@ -13,6 +15,10 @@ namespace {
 constexpr int kNormalisationBatches = 24;
 constexpr int kValidationWindows = 64;
 constexpr int kValidationLengths[] = {10, 30, 60, 90};
+// Standardised features keep at least these spreads: metres, radians, m/s and rad/s, contacts.
+constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
+                 kContactFloor = 0.1;
+constexpr double kAudioVarianceFloor = 1e-4;
 
 FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
   FlowConfig config = FlowConfig::Preset(options.preset);
@@ -23,6 +29,45 @@ FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
   config.forward_embedding = options.forward_embedding;
   config.hears_music = clips.HasMusic();
   return config;
+}
+
+// Music rows of all clips.
+void NormaliseAudio(const ClipStore& clips, FlowModel* model) {
+  const int width = (*model)->config().audio_features;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(width), square = sum;
+  double count = 0;
+  for (const auto& clip : clips.clips()) {
+    sum += clip.audio.cast<double>().rowwise().sum();
+    square += clip.audio.cast<double>().array().square().matrix().rowwise().sum();
+    count += static_cast<double>(clip.audio.cols());
+  }
+  if (count == 0) return;  // no music to learn from
+  torch::Tensor mean = torch::empty({width}), std = torch::empty({width});
+  for (int i = 0; i < width; ++i) {
+    const double m = sum[i] / count;
+    mean[i] = m;
+    std[i] = std::sqrt(std::max(kAudioVarianceFloor, square[i] / count - m * m));
+  }
+  (*model)->SetAudioNormalisation(mean, std);
+}
+
+// The flow's features. Spreads have floors, so that constant joints can't make the density
+// unbounded.
+void NormaliseFeatures(const std::vector<MotionBatch>& batches, FlowModel* model) {
+  torch::NoGradGuard no_grad;
+  FlowModel& flow = *model;
+  std::vector<torch::Tensor> seen;
+  for (const MotionBatch& batch : batches) {
+    seen.push_back(batch.features.narrow(1, flow->config().history_frames, batch.transition.frames)
+                       .flatten(0, 1));
+  }
+  const torch::Tensor all = torch::cat(seen).to(torch::kCPU);
+  const int64_t joints = flow->skeleton().joints(), width = flow->feature_width();
+  torch::Tensor floor = torch::full({width}, kRotationFloor);
+  floor.narrow(0, 0, 3).fill_(kPositionFloor);
+  floor.narrow(0, 3 + 3 * joints, 3).fill_(kVelocityFloor);
+  floor.narrow(0, width - 4, 4).fill_(kContactFloor);
+  flow->SetFeatureNormalisation(all.mean(0), torch::maximum(all.std(0), floor));
 }
 
 class FlowRun : public TrainingRun {

@@ -1,13 +1,9 @@
-#include "model/training/lafan1_recordings.h"
-
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/training/bvh_recording.h"
+#include "model/training/recordings.h"
 
 namespace choreo {
 namespace {
@@ -74,15 +70,14 @@ std::vector<RecordingSource> ListLafan1Recordings(const PrepareOptions& options)
   return sources;
 }
 
-void WriteLafan1Splits(const PrepareOptions& options) {
+nlohmann::ordered_json Lafan1Splits(const PrepareOptions& options) {
   nlohmann::ordered_json parts = {{"train", nlohmann::json::array()},
                                   {"validation", nlohmann::json::array()},
                                   {"test", nlohmann::json::array()}};
   for (const auto& [name, take] : FindTakes(options.input)) {
     parts[take.subject == 5 ? "test" : take.subject == 4 ? "validation" : "train"].push_back(name);
   }
-  WriteFile(options.output / "splits.json",
-            nlohmann::ordered_json{{"lafan1", parts}}.dump(1) + "\n");
+  return parts;
 }
 
 }  // namespace choreo

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "model/training/curves.h"
 #include "model/training/prepared_clip.h"
-#include "model/training/report_row.h"
 #include "model/training/train_options.h"
 
 namespace choreo {

@@ -1,10 +1,10 @@
 #include "model/training/prepare.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "model/audio/decode.h"
@@ -16,10 +16,9 @@
 #include "model/fit/recorded_floor.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
-#include "model/training/aist_recordings.h"
 #include "model/training/jolts.h"
-#include "model/training/lafan1_recordings.h"
 #include "model/training/prepared_clip.h"
+#include "model/training/recordings.h"
 
 namespace choreo {
 namespace {
@@ -97,12 +96,9 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
     std::snprintf(text, sizeof(text), "the music ends %.1f s before the dance", missing_s);
     warnings.push_back(text);
   }
-  Eigen::MatrixXf rows(static_cast<Eigen::Index>(stream.Row(0).size()),
-                       static_cast<Eigen::Index>(frames));
-  for (size_t f = 0; f < frames; ++f) {
-    const auto row = stream.Row(first + static_cast<int64_t>(f));
-    std::copy(row.begin(), row.end(), rows.col(f).data());
-  }
+  Eigen::MatrixXf rows(stream.Row(0).size(), frames);
+  for (size_t f = 0; f < frames; ++f)
+    std::ranges::copy(stream.Row(first + static_cast<int64_t>(f)), rows.col(f).data());
   return rows;
 }
 
@@ -182,13 +178,9 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   clip.source = options.layout;
   clip.skeleton = skeleton;
   const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
-  clip.contacts.resize(4, static_cast<Eigen::Index>(contacts.size()));
-  for (size_t f = 0; f < contacts.size(); ++f) {
-    for (size_t foot = 0; foot < 4; ++foot) {
-      clip.contacts(static_cast<Eigen::Index>(foot), static_cast<Eigen::Index>(f)) =
-          contacts[f][foot];
-    }
-  }
+  clip.contacts.resize(4, contacts.size());
+  for (size_t f = 0; f < contacts.size(); ++f)
+    clip.contacts.col(f) = Eigen::Map<const Eigen::Vector4f>(contacts[f].data());
   report["contact_share"] = clip.contacts.mean();
   if (!recording.music.empty()) {
     clip.audio = MusicRows(recording, motion.frames.size(), skipped_s, warnings);
@@ -208,8 +200,10 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
 int Prepare(const PrepareOptions& options) {
   const std::vector<RecordingSource> sources = ListRecordings(options);
   std::filesystem::create_directories(options.output);
-  if (options.layout == "aist") WriteAistSplits(options);
-  if (options.layout == "lafan1") WriteLafan1Splits(options);
+  if (const auto splits = SplitsOf(options); !splits.is_null()) {
+    const nlohmann::ordered_json file = {{options.layout, splits}};
+    WriteFile(options.output / "splits.json", file.dump(1) + "\n");
+  }
   std::vector<json> reports(sources.size());
   std::atomic<size_t> next = 0;
   {
@@ -234,8 +228,7 @@ int Prepare(const PrepareOptions& options) {
   }
 
   int prepared = 0;
-  int64_t frames = 0;
-  double error = 0;
+  double frames = 0, error = 0;
   std::printf("%-28s %8s %7s %7s %8s %8s %5s %9s %6s  %s\n", "clip", "frames", "fit cm", "p95 cm",
               "floor cm", "contact", "cut", "repaired", "music", "warnings");
   for (const json& report : reports) {
@@ -245,26 +238,22 @@ int Prepare(const PrepareOptions& options) {
                   report.at("skipped").get<std::string>().c_str());
       continue;
     }
+    const auto number = [&](const char* key) { return report.value(key, 0.0); };
     ++prepared;
-    frames += report.at("frames").get<int64_t>();
-    error += report.at("fit_error_m").get<double>() * report.at("frames").get<double>();
+    frames += number("frames");
+    error += number("fit_error_m") * number("frames");
     std::string warnings;
-    for (const auto& warning : report.at("warnings")) {
+    for (const auto& warning : report.at("warnings"))
       warnings += (warnings.empty() ? "" : "; ") + warning.get<std::string>();
-    }
-    std::printf("%-28s %8lld %7.2f %7.2f %8.1f %8.2f %5lld %9lld %6s  %s\n", name.c_str(),
-                static_cast<long long>(report.at("frames").get<int64_t>()),
-                100 * report.at("fit_error_m").get<double>(), 100 * report.value("fit_p95_m", 0.0),
-                100 * report.value("ground_shift_m", 0.0), report.at("contact_share").get<double>(),
-                static_cast<long long>(report.value("frames_cut", 0)),
-                static_cast<long long>(report.value("limb_frames_repaired", 0)),
-                report.at("music").get<bool>() ? "yes" : "no", warnings.c_str());
+    std::printf("%-28s %8.0f %7.2f %7.2f %8.1f %8.2f %5.0f %9.0f %6s  %s\n", name.c_str(),
+                number("frames"), 100 * number("fit_error_m"), 100 * number("fit_p95_m"),
+                100 * number("ground_shift_m"), number("contact_share"), number("frames_cut"),
+                number("limb_frames_repaired"), report.at("music").get<bool>() ? "yes" : "no",
+                warnings.c_str());
   }
   if (prepared > 0) {
-    std::printf("%d of %zu clips, %lld frames (%.1f min), mean fit error %.2f cm\n", prepared,
-                sources.size(), static_cast<long long>(frames),
-                static_cast<double>(frames) / kModelFps / 60,
-                100 * error / static_cast<double>(frames));
+    std::printf("%d of %zu clips, %.0f frames (%.1f min), mean fit error %.2f cm\n", prepared,
+                sources.size(), frames, frames / kModelFps / 60, 100 * error / frames);
   }
   WriteFile(options.output / "report.json", json(reports).dump(1) + "\n");
   return prepared;

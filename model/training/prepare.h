@@ -1,17 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "model/fit/position_clip.h"
-#include "model/fit/sources.h"
-#include "model/motion/motion.h"
-#include "model/motion/skeleton.h"
-#include "model/training/beat_grid.h"
 
 namespace choreo {
 
@@ -33,36 +25,6 @@ struct PrepareOptions {
   std::string terms = "not stated";  ///< kept with every clip
   int jobs = 2;
 };
-
-/// One recording, read but not corrected. Positions for the layouts without rotations, `motion` for
-/// those with SMPL rotations.
-struct Recording {
-  std::string name;
-  std::string genre;  ///< kept with the clip; empty: not stated
-  PositionClip positions;
-  std::optional<Motion> motion;
-  SourceMapping mapping;
-  Skeleton skeleton = Skeleton::Smpl24();  ///< that rotations are fitted to, or are of
-  bool ground = false;                     ///< bring the body of `motion` down to the floor
-  bool tilted_floor = false;               ///< fit and level a floor plane, take out height drift
-  double cutoff_hz = 0;                    ///< low-pass before resampling; 0: none
-  double time_scale = 1;
-  std::filesystem::path music;    ///< empty: none
-  double music_start_s = 0;       ///< of the motion's first frame within the music
-  bool expects_music = false;     ///< warn where there is none
-  std::optional<BeatGrid> beats;  ///< that the motion stands on, of its own time
-};
-
-/// The value of the first prefix that a clip's name starts with.
-double ForClip(const std::vector<std::pair<std::string, double>>& values, const std::string& name,
-               double otherwise);
-
-/// What a layout offers: clip names and how to read each.
-struct RecordingSource {
-  std::string name;
-  std::function<Recording()> read;
-};
-std::vector<RecordingSource> ListRecordings(const PrepareOptions& options);
 
 /// Prepares every clip, showing progress; prints one line a clip and the means, writes
 /// OUT/report.json, for "aist" and "lafan1" OUT/splits.json, too. A clip that can't be read is

@@ -1,16 +1,15 @@
+#include "model/training/recordings.h"
+
 #include <algorithm>
 #include <memory>
 
 #include "model/core/error.h"
+#include "model/fit/bone_normaliser.h"
+#include "model/fit/bvh_source.h"
 #include "model/fit/tang2018_skeleton.h"
 #include "model/formats/amass_npz.h"
-#include "model/training/aist_recordings.h"
-#include "model/training/bvh_recording.h"
-#include "model/training/lafan1_recordings.h"
-#include "model/training/prepare.h"
-#include "model/training/tang_recordings.h"
+#include "model/formats/bvh.h"
 
-/// The layouts that `choreo-lab prepare` knows, each turned into Recordings.
 namespace choreo {
 namespace {
 
@@ -49,6 +48,23 @@ std::vector<RecordingSource> OnNativeSkeleton(const std::vector<RecordingSource>
 }
 
 }  // namespace
+
+Recording ReadBvhRecording(const std::filesystem::path& path, const std::string& name,
+                           const PrepareOptions& options) {
+  Recording recording;
+  recording.name = name;
+  const BvhFile bvh = ReadBvh(path);
+  recording.positions = BvhToPositions(bvh, 1.0);
+  recording.positions.fps = ForClip(options.frame_rates, name, bvh.fps());
+  recording.mapping = BvhSource(recording.positions);
+  // Units are not stated anywhere in a BVH: the dancer's legs tell centimetres from inches.
+  const BoneNormaliser normaliser(recording.skeleton, recording.mapping,
+                                  recording.positions.joint_names);
+  const double scale = normaliser.Measure(recording.positions).scale;
+  for (auto& frame : recording.positions.frames) frame *= scale;
+  recording.time_scale = ForClip(options.time_scales, name, 1.0);
+  return recording;
+}
 
 double ForClip(const std::vector<std::pair<std::string, double>>& values, const std::string& name,
                double otherwise) {
@@ -108,6 +124,12 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
                           "two recordings would both become '" + twice->name + ".clip'");
   }
   return options.native_skeleton ? OnNativeSkeleton(sources) : sources;
+}
+
+nlohmann::ordered_json SplitsOf(const PrepareOptions& options) {
+  if (options.layout == "aist") return AistSplits(options);
+  if (options.layout == "lafan1") return Lafan1Splits(options);
+  return {};
 }
 
 }  // namespace choreo

@@ -1,14 +1,9 @@
-#include "model/training/tang_recordings.h"
-
 #include <algorithm>
 #include <fstream>
-#include <functional>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "model/core/error.h"
 #include "model/core/npy.h"
+#include "model/training/recordings.h"
 
 namespace choreo {
 namespace {

@@ -14,7 +14,6 @@
 #include "model/training/clip_store.h"
 #include "model/training/curves.h"
 #include "model/training/losses.h"
-#include "model/training/report_row.h"
 #include "model/training/train_options.h"
 
 namespace choreo {

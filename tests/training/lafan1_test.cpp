@@ -1,4 +1,4 @@
-#include "model/training/lafan1_recordings.h"
+#include "model/training/recordings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

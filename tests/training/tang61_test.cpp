@@ -9,7 +9,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/beat_grid.h"
-#include "model/training/prepare.h"
+#include "model/training/recordings.h"
 #include "model/training/prepared_clip.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
