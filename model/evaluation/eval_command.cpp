@@ -178,30 +178,8 @@ void AddEvalCommand(CLI::App& app) {
       ->required();
   command->add_option("--splits", arguments->splits, "Which clip trains, validates, tests (JSON)")
       ->required();
-  command
-      ->add_option("--split", arguments->split,
-                   "Which of them is measured: validation | test | any other group of clips that "
-                   "the file names, such as test_unseen_genre")
-      ->capture_default_str();
-  command
-      ->add_option("--baseline", arguments->contest.baselines,
-                   "Further rows of the tables: \"real\" by real, "
-                   "\"interpolation\" and \"interpolation, foot lock\" by interpolation, "
-                   "\"model without keys\" by music_only")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
   command->add_option("--other", arguments->contest.others,
                       "NAME=CHECKPOINT: a row for another model, danced just as the first");
-  command->add_option("--name", arguments->contest.name, "What the rows of --model are called")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--engine", arguments->contest.engine,
-          EngineKindNames() +
-              "; packed is float32 on any CPU; paper C's model is run by torch all the same")
-      ->capture_default_str()
-      ->check(CLI::IsMember(
-          std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
   command->add_option("--json", arguments->json,
                       "Also write the figures here, and plots beside it");
   command
@@ -209,30 +187,6 @@ void AddEvalCommand(CLI::App& app) {
                  "Also draw each clip beside the dance through its poses, next to the JSON; which "
                  "of the two is which stands in a text file")
       ->needs("--json");
-  command
-      ->add_option("--lengths", options.lengths,
-                   "Frames of the transitions, at most as many as every model takes: 150 of the "
-                   "presets default and recurrent")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1800));
-  command->add_option("--windows", options.windows_per_clip, "Transitions a clip and length")
-      ->take_last()
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  command
-      ->add_option("--best-of", options.best_of,
-                   "Samples a transition, of which the nearest counts")
-      ->take_last()
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1000));
-  command->add_option("--long-dances", options.long_seeds, "Long dances of each kind; 0: none")
-      ->take_last()
-      ->capture_default_str()
-      ->check(CLI::Range(0, 100000));
-  command->add_option("--long-frames", options.long_frames, "Frames of a long dance")
-      ->take_last()
-      ->capture_default_str()
-      ->check(CLI::Range(60, 100000));
   command->add_flag("!--no-encoder", arguments->encode,
                     "No FID, variability and diversity, for which an encoder is learnt from the "
                     "training clips of the data");
@@ -251,15 +205,41 @@ void AddEvalCommand(CLI::App& app) {
           "Only the tables that tell whether the dance lives")
       ->excludes("--controls");
   command
-      ->add_option("--free-dances", options.free_dances,
-                   "Dances without keys in the table of liveliness; 0: none")
-      ->take_last()
-      ->capture_default_str()
-      ->check(CLI::Range(0, 100000));
-  command
       ->add_option("--temperature", arguments->temperature,
                    "From 0 to 2, instead of the model's own")
       ->check(CheckTemperature);
+  command->option_defaults()->always_capture_default();
+  command->add_option("--split", arguments->split,
+                      "Which of them is measured: validation | test | any other group of clips "
+                      "that the file names, such as test_unseen_genre");
+  command
+      ->add_option("--baseline", arguments->contest.baselines,
+                   "Further rows of the tables: \"real\" by real, \"interpolation\" and "
+                   "\"interpolation, foot lock\" by interpolation, \"model without keys\" by "
+                   "music_only")
+      ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
+  command->add_option("--name", arguments->contest.name, "What the rows of --model are called");
+  command
+      ->add_option(
+          "--engine", arguments->contest.engine,
+          EngineKindNames() +
+              "; packed is float32 on any CPU; paper C's model is run by torch all the same")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
+  command
+      ->add_option("--lengths", options.lengths,
+                   "Frames of the transitions, at most as many as every model takes: 150 of the "
+                   "preset default")
+      ->check(CLI::Range(1, 1800));
+  const auto count = [&](const char* name, int& value, int least, int most, const char* what) {
+    command->add_option(name, value, what)->take_last()->check(CLI::Range(least, most));
+  };
+  count("--windows", options.windows_per_clip, 1, 100000, "Transitions a clip and length");
+  count("--best-of", options.best_of, 0, 1000, "Samples a transition, of which the nearest counts");
+  count("--long-dances", options.long_seeds, 0, 100000, "Long dances of each kind; 0: none");
+  count("--long-frames", options.long_frames, 60, 100000, "Frames of a long dance");
+  count("--free-dances", options.free_dances, 0, 100000,
+        "Dances without keys in the table of liveliness; 0: none");
   command->callback([arguments] { EvaluateAll(*arguments); });
 }
 

@@ -113,24 +113,16 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
   return result;
 }
 
-namespace {
-
-template <typename Change>
-MotionBatch Changed(MotionBatch batch, const Change& change) {
+MotionBatch MotionBatch::To(torch::Device device) const {
+  MotionBatch batch = *this;
   for (torch::Tensor* tensor :
        {&batch.transition.history_position, &batch.transition.history_rotation,
         &batch.transition.target_position, &batch.transition.target_rotation,
         &batch.transition.target_mask, &batch.truth.position, &batch.truth.rotation,
         &batch.features, &batch.audio, &batch.has_audio}) {
-    if (tensor->defined()) *tensor = change(*tensor);
+    if (tensor->defined()) *tensor = tensor->to(device);
   }
   return batch;
-}
-
-}  // namespace
-
-MotionBatch MotionBatch::To(torch::Device device) const {
-  return Changed(*this, [&](const torch::Tensor& tensor) { return tensor.to(device); });
 }
 
 }  // namespace choreo

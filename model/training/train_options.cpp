@@ -21,11 +21,10 @@ std::string TrainOptions::Fixed() const {
        << rate << " --shortest " << shortest << " --longest " << longest << " --rollout-frames "
        << rollout_frames << " --tempo " << tempo << " --seed " << seed
        << (from.empty() ? "" : " --from " + from.filename().string())
-       << (with_validation ? " --with-validation" : "") << (no_keys ? " --no-keys" : "")
-       << (no_key_loss ? " --no-key-loss" : "") << (no_time_embedding ? " --no-time-embedding" : "")
-       << (forward_embedding ? " --forward-embedding" : "") << (one_lstm ? " --one-lstm" : "")
-       << (condition_fc ? " --condition-fc" : "") << (one_decoder ? " --one-decoder" : "")
-       << (no_velocity_factors ? " --no-velocity-factors" : "");
+       << (with_validation ? " --with-validation" : "");
+  for (const Ablation& ablation : kAblations) {
+    if (this->*ablation.on) text << ' ' << ablation.option;
+  }
   return text.str();
 }
 

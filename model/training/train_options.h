@@ -28,9 +28,8 @@ struct TrainOptions {
   int64_t report_every = 250;  ///< steps between validation, curves and saved state
   int64_t stop_after = 0;      ///< leave after this many steps of the run, resumable; 0: to the end
   uint64_t seed = 1;
-  /// Ablations (paper F, Table 1).
+  /// kAblations.
   bool no_keys = false, no_key_loss = false, no_time_embedding = false, forward_embedding = false;
-  /// Ablations (paper C, Tables 2-4; `no_key_loss` is in both).
   bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
 
   /// What a stranger types to train the same: folders by their names alone.
@@ -40,5 +39,26 @@ struct TrainOptions {
   /// Throws Error(kInvalidArgument) naming the option.
   void Validate() const;
 };
+
+/// A switch that leaves something out (paper F, Table 1; paper C, Tables 2-4).
+struct Ablation {
+  const char* option;
+  bool TrainOptions::*on;
+  bool of_flows, of_controllers;  ///< which networks have it
+  const char* what;
+};
+inline constexpr Ablation kAblations[] = {
+    {"--no-keys", &TrainOptions::no_keys, true, false, "Ablation: music alone"},
+    {"--no-key-loss", &TrainOptions::no_key_loss, true, true, "Ablation: no key pose loss"},
+    {"--no-time-embedding", &TrainOptions::no_time_embedding, true, false,
+     "Ablation: no time embedding"},
+    {"--forward-embedding", &TrainOptions::forward_embedding, true, false,
+     "Ablation: count frames from the start, not frames left"},
+    {"--one-lstm", &TrainOptions::one_lstm, false, true, "Ablation of controllers"},
+    {"--condition-fc", &TrainOptions::condition_fc, false, true,
+     "Ablation of controllers: fully connected instead of transformers"},
+    {"--one-decoder", &TrainOptions::one_decoder, false, true, "Ablation of controllers"},
+    {"--no-velocity-factors", &TrainOptions::no_velocity_factors, false, true,
+     "Ablation of controllers"}};
 
 }  // namespace choreo
