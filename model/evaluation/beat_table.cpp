@@ -69,8 +69,6 @@ Table BeatTable::Finish() const {
       "scored on the set's other songs. Alignment (AIST++): of the frames that are the slowest "
       "within 1/6 s on each side, sigma 0.05 s. Intervals over songs.";
   table.label_headings = {"dance"};
-  table.columns = {{"dances", 0},   {"hit rate %", 1},        {"chance %", 1},  {"above chance", 1},
-                   {"coverage", 2}, {"coverage / real's", 2}, {"alignment", 3}, {"its chance", 3}};
   std::vector<std::string> names = names_;
   std::ranges::stable_partition(names, [](const std::string& name) { return name == "real"; });
   double real_coverage = NAN;
@@ -82,27 +80,23 @@ Table BeatTable::Finish() const {
   for (const std::string& name : names) {
     const std::vector<Entry>& entries = entries_.at(name);
     const auto mean = [&](auto figure) {
-      std::vector<double> sums(set_.clips.size()), counts(set_.clips.size());
-      double sum = 0;
-      for (const Entry& entry : entries) {
-        sums[entry.clip] += figure(entry);
-        counts[entry.clip] += 1;
-        sum += figure(entry);
-      }
-      return Cell{sum / static_cast<double>(entries.size()), BootstrapRatio(sums, counts)};
+      std::vector<ClipFigure> figures;
+      for (const Entry& entry : entries) figures.push_back({entry.clip, figure(entry)});
+      return Mean(figures);
     };
     const Cell coverage = mean([](const Entry& entry) { return entry.own.coverage; });
     if (name == "real") real_coverage = coverage.value;
-    table.rows.push_back({{name},
-                          {Cell{static_cast<double>(entries.size()), {}},
-                           mean([](const Entry& entry) { return 100 * entry.own.hit_rate; }),
-                           mean([](const Entry& entry) { return 100 * entry.chance.hit_rate; }),
-                           mean([](const Entry& entry) {
-                             return 100 * (entry.own.hit_rate - entry.chance.hit_rate);
-                           }),
-                           coverage, Cell{coverage.value / real_coverage, {}},
-                           mean([](const Entry& entry) { return entry.own.alignment; }),
-                           mean([](const Entry& entry) { return entry.chance.alignment; })}});
+    table.Begin({name});
+    table.Put("dances", 0, static_cast<double>(entries.size()));
+    table.Put("hit rate %", 1, mean([](const Entry& one) { return 100 * one.own.hit_rate; }));
+    table.Put("chance %", 1, mean([](const Entry& one) { return 100 * one.chance.hit_rate; }));
+    table.Put("above chance", 1, mean([](const Entry& one) {
+                return 100 * (one.own.hit_rate - one.chance.hit_rate);
+              }));
+    table.Put("coverage", 2, coverage);
+    table.Put("coverage / real's", 2, coverage.value / real_coverage);
+    table.Put("alignment", 3, mean([](const Entry& one) { return one.own.alignment; }));
+    table.Put("its chance", 3, mean([](const Entry& one) { return one.chance.alignment; }));
     PlotSeries own{.label = name, .x = {}, .y = {}};
     for (size_t clip = 0; clip < set_.clips.size(); ++clip) {
       double sum = 0, count = 0;

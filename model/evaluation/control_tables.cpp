@@ -13,7 +13,6 @@ constexpr int kLengths[] = {10, 50, 100, 150};
 constexpr int kLongLengths[] = {100, 150, 200, 250};
 constexpr int kFactorFrames = 90;
 constexpr std::pair<double, const char*> kScales[] = {{0.5, "0.5"}, {1.0, "1.0"}, {1.5, "1.5"}};
-constexpr double kCentimetre = 100;
 constexpr double kEnding = 0.2;       // share of a dance that is its ending
 constexpr size_t kInterpolation = 1;  // of WaysOf
 
@@ -30,9 +29,8 @@ JointTrack FacingTrack(const Skeleton& skeleton, const std::vector<Pose>& poses)
 
 Table LengthTable(const Evaluation& evaluation, const char* name, const std::string& title,
                   const std::string& note, int digits) {
-  Table table = evaluation.NewTable(name, title);
+  Table table = evaluation.NewTable(name, title, {"method"});
   table.note = note;
-  table.label_headings = {"method"};
   for (const int length : kLengths) table.columns.push_back({std::to_string(length), digits});
   return table;
 }
@@ -52,13 +50,11 @@ using Lengths = std::vector<std::vector<ClipFigure>>;
 Table FactorTable(Table table, const std::string& note, const Evaluation& evaluation,
                   const ControlCourse& course) {
   table.note = note;
-  table.label_headings = {"method", "times"};
-  for (const std::string_view part : kBodyPartNames) table.columns.push_back({std::string(part)});
   for (const Method& way : WaysOf(evaluation.methods)) {
     for (const auto& [scale, times] : kScales) {
       if (scale != 1 && !way.TakesVelocityFactors()) continue;
       const Dances dances = course.Dance(way, scale);
-      TableRow row{{way.name, times}, {}};
+      table.Begin({way.name, times});
       for (int part = 0; part < kBodyParts; ++part) {
         const auto danced = course.FiguresOf(dances, [&](const ControlledWindow& window,
                                                          const std::vector<Pose>& poses) {
@@ -68,9 +64,8 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
             course.FiguresOf(dances, [&](const ControlledWindow& window, const std::vector<Pose>&) {
               return window.factors.row(part).mean();
             });
-        row.cells.push_back(Ratio(danced, unit));
+        table.Put(std::string(kBodyPartNames[part]), 2, Ratio(danced, unit));
       }
-      table.rows.push_back(std::move(row));
     }
   }
   return table;
@@ -98,15 +93,15 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
                            "face +Z.",
                    1),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-         return kCentimetre * RootRelativeDistance(FacingTrack(skeleton, danced),
-                                                   FacingTrack(skeleton, window.real));
+         return 100 * RootRelativeDistance(FacingTrack(skeleton, danced),
+                                           FacingTrack(skeleton, window.real));
        },
        true},
       {LengthTable(evaluation, "lrp_turned", "LRP in the scene's axes, cm",
                    asked + "As LRP, but a wrong heading counts too.", 1),
        [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-         return kCentimetre * RootRelativeDistance(TrackJoints(skeleton, danced),
-                                                   TrackJoints(skeleton, window.real));
+         return 100 * RootRelativeDistance(TrackJoints(skeleton, danced),
+                                           TrackJoints(skeleton, window.real));
        },
        false},
       {LengthTable(evaluation, "avf", "AVF",
@@ -172,14 +167,14 @@ std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
   ControlCourse course(evaluation, kFactorFrames);
   const std::string asked = std::to_string(kFactorFrames) + " frames on the real path";
   std::vector<Table> tables;
-  tables.push_back(
-      FactorTable(evaluation.NewTable("multipliers", "Velocity factors times a number"),
-                  asked + ": mean speed of each part over the real dance's.", evaluation, course));
+  tables.push_back(FactorTable(
+      evaluation.NewTable("multipliers", "Velocity factors times a number", {"method", "times"}),
+      asked + ": mean speed of each part over the real dance's.", evaluation, course));
   if (model.velocity_references.empty()) return tables;
   const VelocityReference& reference = model.velocity_references.front();
   course.AskConstant(reference.factors);
   tables.push_back(
-      FactorTable(evaluation.NewTable("constant", "Constant velocity factors"),
+      FactorTable(evaluation.NewTable("constant", "Constant velocity factors", {"method", "times"}),
                   asked + ", the same asked of every frame: " + "a number times the reference \"" +
                       reference.name + "\". Mean speed of each part over that reference.",
                   evaluation, course));
@@ -190,11 +185,10 @@ std::vector<Table> EvaluateRepetition(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   if (!model.root_path) return {};
   const std::vector<Method> ways = WaysOf(evaluation.methods);
-  Table table = evaluation.NewTable("repetition", "Repetition and endings");
+  Table table = evaluation.NewTable("repetition", "Repetition and endings", {"method"});
   table.note =
       "Shares of half seconds: that repeat one before them, and that hold still in the last fifth "
       "(repetition.h).";
-  table.label_headings = {"method"};
   for (const char* what : {"repeated", "still at the end"}) {
     for (const int frames : kLongLengths)
       table.columns.push_back({std::string(what) + ", " + std::to_string(frames), 3});

@@ -60,7 +60,7 @@ double PathSpeed(const ControlledWindow& window, double fps) {
 std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   if (!model.root_path) return {};
-  Table table = evaluation.NewTable("drawn", "Drawn paths");
+  Table table = evaluation.NewTable("drawn", "Drawn paths", {"path", "method"});
   char note[256];
   std::snprintf(note, sizeof(note),
                 "%d frames between real poses on paths that nobody danced, no velocity factors "
@@ -68,12 +68,6 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
                 "the dancer's left in the middle. Of the key's joints the worst.",
                 kFrames, kAside);
   table.note = note;
-  table.label_headings = {"path", "method"};
-  table.columns = {{"root asked m/s", 2},
-                   {"skating", 2},
-                   {"root off path mean cm", 1},
-                   {"key missed cm", 2},
-                   {"a joint off degrees", 1}};
   const Skeleton& skeleton = model.skeleton;
   for (const DrawnPath& path : kPaths) {
     ControlCourse course(evaluation, kFrames);
@@ -83,25 +77,25 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
       if (!way.TakesPath() || !way.keys) continue;
       if (way.kind == Method::Kind::kReal && path.way != Way::kDanced) continue;
       const Dances dances = course.Dance(way);
-      const auto mean = [&](auto&& figure) { return course.MeanOf(dances, figure); };
       using Danced = const std::vector<Pose>&;
-      table.rows.push_back(
-          {{path.name, way.name},
-           {mean([&](const ControlledWindow& window, Danced) {
-              return PathSpeed(window, model.fps);
-            }),
-            mean([&](const ControlledWindow& window, Danced danced) {
-              return SkateRatioOf(skeleton, model.fps, window.before, danced);
-            }),
-            mean([&](const ControlledWindow& window, Danced danced) {
-              return 100 * RootDeviation(TrackJoints(skeleton, danced), window.path);
-            }),
-            mean([&](const ControlledWindow& window, Danced danced) {
-              return 100 * ComparePoses(skeleton, danced.back(), window.key).position_m;
-            }),
-            mean([&](const ControlledWindow& window, Danced danced) {
-              return ComparePoses(skeleton, danced.back(), window.key).angle_deg;
-            })}});
+      const auto put = [&](const char* heading, int digits, const ControlCourse::Figure& figure) {
+        table.Put(heading, digits, course.MeanOf(dances, figure));
+      };
+      table.Begin({path.name, way.name});
+      put("root asked m/s", 2,
+          [&](const ControlledWindow& window, Danced) { return PathSpeed(window, model.fps); });
+      put("skating", 2, [&](const ControlledWindow& window, Danced danced) {
+        return SkateRatioOf(skeleton, model.fps, window.before, danced);
+      });
+      put("root off path mean cm", 1, [&](const ControlledWindow& window, Danced danced) {
+        return 100 * RootDeviation(TrackJoints(skeleton, danced), window.path);
+      });
+      put("key missed cm", 2, [&](const ControlledWindow& window, Danced danced) {
+        return 100 * ComparePoses(skeleton, danced.back(), window.key).position_m;
+      });
+      put("a joint off degrees", 1, [&](const ControlledWindow& window, Danced danced) {
+        return ComparePoses(skeleton, danced.back(), window.key).angle_deg;
+      });
     }
   }
   return {table};

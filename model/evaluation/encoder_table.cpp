@@ -3,6 +3,7 @@
 #include "model/evaluation/long_plans.h"
 #include "model/evaluation/motion_encoder.h"
 #include "model/metrics/frechet.h"
+#include "model/metrics/linear.h"
 
 namespace choreo {
 namespace {
@@ -28,21 +29,16 @@ std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) 
   return plans;
 }
 
-Eigen::MatrixXd Join(const std::vector<Eigen::MatrixXd>& parts) {
-  Eigen::Index columns = 0;
-  for (const Eigen::MatrixXd& part : parts) columns += part.cols();
-  Eigen::MatrixXd all(parts.empty() ? 0 : parts[0].rows(), columns);
-  Eigen::Index at = 0;
-  for (const Eigen::MatrixXd& part : parts) {
-    all.middleCols(at, part.cols()) = part;
-    at += part.cols();
-  }
-  return all;
+void AddRow(const Method& method, Cell distance, Cell variability, Cell diversity, Table* table) {
+  table->Begin({method.name});
+  table->Put("FID", 2, distance);
+  table->Put("variability", 2, variability);
+  table->Put("diversity", 1, diversity);
 }
 
-TableRow RowOf(const Method& method, const std::vector<LongPlan>& plans,
+void AddDances(const Method& method, const std::vector<LongPlan>& plans,
                const std::vector<LongDance>& chains, const MotionEncoder& encoder,
-               const Eigen::MatrixXd& reference) {
+               const Eigen::MatrixXd& reference, Table* table) {
   std::vector<Eigen::MatrixXd> codes;
   for (const LongDance& chain : chains)
     codes.push_back(encoder.Encode(method.engine->model().skeleton, chain.poses));
@@ -54,10 +50,9 @@ TableRow RowOf(const Method& method, const std::vector<LongPlan>& plans,
     variability += MeanApart({first, first + kSamples}) / static_cast<double>(inputs);
     firsts.push_back(*first);
   }
-  const Eigen::MatrixXd all = Join(codes);
-  return {{method.name},
-          {Cell{all.cols() > 1 ? FrechetDistance(all, reference) : NAN, {}}, Cell{variability, {}},
-           Cell{MeanApart(firsts), {}}}};
+  const Eigen::MatrixXd all = SideBySide(codes);
+  AddRow(method, all.cols() > 1 ? FrechetDistance(all, reference) : NAN, variability,
+         MeanApart(firsts), table);
 }
 
 }  // namespace
@@ -73,8 +68,8 @@ std::vector<Table> EvaluateEncoded(const Evaluation& evaluation) {
           .push_back(encoder.Encode(clip.skeleton, poses.subspan(block * kBlock, kBlock)));
     }
   }
-  const Eigen::MatrixXd reference = Join(even);
-  Table table = evaluation.NewTable("encoder", "FID, variability, diversity");
+  const Eigen::MatrixXd reference = SideBySide(even);
+  Table table = evaluation.NewTable("encoder", "FID, variability, diversity", {"method"});
   char explained[32];
   std::snprintf(explained, sizeof(explained), "%.1f %%", 100 * encoder.explained());
   table.note = "Codes of the motion encoder " + encoder.version() + ", which explains " +
@@ -82,19 +77,15 @@ std::vector<Table> EvaluateEncoded(const Evaluation& evaluation) {
                " of training motion. Dances of 10 s, keys each 2 s where there are "
                "keys; units: standard deviations of training motion's codes, squared. FID to every "
                "other 5 s of the real clips, whose remaining seconds are the row of real motion.";
-  table.label_headings = {"method"};
-  table.columns = {{"FID", 2}, {"variability", 2}, {"diversity", 1}};
   if (reference.cols() < 2) return {table};
   for (const Method& method : evaluation.methods) {
     if (method.kind == Method::Kind::kReal && !odd.empty()) {
-      table.rows.push_back(
-          {{method.name},
-           {Cell{FrechetDistance(Join(odd), reference), {}}, Cell{}, Cell{MeanApart(odd), {}}}});
+      AddRow(method, FrechetDistance(SideBySide(odd), reference), {}, MeanApart(odd), &table);
     }
     if (method.kind != Method::Kind::kEngine) continue;
     const std::vector<LongPlan> plans = Plans(evaluation, method);
     const std::vector<LongDance> danced = evaluation.runner.DanceLong(*method.engine, plans);
-    table.rows.push_back(RowOf(method, plans, danced, encoder, reference));
+    AddDances(method, plans, danced, encoder, reference, &table);
   }
   return {table};
 }

@@ -68,12 +68,13 @@ struct Evaluation {
   const ModelInfo& model() const { return judged().engine->model(); }
 
   /// An empty table of this set; one of a method's own is called after it, but for the judged one.
-  Table NewTable(const std::string& name, const std::string& title,
+  Table NewTable(const std::string& name, const std::string& title, std::vector<std::string> labels,
                  const Method* of = nullptr) const {
     const bool named = of != nullptr && of != &judged();
     Table table;
     table.name = name + "_" + set.name + (named ? "_" + of->name : "");
     table.title = title + ", " + set.name + (named ? ", " + of->name : "");
+    table.label_headings = std::move(labels);
     return table;
   }
 };

@@ -32,22 +32,19 @@ struct KeyedDances {
   std::vector<LivelyDances> songs;  // one each of kSongs, seed 0
 };
 
-Cell Plain(double value) { return {value, {}}; }
-
-class Rows {
- public:
-  void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio) {
-    rows_.push_back({{figure}, {real, locked, danced, ratio}});
-  }
-  void AddReal(const std::string& figure, double real) { Add(figure, Plain(real), {}, {}, {}); }
-  void AddDanced(const std::string& figure, Cell danced, Cell ratio = {}) {
-    Add(figure, {}, {}, danced, ratio);
-  }
-  std::vector<TableRow> Take() { return std::move(rows_); }
-
- private:
-  std::vector<TableRow> rows_;
-};
+void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio, Table* table) {
+  table->Begin({figure});
+  table->Put("real motion", 2, real);
+  table->Put("real, foot lock", 2, locked);
+  table->Put("danced", 2, danced);
+  table->Put("danced ÷ real", 2, ratio);
+}
+void AddReal(const std::string& figure, double real, Table* table) {
+  Add(figure, real, {}, {}, {}, table);
+}
+void AddDanced(const std::string& figure, Cell danced, Table* table) {
+  Add(figure, {}, {}, danced, {}, table);
+}
 
 std::vector<LivelyDances> Measure(const ModelInfo& model, const std::vector<LongPlan>& plans,
                                   const std::vector<LongDance>& chains, size_t repeats) {
@@ -102,15 +99,15 @@ std::vector<ClipFigure> Scaled(std::vector<ClipFigure> figures, double unit) {
   return figures;
 }
 
-void AddMovement(const KeyedDances& dances, Rows* rows) {
+void AddMovement(const KeyedDances& dances, Table* table) {
   const LivelyDances danced = Flat(dances.seeds);
   const LivelyDances real = Flat(std::vector<LivelyDances>(kSeeds, dances.real));
   const auto add = [&](const std::string& name, double LivelyFigures::*figure, double unit) {
     const auto mean = [&](const LivelyDances& some) {
       return Mean(Scaled(Of(some, figure), unit));
     };
-    rows->Add(name, mean(dances.real), mean(dances.locked), mean(danced),
-              Ratio(Of(danced, figure), Of(real, figure)));
+    Add(name, mean(dances.real), mean(dances.locked), mean(danced),
+        Ratio(Of(danced, figure), Of(real, figure)), table);
   };
   add("median speed cm/s", &LivelyFigures::median_speed, 100);
   std::vector<ClipFigure> within;
@@ -118,13 +115,13 @@ void AddMovement(const KeyedDances& dances, Rows* rows) {
     const double ratio = danced[i].median_speed / real[i].median_speed;
     within.push_back({danced[i].clip, ratio >= kSlowest && ratio <= kFastest ? 100.0 : 0.0});
   }
-  rows->Add("dances at 0.7 to 1.4 of it %", Plain(100), {}, Mean(within), {});
+  Add("dances at 0.7 to 1.4 of it %", 100, {}, Mean(within), {}, table);
   const auto wandering = [&](const LivelyDances& some) {
     return Ratio(Of(some, &LivelyFigures::limb_path), Of(some, &LivelyFigures::limb_chord));
   };
-  rows->Add("limbs' path over chord m/m", wandering(dances.real), wandering(dances.locked),
-            wandering(danced),
-            Ratio(Of(danced, &LivelyFigures::limb_path), Of(real, &LivelyFigures::limb_path)));
+  Add("limbs' path over chord m/m", wandering(dances.real), wandering(dances.locked),
+      wandering(danced),
+      Ratio(Of(danced, &LivelyFigures::limb_path), Of(real, &LivelyFigures::limb_path)), table);
   add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
   add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
   add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
@@ -134,7 +131,7 @@ void AddMovement(const KeyedDances& dances, Rows* rows) {
   add("kinematic beats a minute", &LivelyFigures::kinematic_beats, 1);
 }
 
-void AddDifferences(const KeyedDances& dances, Rows* rows) {
+void AddDifferences(const KeyedDances& dances, Table* table) {
   std::vector<ClipFigure> seeds;
   for (size_t a = 0; a < kSeeds; ++a) {
     for (size_t b = a + 1; b < kSeeds; ++b) {
@@ -144,13 +141,13 @@ void AddDifferences(const KeyedDances& dances, Rows* rows) {
       }
     }
   }
-  rows->AddDanced("seeds differ cm", Mean(seeds));
-  rows->AddDanced("songs differ, 90 and 130 bpm cm", DistanceCm(dances.songs[0], dances.songs[2]));
-  rows->AddDanced("songs differ, half a beat apart cm",
-                  DistanceCm(dances.songs[1], dances.songs[3]));
+  AddDanced("seeds differ cm", Mean(seeds), table);
+  AddDanced("songs differ, 90 and 130 bpm cm", DistanceCm(dances.songs[0], dances.songs[2]), table);
+  AddDanced("songs differ, half a beat apart cm", DistanceCm(dances.songs[1], dances.songs[3]),
+            table);
 }
 
-void AddHits(const KeyedDances& dances, double fps, Rows* rows) {
+void AddHits(const KeyedDances& dances, double fps, Table* table) {
   for (size_t i = 0; i < std::size(kSongs); ++i) {
     const Song& song = kSongs[i];
     const auto hits = [&](const LivelyDances& some) {
@@ -159,11 +156,11 @@ void AddHits(const KeyedDances& dances, double fps, Rows* rows) {
     std::string name = "hits over chance, " + std::to_string(std::lround(song.bpm)) + " bpm";
     if (song.phase > 0) name += ", half a beat later";
     if (song.shuffled) name += ", told shuffled beats";
-    rows->Add(name + " points", hits(dances.real), hits(dances.locked), hits(dances.songs[i]), {});
+    Add(name + " points", hits(dances.real), hits(dances.locked), hits(dances.songs[i]), {}, table);
   }
 }
 
-void AddFrechet(const Evaluation& evaluation, const Method& method, Rows* rows) {
+void AddFrechet(const Evaluation& evaluation, const Method& method, Table* table) {
   const TransitionJudge judge(evaluation, method.engine->model(), kFrechetFrames);
   if (judge.windows().empty()) return;
   const RealFeatures features = GatherRealFeatures(evaluation.set, kFrechetFrames);
@@ -172,38 +169,38 @@ void AddFrechet(const Evaluation& evaluation, const Method& method, Rows* rows) 
   const auto add = [&](const std::string& name, const Eigen::MatrixXd& all, auto figure) {
     const double own = CompareFeatures(all, real, figure).distance;
     const double theirs = CompareFeatures(all, danced, figure).distance;
-    rows->Add(name, Plain(own), {}, Plain(theirs), Plain(theirs / own));
+    Add(name, own, {}, theirs, theirs / own, table);
   };
   add("FID_k at 60 frames", features.kinetic, &WindowFigures::kinetic);
   add("FID_g at 60 frames", features.geometric, &WindowFigures::geometric);
   if (evaluation.training == nullptr) return;
   const RealFeatures others = GatherRealFeatures(*evaluation.training, kFrechetFrames);
-  rows->AddReal("FID_k, dancers of the training clips",
-                CompareFeatures(features.kinetic, others.kinetic).distance);
-  rows->AddReal("FID_g, dancers of the training clips",
-                CompareFeatures(features.geometric, others.geometric).distance);
+  AddReal("FID_k, dancers of the training clips",
+          CompareFeatures(features.kinetic, others.kinetic).distance, table);
+  AddReal("FID_g, dancers of the training clips",
+          CompareFeatures(features.geometric, others.geometric).distance, table);
 }
 
-void AddCritic(const Evaluation& evaluation, const KeyedDances& dances, double fps, Rows* rows) {
+void AddCritic(const Evaluation& evaluation, const KeyedDances& dances, double fps, Table* table) {
   const auto windows = [&](const LivelyDances& some) {
     CriticWindows all;
     for (const LivelyFigures& dance : some) all.Add(dance.track, fps, dance.clip);
     return all;
   };
   const CriticWindows locked = windows(dances.locked);
-  rows->Add("critic's area under the curve", {}, Plain(RealAgainstReal(locked)),
-            Plain(CriticArea(locked, windows(dances.seeds[0]))), {});
+  Add("critic's area under the curve", {}, RealAgainstReal(locked),
+      CriticArea(locked, windows(dances.seeds[0])), {}, table);
   if (evaluation.training == nullptr) return;
   CriticWindows others;
   for (size_t clip = 0; clip < evaluation.training->clips.size(); ++clip) {
     const PreparedClip& one = evaluation.training->clips[clip];
     others.Add(TrackJoints(one.skeleton, one.motion.frames), fps, clip);
   }
-  rows->AddReal("critic's area, dancers of the training clips",
-                CriticArea(windows(dances.real), others));
+  AddReal("critic's area, dancers of the training clips", CriticArea(windows(dances.real), others),
+          table);
 }
 
-void AddFree(const Evaluation& evaluation, const Method& method, Rows* rows) {
+void AddFree(const Evaluation& evaluation, const Method& method, Table* table) {
   const EvalOptions& options = evaluation.options;
   if (options.free_dances == 0) return;
   const ModelInfo& model = method.engine->model();
@@ -217,45 +214,42 @@ void AddFree(const Evaluation& evaluation, const Method& method, Rows* rows) {
     speeds.push_back(static_cast<float>(dances.back().median_speed));
   }
   const auto share = [&](auto is) {
-    return Plain(100.0 * static_cast<double>(std::ranges::count_if(dances, is)) /
-                 static_cast<double>(dances.size()));
+    return 100.0 * static_cast<double>(std::ranges::count_if(dances, is)) /
+           static_cast<double>(dances.size());
   };
   const double speed = Percentile(speeds, 0.5);
-  rows->Add("free: median speed cm/s", Plain(100 * real.median_speed), {}, Plain(100 * speed),
-            Plain(speed / real.median_speed));
-  rows->AddDanced("free: frozen %", share([&](const auto& one) { return real.Frozen(one); }));
-  rows->AddDanced("free: exploded %", share([&](const auto& one) { return real.Exploded(one); }));
-  rows->AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }));
+  Add("free: median speed cm/s", 100 * real.median_speed, {}, 100 * speed,
+      speed / real.median_speed, table);
+  AddDanced("free: frozen %", share([&](const auto& one) { return real.Frozen(one); }), table);
+  AddDanced("free: exploded %", share([&](const auto& one) { return real.Exploded(one); }), table);
+  AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }), table);
 }
 
 Table LivelinessTable(const Evaluation& evaluation, const Method& method,
                       const KeyedDances& dances) {
   const double fps = method.engine->model().fps;
-  Rows rows;
+  Table table = evaluation.NewTable("liveliness", "Does it live", {"figure"}, &method);
   if (!dances.real.empty()) {
-    AddMovement(dances, &rows);
-    AddDifferences(dances, &rows);
-    AddHits(dances, fps, &rows);
-    AddCritic(evaluation, dances, fps, &rows);
+    AddMovement(dances, &table);
+    AddDifferences(dances, &table);
+    AddHits(dances, fps, &table);
+    AddCritic(evaluation, dances, fps, &table);
   }
-  AddFrechet(evaluation, method, &rows);
-  AddFree(evaluation, method, &rows);
-  Table table = evaluation.NewTable("liveliness", "Does it live", &method);
+  AddFrechet(evaluation, method, &table);
+  AddFree(evaluation, method, &table);
   table.note = std::to_string(dances.real.size()) + " clips, " + std::to_string(kSeeds) +
                " seeds, the clips' own poses each 2 s as keys and nothing else of them; free: " +
                std::to_string(evaluation.options.free_dances) +
                " dances without keys. The critic is fair where it finds real motion against real "
                "between 0.45 and 0.55; dancers of the training clips are real ones, who dance "
                "something else.";
-  table.label_headings = {"figure"};
-  table.columns = {{"real motion", 2}, {"real, foot lock", 2}, {"danced", 2}, {"danced ÷ real", 2}};
-  table.rows = rows.Take();
   return table;
 }
 
 Table BandTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances) {
   const ModelInfo& model = method.engine->model();
-  Table table = evaluation.NewTable("liveliness_bands", "How fast in which band", &method);
+  Table table =
+      evaluation.NewTable("liveliness_bands", "How fast in which band", {"joint"}, &method);
   table.note =
       "Speed over real motion's by frequency, through the same keys; the pelvis in the world, all "
       "else as seen from it.";

@@ -35,12 +35,6 @@ std::string WithoutSide(const std::string& joint) {
 
 void FillBands(const Skeleton& skeleton, double fps, const LivelyDances& real,
                const LivelyDances& danced, Table* table) {
-  table->label_headings = {"joint"};
-  for (int band = 0; band < kBands; ++band) {
-    char heading[64];
-    std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[band], kBandEdges[band + 1]);
-    table->columns.push_back({heading, 2});
-  }
   const Eigen::MatrixXd theirs = MeanPower(real, fps), ours = MeanPower(danced, fps);
   std::vector<std::string> names;
   for (const std::string& joint : skeleton.joint_names) {
@@ -53,10 +47,13 @@ void FillBands(const Skeleton& skeleton, double fps, const LivelyDances& real,
       above += ours.col(j);
       below += theirs.col(j);
     }
-    TableRow row{{name}, {}};
-    for (int band = 0; band < kBands; ++band)
-      row.cells.push_back({below[band] > 0 ? std::sqrt(above[band] / below[band]) : NAN, {}});
-    table->rows.push_back(std::move(row));
+    table->Begin({name});
+    for (int band = 0; band < kBands; ++band) {
+      char heading[64];
+      std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[band],
+                    kBandEdges[band + 1]);
+      table->Put(heading, 2, below[band] > 0 ? std::sqrt(above[band] / below[band]) : NAN);
+    }
   }
 }
 

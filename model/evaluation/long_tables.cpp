@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "model/evaluation/beat_table.h"
 #include "model/evaluation/evaluation.h"
@@ -21,62 +22,61 @@ std::vector<int> KeyFramesOf(const LongPlan& plan) {
   return frames;
 }
 
-TableRow LongRow(const std::string& name, const std::vector<LongFigures>& dances,
-                 const RealRange& real, double worst_key_m) {
-  const auto median = [&](auto figure) {
-    std::vector<float> values;
-    for (const LongFigures& dance : dances) values.push_back(static_cast<float>(figure(dance)));
-    return Cell{Percentile(values, 0.5), {}};
+void AddRow(const std::string& name, const std::vector<LongFigures>& dances, const RealRange& real,
+            double worst_key_m, Table* table) {
+  const auto count = static_cast<double>(dances.size());
+  const auto values = [&](auto figure) {
+    std::vector<float> all;
+    for (const LongFigures& dance : dances)
+      all.push_back(static_cast<float>(std::invoke(figure, dance)));
+    return all;
   };
+  const auto median = [&](auto figure) { return Percentile(values(figure), 0.5); };
   const auto share = [&](auto is) {
-    return Cell{100.0 * static_cast<double>(std::ranges::count_if(dances, is)) /
-                    static_cast<double>(dances.size()),
-                {}};
+    return 100.0 * static_cast<double>(std::ranges::count_if(dances, is)) / count;
   };
-  double reach = 0, lowest = INFINITY, highest = 0, backwards = 0, skating = 0, within = 0;
-  double minutes = 0, knee_snaps = 0, elbow_snaps = 0;
-  std::vector<float> key_accelerations;
-  for (const LongFigures& dance : dances) {
-    reach = std::max(reach, dance.reach_m);
-    lowest = std::min(lowest, dance.lowest_m);
-    highest = std::max(highest, dance.highest_m);
-    backwards += dance.bent_backwards / static_cast<double>(dances.size());
-    minutes += dance.seconds / 60;
-    knee_snaps += dance.snaps.knees;
-    elbow_snaps += dance.snaps.elbows;
-    skating += dance.skate_ratio / static_cast<double>(dances.size());
-    within += real.JointsWithin(dance) / static_cast<double>(dances.size());
-    key_accelerations.insert(key_accelerations.end(), dance.key_accelerations.begin(),
-                             dance.key_accelerations.end());
-  }
-  const bool keys = !key_accelerations.empty();
-  const auto above = static_cast<double>(std::ranges::count_if(
-      key_accelerations, [&](float value) { return value > real.p95_acceleration; }));
-  return {{name},
-          {Cell{static_cast<double>(dances.size()), {}},
-           median([](const LongFigures& dance) { return dance.seconds; }),
-           median([](const LongFigures& dance) { return dance.median_speed; }),
-           median([](const LongFigures& dance) { return dance.late_speed; }),
-           median([](const LongFigures& dance) { return dance.stillest; }),
-           share([&](const LongFigures& dance) { return real.Frozen(dance); }),
-           share([&](const LongFigures& dance) { return real.Exploded(dance); }),
-           share([&](const LongFigures& dance) { return real.Drifted(dance); }),
-           median([](const LongFigures& dance) { return dance.away_m_per_min; }),
-           median([](const LongFigures& dance) { return std::abs(dance.rise_m); }),
-           median([](const LongFigures& dance) { return dance.pace_change; }),
-           median([](const LongFigures& dance) { return dance.reach_m; }),
-           Cell{reach, {}},
-           Cell{lowest, {}},
-           Cell{highest, {}},
-           Cell{100 * backwards, {}},
-           Cell{knee_snaps / minutes, {}},
-           Cell{elbow_snaps / minutes, {}},
-           Cell{100 * within, {}},
-           Cell{skating, {}},
-           median([](const LongFigures& dance) { return dance.p95_acceleration; }),
-           Cell{keys ? Percentile(key_accelerations, 0.5) : NAN, {}},
-           Cell{keys ? 100 * above / static_cast<double>(key_accelerations.size()) : NAN, {}},
-           Cell{keys ? 1000 * worst_key_m : NAN, {}}}};
+  const auto sum = [&](auto figure) {
+    double all = 0;
+    for (const LongFigures& dance : dances) all += std::invoke(figure, dance);
+    return all;
+  };
+  const double minutes = sum(&LongFigures::seconds) / 60;
+  std::vector<float> jolts;
+  for (const LongFigures& dance : dances)
+    jolts.insert(jolts.end(), dance.key_accelerations.begin(), dance.key_accelerations.end());
+  const auto of_keys = [&](auto figure) { return jolts.empty() ? NAN : figure(); };
+  table->Begin({name});
+  table->Put("dances", 0, count);
+  table->Put("seconds median", 0, median(&LongFigures::seconds));
+  table->Put("speed median m/s", 2, median(&LongFigures::median_speed));
+  table->Put("last fifth m/s", 2, median(&LongFigures::late_speed));
+  table->Put("stillest fifth m/s", 2, median(&LongFigures::stillest));
+  table->Put("frozen %", 0, share([&](const auto& dance) { return real.Frozen(dance); }));
+  table->Put("exploded %", 0, share([&](const auto& dance) { return real.Exploded(dance); }));
+  table->Put("drifted %", 0, share([&](const auto& dance) { return real.Drifted(dance); }));
+  table->Put("away m/min", 2, median(&LongFigures::away_m_per_min));
+  table->Put("rise m", 3, median([](const auto& dance) { return std::abs(dance.rise_m); }));
+  table->Put("pace, end / start", 2, median(&LongFigures::pace_change));
+  table->Put("reach median m", 1, median(&LongFigures::reach_m));
+  table->Put("reach max m", 1, std::ranges::max(dances, {}, &LongFigures::reach_m).reach_m);
+  table->Put("root lowest m", 2, std::ranges::min(dances, {}, &LongFigures::lowest_m).lowest_m);
+  table->Put("root highest m", 2, std::ranges::max(dances, {}, &LongFigures::highest_m).highest_m);
+  table->Put("hinges backwards %", 3, 100 * sum(&LongFigures::bent_backwards) / count);
+  table->Put("knee snaps a minute", 1,
+             sum([](const auto& dance) { return dance.snaps.knees; }) / minutes);
+  table->Put("elbow snaps a minute", 1,
+             sum([](const auto& dance) { return dance.snaps.elbows; }) / minutes);
+  table->Put("joints at real speed %", 0,
+             100 * sum([&](const auto& dance) { return real.JointsWithin(dance); }) / count);
+  table->Put("skating", 2, sum(&LongFigures::skate_ratio) / count);
+  table->Put("acc. p95 m/s²", 0, median(&LongFigures::p95_acceleration));
+  table->Put("acc. at keys median m/s²", 0, of_keys([&] { return Percentile(jolts, 0.5); }));
+  table->Put("keys above real p95 %", 0, of_keys([&] {
+               const auto above = std::ranges::count_if(
+                   jolts, [&](float jolt) { return jolt > real.p95_acceleration; });
+               return 100.0 * static_cast<double>(above) / static_cast<double>(jolts.size());
+             }));
+  table->Put("worst key mm", 4, of_keys([&] { return 1000 * worst_key_m; }));
 }
 
 // The mean joint speed second by second, mean over dances that last as long.
@@ -99,8 +99,8 @@ PlotSeries SpeedCurve(const std::string& label, const std::vector<LongFigures>& 
   return curve;
 }
 
-Table LongHeadings(const Evaluation& evaluation) {
-  Table table = evaluation.NewTable("long", "Long dances");
+Table NewLongTable(const Evaluation& evaluation) {
+  Table table = evaluation.NewTable("long", "Long dances", {"dance"});
   table.note =
       "Keys are poses of the clips, whose songs end a dance. Frozen: the last fifth is slower than "
       "a quarter of real motion's median; who stands before that and moves again shows in the "
@@ -117,31 +117,6 @@ Table LongHeadings(const Evaluation& evaluation) {
       "between the 5th and 95th percentile of real motion's; real motion's \"keys\" are its frames "
       "each 2 s; the real motion of the keys is what lies between them, which a clip that is "
       "shorter than the dance has forwards, backwards, forwards.";
-  table.label_headings = {"dance"};
-  table.columns = {{"dances", 0},
-                   {"seconds median", 0},
-                   {"speed median m/s", 2},
-                   {"last fifth m/s", 2},
-                   {"stillest fifth m/s", 2},
-                   {"frozen %", 0},
-                   {"exploded %", 0},
-                   {"drifted %", 0},
-                   {"away m/min", 2},
-                   {"rise m", 3},
-                   {"pace, end / start", 2},
-                   {"reach median m", 1},
-                   {"reach max m", 1},
-                   {"root lowest m", 2},
-                   {"root highest m", 2},
-                   {"hinges backwards %", 3},
-                   {"knee snaps a minute", 1},
-                   {"elbow snaps a minute", 1},
-                   {"joints at real speed %", 0},
-                   {"skating", 2},
-                   {"acc. p95 m/s²", 0},
-                   {"acc. at keys median m/s²", 0},
-                   {"keys above real p95 %", 0},
-                   {"worst key mm", 4}};
   return table;
 }
 
@@ -153,8 +128,8 @@ std::vector<Table> EvaluateLongDances(const Evaluation& evaluation) {
   const ClipSet& set = evaluation.set;
   const ModelInfo& model = evaluation.model();
   const RealDances real = MeasureReal(set, model);
-  Table table = LongHeadings(evaluation);
-  table.rows.push_back(LongRow("real motion", real.clips, real.range, 0));
+  Table table = NewLongTable(evaluation);
+  AddRow("real motion", real.clips, real.range, 0, &table);
   table.plot =
       Plot{.title = "Mean joint speed through long dances, " + set.name,
            .x_label = "seconds",
@@ -180,8 +155,8 @@ std::vector<Table> EvaluateLongDances(const Evaluation& evaluation) {
                      MeanSpeeds(TrackJoints(model.skeleton, chains[i].poses), model.fps));
     }
     if (dances.empty()) continue;
-    table.rows.push_back(LongRow(NameOf(times), dances, real.range, worst_key));
-    if (keyed) table.rows.push_back(LongRow("real motion of these keys", beside, real.range, 0));
+    AddRow(NameOf(times), dances, real.range, worst_key, &table);
+    if (keyed) AddRow("real motion of these keys", beside, real.range, 0, &table);
     table.plot->series.push_back(SpeedCurve(NameOf(times), dances, model.fps, options.long_frames));
   }
   std::vector<Table> tables = {table};

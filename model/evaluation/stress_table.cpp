@@ -101,17 +101,14 @@ std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
 std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   const RealRange range = MeasureReal(evaluation.set, model).range;
-  Table table = evaluation.NewTable("stress", "Keys that ask for too much or too little");
+  Table table =
+      evaluation.NewTable("stress", "Keys that ask for too much or too little", {"way", "frames"});
   char note[256];
   std::snprintf(note, sizeof(note),
                 "Frozen: slower than a quarter of real motion's median (%.2f m/s). Warned: the "
                 "stream says interval_too_short. Real motion's keys are its own poses.",
                 range.median_speed);
   table.note = note;
-  table.label_headings = {"way", "frames"};
-  table.columns = {{"transitions", 0},   {"root m/s asked", 1}, {"joint rad/s asked", 1},
-                   {"warned %", 0},      {"frozen %", 0},       {"speed median m/s", 2},
-                   {"acc. max m/s²", 0}, {"worst key mm", 4}};
   for (const Case& one : kCases) {
     const std::vector<Danced> all = DanceCase(one, evaluation);
     if (all.empty()) continue;
@@ -135,12 +132,16 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
       frozen += speed < 0.25 * range.median_speed ? 1 : 0;
       speeds.push_back(static_cast<float>(speed));
     }
-    const auto of_keys = [&](double value) { return Cell{all[0].asked ? value : NAN, {}}; };
-    table.rows.push_back(
-        {{one.name, std::to_string(one.frames)},
-         {Cell{count, {}}, of_keys(root), of_keys(joint), of_keys(100 * warned / count),
-          Cell{100 * frozen / count, {}}, Cell{Percentile(speeds, 0.5), {}}, Cell{hardest, {}},
-          of_keys(1000 * worst)}});
+    const auto of_keys = [&](double value) { return all[0].asked ? value : NAN; };
+    table.Begin({one.name, std::to_string(one.frames)});
+    table.Put("transitions", 0, count);
+    table.Put("root m/s asked", 1, of_keys(root));
+    table.Put("joint rad/s asked", 1, of_keys(joint));
+    table.Put("warned %", 0, of_keys(100 * warned / count));
+    table.Put("frozen %", 0, 100 * frozen / count);
+    table.Put("speed median m/s", 2, Percentile(speeds, 0.5));
+    table.Put("acc. max m/s²", 0, hardest);
+    table.Put("worst key mm", 4, of_keys(1000 * worst));
   }
   return {table};
 }

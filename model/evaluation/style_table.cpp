@@ -70,15 +70,16 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
       evaluation.runner.DanceLong(*evaluation.judged().engine, plans);
   for (size_t i = 0; i < dances.size(); ++i)
     danced.push_back({plans[i].clip, recognised(dances[i].poses, asked[i])});
-  Table table = evaluation.NewTable("liveliness_styles", "Is an asked style recognised");
+  Table table =
+      evaluation.NewTable("liveliness_styles", "Is an asked style recognised", {"figure"});
   table.note =
       "Seconds that a classifier, which has seen the training clips, takes for the style that was "
       "asked for, of " +
       std::to_string(styles.size()) + "; no keys, " + std::to_string(kSeconds) + " s a dance.";
-  table.label_headings = {"figure"};
-  table.columns = {{"real motion", 1}, {"danced", 1}, {"chance", 1}};
-  table.rows = {
-      {{"right %"}, {Mean(real), Mean(danced), {100.0 / static_cast<double>(styles.size()), {}}}}};
+  table.Begin({"right %"});
+  table.Put("real motion", 1, Mean(real));
+  table.Put("danced", 1, Mean(danced));
+  table.Put("chance", 1, 100.0 / static_cast<double>(styles.size()));
   return {table};
 }
 

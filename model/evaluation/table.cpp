@@ -72,6 +72,11 @@ Cell MeanOfMeans(const std::vector<std::vector<ClipFigure>>& groups) {
   return Ratio(above, below);
 }
 
+void Table::Put(const std::string& heading, int digits, Cell cell) {
+  if (rows.size() == 1) columns.push_back({heading, digits});
+  rows.back().cells.push_back(cell);
+}
+
 std::string ToMarkdown(const Table& table) {
   std::vector<std::vector<std::string>> lines;
   std::vector<std::string> headings = table.label_headings;

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/draw/plot.h"
@@ -13,7 +14,8 @@ namespace choreo {
 
 /// A figure; NaN where there is none (a dash in Markdown, null in JSON).
 struct Cell {
-  double value = NAN;
+  Cell(double v = NAN, std::optional<Interval> i = {}) : value(v), interval(i) {}
+  double value;
   std::optional<Interval> interval;  ///< 95 %
 };
 
@@ -51,6 +53,11 @@ struct Table {
   std::vector<Column> columns;
   std::vector<TableRow> rows;
   std::optional<Plot> plot;
+
+  /// Begins a row.
+  void Begin(std::vector<std::string> labels) { rows.push_back({std::move(labels), {}}); }
+  /// The next cell of the last row; the first row makes the columns.
+  void Put(const std::string& heading, int digits, Cell cell);
 };
 
 /// A heading, the note, the table, its columns padded so that plain text reads well too.

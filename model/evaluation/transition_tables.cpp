@@ -26,8 +26,8 @@ void AddPoint(Plot* plot, const std::string& label, double x, double y) {
   series->y.push_back(y);
 }
 
-TableRow MethodRow(const std::string& method, const LengthFigures& length,
-                   const RealFeatures& real) {
+void AddMethod(const std::string& method, const LengthFigures& length, const RealFeatures& real,
+               Table* table) {
   const Figures& figures = length.methods.at(method);
   Pace pace;
   double npss = 0, weights = 0;
@@ -39,38 +39,29 @@ TableRow MethodRow(const std::string& method, const LengthFigures& length,
   const FeatureFigures kinetic = CompareFeatures(real.kinetic, figures, &WindowFigures::kinetic);
   const FeatureFigures geometric =
       CompareFeatures(real.geometric, figures, &WindowFigures::geometric);
-  const auto mean = [&](double WindowFigures::*figure) {
-    return Cell{Mean(figures, figure).value, {}};
-  };
-  return {{std::to_string(length.frames), method},
-          {Mean(figures, &WindowFigures::l2p, 100), RatioToLine(figures, length.line),
-           mean(&WindowFigures::l2q), Cell{weights > 0 ? npss / weights : NAN, {}},
-           Cell{kinetic.distance, {}}, Cell{geometric.distance, {}}, Cell{kinetic.diversity, {}},
-           Cell{geometric.diversity, {}}, mean(&WindowFigures::pfc),
-           mean(&WindowFigures::skate_ratio), mean(&WindowFigures::p95_acceleration),
-           Cell{Largest(figures, &WindowFigures::max_acceleration), {}},
-           Cell{pace.median_jerk(), {}}, Cell{pace.median_speed(), {}}}};
+  const auto mean = [&](double WindowFigures::*figure) { return Mean(figures, figure).value; };
+  table->Begin({std::to_string(length.frames), method});
+  table->Put("L2P cm", 2, Mean(figures, &WindowFigures::l2p, 100));
+  table->Put("L2P / interpolation's", 2, RatioToLine(figures, length.line));
+  table->Put("L2Q", 3, mean(&WindowFigures::l2q));
+  table->Put("NPSS", 3, weights > 0 ? npss / weights : NAN);
+  table->Put("FID_k", 1, kinetic.distance);
+  table->Put("FID_g", 1, geometric.distance);
+  table->Put("Div_k", 1, kinetic.diversity);
+  table->Put("Div_g", 1, geometric.diversity);
+  table->Put("PFC", 2, mean(&WindowFigures::pfc));
+  table->Put("skating", 2, mean(&WindowFigures::skate_ratio));
+  table->Put("acc. p95 m/s²", 0, mean(&WindowFigures::p95_acceleration));
+  table->Put("acc. max m/s²", 0, Largest(figures, &WindowFigures::max_acceleration));
+  table->Put("jerk median m/s³", 0, pace.median_jerk());
+  table->Put("speed median m/s", 2, pace.median_speed());
 }
 
 Table TransitionTable(const Evaluation& evaluation, const std::vector<LengthFigures>& lengths) {
   const ClipSet& set = evaluation.set;
-  Table table = evaluation.NewTable("transitions", "Transitions between real poses");
+  Table table =
+      evaluation.NewTable("transitions", "Transitions between real poses", {"frames", "method"});
   table.note = std::to_string(set.clips.size()) + " clips;";
-  table.label_headings = {"frames", "method"};
-  table.columns = {{"L2P cm", 2},
-                   {"L2P / interpolation's", 2},
-                   {"L2Q", 3},
-                   {"NPSS", 3},
-                   {"FID_k", 1},
-                   {"FID_g", 1},
-                   {"Div_k", 1},
-                   {"Div_g", 1},
-                   {"PFC", 2},
-                   {"skating", 2},
-                   {"acc. p95 m/s²", 0},
-                   {"acc. max m/s²", 0},
-                   {"jerk median m/s³", 0},
-                   {"speed median m/s", 2}};
   Plot plot{.title = "L2P over interpolation's, " + set.name,
             .x_label = "frames",
             .y_label = "L2P / interpolation's",
@@ -82,7 +73,7 @@ Table TransitionTable(const Evaluation& evaluation, const std::vector<LengthFigu
     if (length.windows.empty()) continue;
     const RealFeatures real = GatherRealFeatures(set, length.frames);
     for (const Method& method : evaluation.methods) {
-      table.rows.push_back(MethodRow(method.name, length, real));
+      AddMethod(method.name, length, real, &table);
       // Without keys all are far away, and would press the others together.
       if (method.kind != Method::Kind::kReal && method.keys)
         AddPoint(&plot, method.name, length.frames, table.rows.back().cells[1].value);
@@ -94,14 +85,10 @@ Table TransitionTable(const Evaluation& evaluation, const std::vector<LengthFigu
 }
 
 Table KeyTable(const Evaluation& evaluation, const std::vector<LengthFigures>& lengths) {
-  Table table = evaluation.NewTable("keys", "How keys are met");
+  Table table = evaluation.NewTable("keys", "How keys are met", {"frames", "method"});
   table.note =
       "Raw: without arrival and foot lock; error: of the worst joint. Keys are real motion's own "
       "poses; who is told of no key misses it.";
-  table.label_headings = {"frames", "method"};
-  table.columns = {{"raw KPD cm²", 3},  {"raw error mean cm", 2}, {"median cm", 2},
-                   {"worst cm", 2},     {"final KPD cm²", 5},     {"final error worst mm", 4},
-                   {"worst degrees", 5}};
   std::string hardest;
   double worst = 0;
   for (const LengthFigures& length : lengths) {
@@ -117,13 +104,14 @@ Table KeyTable(const Evaluation& evaluation, const std::vector<LengthFigures>& l
                   evaluation.set.clips[length.windows[i].clip].name + ", frame " +
                   std::to_string(length.windows[i].start) + " on.";
       }
-      table.rows.push_back({{std::to_string(length.frames), method.name},
-                            {Mean(figures, &WindowFigures::raw_key_distance, 1e4),
-                             Mean(figures, &WindowFigures::raw_key_m, 100),
-                             Cell{Percentile(raw, 0.5), {}}, Cell{Percentile(raw, 1), {}},
-                             Cell{Mean(figures, &WindowFigures::key_distance, 1e4).value, {}},
-                             Cell{1000 * Largest(figures, &WindowFigures::final_key_m), {}},
-                             Cell{Largest(figures, &WindowFigures::final_key_deg), {}}}});
+      table.Begin({std::to_string(length.frames), method.name});
+      table.Put("raw KPD cm²", 3, Mean(figures, &WindowFigures::raw_key_distance, 1e4));
+      table.Put("raw error mean cm", 2, Mean(figures, &WindowFigures::raw_key_m, 100));
+      table.Put("median cm", 2, Percentile(raw, 0.5));
+      table.Put("worst cm", 2, Percentile(raw, 1));
+      table.Put("final KPD cm²", 5, Mean(figures, &WindowFigures::key_distance, 1e4).value);
+      table.Put("final error worst mm", 4, 1000 * Largest(figures, &WindowFigures::final_key_m));
+      table.Put("worst degrees", 5, Largest(figures, &WindowFigures::final_key_deg));
     }
   }
   table.note += hardest;
@@ -132,15 +120,10 @@ Table KeyTable(const Evaluation& evaluation, const std::vector<LengthFigures>& l
 
 Table NearnessTable(const Evaluation& evaluation, const Method& method) {
   const EvalOptions& options = evaluation.options;
-  Table table = evaluation.NewTable("liveliness_l2p", "How near to the real way", &method);
+  Table table =
+      evaluation.NewTable("liveliness_l2p", "How near to the real way", {"frames"}, &method);
   table.note = "L2P over interpolation's, at temperature 0, as served, best of " +
                std::to_string(options.best_of) + " there.";
-  table.label_headings = {"frames"};
-  table.columns = {{"interpolation cm", 2},
-                   {"T = 0 ÷ interpolation", 3},
-                   {"served ÷ interpolation", 3},
-                   {"best ÷ interpolation", 3},
-                   {"best ÷ T = 0", 3}};
   for (const int frames : options.lengths) {
     const TransitionJudge judge(evaluation, method.engine->model(), frames);
     if (judge.windows().empty()) continue;
@@ -152,10 +135,12 @@ Table NearnessTable(const Evaluation& evaluation, const Method& method) {
       const Figures another = judge.Run(method, options.temperature, static_cast<uint32_t>(sample));
       for (size_t i = 0; i < best.size(); ++i) best[i].l2p = std::min(best[i].l2p, another[i].l2p);
     }
-    table.rows.push_back(
-        {{std::to_string(frames)},
-         {Mean(line, &WindowFigures::l2p, 100), RatioToLine(mean, line), RatioToLine(served, line),
-          RatioToLine(best, line), RatioToLine(best, mean)}});
+    table.Begin({std::to_string(frames)});
+    table.Put("interpolation cm", 2, Mean(line, &WindowFigures::l2p, 100));
+    table.Put("T = 0 ÷ interpolation", 3, RatioToLine(mean, line));
+    table.Put("served ÷ interpolation", 3, RatioToLine(served, line));
+    table.Put("best ÷ interpolation", 3, RatioToLine(best, line));
+    table.Put("best ÷ T = 0", 3, RatioToLine(best, mean));
   }
   return table;
 }

@@ -7,19 +7,13 @@
 #include "model/metrics/frechet.h"
 #include "model/metrics/geometric_features.h"
 #include "model/metrics/kinetic_features.h"
+#include "model/metrics/linear.h"
 #include "model/metrics/npss.h"
 #include "model/metrics/pose_distance.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
-
-Eigen::MatrixXd Stack(const std::vector<Eigen::VectorXd>& columns) {
-  if (columns.empty()) return {};
-  Eigen::MatrixXd matrix(columns[0].size(), static_cast<Eigen::Index>(columns.size()));
-  for (size_t i = 0; i < columns.size(); ++i) matrix.col(i) = columns[i];
-  return matrix;
-}
 
 std::vector<ClipFigure> Of(const std::vector<WindowFigures>& windows, double WindowFigures::*figure,
                            double unit = 1) {
@@ -90,7 +84,7 @@ RealFeatures GatherRealFeatures(const ClipSet& set, int frames) {
         geometric.push_back(GeometricFeatures(clip.skeleton, part, clip.motion.fps));
     }
   }
-  return {Stack(kinetic), Stack(geometric)};
+  return {SideBySide(kinetic), SideBySide(geometric)};
 }
 
 FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Eigen::MatrixXd& others) {
@@ -107,7 +101,7 @@ FeatureFigures CompareFeatures(const Eigen::MatrixXd& real,
   for (const WindowFigures& window : windows) {
     if ((window.*features).size() > 0) columns.push_back(window.*features);
   }
-  return CompareFeatures(real, Stack(columns));
+  return CompareFeatures(real, SideBySide(columns));
 }
 
 }  // namespace choreo

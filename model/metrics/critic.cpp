@@ -1,18 +1,17 @@
 #include "model/metrics/critic.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "model/core/random.h"
+#include "model/metrics/linear.h"
 #include "model/metrics/speed_spectrum.h"
 
 namespace choreo {
 namespace {
 
 constexpr int kProjections = 128;
-constexpr double kRidge = 0.1;  // of a feature's variance
 constexpr size_t kFolds = 5, kDeals = 5;
 constexpr double kStill = 0.005;  // m/s
 constexpr uint64_t kSeed = 24;
@@ -56,20 +55,11 @@ struct Scale {
 
 // Each kind's windows; those whose clip is of the fold, or all others.
 Eigen::MatrixXd Gather(const CriticWindows& windows, size_t fold, bool of_fold) {
-  std::vector<size_t> chosen;
+  std::vector<Eigen::VectorXd> chosen;
   for (size_t i = 0; i < windows.clips.size(); ++i) {
-    if ((windows.clips[i] % kFolds == fold) == of_fold) chosen.push_back(i);
+    if ((windows.clips[i] % kFolds == fold) == of_fold) chosen.push_back(windows.features[i]);
   }
-  const Eigen::Index rows = windows.features.empty() ? 0 : windows.features[0].size();
-  Eigen::MatrixXd gathered(rows, static_cast<Eigen::Index>(chosen.size()));
-  for (size_t i = 0; i < chosen.size(); ++i) gathered.col(i) = windows.features[chosen[i]];
-  return gathered;
-}
-
-Eigen::MatrixXd Beside(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
-  Eigen::MatrixXd both(left.rows(), left.cols() + right.cols());
-  both << left, right;
-  return both;
+  return SideBySide(chosen);
 }
 
 // The direction in which danced windows lie beyond real ones; both kinds weigh alike.
@@ -78,10 +68,9 @@ Eigen::VectorXd Learn(const Eigen::MatrixXd& features, Eigen::Index real) {
   const Eigen::Index danced = features.cols() - real;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(features.rows(), features.rows());
   covariance.selfadjointView<Eigen::Lower>().rankUpdate(features, 1 / count);
-  covariance.diagonal().array() += kRidge;
   const Eigen::VectorXd apart =
       features.rightCols(danced).rowwise().mean() - features.leftCols(real).rowwise().mean();
-  return covariance.selfadjointView<Eigen::Lower>().llt().solve(apart);
+  return SolveRidge(covariance, apart);
 }
 
 std::vector<double> Scores(const Eigen::VectorXd& direction, const Eigen::MatrixXd& features) {
@@ -139,7 +128,7 @@ double CriticArea(const CriticWindows& real, const CriticWindows& danced) {
     if (seen_real.cols() == 0 || seen_danced.cols() == 0 || judged_real.cols() == 0 ||
         judged_danced.cols() == 0)
       continue;
-    const Eigen::MatrixXd seen = Beside(seen_real, seen_danced);
+    const Eigen::MatrixXd seen = SideBySide<Eigen::MatrixXd>({seen_real, seen_danced});
     const Scale scale(seen);
     const Lift lift(seen.rows());
     const Eigen::MatrixXd lifted = lift(scale.Apply(seen));

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+/// Linear algebra that several metrics share.
+namespace choreo {
+
+/// Vectors, or matrices of as many rows, one beside the other; nothing of nothing.
+template <typename Part>
+Eigen::MatrixXd SideBySide(const std::vector<Part>& parts) {
+  Eigen::Index columns = 0;
+  for (const Part& part : parts) columns += part.cols();
+  Eigen::MatrixXd all(parts.empty() ? 0 : parts[0].rows(), columns);
+  columns = 0;
+  for (const Part& part : parts) {
+    all.middleCols(columns, part.cols()) = part;
+    columns += part.cols();
+  }
+  return all;
+}
+
+/// Ridge regression on features of mean 0 and variance 1, of whose covariance the lower triangle
+/// counts: the weights that `right`, their covariance with what is wanted, leads to.
+template <typename Right>
+Right SolveRidge(Eigen::MatrixXd covariance, const Right& right) {
+  constexpr double kRidge = 0.1;  // of a feature's variance
+  covariance.diagonal().array() += kRidge;
+  return covariance.llt().solve(right);
+}
+
+}  // namespace choreo
