@@ -103,7 +103,7 @@ std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
   const std::vector<std::string> names = SetNames(folders);
   std::vector<ClipSet> sets;
   for (size_t i = 0; i < folders.size(); ++i) {
-    sets.push_back({names[i], LoadClips({folders[i]}, splits, split)});
+    sets.push_back({names[i], LoadClips({folders[i]}, splits, {split})});
     for (const PreparedClip& clip : sets.back().clips)
       sets.back().beats.push_back(SongBeats(clip.audio, clip.motion.fps));
     const Skeleton& theirs = sets.back().clips.front().skeleton;

@@ -7,7 +7,6 @@
 #include "model/core/error.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
-#include "model/training/clip_hash.h"
 
 namespace choreo {
 namespace {

@@ -4,7 +4,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "model/core/error.h"
@@ -57,14 +56,6 @@ std::string GroupOf(const Groups& groups, const std::filesystem::path& folder,
   return found.value_or(kTrainGroup);
 }
 
-std::vector<std::filesystem::path> ListFolder(const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder))
-    throw Error(ErrorCode::kNotFound, folder.string(), "no such folder");
-  if (!std::filesystem::is_directory(folder))
-    throw InvalidArgument(folder.string(), "not a folder");
-  return ListPreparedClips(folder);
-}
-
 // "'a', 'b'"
 std::string Quote(const std::set<std::string>& names) {
   std::string text;
@@ -72,15 +63,17 @@ std::string Quote(const std::set<std::string>& names) {
   return text;
 }
 
-std::vector<PreparedClip> LoadGroups(const std::vector<std::filesystem::path>& folders,
-                                     const std::filesystem::path& splits_file,
-                                     const std::set<std::string>& wanted) {
+}  // namespace
+
+std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
+                                    const std::filesystem::path& splits_file,
+                                    const std::set<std::string>& wanted) {
   const Groups groups = ReadGroups(splits_file);
   std::vector<PreparedClip> clips;
   std::set<std::string> there;
   std::optional<std::pair<std::filesystem::path, Skeleton>> first;
   for (const auto& folder : folders) {
-    for (const auto& path : ListFolder(folder)) {
+    for (const auto& path : ListPreparedClips(folder)) {
       PreparedClip clip = ReadPreparedClip(path);
       if (!first) first.emplace(path, clip.skeleton);
       if (!(clip.skeleton == first->second)) {
@@ -102,22 +95,6 @@ std::vector<PreparedClip> LoadGroups(const std::vector<std::filesystem::path>& f
         "no clip of " + Quote(data) + " is in " + Quote(wanted) + "; they are in " + Quote(there));
   }
   return clips;
-}
-
-}  // namespace
-
-std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
-                                    const std::filesystem::path& splits_file, Split split) {
-  std::set<std::string> wanted;
-  if (split != Split::kValidation) wanted.insert(kTrainGroup);
-  if (split != Split::kTrain) wanted.insert("validation");
-  return LoadGroups(folders, splits_file, wanted);
-}
-
-std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
-                                    const std::filesystem::path& splits_file,
-                                    const std::string& group) {
-  return LoadGroups(folders, splits_file, {group});
 }
 
 }  // namespace choreo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -8,25 +9,19 @@
 
 namespace choreo {
 
-/// The group of those who train, to which the clips that a splits file does not name belong, too.
+/// Groups of a splits file {set: {"train": [...], "validation": [...], "test": [...]}}, which may
+/// have others ("test_unseen_genre", "unused"). Clips that it does not name belong to those who
+/// train.
 inline const char* const kTrainGroup = "train";
+inline const char* const kValidationGroup = "validation";
 
-/// Which clips training sees, from a splits file {set: {"train": [...], "validation": [...],
-/// "test": [...]}}. It sees no other group that the file may have ("test_unseen_genre", "unused").
-/// Where two sets name clips alike, a folder holds the clips of the set
-/// that is called as it is.
-enum class Split { kTrain, kValidation, kTrainAndValidation };
-
-/// Reads every clip of `folders` that belongs to `split`, sorted by folder and name. Throws Error
-/// where a folder or the file is missing, the file has a clip of a set in two groups, two clips of
-/// `folders` have different skeletons, or nothing is left: then it names the groups that the clips
-/// are in.
-std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
-                                    const std::filesystem::path& splits_file, Split split);
-
-/// The same of one group of the file, by its name.
+/// Reads every clip of `folders` that belongs to one of `groups`, sorted by folder and name. Where
+/// two sets name clips alike, a folder holds the clips of the set that is called as it is. Throws
+/// Error where a folder or the file is missing, the file has a clip of a set in two groups, two
+/// clips of `folders` have different skeletons, or nothing is left: then it names the groups that
+/// the clips are in.
 std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
                                     const std::filesystem::path& splits_file,
-                                    const std::string& group);
+                                    const std::set<std::string>& groups);
 
 }  // namespace choreo

@@ -4,40 +4,28 @@
 
 #include <algorithm>
 
-#include "model/core/error.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
-#include "model/training/clip_hash.h"
+#include "model/training/window_picker.h"
 
 namespace choreo {
 
 ClipStore::ClipStore(const std::vector<std::filesystem::path>& folders,
-                     const std::filesystem::path& splits_file, Split split)
-    : clips_(LoadClips(folders, splits_file, split)), skeleton_(clips_.front().skeleton) {}
+                     const std::filesystem::path& splits_file, const std::set<std::string>& groups)
+    : clips_(LoadClips(folders, splits_file, groups)), skeleton_(clips_.front().skeleton) {
+  for (const PreparedClip& clip : clips_) frames_.push_back(std::ssize(clip.motion.frames));
+}
 
 bool ClipStore::HasMusic() const {
   return std::ranges::any_of(clips_,
                              [](const PreparedClip& clip) { return clip.audio.cols() > 0; });
 }
 
-std::string ClipStore::Hash() const { return HashOfClips(clips_); }
-
 MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation& variation,
                             Random* random) const {
   const int window = history + frames;
-  std::vector<int64_t> ends;  // running count of the windows that each clip offers
-  int64_t windows = 0;
-  for (const auto& clip : clips_) {
-    // One more frame in front: the first frame's velocity needs it.
-    windows += std::max<int64_t>(0, static_cast<int64_t>(clip.motion.frames.size()) - window);
-    ends.push_back(windows);
-  }
-  if (windows == 0) {
-    throw InvalidArgument("frames", "no clip has the " + std::to_string(window + 1) +
-                                        " frames that a window of " + std::to_string(frames) +
-                                        " needs");
-  }
+  const WindowPicker picker(frames_, window);
   const PoseCodec codec(skeleton_);
   const int joints = skeleton_.joints(), width = codec.width();
   const int audio_width = 40;
@@ -49,11 +37,8 @@ MotionBatch ClipStore::Draw(int batch, int history, int frames, const Variation&
   torch::Tensor mask = torch::ones({batch, joints + 1});
 
   for (int b = 0; b < batch; ++b) {
-    const int64_t pick = random->Integer(0, windows);
-    const size_t index =
-        static_cast<size_t>(std::upper_bound(ends.begin(), ends.end(), pick) - ends.begin());
+    const auto [index, start] = picker.Draw(random);
     const PreparedClip& clip = clips_[index];
-    const int64_t start = pick - (index > 0 ? ends[index - 1] : 0) + 1;
     const bool mirrored = variation.mirror && random->Uniform() < 0.5;
     const auto first = clip.motion.frames.begin() + (start - 1);
     std::vector<Pose> poses(first, first + window + 1);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,12 @@ struct MotionBatch {
   MotionBatch To(torch::Device device) const;
 };
 
-/// Prepared clips of one split in memory; immutable after construction.
+/// Prepared clips of some groups in memory; immutable after construction.
 class ClipStore {
  public:
   /// Throws as LoadClips does.
   ClipStore(const std::vector<std::filesystem::path>& folders,
-            const std::filesystem::path& splits_file, Split split);
+            const std::filesystem::path& splits_file, const std::set<std::string>& groups);
 
   /// What training varies. Everything off: plain windows with their key and music.
   struct Variation {
@@ -47,11 +48,10 @@ class ClipStore {
   const std::vector<PreparedClip>& clips() const { return clips_; }
   const Skeleton& skeleton() const { return skeleton_; }
   bool HasMusic() const;
-  /// XXH3 of every clip's name and motion: which data made a checkpoint.
-  std::string Hash() const;
 
  private:
   std::vector<PreparedClip> clips_;
+  std::vector<int64_t> frames_;  // of each
   Skeleton skeleton_;
 };
 

@@ -7,12 +7,12 @@
 #include <iterator>
 #include <numbers>
 
-#include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/motion/facing_pose.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
 #include "model/motion/velocity_factors.h"
+#include "model/training/window_picker.h"
 
 namespace choreo {
 namespace {
@@ -118,17 +118,11 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
                                 Random* random) const {
   const int window = history + frames;
   const auto offered = [&](size_t clip, size_t tempo) {
-    // The first frame of a track has no velocity.
     return std::max<int64_t>(0, At(clip, tempo, false).frames - window);
   };
-  std::vector<int64_t> ends;
-  int64_t windows = 0;
-  for (size_t clip = 0; clip < clips_; ++clip) ends.push_back(windows += offered(clip, 0));
-  if (windows == 0) {
-    throw InvalidArgument("frames", "no clip has the " + std::to_string(window + 1) +
-                                        " frames that a window of " + std::to_string(frames) +
-                                        " needs");
-  }
+  std::vector<int64_t> clips;
+  for (size_t clip = 0; clip < clips_; ++clip) clips.push_back(At(clip, 0, false).frames);
+  const WindowPicker picker(clips, window);
   const int others = skeleton_.joints() - 1;
   Tensor root = torch::empty({batch, window, 3}), heading = torch::empty({batch, window});
   Tensor joints = torch::empty({batch, window, others, 3});
@@ -138,10 +132,7 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
   Tensor turn = torch::empty({batch});
   std::vector<Tensor> paths, given, wanted;
   for (int b = 0; b < batch; ++b) {
-    const int64_t pick = random->Integer(0, windows);
-    const auto clip =
-        static_cast<size_t>(std::upper_bound(ends.begin(), ends.end(), pick) - ends.begin());
-    int64_t start = pick - (clip > 0 ? ends[clip - 1] : 0) + 1;
+    auto [clip, start] = picker.Draw(random);
     size_t tempo = 0;
     if (random->Uniform() < variation.tempo) {
       const auto other = static_cast<size_t>(random->Integer(1, static_cast<int64_t>(tempi_)));

@@ -1,6 +1,10 @@
 #include "model/training/prepared_clip.h"
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 
 #include "model/core/error.h"
@@ -96,16 +100,33 @@ void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& 
 }
 
 std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder))
+    throw Error(ErrorCode::kNotFound, folder.string(), "no such folder");
+  if (!std::filesystem::is_directory(folder))
+    throw InvalidArgument(folder.string(), "not a folder");
   std::vector<std::filesystem::path> paths;
-  if (std::filesystem::is_directory(folder)) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().extension() == ".clip") paths.push_back(entry.path());
-    }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".clip") paths.push_back(entry.path());
   }
   if (paths.empty())
     throw Error(ErrorCode::kNotFound, folder.string(), "no prepared clips (*.clip) here");
   std::sort(paths.begin(), paths.end());
   return paths;
+}
+
+std::string HashOfClips(std::span<const PreparedClip> clips, std::string_view before) {
+  XXH64_hash_t hash = before.empty() ? 0 : XXH3_64bits(before.data(), before.size());
+  for (const PreparedClip& clip : clips) {
+    hash = XXH3_64bits_withSeed(clip.name.data(), clip.name.size(), hash);
+    for (const Pose& pose : clip.motion.frames) {
+      hash = XXH3_64bits_withSeed(pose.root_position.data(), 3 * sizeof(double), hash);
+      hash = XXH3_64bits_withSeed(
+          pose.rotations.data(), static_cast<size_t>(pose.rotations.size()) * sizeof(double), hash);
+    }
+  }
+  char hex[17];
+  std::snprintf(hex, sizeof(hex), "%016llx", static_cast<unsigned long long>(hash));
+  return hex;
 }
 
 }  // namespace choreo

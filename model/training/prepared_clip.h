@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/motion/contacts.h"
@@ -33,7 +35,11 @@ struct PreparedClip {
 PreparedClip ReadPreparedClip(const std::filesystem::path& path);
 /// Throws Error(kInvalidArgument) for poses of another joint count than the skeleton's.
 void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& clip);
-/// Every .clip of a folder, sorted by name. Throws Error(kNotFound) where there is none.
+/// Every .clip of a folder, sorted by name. Throws Error where there is none, or no folder.
 std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path& folder);
+
+/// XXH3 of every clip's name and motion, in order, 16 hex digits: which data made a checkpoint or a
+/// motion encoder. `before` is hashed in front: settings, or the hash of other clips.
+std::string HashOfClips(std::span<const PreparedClip> clips, std::string_view before = {});
 
 }  // namespace choreo

@@ -46,7 +46,7 @@ int WindowsOf(int batch, int frames) {
 }
 
 TrainingRun::TrainingRun(const TrainOptions& options, const ClipStore& train)
-    : options_(options), train_(train), data_hash_(train.Hash()) {
+    : options_(options), train_(train), data_hash_(HashOfClips(train.clips())) {
   torch::manual_seed(options.seed);
 }
 

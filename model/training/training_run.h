@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -93,9 +94,10 @@ class TrainingRun {
 template <typename Run>
 void TrainBy(const TrainOptions& options) {
   options.Validate();
-  const ClipStore train(options.data, options.splits,
-                        options.with_validation ? Split::kTrainAndValidation : Split::kTrain);
-  const ClipStore validation(options.data, options.splits, Split::kValidation);
+  std::set<std::string> groups = {kTrainGroup};
+  if (options.with_validation) groups.insert(kValidationGroup);
+  const ClipStore train(options.data, options.splits, groups);
+  const ClipStore validation(options.data, options.splits, {kValidationGroup});
   Run(options, train, validation).Go();
 }
 

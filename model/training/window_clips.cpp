@@ -5,11 +5,11 @@
 #include <iterator>
 #include <utility>
 
-#include "model/core/error.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
 #include "model/motion/rotation.h"
 #include "model/training/style.h"
+#include "model/training/window_picker.h"
 
 namespace choreo {
 namespace {
@@ -102,18 +102,12 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
   const auto offered = [&](size_t track) {
     return std::max<int64_t>(0, static_cast<int64_t>(tracks_[track].poses.size()) - needed);
   };
-  std::vector<int64_t> ends;
-  int64_t windows = 0;
-  for (size_t clip = 0; clip < clips_; ++clip) ends.push_back(windows += offered(clip));
-  if (windows == 0) {
-    throw InvalidArgument(
-        "frames", "no clip has the " + std::to_string(needed) + " frames that a window needs");
-  }
+  std::vector<int64_t> clips;
+  for (size_t clip = 0; clip < clips_; ++clip) clips.push_back(std::ssize(tracks_[clip].poses));
+  const WindowPicker picker(clips, needed);
   WindowBatchBuilder result(model, frames, to_key);
   while (result.size() < batch) {
-    const int64_t pick = random->Integer(0, windows);
-    const size_t clip =
-        static_cast<size_t>(std::upper_bound(ends.begin(), ends.end(), pick) - ends.begin());
+    const size_t clip = picker.Draw(random).clip;
     size_t index = clip;
     if (random->Uniform() < variation.tempo) {
       const size_t other =

@@ -134,15 +134,15 @@ TEST_F(AistTest, ListsBecomeSplitsAndTheRestIsSeenByNoRun) {
                                          {"validation", json::array({kTwo})},
                                          {"test", json::array({kThree})},
                                          {"unused", json::array({kFour})}}}}));
-  const auto names = [&](const auto& split) {
+  const auto names = [&](const std::string& group) {
     std::vector<std::string> read;
     for (const PreparedClip& clip :
-         LoadClips({folder_ / "out"}, folder_ / "out" / "splits.json", split))
+         LoadClips({folder_ / "out"}, folder_ / "out" / "splits.json", {group}))
       read.push_back(clip.name);
     return read;
   };
-  EXPECT_THAT(names(Split::kTrain), ElementsAre(kOne));
-  EXPECT_THAT(names(Split::kValidation), ElementsAre(kTwo));
+  EXPECT_THAT(names(kTrainGroup), ElementsAre(kOne));
+  EXPECT_THAT(names(kValidationGroup), ElementsAre(kTwo));
   EXPECT_THAT(names("test"), ElementsAre(kThree));
 }
 

@@ -215,7 +215,7 @@ TEST_F(TrainerTest, UnusableOptionsAreNamed) {
 }
 
 TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
-  const ClipStore store({folder_.path()}, folder_.path() / "splits.json", Split::kTrain);
+  const ClipStore store({folder_.path()}, folder_.path() / "splits.json", {kTrainGroup});
   Random random(5);
   const MotionBatch batch = store.Draw(6, 10, 20, {}, &random);
   EXPECT_EQ(batch.transition.frames, 20);
