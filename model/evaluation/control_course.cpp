@@ -119,12 +119,7 @@ Dances ControlCourse::Dance(const Method& way, double scale) const {
     way.Restrict(&input.request);
     inputs.push_back(std::move(input));
   }
-  for (const TransitionResult& result : evaluation_.runner.Dance(*way.engine, inputs)) {
-    std::vector<Pose> poses;
-    for (const DanceFrame& frame : result.frames) poses.push_back(frame.pose);
-    dances.push_back(std::move(poses));
-  }
-  return dances;
+  return evaluation_.runner.Dance(*way.engine, inputs);
 }
 
 std::vector<ClipFigure> ControlCourse::FiguresOf(const Dances& dances, const Figure& figure) const {

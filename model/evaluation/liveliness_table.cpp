@@ -94,20 +94,13 @@ LivelyDances Flat(const std::vector<LivelyDances>& seeds) {
   return all;
 }
 
-std::vector<ClipFigure> Scaled(std::vector<ClipFigure> figures, double unit) {
-  for (ClipFigure& figure : figures) figure.value *= unit;
-  return figures;
-}
-
 void AddMovement(const KeyedDances& dances, Table* table) {
   const LivelyDances danced = Flat(dances.seeds);
   const LivelyDances real = Flat(std::vector<LivelyDances>(kSeeds, dances.real));
   const auto add = [&](const std::string& name, double LivelyFigures::*figure, double unit) {
-    const auto mean = [&](const LivelyDances& some) {
-      return Mean(Scaled(Of(some, figure), unit));
-    };
+    const auto mean = [&](const LivelyDances& some) { return Mean(FiguresOf(some, figure, unit)); };
     Add(name, mean(dances.real), mean(dances.locked), mean(danced),
-        Ratio(Of(danced, figure), Of(real, figure)), table);
+        Ratio(FiguresOf(danced, figure), FiguresOf(real, figure)), table);
   };
   add("median speed cm/s", &LivelyFigures::median_speed, 100);
   std::vector<ClipFigure> within;
@@ -117,11 +110,14 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   }
   Add("dances at 0.7 to 1.4 of it %", 100, {}, Mean(within), {}, table);
   const auto wandering = [&](const LivelyDances& some) {
-    return Ratio(Of(some, &LivelyFigures::limb_path), Of(some, &LivelyFigures::limb_chord));
+    return Ratio(FiguresOf(some, &LivelyFigures::limb_path),
+                 FiguresOf(some, &LivelyFigures::limb_chord));
   };
   Add("limbs' path over chord m/m", wandering(dances.real), wandering(dances.locked),
       wandering(danced),
-      Ratio(Of(danced, &LivelyFigures::limb_path), Of(real, &LivelyFigures::limb_path)), table);
+      Ratio(FiguresOf(danced, &LivelyFigures::limb_path),
+            FiguresOf(real, &LivelyFigures::limb_path)),
+      table);
   add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
   add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
   add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);

@@ -40,12 +40,6 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
   return figures;
 }
 
-std::vector<ClipFigure> Of(const LivelyDances& dances, double LivelyFigures::*figure) {
-  std::vector<ClipFigure> figures;
-  for (const LivelyFigures& dance : dances) figures.push_back({dance.clip, dance.*figure});
-  return figures;
-}
-
 Cell DistanceCm(const LivelyDances& a, const LivelyDances& b) {
   std::vector<ClipFigure> figures;
   for (size_t i = 0; i < a.size(); ++i)

@@ -27,9 +27,6 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
 
 using LivelyDances = std::vector<LivelyFigures>;
 
-/// One figure of each dance.
-std::vector<ClipFigure> Of(const LivelyDances& dances, double LivelyFigures::*figure);
-
 /// Mean distance of all joints between the same frames of two dances of each plan, cm.
 Cell DistanceCm(const LivelyDances& a, const LivelyDances& b);
 

@@ -36,11 +36,21 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
 
 }  // namespace
 
-std::vector<TransitionResult> Runner::Dance(StepEngine& engine,
-                                            std::span<const TransitionInput> inputs) const {
+std::vector<TransitionResult> Runner::Results(StepEngine& engine,
+                                              std::span<const TransitionInput> inputs) const {
   return DanceTransitions(engine, inputs, [this](int frames) {
     if (progress_ != nullptr) progress_->Advance(frames, what_);
   });
+}
+
+std::vector<std::vector<Pose>> Runner::Dance(StepEngine& engine,
+                                             std::span<const TransitionInput> inputs) const {
+  std::vector<std::vector<Pose>> dances;
+  for (const TransitionResult& result : Results(engine, inputs)) {
+    std::vector<Pose>& poses = dances.emplace_back();
+    for (const DanceFrame& frame : result.frames) poses.push_back(frame.pose);
+  }
+  return dances;
 }
 
 std::vector<LongDance> Runner::DanceLong(StepEngine& engine,
@@ -55,7 +65,7 @@ std::vector<LongDance> Runner::DanceLong(StepEngine& engine,
       whose.push_back(i);
     }
     if (inputs.empty()) return chains;
-    const auto results = Dance(engine, inputs);
+    const auto results = Results(engine, inputs);
     for (size_t i = 0; i < results.size(); ++i) {
       LongDance& chain = chains[whose[i]];
       for (const DanceFrame& frame : results[i].frames) chain.poses.push_back(frame.pose);

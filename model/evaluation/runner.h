@@ -43,15 +43,18 @@ class Runner {
   explicit Runner(ProgressBar* progress = nullptr, std::string what = "")
       : progress_(progress), what_(std::move(what)) {}
 
-  /// DanceTransitions.
-  std::vector<TransitionResult> Dance(StepEngine& engine,
-                                      std::span<const TransitionInput> inputs) const;
+  /// DanceTransitions: the poses of each.
+  std::vector<std::vector<Pose>> Dance(StepEngine& engine,
+                                       std::span<const TransitionInput> inputs) const;
 
   /// Of each plan a transition at a time (TransitionEnd). No dance depends on
   /// the others. Throws Error(kInternal) as soon as a model gives a value that is not finite.
   std::vector<LongDance> DanceLong(StepEngine& engine, std::span<const LongPlan> plans) const;
 
  private:
+  std::vector<TransitionResult> Results(StepEngine& engine,
+                                        std::span<const TransitionInput> inputs) const;
+
   ProgressBar* progress_;
   std::string what_;
 };

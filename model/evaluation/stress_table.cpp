@@ -88,11 +88,9 @@ std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
                    TransitionRun(model, request).required_speed()});
   }
   if (one.way == Way::kReal) return all;
-  const auto results = evaluation.runner.Dance(*evaluation.judged().engine, inputs);
-  for (size_t i = 0; i < results.size(); ++i) {
-    std::ranges::transform(results[i].frames, all[i].motion.frames.begin() + kFramesBefore,
-                           &DanceFrame::pose);
-  }
+  const auto dances = evaluation.runner.Dance(*evaluation.judged().engine, inputs);
+  for (size_t i = 0; i < dances.size(); ++i)
+    std::ranges::copy(dances[i], all[i].motion.frames.begin() + kFramesBefore);
   return all;
 }
 

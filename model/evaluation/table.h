@@ -25,6 +25,15 @@ struct ClipFigure {
   double value = 0;
 };
 
+/// One figure of each of `some`, which know their clip, times `unit`.
+template <typename Figures>
+std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, double Figures::*figure,
+                                  double unit = 1) {
+  std::vector<ClipFigure> figures;
+  for (const Figures& one : some) figures.push_back({one.clip, unit * (one.*figure)});
+  return figures;
+}
+
 /// Sum over windows of `above` over that of `below`, with its interval over clips; NaN where that
 /// is nothing.
 Cell Ratio(const std::vector<ClipFigure>& above, const std::vector<ClipFigure>& below);

@@ -14,8 +14,8 @@ TransitionJudge::TransitionJudge(const Evaluation& evaluation, const ModelInfo& 
                              evaluation.options.windows_per_clip)) {}
 
 Figures TransitionJudge::Run(const Method& method, float temperature, uint32_t candidate) const {
-  std::vector<TransitionResult> results;
-  if (method.kind == Method::Kind::kEngine) results = Dance(method, temperature, candidate);
+  std::vector<std::vector<Pose>> dances;
+  if (method.kind == Method::Kind::kEngine) dances = Dance(method, temperature, candidate);
   Figures figures;
   for (size_t i = 0; i < windows_.size(); ++i) {
     const std::vector<Pose> real = RealPoses(evaluation_.set, windows_[i], frames_, kFramesBefore);
@@ -23,7 +23,7 @@ Figures TransitionJudge::Run(const Method& method, float temperature, uint32_t c
     for (int t = 0; t < frames_; ++t) {
       Pose& pose = danced[kFramesBefore + t];
       if (method.kind == Method::Kind::kEngine) {
-        pose = results[i].frames[t].pose;
+        pose = dances[i][t];
       } else if (method.kind == Method::Kind::kInterpolation && t + 1 < frames_) {
         pose = InterpolatePoses(real[kFramesBefore - 1], real.back(),
                                 static_cast<double>(t + 1) / frames_);
@@ -37,9 +37,9 @@ Figures TransitionJudge::Run(const Method& method, float temperature, uint32_t c
 
 void TransitionJudge::AddRawKeys(Method method, float temperature, Figures* figures) const {
   method.finished = false;
-  const auto results = Dance(method, temperature, 0);
-  for (size_t i = 0; i < results.size(); ++i) {
-    const Pose& danced = results[i].frames.back().pose;
+  const auto dances = Dance(method, temperature, 0);
+  for (size_t i = 0; i < dances.size(); ++i) {
+    const Pose& danced = dances[i].back();
     const Pose key = RealPoses(evaluation_.set, windows_[i], frames_, 0).back();
     (*figures)[i].raw_key_m = ComparePoses(model_.skeleton, danced, key).position_m;
     (*figures)[i].raw_key_distance = KeyPoseDistance(JointPositions(model_.skeleton, danced),
@@ -47,8 +47,8 @@ void TransitionJudge::AddRawKeys(Method method, float temperature, Figures* figu
   }
 }
 
-std::vector<TransitionResult> TransitionJudge::Dance(const Method& method, float temperature,
-                                                     uint32_t candidate) const {
+std::vector<std::vector<Pose>> TransitionJudge::Dance(const Method& method, float temperature,
+                                                      uint32_t candidate) const {
   std::vector<TransitionInput> inputs;
   for (size_t i = 0; i < windows_.size(); ++i) {
     inputs.push_back(InputOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));

@@ -28,8 +28,8 @@ class TransitionJudge {
   void AddRawKeys(Method method, float temperature, Figures* figures) const;
 
  private:
-  std::vector<TransitionResult> Dance(const Method& method, float temperature,
-                                      uint32_t candidate) const;
+  std::vector<std::vector<Pose>> Dance(const Method& method, float temperature,
+                                       uint32_t candidate) const;
 
   const Evaluation& evaluation_;
   const ModelInfo& model_;

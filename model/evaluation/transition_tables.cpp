@@ -15,7 +15,7 @@ struct LengthFigures {
 };
 
 Cell RatioToLine(const Figures& figures, const Figures& line) {
-  return Ratio(figures, &WindowFigures::l2p, line, &WindowFigures::l2p);
+  return Ratio(FiguresOf(figures, &WindowFigures::l2p), FiguresOf(line, &WindowFigures::l2p));
 }
 
 void AddPoint(Plot* plot, const std::string& label, double x, double y) {

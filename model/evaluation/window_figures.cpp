@@ -13,18 +13,6 @@
 #include "model/motion/kinematics.h"
 
 namespace choreo {
-namespace {
-
-std::vector<ClipFigure> Of(const std::vector<WindowFigures>& windows, double WindowFigures::*figure,
-                           double unit = 1) {
-  std::vector<ClipFigure> figures;
-  for (const WindowFigures& window : windows)
-    figures.push_back({window.clip, unit * (window.*figure)});
-  return figures;
-}
-
-}  // namespace
-
 WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vector<Pose>& danced,
                             const std::vector<Pose>& real) {
   WindowFigures figures;
@@ -53,15 +41,6 @@ WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vec
   if (track.size() >= 2 && HasGeometricFeatures(skeleton))
     figures.geometric = GeometricFeatures(skeleton, track, fps);
   return figures;
-}
-
-Cell Ratio(const std::vector<WindowFigures>& above, double WindowFigures::*numerator,
-           const std::vector<WindowFigures>& below, double WindowFigures::*denominator) {
-  return Ratio(Of(above, numerator), Of(below, denominator));
-}
-
-Cell Mean(const std::vector<WindowFigures>& windows, double WindowFigures::*figure, double unit) {
-  return Mean(Of(windows, figure, unit));
 }
 
 double Largest(const std::vector<WindowFigures>& windows, double WindowFigures::*figure) {

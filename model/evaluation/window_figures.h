@@ -34,12 +34,11 @@ WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vec
 
 inline constexpr int kFramesBefore = 2;
 
-/// Sum over windows of `above` over that of `below`, with its interval over clips.
-Cell Ratio(const std::vector<WindowFigures>& above, double WindowFigures::*numerator,
-           const std::vector<WindowFigures>& below, double WindowFigures::*denominator);
 /// Mean over windows, times `unit`.
-Cell Mean(const std::vector<WindowFigures>& windows, double WindowFigures::*figure,
-          double unit = 1);
+inline Cell Mean(const std::vector<WindowFigures>& windows, double WindowFigures::*figure,
+                 double unit = 1) {
+  return Mean(FiguresOf(windows, figure, unit));
+}
 double Largest(const std::vector<WindowFigures>& windows, double WindowFigures::*figure);
 
 /// Real motion in feature space: windows of `frames` frames, half of them apart, over all clips.
