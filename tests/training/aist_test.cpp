@@ -10,13 +10,11 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/clip_split.h"
-#include "model/training/prepare.h"
-#include "model/training/prepared_clip.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
 #include "tests/support/pickles.h"
 #include "tests/support/synthetic_clips.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/training/preparation.h"
 
 /// Recordings of our own making in the layout of AIST++.
 namespace choreo {
@@ -32,9 +30,9 @@ const std::string kOne = "gBR_sBM_cAll_d04_mBR0_ch01", kTwo = "gHO_sBM_cAll_d19_
                   kThree = "gLO_sFM_cAll_d13_mLO2_ch08", kFour = "gPO_sBM_cAll_d10_mPO1_ch03",
                   kFailed = "gWA_sBM_cAll_d26_mWA0_ch05";
 
-class AistTest : public testing::Test {
+class AistTest : public Preparation {
  protected:
-  AistTest() {
+  AistTest() : Preparation("aist") {
     std::filesystem::create_directories(In() / "motions");
     std::filesystem::create_directories(In() / "splits");
     WriteList("splits/crossmodal_train.txt", kOne + "\n");
@@ -42,7 +40,6 @@ class AistTest : public testing::Test {
     WriteList("splits/crossmodal_test.txt", kThree);
     WriteList("ignore_list.txt", kFailed + "\n");
   }
-  std::filesystem::path In() const { return folder_ / "aist_plusplus_final"; }
   void WriteList(const std::string& name, const std::string& text) {
     std::ofstream(In() / name) << text;
   }
@@ -70,23 +67,7 @@ class AistTest : public testing::Test {
     Ground(Smpl(), motion);
     return motion;
   }
-  PrepareOptions Options() const {
-    PrepareOptions options;
-    options.layout = "aist";
-    options.input = In();
-    options.output = folder_ / "out";
-    options.jobs = 1;
-    return options;
-  }
-  PreparedClip Clip(const std::string& name) {
-    return ReadPreparedClip(folder_ / "out" / (name + ".clip"));
-  }
-  json Read(const std::string& name) {
-    std::ifstream file(folder_ / "out" / name);
-    return json::parse(file);
-  }
   static constexpr double kScaling = 93.5;  // of a body in centimetres
-  TemporaryFolder folder_;
 };
 
 TEST_F(AistTest, ADanceComesThroughWithItsSongOnItsFloor) {
@@ -95,7 +76,7 @@ TEST_F(AistTest, ADanceComesThroughWithItsSongOnItsFloor) {
   std::filesystem::create_directories(In() / "music");
   const std::vector<float> music = Music(4);
   WriteWav(In() / "music" / "mBR0.wav", music);
-  ASSERT_EQ(Prepare(Options()), 2);
+  ASSERT_EQ(Prepare(options_), 2);
 
   const PreparedClip one = Clip(kOne), two = Clip(kTwo);
   const Motion dance = Dance();
@@ -127,7 +108,7 @@ TEST_F(AistTest, ADanceComesThroughWithItsSongOnItsFloor) {
 
 TEST_F(AistTest, ListsBecomeSplitsAndTheRestIsSeenByNoRun) {
   for (const std::string& name : {kOne, kTwo, kThree, kFour, kFailed}) WriteMotion(name);
-  ASSERT_EQ(Prepare(Options()), 4);
+  ASSERT_EQ(Prepare(options_), 4);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / (kFailed + ".clip")));
   EXPECT_EQ(Read("splits.json"), (json{{"aist",
                                         {{"train", json::array({kOne})},
@@ -152,7 +133,7 @@ TEST_F(AistTest, WhatIsNoMotionIsNamedAndSkipped) {
                                                     << "cos\nsystem\n.";
   WriteMotion("dance");
   WriteMotion(kThree);
-  ASSERT_EQ(Prepare(Options()), 1);
+  ASSERT_EQ(Prepare(options_), 1);
   std::map<std::string, std::string> skipped;
   for (const json& clip : Read("report.json")) skipped[clip.at("name")] = clip.value("skipped", "");
   EXPECT_THAT(skipped.at(kOne), HasSubstr(kOne + ".pkl: has no smpl_scaling"));
@@ -162,18 +143,18 @@ TEST_F(AistTest, WhatIsNoMotionIsNamedAndSkipped) {
 }
 
 TEST_F(AistTest, AFolderThatIsIncompleteIsRefusedBeforeTheWork) {
-  ExpectError(ErrorCode::kNotFound, "no motion (*.pkl)", [&] { Prepare(Options()); });
+  ExpectError(ErrorCode::kNotFound, "no motion (*.pkl)", [&] { Prepare(options_); });
   WriteMotion(kOne);
   WriteList("splits/crossmodal_val.txt", kOne);
   ExpectError(ErrorCode::kInvalidArgument,
               "crossmodal_val.txt: " + kOne + " is in crossmodal_train.txt too",
-              [&] { Prepare(Options()); });
+              [&] { Prepare(options_); });
   std::filesystem::remove(In() / "splits" / "crossmodal_test.txt");
   WriteList("splits/crossmodal_val.txt", kTwo);
   ExpectError(ErrorCode::kNotFound, "crossmodal_test.txt: no such file",
-              [&] { Prepare(Options()); });
+              [&] { Prepare(options_); });
   std::filesystem::remove_all(In() / "motions");
-  ExpectError(ErrorCode::kNotFound, "motions: no such folder", [&] { Prepare(Options()); });
+  ExpectError(ErrorCode::kNotFound, "motions: no such folder", [&] { Prepare(options_); });
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / (kOne + ".clip")));
 }
 

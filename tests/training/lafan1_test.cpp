@@ -3,18 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "model/fit/fit_clip.h"
 #include "model/formats/bvh.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
-#include "model/training/prepared_clip.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/synthetic_clips.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/training/preparation.h"
 
 /// Recordings of our own making in the layout of LAFAN1.
 namespace choreo {
@@ -108,29 +105,14 @@ BvhFile Record(const Motion& motion) {
   return file;
 }
 
-class Lafan1Test : public testing::Test {
+class Lafan1Test : public Preparation {
  protected:
-  Lafan1Test() { std::filesystem::create_directories(In()); }
-  std::filesystem::path In() const { return folder_ / "lafan1"; }
+  Lafan1Test() : Preparation("lafan1") {}
   static Motion Walk() {
     Motion motion = testing_support::SyntheticClip("walk", 90, 0.3, false).motion;
     Ground(Skeleton::Smpl24(), motion);
     return motion;
   }
-  PrepareOptions Options() const {
-    PrepareOptions options;
-    options.layout = "lafan1";
-    options.input = In();
-    options.output = folder_ / "out";
-    options.jobs = 1;
-    return options;
-  }
-  json Read(const std::string& name) const {
-    std::ifstream file(folder_ / "out" / name);
-    return json::parse(file);
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Lafan1Test, ARecordingComesThroughWithItsThemeAndItsPart) {
@@ -138,9 +120,9 @@ TEST_F(Lafan1Test, ARecordingComesThroughWithItsThemeAndItsPart) {
   for (const char* name : {"walk1_subject1", "run2_subject4", "dance1_subject5"})
     WriteBvh(In() / (std::string(name) + ".bvh"), file);
   WriteBvh(In() / "notes.bvh", file);  // no recording's name
-  ASSERT_EQ(Prepare(Options()), 3);
+  ASSERT_EQ(Prepare(options_), 3);
 
-  const PreparedClip clip = ReadPreparedClip(folder_ / "out" / "walk1_subject1.clip");
+  const PreparedClip clip = Clip("walk1_subject1");
   EXPECT_EQ(clip.source, "lafan1");
   EXPECT_EQ(clip.notes.at("genre"), "walk");
   EXPECT_EQ(clip.motion.fps, 30);
@@ -169,7 +151,7 @@ TEST_F(Lafan1Test, AnotherSkeletonIsNamedAndSkipped) {
     if (joint.name == "Spine1") joint.name = "Spine3";
   }
   WriteBvh(In() / "walk1_subject3.bvh", more);
-  ASSERT_EQ(Prepare(Options()), 1);
+  ASSERT_EQ(Prepare(options_), 1);
   const json report = Read("report.json");
   EXPECT_THAT(report[1].at("skipped"), HasSubstr("has no joint Hips, which LAFAN1 has"));
   EXPECT_THAT(report[2].at("skipped"), HasSubstr("has no joint Spine1, which LAFAN1 has"));
@@ -178,7 +160,7 @@ TEST_F(Lafan1Test, AnotherSkeletonIsNamedAndSkipped) {
 TEST_F(Lafan1Test, AFolderWithoutRecordingsIsAnError) {
   WriteBvh(In() / "walk.bvh", Record(Walk()));
   ExpectError(ErrorCode::kNotFound, "no recording named as walk1_subject5.bvh",
-              [&] { Prepare(Options()); });
+              [&] { Prepare(options_); });
 }
 
 }  // namespace

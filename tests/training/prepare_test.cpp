@@ -1,55 +1,40 @@
-#include "model/training/prepare.h"
-
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
 #include "model/motion/kinematics.h"
-#include "model/training/prepared_clip.h"
 #include "tests/support/synthetic_clips.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/training/preparation.h"
 
 namespace choreo {
 namespace {
 
 using testing_support::SyntheticClip;
 
-class PrepareTest : public testing::Test {
+class AmassTest : public Preparation {
  protected:
-  PrepareOptions Options(const std::string& layout) {
-    std::filesystem::create_directories(folder_ / "in");
-    PrepareOptions options;
-    options.layout = layout;
-    options.input = folder_ / "in";
-    options.output = folder_ / "out";
-    options.terms = "ours";
-    options.jobs = 1;
-    return options;
-  }
-  nlohmann::json Report() {
-    std::ifstream file(folder_ / "out" / "report.json");
-    return nlohmann::json::parse(file);
-  }
-  TemporaryFolder folder_;
+  AmassTest() : Preparation("amass") {}
+};
+class BvhTest : public Preparation {
+ protected:
+  BvhTest() : Preparation("bvh") {}
 };
 
-TEST_F(PrepareTest, AmassComesThroughAndABrokenFileIsNamedAndSkipped) {
-  const PrepareOptions options = Options("amass");
+TEST_F(AmassTest, ComesThroughAndABrokenFileIsNamedAndSkipped) {
+  options_.terms = "ours";
   const PreparedClip clip = SyntheticClip("walk", 90, 0.2, false);
   NpzArchive npz;
   AddSmplMotion(Skeleton::Smpl24(), clip.motion, nullptr, npz);
-  std::filesystem::create_directories(options.input / "subject");
-  npz.Write(options.input / "subject" / "walk.npz");
-  std::ofstream(options.input / "subject" / "broken.npz") << "no zip";
+  std::filesystem::create_directories(In() / "subject");
+  npz.Write(In() / "subject" / "walk.npz");
+  std::ofstream(In() / "subject" / "broken.npz") << "no zip";
 
-  EXPECT_EQ(Prepare(options), 1);
-  const PreparedClip prepared = ReadPreparedClip(options.output / "subject_walk.clip");
+  EXPECT_EQ(Prepare(options_), 1);
+  const PreparedClip prepared = Clip("subject_walk");
   EXPECT_EQ(prepared.notes.at("terms"), "ours");
   EXPECT_EQ(prepared.audio.cols(), 0);
   ASSERT_EQ(prepared.motion.frames.size(), 90U);
@@ -58,10 +43,8 @@ TEST_F(PrepareTest, AmassComesThroughAndABrokenFileIsNamedAndSkipped) {
                   .position_m,
               1e-4);
   }
-  std::map<std::string, nlohmann::json> by_name;
-  for (const auto& report : Report()) by_name[report.at("name")] = report;
-  EXPECT_TRUE(by_name.at("subject_broken").contains("skipped"));
-  EXPECT_EQ(by_name.at("subject_walk").at("frames"), 90);
+  EXPECT_TRUE(Report("subject_broken").contains("skipped"));
+  EXPECT_EQ(Report("subject_walk").at("frames"), 90);
 }
 
 // Our skeleton under the joint names of motion capture, which make it a foreign one.
@@ -84,43 +67,40 @@ BvhFile Renamed(BvhFile file) {
   return file;
 }
 
-TEST_F(PrepareTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
-  PrepareOptions options = Options("bvh");
-  options.frame_rates = {{"inches", 30.0}};
+TEST_F(BvhTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
+  options_.frame_rates = {{"inches", 30.0}};
   BvhFile file =
       Renamed(MotionToBvh(Skeleton::Smpl24(), SyntheticClip("walk", 90, 0.2, false).motion));
   for (BvhJoint& joint : file.joints) joint.offset /= 2.54;
   // Inches instead of centimetres, and a header that lies about the rate.
   file.values.topRows(3) /= 2.54;
   file.frame_time = 1.0 / 120;
-  WriteBvh(options.input / "inches.bvh", file);
+  WriteBvh(In() / "inches.bvh", file);
 
-  ASSERT_EQ(Prepare(options), 1);
-  const nlohmann::json report = Report().at(0);
+  ASSERT_EQ(Prepare(options_), 1);
+  const nlohmann::json report = Report("inches");
   EXPECT_LT(report.at("fit_error_m").get<double>(), 0.02);
   EXPECT_NEAR(report.at("frames").get<double>(), 90, 1);
 }
 
-TEST_F(PrepareTest, ACalibrationPoseAtTheStartIsCut) {
-  const PrepareOptions options = Options("bvh");
+TEST_F(BvhTest, ACalibrationPoseAtTheStartIsCut) {
   Motion motion = SyntheticClip("walk", 90, 0.2, false).motion;
   for (Pose& pose : motion.frames) {  // arms down, then a T-pose in front of it
     pose.rotations(2, Skeleton::Smpl24().Find("left_shoulder")) -= 1.2;
     pose.rotations(2, Skeleton::Smpl24().Find("right_shoulder")) += 1.2;
   }
   motion.frames.insert(motion.frames.begin(), RestPose(Skeleton::Smpl24()));
-  WriteBvh(options.input / "walk.bvh", Renamed(MotionToBvh(Skeleton::Smpl24(), motion)));
+  WriteBvh(In() / "walk.bvh", Renamed(MotionToBvh(Skeleton::Smpl24(), motion)));
 
-  ASSERT_EQ(Prepare(options), 1);
-  EXPECT_EQ(ReadPreparedClip(options.output / "walk.clip").motion.frames.size(), 90U);
-  EXPECT_EQ(Report().at(0).at("frames_cut"), 1);
+  ASSERT_EQ(Prepare(options_), 1);
+  EXPECT_EQ(Clip("walk").motion.frames.size(), 90U);
+  EXPECT_EQ(Report("walk").at("frames_cut"), 1);
 }
 
-TEST_F(PrepareTest, NothingToPrepareIsAnError) {
-  EXPECT_THROW(Prepare(Options("bvh")), Error);
-  PrepareOptions options = Options("bvh");
-  options.input = folder_ / "nowhere";
-  EXPECT_THROW(Prepare(options), Error);
+TEST_F(BvhTest, NothingToPrepareIsAnError) {
+  EXPECT_THROW(Prepare(options_), Error);
+  options_.input = folder_ / "nowhere";
+  EXPECT_THROW(Prepare(options_), Error);
 }
 
 }  // namespace

@@ -9,14 +9,12 @@
 #include "model/core/error.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
-#include "model/training/prepare.h"
-#include "model/training/prepared_clip.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/tang2018_files.h"
 #include "tests/support/tang2018_markers.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/training/preparation.h"
 
 /// Recordings of our own making in the two layouts of tang2018.
 namespace choreo {
@@ -58,28 +56,9 @@ void WritePublicLayout(const std::filesystem::path& folder, const PositionClip& 
       << json{{"start_position", start}, {"end_position", start + clip.frames.size()}};
 }
 
-class Tang2018Test : public testing::Test {
+class Tang2018Test : public Preparation {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_ / "in"); }
-  int Run(bool native_skeleton = false) {
-    PrepareOptions options;
-    options.native_skeleton = native_skeleton;
-    options.layout = "tang2018";
-    options.input = folder_ / "in";
-    options.output = folder_ / "out";
-    options.jobs = 2;
-    return Prepare(options);
-  }
-  PreparedClip Clip(const std::string& name) {
-    return ReadPreparedClip(folder_ / "out" / (name + ".clip"));
-  }
-  json Report(const std::string& name) {
-    std::ifstream file(folder_ / "out" / "report.json");
-    for (const json& report : json::parse(file)) {
-      if (report.at("name") == name) return report;
-    }
-    return nullptr;
-  }
+  Tang2018Test() : Preparation("tang2018") { options_.jobs = 2; }
   // Whether frame f of the clip hears row f + first of the music.
   static void ExpectMusicFrom(int64_t first, const PreparedClip& clip,
                               const std::vector<float>& samples) {
@@ -94,18 +73,17 @@ class Tang2018Test : public testing::Test {
           << "frame " << f;
     }
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(Tang2018Test, BothLayoutsGiveTheSameDanceEachWithItsMusic) {
   const PositionClip clip = Record(0);
   const std::vector<float> music = Music(8);
-  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", clip);
-  WriteWav(folder_ / "in" / "DANCE_C_1.wav", music);
-  WritePublicLayout(folder_ / "in" / "DANCE_C_2", clip, 50);
-  WriteWav(folder_ / "in" / "DANCE_C_2" / "audio.wav", music);
+  WriteTang2018Npy(In() / "DANCE_C_1.npy", clip);
+  WriteWav(In() / "DANCE_C_1.wav", music);
+  WritePublicLayout(In() / "DANCE_C_2", clip, 50);
+  WriteWav(In() / "DANCE_C_2" / "audio.wav", music);
 
-  ASSERT_EQ(Run(), 2);
+  ASSERT_EQ(Prepare(options_), 2);
   const PreparedClip one = Clip("DANCE_C_1"), two = Clip("DANCE_C_2");
   ASSERT_EQ(one.motion.frames.size(), 121U);
   ASSERT_EQ(two.motion.frames.size(), 121U);
@@ -119,8 +97,8 @@ TEST_F(Tang2018Test, BothLayoutsGiveTheSameDanceEachWithItsMusic) {
 }
 
 TEST_F(Tang2018Test, WaltzIsStretchedToItsMusic) {
-  WriteTang2018Npy(folder_ / "in" / "DANCE_W_1.npy", Record(0));
-  ASSERT_EQ(Run(), 1);
+  WriteTang2018Npy(In() / "DANCE_W_1.npy", Record(0));
+  ASSERT_EQ(Prepare(options_), 1);
   // 4 s x 1.0125 at 30 fps.
   EXPECT_EQ(Clip("DANCE_W_1").motion.frames.size(), 122U);
   EXPECT_THAT(Report("DANCE_W_1").at("warnings").get<std::vector<std::string>>(),
@@ -128,17 +106,17 @@ TEST_F(Tang2018Test, WaltzIsStretchedToItsMusic) {
 }
 
 TEST_F(Tang2018Test, MusicThatEndsEarlyIsReported) {
-  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0));
-  WriteWav(folder_ / "in" / "DANCE_C_1.wav", Music(2));
-  ASSERT_EQ(Run(), 1);
+  WriteTang2018Npy(In() / "DANCE_C_1.npy", Record(0));
+  WriteWav(In() / "DANCE_C_1.wav", Music(2));
+  ASSERT_EQ(Prepare(options_), 1);
   EXPECT_THAT(Report("DANCE_C_1").at("warnings").get<std::vector<std::string>>(),
               Contains(HasSubstr("the music ends 2.0 s before")));
 }
 
 TEST_F(Tang2018Test, ATiltedFloorIsLevelled) {
-  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0.06, 361));
-  WriteTang2018Npy(folder_ / "in" / "DANCE_C_2.npy", Record(0, 361));
-  ASSERT_EQ(Run(), 2);
+  WriteTang2018Npy(In() / "DANCE_C_1.npy", Record(0.06, 361));
+  WriteTang2018Npy(In() / "DANCE_C_2.npy", Record(0, 361));
+  ASSERT_EQ(Prepare(options_), 2);
   EXPECT_NEAR(Report("DANCE_C_1").at("floor_slope").get<double>(), 0.06, 0.025);
   EXPECT_LT(Report("DANCE_C_2").at("floor_slope").get<double>(), 0.03);
   // On her circle, 2 m across, the floor rises and falls by 12 cm.
@@ -151,12 +129,13 @@ TEST_F(Tang2018Test, ATiltedFloorIsLevelled) {
 }
 
 TEST_F(Tang2018Test, ANativeSkeletonOf23JointsIsMeasuredOnAllRecordingsAndKeptInsideEachClip) {
-  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0));
+  WriteTang2018Npy(In() / "DANCE_C_1.npy", Record(0));
   PositionClip taller = Record(0);
   for (Eigen::Matrix3Xd& frame : taller.frames) frame *= 1.1;
-  WriteTang2018Npy(folder_ / "in" / "DANCE_C_2.npy", taller);
-  std::ofstream(folder_ / "in" / "DANCE_C_3.npy") << "broken";
-  ASSERT_EQ(Run(true), 2);
+  WriteTang2018Npy(In() / "DANCE_C_2.npy", taller);
+  std::ofstream(In() / "DANCE_C_3.npy") << "broken";
+  options_.native_skeleton = true;
+  ASSERT_EQ(Prepare(options_), 2);
   const PreparedClip one = Clip("DANCE_C_1"), two = Clip("DANCE_C_2");
   EXPECT_EQ(one.skeleton, two.skeleton);
   EXPECT_EQ(one.skeleton.name, "tang2018");
@@ -173,19 +152,17 @@ TEST_F(Tang2018Test, ANativeSkeletonOf23JointsIsMeasuredOnAllRecordingsAndKeptIn
 }
 
 TEST_F(Tang2018Test, OtherLayoutsHaveNoNativeSkeleton) {
-  PrepareOptions options;
-  options.layout = "bvh";
-  options.input = folder_ / "in";
-  options.native_skeleton = true;
+  options_.layout = "bvh";
+  options_.native_skeleton = true;
   ExpectError(ErrorCode::kInvalidArgument, "--native-skeleton: is for tang2018, 'bvh'",
-              [&] { Prepare(options); });
+              [&] { Prepare(options_); });
 }
 
 TEST_F(Tang2018Test, TwoRecordingsOfOneNameAreRefused) {
-  WriteTang2018Npy(folder_ / "in" / "DANCE_C_1.npy", Record(0));
-  WritePublicLayout(folder_ / "in" / "DANCE_C_1", Record(0), 0);
+  WriteTang2018Npy(In() / "DANCE_C_1.npy", Record(0));
+  WritePublicLayout(In() / "DANCE_C_1", Record(0), 0);
   try {
-    Run();
+    Prepare(options_);
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("'DANCE_C_1.clip'"));

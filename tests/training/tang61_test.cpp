@@ -9,13 +9,12 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/beat_grid.h"
-#include "model/training/prepared_clip.h"
 #include "model/training/recordings.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/tang2018_markers.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/training/preparation.h"
 
 /// Recordings of our own making in the layout of tang61.
 namespace choreo {
@@ -47,28 +46,18 @@ void WriteRows(const std::filesystem::path& path, const PositionClip& clip) {
   WriteNpy(path, array);
 }
 
-class Tang61Test : public testing::Test {
+class Tang61Test : public Preparation {
  protected:
-  void SetUp() override {
-    options_.layout = "tang61";
-    options_.input = folder_ / "in";
-    options_.output = folder_ / "out";
-    std::filesystem::create_directories(options_.input);
-  }
+  Tang61Test() : Preparation("tang61") {}
   void Write(const std::string& name, const Motion& motion) {
-    WriteRows(options_.input / (name + ".npy"), Tang61Markers(motion));
+    WriteRows(In() / (name + ".npy"), Tang61Markers(motion));
   }
-  PreparedClip Clip(const std::string& name) {
-    return ReadPreparedClip(options_.output / (name + ".clip"));
-  }
-  TemporaryFolder folder_;
-  PrepareOptions options_;
 };
 
 TEST_F(Tang61Test, ADanceComesThroughWithItsMusicAndUnstretched) {
   const Motion dance = testing_support::SyntheticClip("dance", 121, 0.3, false).motion;
   Write("DANCE_W_1", Resample(dance, kFps));
-  WriteWav(options_.input / "DANCE_W_1.wav", Music(5));
+  WriteWav(In() / "DANCE_W_1.wav", Music(5));
   ASSERT_EQ(Prepare(options_), 1);
   const PreparedClip clip = Clip("DANCE_W_1");
   EXPECT_EQ(clip.source, "tang61");
@@ -108,13 +97,13 @@ TEST_F(Tang61Test, SaysOnWhichBeatsADanceStandsWhereItsSpeedShowsThem) {
 TEST_F(Tang61Test, BeatsAreCountedFromTheFirstFrameThatIsKept) {
   PositionClip clip = Tang61Markers(Pulsing(25));
   for (size_t f = 0; f < 3; ++f) clip.frames[f].array() += 2;  // a calibration pose
-  WriteRows(options_.input / "DANCE_R_1.npy", clip);
+  WriteRows(In() / "DANCE_R_1.npy", clip);
   ASSERT_EQ(Prepare(options_), 1);
   EXPECT_NEAR(std::stod(Clip("DANCE_R_1").notes.at("beat_offset_s")), 2 - 3 / kFps, 1e-9);
 }
 
 TEST_F(Tang61Test, AFileOfAnotherShapeIsNamed) {
-  WriteRows(options_.input / "DANCE_C_1.npy", Tang2018Markers(Pulsing(25, 80)));
+  WriteRows(In() / "DANCE_C_1.npy", Tang2018Markers(Pulsing(25, 80)));
   EXPECT_EQ(Prepare(options_), 0);
   ExpectError(ErrorCode::kInvalidArgument, "its shape is not [frames, 21, 3]",
               [&] { ListRecordings(options_).at(0).read(); });
