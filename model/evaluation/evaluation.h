@@ -93,15 +93,12 @@ std::vector<Table> EvaluateTransitions(const Evaluation& evaluation);
 std::vector<Table> EvaluateNearness(const Evaluation& evaluation);
 
 /// Whether a dance lives, beside real motion, of every judged method:
-///   liveliness_SET      a figure a row. Through the clips' own poses each 2 s (keyed_dances.h)
-///                       and no other word of the clip: lively_figures.h, how far seeds and songs
-///                       part, hits on regular beats that it was told of, Frechet distances at
-///                       60 frames (window_figures.h), the critic (metrics/critic.h). Without keys:
-///                       long_figures.h.
+///   liveliness_SET      a figure a row. Through the clips' own poses each 2 s: lively_figures.h,
+///                       how far seeds and songs part, hits on beats that it was told of, Frechet
+///                       distances, the critic. Without keys: long_figures.h.
 ///   liveliness_bands_SET  how fast joints go in each band of frequency
-/// Everything is danced as it is served: engine, arrival, foot lock, closed loop. Figures named
-/// "÷ real" are the sum over dances over the same of the clips; intervals over clips. No rows of
-/// keyed dances where no clip has 20 s.
+/// Everything is danced as it is served. Figures named "÷ real" are the sum over dances over the
+/// same of the clips. No rows of keyed dances where no clip has 20 s.
 std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation);
 
 /// liveliness_styles_SET: how often a classifier that learnt the styles of the set's training clips
@@ -115,22 +112,16 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation);
 ///                  Sets with music alone
 std::vector<Table> EvaluateLongDances(const Evaluation& evaluation);
 
-/// encoder_SET: FID, variability and diversity of paper F's Table 1 (Sections 4.5.2 and 4.5.4), in
-/// the codes of Evaluation::encoder, of dances of 10 s beside the clips of a set. A code's unit is
-/// the standard deviation of that code over the training windows, so all three are in its square,
-/// and add up over the 32 codes: two windows drawn at random from training motion are 64 apart.
-///   FID          Frechet distance of the dances' windows to real motion's
-///   variability  MeanApart of 15 dances with one input and different seeds, mean over inputs
-///   diversity    MeanApart of dances of different inputs
-/// Real motion is cut into blocks of 5 s, even and odd: the even ones are what all rows are
-/// compared with, the odd ones are its own row.
+/// encoder_SET: paper F's Table 1 (Sections 4.5.2 and 4.5.4) in the codes of Evaluation::encoder,
+/// of dances of 10 s: FID, variability (MeanApart of 15 seeds of one input, mean over inputs) and
+/// diversity (MeanApart over inputs). Codes are in units of their standard deviation in training:
+/// two windows of it, drawn at random, are 64 apart. Of blocks of 5 s of real motion all rows are
+/// compared with the even ones; the odd ones are its own row.
 std::vector<Table> EvaluateEncoded(const Evaluation& evaluation);
 
-/// stress_SET: paper F, Section 5.2, where its model failed. Onto a lying pose in 30 frames and
-/// fewer, and onto a key that is almost the pose that the dancer has. Says whether the stream would
-/// warn that the interval is too short (RequiredSpeed::TooFast), whether the dancer freezes in
-/// between, and how hard the way is; beside real motion of such lengths, and the model where no key
-/// is asked.
+/// stress_SET: paper F, Section 5.2, where its model failed: onto a lying pose in 30 frames and
+/// fewer, and onto a key that is almost the pose that the dancer has. Would the stream warn
+/// (RequiredSpeed::TooFast), does the dancer freeze, how hard is the way.
 std::vector<Table> EvaluateStress(const Evaluation& evaluation);
 
 /// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4);

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/keyed_dances.h"
 #include "model/evaluation/lively_figures.h"
 #include "model/evaluation/long_figures.h"
+#include "model/evaluation/long_plans.h"
 #include "model/evaluation/transition_judge.h"
 #include "model/metrics/critic.h"
 #include "model/metrics/groove.h"

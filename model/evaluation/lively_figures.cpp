@@ -4,11 +4,10 @@
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/beat_table.h"
-#include "model/evaluation/keyed_dances.h"
+#include "model/evaluation/long_plans.h"
 #include "model/metrics/groove.h"
-#include "model/metrics/pace.h"
+#include "model/metrics/joint_track.h"
 #include "model/metrics/pose_distance.h"
-#include "model/metrics/snaps.h"
 
 namespace choreo {
 

@@ -5,9 +5,8 @@
 
 #include "model/engine/step_engine.h"
 #include "model/evaluation/windows.h"
+#include "model/metrics/groove.h"
 #include "model/metrics/joint_track.h"
-#include "model/metrics/pace.h"
-#include "model/metrics/snaps.h"
 
 namespace choreo {
 

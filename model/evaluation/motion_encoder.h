@@ -9,14 +9,11 @@
 
 namespace choreo {
 
-/// The motion encoder of FID, variability and diversity (paper F, 4.5.2 and 4.5.4), trained by us:
-/// a linear autoencoder in closed form, that is the principal components of training motion. A
-/// window of kWindow frames, seen from its middle frame's place and heading, becomes kCodes
-/// numbers; each has variance 1 over the training windows. Immutable; thread-safe.
-///
-/// It is learnt from the training split at each evaluation, in seconds, so that no file goes with
-/// the program; version() is recipe and the hash of settings and training clips, and figures of
-/// different versions don't compare.
+/// The motion encoder of FID, variability and diversity (paper F, 4.5.2 and 4.5.4): the principal
+/// components of training motion, learnt at each evaluation. A window of kWindow frames, seen from
+/// its middle frame's place and heading, becomes kCodes numbers of variance 1 over the training
+/// windows. Figures of different version()s, the hash of settings and training clips, don't
+/// compare. Immutable; thread-safe.
 class MotionEncoder {
  public:
   static constexpr int kWindow = 30;  ///< frames

@@ -4,7 +4,7 @@
 
 #include "model/core/random.h"
 #include "model/draw/contact_sheet.h"
-#include "model/evaluation/keyed_dances.h"
+#include "model/evaluation/long_plans.h"
 
 namespace choreo {
 namespace {

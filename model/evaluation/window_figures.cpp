@@ -5,10 +5,8 @@
 #include "model/dance/quality_report.h"
 #include "model/metrics/foot_contact_score.h"
 #include "model/metrics/frechet.h"
-#include "model/metrics/geometric_features.h"
-#include "model/metrics/kinetic_features.h"
 #include "model/metrics/linear.h"
-#include "model/metrics/npss.h"
+#include "model/metrics/motion_features.h"
 #include "model/metrics/pose_distance.h"
 #include "model/motion/kinematics.h"
 

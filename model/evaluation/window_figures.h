@@ -8,7 +8,7 @@
 #include "model/evaluation/table.h"
 #include "model/evaluation/windows.h"
 #include "model/metrics/bootstrap.h"
-#include "model/metrics/pace.h"
+#include "model/metrics/joint_track.h"
 
 namespace choreo {
 

@@ -10,7 +10,7 @@
 namespace choreo {
 
 std::optional<Interval> BootstrapRatio(std::span<const double> numerators,
-                                       std::span<const double> denominators, int resamples) {
+                                       std::span<const double> denominators) {
   const size_t clips = numerators.size();
   if (denominators.size() != clips) {
     throw InvalidArgument("denominators", std::to_string(denominators.size()) + " for " +
@@ -18,9 +18,10 @@ std::optional<Interval> BootstrapRatio(std::span<const double> numerators,
   }
   if (clips < 2) return std::nullopt;
   constexpr uint64_t kSeed = 95;
+  constexpr int kResamples = 2000;
   Random random(kSeed);
   std::vector<double> ratios;
-  for (int i = 0; i < resamples; ++i) {
+  for (int i = 0; i < kResamples; ++i) {
     double above = 0, below = 0;
     for (size_t drawn = 0; drawn < clips; ++drawn) {
       const auto clip = static_cast<size_t>(random.Integer(0, static_cast<int64_t>(clips)));

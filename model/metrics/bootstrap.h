@@ -16,6 +16,6 @@ struct Interval {
 /// mean is the ratio of sums to counts. Counter RNG with a fixed seed: the same figures, the same
 /// interval. None for fewer than two clips. Throws Error(kInvalidArgument) for unequal sizes.
 std::optional<Interval> BootstrapRatio(std::span<const double> numerators,
-                                       std::span<const double> denominators, int resamples = 2000);
+                                       std::span<const double> denominators);
 
 }  // namespace choreo

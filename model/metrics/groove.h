@@ -26,10 +26,21 @@ LimbTravel MeasureLimbTravel(const Skeleton& skeleton, const JointTrack& track,
 inline constexpr double kBounceHz = 1;
 double PelvisBounce(const JointTrack& track, double fps);
 
-/// Median over joints and frames of the third difference of positions, m/s^3 (pace.h), after a
+/// Median over joints and frames of the third difference of positions, m/s^3 (Pace), after a
 /// low-pass at kJerkHz, which takes most of a recording's noise away; RawJerk is without.
 inline constexpr double kJerkHz = 8;
 double SmoothJerk(const JointTrack& track, double fps);
 double RawJerk(const JointTrack& track, double fps);
+
+/// How often limbs snap straight or out of it, as legs do that are drawn to their full length:
+/// steps (frame i to i + 1) in which a hinge turns faster than 240 degrees a second (8 degrees a
+/// frame at 30 fps) from or to less than 5 degrees of flexion. Flexion is the angle between the
+/// bones above and below the joint, 0 where they are in line. Each limb counts by itself.
+struct Snaps {
+  int knees = 0, elbows = 0;
+};
+
+/// Joints that the skeleton has no role for do not count.
+Snaps CountSnaps(const Skeleton& skeleton, double fps, const JointTrack& track);
 
 }  // namespace choreo

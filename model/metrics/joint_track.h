@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "model/core/quantile.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -18,5 +19,18 @@ JointTrack TrackJoints(const Skeleton& skeleton, std::span<const Pose> poses);
 /// Mean joint speed of each step (frame i to i + 1), m/s: one shorter than the track. Paper F's
 /// "kinematic velocity curve" (4.5.1).
 std::vector<float> MeanSpeeds(const JointTrack& track, double fps);
+
+/// How fast and how jerky a dance is, over all its joints and frames. Jerk, the third derivative of
+/// position, is the measure of smooth movement since Flash and Hogan (1985). Medians, since both
+/// have long tails.
+struct Pace {
+  std::vector<float> speeds;  ///< m/s, of each joint and step
+  std::vector<float> jerks;   ///< m/s^3, third difference of each joint and four frames
+
+  void Add(const JointTrack& track, double fps);
+  void Add(const Pace& other);
+  double median_speed() const;
+  double median_jerk() const;
+};
 
 }  // namespace choreo

@@ -8,19 +8,16 @@
 namespace choreo {
 
 /// The beats of a prepared clip's music, in frames of its motion (fractions allowed), ascending.
-///
-/// Clips keep MFCC rows, not samples: the rows' inverse cosine transform is the mel spectrum, 40
-/// coefficients smooth, whose rise is the onset envelope that audio/beats.h tracks (Ellis 2007, as
-/// librosa, which paper F uses). `rows`: [coefficients, frames], 30 a second. Empty for silence.
+/// Clips keep MFCC rows, not samples: their inverse cosine transform is a mel spectrum, whose rise
+/// is the onset envelope that audio/beats.h tracks. `rows`: [coefficients, frames], 30 a second.
+/// Empty for silence.
 std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 
-/// Beat alignment score of AIST++ (Li et al. 2021, Section 5), as its published evaluation has it
-/// (google-research/mint, calculate_beat_scores.py): mean over motion beats of
-/// exp(-d^2 / 2 sigma^2), d seconds to the nearest music beat, sigma 0.05 s (3 frames at 60 fps). A
-/// motion beat is a frame whose mean joint speed is *below* that of all others within 1/6 s on each
-/// side (10 frames at 60 fps). Nothing is smoothed there, unlike for KinematicBeats, which are
-/// maxima. 1 is perfect. 0 without beats of either kind. `speeds[i]` belongs to frame i + 1, music
-/// beats are in frames; `fps` > 0.
+/// Beat alignment score of AIST++ (Li et al. 2021, Section 5), as its published evaluation has it:
+/// mean over motion beats of exp(-d^2 / 2 sigma^2), d seconds to the nearest music beat, sigma 0.05
+/// s. A motion beat is a frame whose mean joint speed is *below* that of all others within 1/6 s on
+/// each side; KinematicBeats are maxima, and smoothed. 1 is perfect, 0 without beats of either
+/// kind. `speeds[i]` belongs to frame i + 1, music beats are in frames.
 double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
                           double fps);
 

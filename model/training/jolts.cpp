@@ -11,6 +11,12 @@
 namespace choreo {
 namespace {
 
+constexpr double kSpeed = 11;    // m/s of a joint from one frame to the next
+constexpr int kLongest = 3;      // steps in a row that may be that fast; more is a real swing
+constexpr double kContrast = 2;  // a jolt is this many times faster than the steps around it
+constexpr double kBridge = 0.1;  // s, re-made before and behind a jolt
+constexpr double kLongestBridge = 0.8;  // s; jolts so dense are left alone
+
 using Span = std::pair<int, int>;  // first, last frame to make anew
 
 // The joint at which the limb of each joint begins; -1 for the trunk between the places that
@@ -33,17 +39,17 @@ std::vector<int> LimbOfJoint(const Skeleton& skeleton) {
 }
 
 // Steps f - 1 → f of a limb in which it snaps, as spans of steps.
-std::vector<Span> FindJolts(const std::vector<double>& speeds, const JoltLimits& limits) {
+std::vector<Span> FindJolts(const std::vector<double>& speeds) {
   std::vector<Span> jolts;
   const auto count = static_cast<int>(speeds.size());
   for (int first = 1; first < count; ++first) {
-    if (speeds[first] <= limits.speed) continue;
+    if (speeds[first] <= kSpeed) continue;
     int last = first;
     double top = speeds[first];
-    while (last + 1 < count && speeds[last + 1] > limits.speed) top = std::max(top, speeds[++last]);
+    while (last + 1 < count && speeds[last + 1] > kSpeed) top = std::max(top, speeds[++last]);
     const double before = first > 1 ? speeds[first - 1] : 0;
     const double after = last + 1 < count ? speeds[last + 1] : 0;
-    if (last - first < limits.longest && top > limits.contrast * std::min(before, after)) {
+    if (last - first < kLongest && top > kContrast * std::min(before, after)) {
       jolts.emplace_back(first, last);
     }
     first = last;
@@ -72,7 +78,7 @@ struct Jolts {
   std::vector<Span> of_body;               // steps
 };
 
-Jolts FindAllJolts(const Skeleton& skeleton, const Motion& motion, const JoltLimits& limits) {
+Jolts FindAllJolts(const Skeleton& skeleton, const Motion& motion) {
   const auto frames = static_cast<int>(motion.frames.size());
   Jolts jolts;
   jolts.limb_of = LimbOfJoint(skeleton);
@@ -91,7 +97,7 @@ Jolts FindAllJolts(const Skeleton& skeleton, const Motion& motion, const JoltLim
   std::vector<int> parts(frames, 0);
   jolts.of_limb.resize(skeleton.joints());
   for (int part = 0; part < skeleton.joints(); ++part) {  // 0 stands for the trunk
-    jolts.of_limb[part] = FindJolts(speeds[part], limits);
+    jolts.of_limb[part] = FindJolts(speeds[part]);
     for (const auto& [first, last] : jolts.of_limb[part]) {
       for (int step = first; step <= last; ++step) parts[step] += part == 0 ? kBody : 1;
     }
@@ -107,17 +113,16 @@ Jolts FindAllJolts(const Skeleton& skeleton, const Motion& motion, const JoltLim
   return jolts;
 }
 
-int Margin(const Motion& motion, const JoltLimits& limits) {
-  return std::max(1, static_cast<int>(std::lround(limits.bridge_s * motion.fps)));
+int Margin(const Motion& motion) {
+  return std::max(1, static_cast<int>(std::lround(kBridge * motion.fps)));
 }
 
 }  // namespace
 
-std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion,
-                            const JoltLimits& limits) {
+std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion) {
   const auto frames = static_cast<int>(motion.frames.size());
-  const int margin = Margin(motion, limits);
-  const Jolts jolts = FindAllJolts(skeleton, motion, limits);
+  const int margin = Margin(motion);
+  const Jolts jolts = FindAllJolts(skeleton, motion);
   std::vector<int> breaks;
   const auto cut = [&](const Span& jolt) {
     for (int step = jolt.first; step <= jolt.second; ++step) breaks.push_back(step);
@@ -133,13 +138,13 @@ std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion,
   return breaks;
 }
 
-LimbRepair RepairLimbs(const Skeleton& skeleton, Motion& motion, const JoltLimits& limits) {
+LimbRepair RepairLimbs(const Skeleton& skeleton, Motion& motion) {
   LimbRepair result;
   const auto frames = static_cast<int>(motion.frames.size());
-  const Jolts jolts = FindAllJolts(skeleton, motion, limits);
+  const Jolts jolts = FindAllJolts(skeleton, motion);
   for (int limb = 1; limb < skeleton.joints(); ++limb) {
-    for (const auto& [first, last] : MergeWithMargin(jolts.of_limb[limb], Margin(motion, limits))) {
-      if (first < 1 || last + 1 >= frames || (last - first + 1) / motion.fps > limits.longest_s) {
+    for (const auto& [first, last] : MergeWithMargin(jolts.of_limb[limb], Margin(motion))) {
+      if (first < 1 || last + 1 >= frames || (last - first + 1) / motion.fps > kLongestBridge) {
         ++result.left;
         continue;
       }

@@ -7,23 +7,13 @@
 
 namespace choreo {
 
-/// What counts as a defect of a recording rather than as movement.
-struct JoltLimits {
-  double speed = 11;       ///< m/s of a joint from one frame to the next
-  int longest = 3;         ///< steps in a row that may be that fast in a jolt; more is a real swing
-  double contrast = 2;     ///< a jolt is this many times faster than the steps around it
-  double bridge_s = 0.1;   ///< re-made before and behind a jolt
-  double longest_s = 0.8;  ///< of a bridge; jolts so dense are left alone
-};
-
 /// A limb is what hangs at a joint of three or more children (pelvis, chest); the joints between
 /// those are the trunk. Speeds count relative to the root, so that a dancer who runs does not snap.
 
 /// Frames at which a motion should be cut: the whole body (the trunk, or two limbs at once) snaps
 /// on the way there from the frame before, or a limb does so near to an end, where nothing could
 /// bridge it. Ascending.
-std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion,
-                            const JoltLimits& limits = {});
+std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion);
 
 struct LimbRepair {
   int frames = 0;  ///< made anew, counted for each limb
@@ -33,6 +23,6 @@ struct LimbRepair {
 /// Captured limbs sometimes snap: a knee to the other side of its leg, a wrist across the body.
 /// Such a limb's rotations are interpolated from shortly before to shortly after; everything else
 /// stays as it is.
-LimbRepair RepairLimbs(const Skeleton& skeleton, Motion& motion, const JoltLimits& limits = {});
+LimbRepair RepairLimbs(const Skeleton& skeleton, Motion& motion);
 
 }  // namespace choreo

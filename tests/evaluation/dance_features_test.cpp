@@ -6,8 +6,7 @@
 
 #include "model/core/random.h"
 #include "model/metrics/frechet.h"
-#include "model/metrics/geometric_features.h"
-#include "model/metrics/kinetic_features.h"
+#include "model/metrics/motion_features.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "model/metrics/foot_contact_score.h"
-#include "model/metrics/npss.h"
-#include "model/metrics/pace.h"
+#include "model/metrics/joint_track.h"
 #include "model/metrics/pose_distance.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"

@@ -7,8 +7,8 @@
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/interpolation_engine.h"
-#include "model/evaluation/keyed_dances.h"
 #include "model/evaluation/lively_figures.h"
+#include "model/evaluation/long_plans.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/fake_engine.h"
 #include "tests/support/synthetic_clips.h"

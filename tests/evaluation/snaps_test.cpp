@@ -1,4 +1,4 @@
-#include "model/metrics/snaps.h"
+#include "model/metrics/groove.h"
 
 #include <gtest/gtest.h>
 
