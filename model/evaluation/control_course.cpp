@@ -45,15 +45,11 @@ double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
 }
 
 ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
-    : evaluation_(evaluation),
-      model_(evaluation.model()),
-      frames_(frames),
-      chosen_(ChooseWindows(evaluation.set, model_.history_frames, frames,
-                            evaluation.options.windows_per_clip)) {
-  for (const EvalWindow& window : chosen_) {
+    : evaluation_(evaluation), model_(evaluation.model()), frames_(frames) {
+  for (const EvalWindow& window : ChooseWindows(evaluation.set, model_.history_frames, frames,
+                                                evaluation.options.windows_per_clip)) {
     std::vector<Pose> poses = RealPoses(evaluation.set, window, frames, 1);
-    ControlledWindow one;
-    one.clip = window.clip;
+    ControlledWindow one{window};
     one.before = poses.front();
     one.real.assign(poses.begin() + 1, poses.end());
     one.key = one.real.back();
@@ -65,7 +61,7 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
 }
 
 TransitionInput ControlCourse::InputFor(size_t window) const {
-  TransitionInput input = InputOf(model_, evaluation_.set, chosen_[window], frames_,
+  TransitionInput input = InputOf(model_, evaluation_.set, windows_[window], frames_,
                                   evaluation_.options.temperature, window);
   input.request.target->pose = windows_[window].key;
   return input;

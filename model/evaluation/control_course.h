@@ -27,13 +27,12 @@ double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
                     const std::vector<Pose>& danced);
 
 /// A real transition, and what is asked of those who dance it again.
-struct ControlledWindow {
-  size_t clip = 0;
-  Pose before;  ///< the last history pose
-  std::vector<Pose> real;
-  Pose key;  ///< the last of `real`, unless it was moved
-  Eigen::Matrix3Xd path;
-  FactorTrack factors;  ///< no columns: none are asked for
+struct ControlledWindow : EvalWindow {
+  Pose before = {};  ///< the last history pose
+  std::vector<Pose> real = {};
+  Pose key = {};  ///< the last of `real`, unless it was moved
+  Eigen::Matrix3Xd path = {};
+  FactorTrack factors = {};  ///< no columns: none are asked for
 };
 
 /// One dance a window.
@@ -72,7 +71,6 @@ class ControlCourse {
   const Evaluation& evaluation_;
   const ModelInfo& model_;
   int frames_;
-  std::vector<EvalWindow> chosen_;
   std::vector<ControlledWindow> windows_;
 };
 

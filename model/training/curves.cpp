@@ -1,12 +1,10 @@
 #include "model/training/curves.h"
 
-#include <cstdio>
-#include <map>
+#include <algorithm>
 #include <sstream>
 #include <string_view>
 
 #include "model/core/atomic_file.h"
-#include "model/core/error.h"
 #include "model/draw/plot.h"
 
 namespace choreo {
@@ -15,90 +13,81 @@ namespace {
 constexpr std::string_view kGradientSuffix = "_gradient";
 constexpr std::string_view kRatio = "_ratio_";  // in the names of figures that are compared
 
-std::string Format(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
+std::vector<std::string> CellsOf(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
 }
 
 }  // namespace
 
 void Curves::Append(const LossRow& losses, double seconds, const NamedFigures& figures) {
-  std::string header = "step,seconds";
-  std::string line = std::to_string(losses.step) + "," + Format(seconds);
+  names_.clear();
+  std::vector<double>& row = rows_.emplace_back();
+  const auto add = [&](const std::string& name, double value) {
+    names_.push_back(name);
+    row.push_back(value);
+  };
+  add("step", static_cast<double>(losses.step));
+  add("seconds", seconds);
   for (const auto& [name, figure] : losses.terms) {
-    header += "," + name + "," + name + std::string(kGradientSuffix);
-    line += "," + Format(figure.value) + "," + Format(figure.gradient);
+    add(name, figure.value);
+    add(name + std::string(kGradientSuffix), figure.gradient);
   }
-  for (const auto& [name, value] : figures) {
-    header += "," + name;
-    line += "," + Format(value);
-  }
-  header_ = header;
-  lines_.push_back(line);
+  for (const auto& [name, value] : figures) add(name, value);
 }
 
 std::string Curves::Serialise() const {
-  std::string text = header_ + "\n";
-  for (const std::string& line : lines_) text += line + "\n";
-  return text;
+  std::ostringstream text;
+  for (size_t i = 0; i < names_.size(); ++i) text << (i > 0 ? "," : "") << names_[i];
+  for (const std::vector<double>& row : rows_) {
+    text << '\n' << static_cast<int64_t>(row[0]);
+    for (size_t i = 1; i < row.size(); ++i) text << ',' << row[i];
+  }
+  text << '\n';
+  return text.str();
 }
 
 void Curves::Restore(const std::string& csv) {
   std::istringstream stream(csv);
-  std::getline(stream, header_);
-  lines_.clear();
-  for (std::string line; std::getline(stream, line);) lines_.push_back(line);
+  std::string line;
+  std::getline(stream, line);
+  names_ = CellsOf(line);
+  rows_.clear();
+  while (std::getline(stream, line)) {
+    std::vector<double>& row = rows_.emplace_back();
+    for (const std::string& cell : CellsOf(line)) row.push_back(std::stod(cell));
+  }
 }
 
 void Curves::Write(const std::filesystem::path& folder) const {
   WriteFile(folder / "curves.csv", Serialise());
-
-  // Columns back out of the text: a restored run has nothing else.
-  std::vector<std::string> names;
-  std::istringstream header(header_);
-  for (std::string name; std::getline(header, name, ',');) names.push_back(name);
-  std::map<std::string, std::vector<double>> columns;
-  for (const std::string& line : lines_) {
-    std::istringstream stream(line);
-    size_t i = 0;
-    for (std::string cell; std::getline(stream, cell, ',') && i < names.size(); ++i) {
-      columns[names[i]].push_back(std::stod(cell));
+  const auto plot = [&](const std::string& title, const std::string& y, const std::string& file,
+                        auto is_wanted) {
+    Plot figure{.title = title, .x_label = "step", .y_label = y, .series = {}};
+    for (size_t i = 2; i < names_.size(); ++i) {
+      if (!is_wanted(names_[i])) continue;
+      PlotSeries series{.label = names_[i], .x = {}, .y = {}};
+      for (const std::vector<double>& row : rows_) {
+        if (i >= row.size() || row[i] == 0) continue;  // not computed yet
+        series.x.push_back(row[0]);
+        series.y.push_back(row[i]);
+      }
+      if (!series.x.empty()) figure.series.push_back(std::move(series));
     }
-  }
-  // Zero means "not computed yet": a plot leaves those points out.
-  const auto series = [&](const std::string& name) {
-    PlotSeries result;
-    result.label = name;
-    for (size_t i = 0; i < columns[name].size(); ++i) {
-      if (columns[name][i] == 0) continue;
-      result.x.push_back(columns["step"][i]);
-      result.y.push_back(columns[name][i]);
-    }
-    return result;
+    if (!figure.series.empty()) DrawPlot(figure, folder / file);
   };
-  const auto plot = [&](const std::string& title, const std::string& y,
-                        const std::vector<std::string>& wanted, const std::string& file_name) {
-    Plot figure;
-    figure.title = title;
-    figure.x_label = "step";
-    figure.y_label = y;
-    for (const std::string& name : wanted) {
-      PlotSeries one = series(name);
-      if (!one.x.empty()) figure.series.push_back(std::move(one));
-    }
-    if (!figure.series.empty()) DrawPlot(figure, folder / file_name);
+  const auto is_gradient = [](const std::string& name) { return name.ends_with(kGradientSuffix); };
+  const auto is_loss = [&](const std::string& name) {
+    return std::ranges::find(names_, name + std::string(kGradientSuffix)) != names_.end();
   };
-  std::vector<std::string> values, gradients, ratios;
-  for (const std::string& name : names) {
-    if (name.find(kRatio) != std::string::npos) ratios.push_back(name);
-    if (!name.ends_with(kGradientSuffix)) continue;
-    gradients.push_back(name);
-    values.push_back(name.substr(0, name.size() - kGradientSuffix.size()));
-  }
-  plot("Training losses", "loss", values, "curves.png");
-  plot("Gradient of each weighted term", "norm", gradients, "gradients.png");
-  plot("Validation, ratio to interpolation", "ratio", ratios, "validation.png");
+  const auto is_ratio = [](const std::string& name) {
+    return name.find(kRatio) != std::string::npos;
+  };
+  plot("Training losses", "loss", "curves.png", is_loss);
+  plot("Gradient of each weighted term", "norm", "gradients.png", is_gradient);
+  plot("Validation, ratio to interpolation", "ratio", "validation.png", is_ratio);
 }
 
 }  // namespace choreo

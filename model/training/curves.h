@@ -35,8 +35,8 @@ class Curves {
   void Restore(const std::string& csv);
 
  private:
-  std::string header_;
-  std::vector<std::string> lines_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> rows_;  // a report each
 };
 
 }  // namespace choreo

@@ -26,17 +26,12 @@ struct Metre {
 constexpr Metre kFourFour = {12.5, 4, 25};
 constexpr Metre kWaltz = {48.4 / 3, 3, 48.4};
 
-fs::path FirstExisting(const std::vector<fs::path>& candidates) {
-  for (const auto& path : candidates) {
-    if (fs::exists(path)) return path;
+// The music of this name, of whatever format; empty: none.
+fs::path MusicOf(fs::path path) {
+  for (const char* extension : {".ogg", ".wav", ".mp3"}) {
+    if (fs::exists(path.replace_extension(extension))) return path;
   }
   return {};
-}
-
-fs::path MusicBeside(const fs::path& path) {
-  return FirstExisting({fs::path(path).replace_extension(".ogg"),
-                        fs::path(path).replace_extension(".wav"),
-                        fs::path(path).replace_extension(".mp3")});
 }
 
 bool IsWaltz(const std::string& name) { return name.starts_with("DANCE_W"); }
@@ -100,7 +95,7 @@ Recording ReadTang2018Npy(const fs::path& path, const PrepareOptions& options) {
   recording.positions =
       Positions(Tang2018JointNames(), rows.frames,
                 [&](int64_t f, int j) -> Eigen::Vector3d { return rows(f, 0) + rows(f, j + 1); });
-  recording.music = MusicBeside(path);
+  recording.music = MusicOf(path);
   return recording;
 }
 
@@ -123,8 +118,7 @@ Recording ReadTang2018Folder(const fs::path& folder, const PrepareOptions& optio
         const auto frame = static_cast<size_t>(f);
         return point(center.at(frame)) + point(joints.at(frame).at(static_cast<size_t>(j)));
       });
-  recording.music =
-      FirstExisting({folder / "audio.mp3", folder / "audio.wav", folder / "audio.ogg"});
+  recording.music = MusicOf(folder / "audio");
   recording.music_start_s = load(folder / "config.json").at("start_position").get<double>() / kFps;
   return recording;
 }
@@ -134,7 +128,7 @@ Recording ReadTang61(const fs::path& path, const PrepareOptions& options) {
   Recording recording = Tang(name, Tang61Source(), ForClip(options.time_scales, name, 1.0));
   const Rows rows = ReadRows(path, static_cast<int>(Tang61JointNames().size()));
   recording.positions = Positions(Tang61JointNames(), rows.frames, rows);
-  recording.music = MusicBeside(path);
+  recording.music = MusicOf(path);
   const Metre& metre = IsWaltz(name) ? kWaltz : kFourFour;
   if (SpeedPowerAt(recording.positions, metre.pulse_frames / kFps) >= kLeastBeatPower) {
     recording.beats = {.period_s = metre.beat_frames / kFps * recording.time_scale,
