@@ -158,8 +158,12 @@ void EvaluateAll(Arguments arguments) {
   for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());
   if (arguments.json.empty()) return;
   WriteReport(arguments.json,
-              {model.name, model.fingerprint, arguments.split, contest.stepped_by, summary,
-               options.temperature},
+              {{"model", model.name},
+               {"fingerprint", model.fingerprint},
+               {"split", arguments.split},
+               {"temperature", options.temperature},
+               {"engine", contest.stepped_by},
+               {"summary", summary}},
               tables);
   if (arguments.sheets) DrawSheets(arguments, contest, sets);
 }

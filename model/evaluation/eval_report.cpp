@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -30,20 +29,14 @@ void CheckReportPath(const std::filesystem::path& json) {
   if (!std::ofstream(probe.partial(), std::ios::app)) refuse(std::strerror(errno));
 }
 
-void WriteReport(const std::filesystem::path& json, const ReportHead& head,
+void WriteReport(const std::filesystem::path& json, nlohmann::json head,
                  const std::vector<Table>& tables) {
-  nlohmann::json report = {{"model", head.model},
-                           {"fingerprint", head.fingerprint},
-                           {"split", head.split},
-                           {"temperature", head.temperature},
-                           {"engine", head.engine},
-                           {"summary", head.summary},
-                           {"tables", nlohmann::json::array()}};
+  head["tables"] = nlohmann::json::array();
   for (const Table& table : tables) {
-    report["tables"].push_back(ToJson(table));
+    head["tables"].push_back(ToJson(table));
     if (table.plot) DrawPlot(*table.plot, PictureBeside(json, table.name));
   }
-  WriteFile(json, report.dump(1) + "\n");
+  WriteFile(json, head.dump(1) + "\n");
 }
 
 }  // namespace choreo

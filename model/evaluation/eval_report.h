@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -15,14 +16,9 @@ std::filesystem::path PictureBeside(const std::filesystem::path& json, std::stri
 /// could not be written: before the long work, not after.
 void CheckReportPath(const std::filesystem::path& json);
 
-/// What all tables have in common.
-struct ReportHead {
-  std::string model, fingerprint, split, engine, summary;
-  double temperature = 0;
-};
-
-/// Writes the JSON file, and the tables' plots beside it.
-void WriteReport(const std::filesystem::path& json, const ReportHead& head,
+/// Writes the JSON file, which begins with `head`, what all tables have in common, and the tables'
+/// plots beside it.
+void WriteReport(const std::filesystem::path& json, nlohmann::json head,
                  const std::vector<Table>& tables);
 
 }  // namespace choreo
