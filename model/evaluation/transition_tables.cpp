@@ -30,12 +30,9 @@ void AddMethod(const std::string& method, const LengthFigures& length, const Rea
                Table* table) {
   const Figures& figures = length.methods.at(method);
   Pace pace;
-  double npss = 0, weights = 0;
-  for (const WindowFigures& window : figures) {
-    pace.Add(window.pace);
-    npss += window.npss_sum;
-    weights += window.npss_weight;
-  }
+  for (const WindowFigures& window : figures) pace.Add(window.pace);
+  const Cell npss = Ratio(FiguresOf(figures, &WindowFigures::npss_sum),
+                          FiguresOf(figures, &WindowFigures::npss_weight));
   const FeatureFigures kinetic = CompareFeatures(real.kinetic, figures, &WindowFigures::kinetic);
   const FeatureFigures geometric =
       CompareFeatures(real.geometric, figures, &WindowFigures::geometric);
@@ -44,7 +41,7 @@ void AddMethod(const std::string& method, const LengthFigures& length, const Rea
   table->Put("L2P cm", 2, Mean(figures, &WindowFigures::l2p, 100));
   table->Put("L2P / interpolation's", 2, RatioToLine(figures, length.line));
   table->Put("L2Q", 3, mean(&WindowFigures::l2q));
-  table->Put("NPSS", 3, weights > 0 ? npss / weights : NAN);
+  table->Put("NPSS", 3, npss.value);
   table->Put("FID_k", 1, kinetic.distance);
   table->Put("FID_g", 1, geometric.distance);
   table->Put("Div_k", 1, kinetic.diversity);

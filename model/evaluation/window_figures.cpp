@@ -29,10 +29,9 @@ WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vec
   const Eigen::MatrixXd turns = GlobalQuaternions(skeleton, ours);
   const Eigen::MatrixXd real_turns = GlobalQuaternions(skeleton, theirs);
   figures.l2q = L2Q(turns, real_turns);
-  NpssMeter npss;
-  npss.Add(turns, real_turns);
-  figures.npss_sum = npss.sum();
-  figures.npss_weight = npss.weights();
+  const Npss npss = MeasureNpss(turns, real_turns);
+  figures.npss_sum = npss.sum;
+  figures.npss_weight = npss.weight;
   figures.pfc = PhysicalFootContact(skeleton, track);
   figures.pace.Add(track, fps);
   if (track.size() >= 3) figures.kinetic = KineticFeatures(track, fps);

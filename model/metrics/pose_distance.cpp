@@ -77,13 +77,14 @@ double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
   return sum / static_cast<double>(real.cols());
 }
 
-void NpssMeter::Add(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
+Npss MeasureNpss(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
   if (danced.rows() != real.rows() || danced.cols() != real.cols()) {
     throw InvalidArgument("danced", std::to_string(danced.rows()) + " x " +
                                         std::to_string(danced.cols()) + " against " +
                                         std::to_string(real.rows()) + " x " +
                                         std::to_string(real.cols()));
   }
+  Npss npss;
   const Eigen::MatrixXd ours = PowerSpectrum(danced), theirs = PowerSpectrum(real);
   for (Eigen::Index feature = 0; feature < real.rows(); ++feature) {
     const double our_power = ours.row(feature).sum(), power = theirs.row(feature).sum();
@@ -93,9 +94,10 @@ void NpssMeter::Add(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) 
       difference += ours(feature, k) / our_power - theirs(feature, k) / power;
       distance += std::abs(difference);
     }
-    sum_ += power * distance;
-    weights_ += power;
+    npss.sum += power * distance;
+    npss.weight += power;
   }
+  return npss;
 }
 
 }  // namespace choreo

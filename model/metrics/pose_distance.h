@@ -30,19 +30,11 @@ double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real);
 /// Harvey et al. 2020): the earth mover's distance between the shares of power at each frequency of
 /// a feature (GlobalQuaternions), mean over windows and features, weighted by the real motion's
 /// power. 0 is equal; no unit.
-class NpssMeter {
- public:
-  /// Both [features, frames]. A feature without power in either motion does not count.
-  void Add(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real);
-  /// 0 before the first window.
-  double value() const { return weights_ > 0 ? sum_ / weights_ : 0; }
-
-  /// What has been added, so that windows can be gathered by clip: value() is sum() / weights().
-  double sum() const { return sum_; }
-  double weights() const { return weights_; }
-
- private:
-  double sum_ = 0, weights_ = 0;
+/// The sum over features and their weights are told apart, for means over windows. Both [features,
+/// frames]; a feature without power in either motion does not count.
+struct Npss {
+  double sum = 0, weight = 0;
 };
+Npss MeasureNpss(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real);
 
 }  // namespace choreo
