@@ -27,14 +27,6 @@ JointTrack FacingTrack(const Skeleton& skeleton, const std::vector<Pose>& poses)
   return track;
 }
 
-Table LengthTable(const Evaluation& evaluation, const char* name, const std::string& title,
-                  const std::string& note, int digits) {
-  Table table = evaluation.NewTable(name, title, {"method"});
-  table.note = note;
-  for (const int length : kLengths) table.columns.push_back({std::to_string(length), digits});
-  return table;
-}
-
 // Who is not told what is asked.
 std::string WithoutControls(const std::vector<Method>& ways) {
   std::string names;
@@ -81,83 +73,69 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
       "Transitions between real poses, with the real dance's root path and velocity factors" +
       WithoutControls(ways) + ". ";
   const Skeleton& skeleton = model.skeleton;
-  struct Figured {
-    Table table;
-    ControlCourse::Figure figure;
-    bool averaged;
-    std::vector<Lengths> ways = {};
-  };
-  std::vector<Figured> all = {
-      {LengthTable(evaluation, "lrp", "LRP, cm",
-                   asked + "Paper C, Table 2: distance of root-relative positions of postures that "
-                           "face +Z.",
-                   1),
-       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-         return 100 * RootRelativeDistance(FacingTrack(skeleton, danced),
-                                           FacingTrack(skeleton, window.real));
-       },
-       true},
-      {LengthTable(evaluation, "lrp_turned", "LRP in the scene's axes, cm",
-                   asked + "As LRP, but a wrong heading counts too.", 1),
-       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-         return 100 * RootRelativeDistance(TrackJoints(skeleton, danced),
-                                           TrackJoints(skeleton, window.real));
-       },
-       false},
-      {LengthTable(evaluation, "avf", "AVF",
-                   asked + "Paper C, Table 3: share that keeps within 1 cm/frame.", 2),
-       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-         const auto factors = FactorTrackOf(skeleton, window.before, danced);
-         return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
-       },
-       true},
-      {LengthTable(evaluation, "art", "ART",
-                   asked + "Paper C, Table 4: share whose root keeps within 7 cm.", 2),
-       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-         const double off = RootDeviation(TrackJoints(skeleton, danced), window.path);
-         return off < kRootTolerance ? 1.0 : 0.0;
-       },
-       true},
-      {LengthTable(evaluation, "control_skate", "Skating ratio",
-                   asked + "Share of the steps in which a foot skates.", 3),
-       [&](const ControlledWindow& window, const std::vector<Pose>& danced) {
-         return SkateRatioOf(skeleton, model.fps, window.before, danced);
-       },
-       false},
-      {LengthTable(evaluation, "tremor", "Trembling",
-                   asked + "Share of the joints' movement from the root above 4 Hz.", 2),
-       [&](const ControlledWindow&, const std::vector<Pose>& danced) {
-         return TremorShare(TrackJoints(skeleton, danced), model.fps);
-       },
-       false}};
-  for (Figured& one : all) one.ways.resize(ways.size());
+  std::vector<ControlCourse> courses;
+  std::vector<std::vector<Dances>> dances(ways.size());  // by length
   for (const int frames : kLengths) {
-    const ControlCourse course(evaluation, frames);
-    for (size_t w = 0; w < ways.size(); ++w) {
-      const Dances dances = course.Dance(ways[w]);
-      for (Figured& one : all) one.ways[w].push_back(course.FiguresOf(dances, one.figure));
-    }
+    courses.emplace_back(evaluation, frames);
+    for (size_t w = 0; w < ways.size(); ++w) dances[w].push_back(courses.back().Dance(ways[w]));
   }
-  Table ratio = LengthTable(evaluation, "lrp_ratio", "LRP over interpolation's",
-                            asked + "Interpolation: slerp, its root on the path.", 2);
+  using Danced = const std::vector<Pose>&;
   std::vector<Table> tables;
-  for (Figured& one : all) {
-    if (one.averaged) one.table.columns.push_back({"mean", one.table.columns.front().digits});
+  // Returns the figures of all ways.
+  const auto add = [&](const char* name, const char* title, const std::string& note, int digits,
+                       bool averaged, const ControlCourse::Figure& figure) {
+    Table& table = tables.emplace_back(evaluation.NewTable(name, title, {"method"}));
+    table.note = asked + note;
+    std::vector<Lengths> all;
     for (size_t w = 0; w < ways.size(); ++w) {
-      TableRow row{{ways[w].name}, {}};
-      for (const auto& figures : one.ways[w]) row.cells.push_back(Mean(figures));
-      if (one.averaged) row.cells.push_back(MeanOfMeans(one.ways[w]));
-      one.table.rows.push_back(std::move(row));
+      Lengths& lengths = all.emplace_back();
+      table.Begin({ways[w].name});
+      for (size_t i = 0; i < courses.size(); ++i) {
+        lengths.push_back(courses[i].FiguresOf(dances[w][i], figure));
+        table.Put(std::to_string(kLengths[i]), digits, Mean(lengths.back()));
+      }
+      if (averaged) table.Put("mean", digits, MeanOfMeans(lengths));
     }
-    tables.push_back(std::move(one.table));
-  }
-  const std::vector<Lengths>& lrp = all.front().ways;
+    return all;
+  };
+  const std::vector<Lengths> lrp =
+      add("lrp", "LRP, cm",
+          "Paper C, Table 2: distance of root-relative positions of postures that face +Z.", 1,
+          true, [&](const ControlledWindow& window, Danced danced) {
+            return 100 * RootRelativeDistance(FacingTrack(skeleton, danced),
+                                              FacingTrack(skeleton, window.real));
+          });
+  Table& ratio =
+      tables.emplace_back(evaluation.NewTable("lrp_ratio", "LRP over interpolation's", {"method"}));
+  ratio.note = asked + "Interpolation: slerp, its root on the path.";
   for (size_t w = 0; w < ways.size(); ++w) {
-    ratio.rows.push_back({{ways[w].name}, {}});
-    for (size_t i = 0; i < lrp[w].size(); ++i)
-      ratio.rows.back().cells.push_back(Ratio(lrp[w][i], lrp[kInterpolation][i]));
+    ratio.Begin({ways[w].name});
+    for (size_t i = 0; i < courses.size(); ++i)
+      ratio.Put(std::to_string(kLengths[i]), 2, Ratio(lrp[w][i], lrp[kInterpolation][i]));
   }
-  tables.insert(tables.begin() + 1, std::move(ratio));
+  add("lrp_turned", "LRP in the scene's axes, cm", "As LRP, but a wrong heading counts too.", 1,
+      false, [&](const ControlledWindow& window, Danced danced) {
+        return 100 * RootRelativeDistance(TrackJoints(skeleton, danced),
+                                          TrackJoints(skeleton, window.real));
+      });
+  add("avf", "AVF", "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, true,
+      [&](const ControlledWindow& window, Danced danced) {
+        const auto factors = FactorTrackOf(skeleton, window.before, danced);
+        return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
+      });
+  add("art", "ART", "Paper C, Table 4: share whose root keeps within 7 cm.", 2, true,
+      [&](const ControlledWindow& window, Danced danced) {
+        const double off = RootDeviation(TrackJoints(skeleton, danced), window.path);
+        return off < kRootTolerance ? 1.0 : 0.0;
+      });
+  add("control_skate", "Skating ratio", "Share of the steps in which a foot skates.", 3, false,
+      [&](const ControlledWindow& window, Danced danced) {
+        return SkateRatioOf(skeleton, model.fps, window.before, danced);
+      });
+  add("tremor", "Trembling", "Share of the joints' movement from the root above 4 Hz.", 2, false,
+      [&](const ControlledWindow&, Danced danced) {
+        return TremorShare(TrackJoints(skeleton, danced), model.fps);
+      });
   return tables;
 }
 
@@ -184,34 +162,27 @@ std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
 std::vector<Table> EvaluateRepetition(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   if (!model.root_path) return {};
-  const std::vector<Method> ways = WaysOf(evaluation.methods);
   Table table = evaluation.NewTable("repetition", "Repetition and endings", {"method"});
   table.note =
       "Shares of half seconds: that repeat one before them, and that hold still in the last fifth "
       "(repetition.h).";
-  for (const char* what : {"repeated", "still at the end"}) {
-    for (const int frames : kLongLengths)
-      table.columns.push_back({std::string(what) + ", " + std::to_string(frames), 3});
-  }
-  std::vector<std::vector<Cell>> endings(ways.size());
-  for (const Method& way : ways) table.rows.push_back({{way.name}, {}});
-  for (const int frames : kLongLengths) {
-    const ControlCourse course(evaluation, frames);
-    for (size_t w = 0; w < ways.size(); ++w) {
-      const Dances dances = course.Dance(ways[w]);
-      const auto last_part = static_cast<int>((1 - kEnding) * frames);
-      table.rows[w].cells.push_back(
-          course.MeanOf(dances, [&](const ControlledWindow&, const std::vector<Pose>& danced) {
-            return MeasureRepetition(model.skeleton, danced, model.fps).repeated;
-          }));
-      endings[w].push_back(
-          course.MeanOf(dances, [&](const ControlledWindow&, const std::vector<Pose>& danced) {
-            return MeasureRepetition(model.skeleton, danced, model.fps, last_part).frozen;
-          }));
+  std::vector<ControlCourse> courses;
+  for (const int frames : kLongLengths) courses.emplace_back(evaluation, frames);
+  for (const Method& way : WaysOf(evaluation.methods)) {
+    table.Begin({way.name});
+    for (size_t i = 0; i < courses.size(); ++i) {
+      const int frames = kLongLengths[i], ending = static_cast<int>((1 - kEnding) * frames);
+      const Dances dances = courses[i].Dance(way);
+      const auto put = [&](const std::string& what, double Repetition::*figure, int from) {
+        const auto share = [&](const ControlledWindow&, const std::vector<Pose>& danced) {
+          return MeasureRepetition(model.skeleton, danced, model.fps, from).*figure;
+        };
+        table.Put(what + ", " + std::to_string(frames), 3, courses[i].MeanOf(dances, share));
+      };
+      put("repeated", &Repetition::repeated, 0);
+      put("still at the end", &Repetition::frozen, ending);
     }
   }
-  for (size_t w = 0; w < ways.size(); ++w)
-    table.rows[w].cells.insert(table.rows[w].cells.end(), endings[w].begin(), endings[w].end());
   return {table};
 }
 
