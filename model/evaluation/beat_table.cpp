@@ -27,7 +27,7 @@ BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>&
   });
   const auto count = static_cast<double>(kinematic.size());
   figures.hit_rate = static_cast<double>(hits) / count;
-  figures.coverage = count / static_cast<double>(beats.size());
+  figures.coverage = count / beats.size();
   figures.alignment = BeatAlignmentScore(speeds, beats, fps);
   return figures;
 }

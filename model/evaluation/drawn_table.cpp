@@ -52,7 +52,7 @@ double PathSpeed(const ControlledWindow& window, double fps) {
     length += (point - last).norm();
     last = point;
   }
-  return length * fps / static_cast<double>(window.path.cols());
+  return length * fps / window.path.cols();
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void AddDances(const Method& method, const std::vector<LongPlan>& plans,
   const size_t inputs = plans.size() / kSamples;
   for (size_t input = 0; input < inputs; ++input) {
     const auto first = codes.begin() + static_cast<std::ptrdiff_t>(input * kSamples);
-    variability += MeanApart({first, first + kSamples}) / static_cast<double>(inputs);
+    variability += MeanApart({first, first + kSamples}) / inputs;
     firsts.push_back(*first);
   }
   const Eigen::MatrixXd all = SideBySide(codes);

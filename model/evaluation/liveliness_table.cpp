@@ -210,8 +210,7 @@ void AddFree(const Evaluation& evaluation, const Method& method, Table* table) {
     speeds.push_back(static_cast<float>(dances.back().median_speed));
   }
   const auto share = [&](auto is) {
-    return 100.0 * static_cast<double>(std::ranges::count_if(dances, is)) /
-           static_cast<double>(dances.size());
+    return 100.0 * std::ranges::count_if(dances, is) / static_cast<double>(dances.size());
   };
   const double speed = Percentile(speeds, 0.5);
   Add("free: median speed cm/s", 100 * real.median_speed, {}, 100 * speed,

@@ -30,9 +30,8 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
   figures.raw_jerk = RawJerk(figures.track, model.fps);
   figures.skate_ratio =
       MeasureMotion(model.skeleton, {.fps = model.fps, .frames = whole}).skate_ratio;
-  const double a_minute = 60 * model.fps / static_cast<double>(poses.size());
-  figures.kinematic_beats =
-      a_minute * static_cast<double>(KinematicBeats(figures.speeds, model.fps).size());
+  const double a_minute = 60 * model.fps / poses.size();
+  figures.kinematic_beats = a_minute * KinematicBeats(figures.speeds, model.fps).size();
   const Snaps snaps = CountSnaps(model.skeleton, model.fps, figures.track);
   figures.knee_snaps = a_minute * snaps.knees;
   figures.elbow_snaps = a_minute * snaps.elbows;

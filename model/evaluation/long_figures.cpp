@@ -39,9 +39,7 @@ std::pair<double, double> MeansOfEnds(const std::vector<Value>& values, size_t l
   length = std::min(length, values.size() / 2);
   if (length == 0) return {0, 0};
   const auto part = static_cast<std::ptrdiff_t>(length);
-  const auto mean = [&](auto from, auto to) {
-    return std::accumulate(from, to, 0.0) / static_cast<double>(length);
-  };
+  const auto mean = [&](auto from, auto to) { return std::accumulate(from, to, 0.0) / length; };
   return {mean(values.begin(), values.begin() + part), mean(values.end() - part, values.end())};
 }
 
@@ -134,7 +132,7 @@ double RealRange::JointsWithin(const LongFigures& dance) const {
     const double speed = dance.joint_speeds[joint];
     if (speed >= low[joint] && speed <= high[joint]) ++within;
   }
-  return low.empty() ? 0 : static_cast<double>(within) / static_cast<double>(low.size());
+  return low.empty() ? 0 : static_cast<double>(within) / low.size();
 }
 
 RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointTrack>& tracks,
@@ -147,7 +145,7 @@ RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointT
     range.away_m_per_min = std::max(range.away_m_per_min, clip.away_m_per_min);
     range.rise_m = std::max(range.rise_m, std::abs(clip.rise_m));
     range.pace_change = std::max(range.pace_change, PaceFactor(clip));
-    range.p95_acceleration += clip.p95_acceleration / static_cast<double>(real.size());
+    range.p95_acceleration += clip.p95_acceleration / real.size();
   }
   range.median_speed = Percentile(std::move(means), 0.5);
   const Eigen::Index joints = tracks.empty() ? 0 : tracks[0].at(0).cols();

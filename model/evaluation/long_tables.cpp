@@ -32,9 +32,7 @@ void AddRow(const std::string& name, const std::vector<LongFigures>& dances, con
     return all;
   };
   const auto median = [&](auto figure) { return Percentile(values(figure), 0.5); };
-  const auto share = [&](auto is) {
-    return 100.0 * static_cast<double>(std::ranges::count_if(dances, is)) / count;
-  };
+  const auto share = [&](auto is) { return 100.0 * std::ranges::count_if(dances, is) / count; };
   const auto sum = [&](auto figure) {
     double all = 0;
     for (const LongFigures& dance : dances) all += std::invoke(figure, dance);
@@ -74,7 +72,7 @@ void AddRow(const std::string& name, const std::vector<LongFigures>& dances, con
   table->Put("keys above real p95 %", 0, of_keys([&] {
                const auto above = std::ranges::count_if(
                    jolts, [&](float jolt) { return jolt > real.p95_acceleration; });
-               return 100.0 * static_cast<double>(above) / static_cast<double>(jolts.size());
+               return 100.0 * above / jolts.size();
              }));
   table->Put("worst key mm", 4, of_keys([&] { return 1000 * worst_key_m; }));
 }
@@ -93,8 +91,8 @@ PlotSeries SpeedCurve(const std::string& label, const std::vector<LongFigures>& 
       count += step;
     }
     if (count == 0) break;
-    curve.x.push_back((static_cast<double>(at) + 0.5 * static_cast<double>(step)) / fps);
-    curve.y.push_back(sum / static_cast<double>(count));
+    curve.x.push_back((static_cast<double>(at) + 0.5 * step) / fps);
+    curve.y.push_back(sum / count);
   }
   return curve;
 }

@@ -41,7 +41,7 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
     windows.Add(TrackJoints(model.skeleton, poses), model.fps, 0);
     const auto right = std::ranges::count_if(
         windows.features, [&](const auto& one) { return classifier.Classify(one) == style; });
-    return 100.0 * static_cast<double>(right) / static_cast<double>(windows.features.size());
+    return 100.0 * right / windows.features.size();
   };
 
   std::vector<ClipFigure> real, danced;
@@ -79,7 +79,7 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
   table.Begin({"right %"});
   table.Put("real motion", 1, Mean(real));
   table.Put("danced", 1, Mean(danced));
-  table.Put("chance", 1, 100.0 / static_cast<double>(styles.size()));
+  table.Put("chance", 1, 100.0 / styles.size());
   return {table};
 }
 

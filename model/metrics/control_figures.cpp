@@ -33,7 +33,7 @@ double RootRelativeDistance(const JointTrack& danced, const JointTrack& real) {
     const Eigen::Matrix3Xd there = real[i].colwise() - real[i].col(0);
     sum += (here - there).norm();
   }
-  return sum / static_cast<double>(danced.size());
+  return sum / danced.size();
 }
 
 Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> TrackVelocityFactors(
@@ -59,7 +59,7 @@ double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked) {
   for (size_t i = 0; i < danced.size(); ++i) {
     sum += (danced[i].col(0) - asked.col(i)).norm();
   }
-  return sum / static_cast<double>(danced.size());
+  return sum / danced.size();
 }
 
 double TremorShare(const JointTrack& track, double fps) {
@@ -75,8 +75,8 @@ double TremorShare(const JointTrack& track, double fps) {
   for (Eigen::Index i = 0; i < steps; ++i) velocities.row(i) = from_root(i + 1) - from_root(i);
   velocities.rowwise() -= Eigen::RowVectorXd(velocities.colwise().mean());
   constexpr double kTurn = 2 * std::numbers::pi;
-  const Eigen::ArrayXd turns = Eigen::ArrayXd::LinSpaced(steps, 0, static_cast<double>(steps - 1)) *
-                               kTurn / static_cast<double>(steps);
+  const Eigen::ArrayXd turns =
+      Eigen::ArrayXd::LinSpaced(steps, 0, static_cast<double>(steps - 1)) * kTurn / steps;
   velocities.array().colwise() *=
       0.5 - 0.5 * (turns + kTurn / 2 / static_cast<double>(steps)).cos();
   double all = 0, fast = 0;
@@ -85,7 +85,7 @@ double TremorShare(const JointTrack& track, double fps) {
     const double energy = (angles.cos().matrix().transpose() * velocities).squaredNorm() +
                           (angles.sin().matrix().transpose() * velocities).squaredNorm();
     all += energy;
-    if (static_cast<double>(k) * fps > kTremorHz * static_cast<double>(steps)) fast += energy;
+    if (static_cast<double>(k) * fps > kTremorHz * steps) fast += energy;
   }
   return all > 0 ? fast / all : 0;
 }

@@ -115,7 +115,7 @@ double AreaUnderCurve(const std::vector<double>& high, const std::vector<double>
     const auto [first, last] = std::ranges::equal_range(sorted, value);
     above += static_cast<double>(first - sorted.begin()) + 0.5 * static_cast<double>(last - first);
   }
-  return above / (static_cast<double>(high.size()) * static_cast<double>(low.size()));
+  return above / (static_cast<double>(high.size()) * low.size());
 }
 
 double CriticArea(const CriticWindows& real, const CriticWindows& danced) {

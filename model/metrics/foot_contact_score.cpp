@@ -25,7 +25,7 @@ double PhysicalFootContact(const Skeleton& skeleton, const JointTrack& track) {
     largest = std::max(largest, acceleration.norm());
     sum += acceleration.norm() * left * right;
   }
-  return largest > 0 ? 1e4 * sum / (largest * static_cast<double>(frames)) : 0;
+  return largest > 0 ? 1e4 * sum / (largest * frames) : 0;
 }
 
 }  // namespace choreo

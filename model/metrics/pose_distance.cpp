@@ -24,8 +24,7 @@ Eigen::MatrixXd PowerSpectrum(const Eigen::MatrixXd& curves) {
   Eigen::MatrixXd cosine(frames, frames), sine(frames, frames);
   for (Eigen::Index t = 0; t < frames; ++t) {
     for (Eigen::Index k = 0; k < frames; ++k) {
-      const double angle =
-          2 * M_PI * static_cast<double>(t * k % frames) / static_cast<double>(frames);
+      const double angle = 2 * M_PI * static_cast<double>(t * k % frames) / frames;
       cosine(t, k) = std::cos(angle);
       sine(t, k) = std::sin(angle);
     }
@@ -40,7 +39,7 @@ double L2P(const JointTrack& danced, const JointTrack& real) {
                     static_cast<Eigen::Index>(real.size()));
   double sum = 0;
   for (size_t t = 0; t < real.size(); ++t) sum += (danced[t] - real[t]).colwise().norm().mean();
-  return sum / static_cast<double>(real.size());
+  return sum / real.size();
 }
 
 double KeyPoseDistance(const Eigen::Matrix3Xd& danced, const Eigen::Matrix3Xd& real) {
@@ -74,7 +73,7 @@ double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
     }
     sum += std::sqrt(squares);
   }
-  return sum / static_cast<double>(real.cols());
+  return sum / real.cols();
 }
 
 Npss MeasureNpss(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {

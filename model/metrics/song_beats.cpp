@@ -22,9 +22,8 @@ std::vector<double> Rises(const Eigen::MatrixXf& rows) {
   Eigen::MatrixXd inverse(kMelBands, coefficients);  // of the orthonormal DCT-II
   for (Eigen::Index band = 0; band < kMelBands; ++band) {
     for (Eigen::Index c = 0; c < coefficients; ++c) {
-      inverse(band, c) =
-          std::sqrt((c == 0 ? 1.0 : 2.0) / kMelBands) *
-          std::cos(M_PI * static_cast<double>(c) * (static_cast<double>(band) + 0.5) / kMelBands);
+      inverse(band, c) = std::sqrt((c == 0 ? 1.0 : 2.0) / kMelBands) *
+                         std::cos(M_PI * c * (static_cast<double>(band) + 0.5) / kMelBands);
     }
   }
   constexpr double kRange = 80;  // dB below the loudest, as librosa's onset strength has it
@@ -84,7 +83,7 @@ double BeatAlignmentScore(std::span<const float> speeds, std::span<const double>
       nearest = std::min(nearest, std::abs(beat - static_cast<double>(frame)) / fps);
     sum += std::exp(-nearest * nearest / (2 * kSigma * kSigma));
   }
-  return sum / static_cast<double>(motion_beats.size());
+  return sum / motion_beats.size();
 }
 
 }  // namespace choreo

@@ -34,11 +34,11 @@ Eigen::MatrixXd SpeedSpectrum(const JointTrack& track, double fps) {
   const Eigen::Index steps = velocities.rows(), joints = track[0].cols();
   Eigen::MatrixXd power = Eigen::MatrixXd::Zero(kBands, 2 * joints);
   for (Eigen::Index bin = 0; 2 * bin <= steps; ++bin) {
-    const double hz = static_cast<double>(bin) * fps / static_cast<double>(steps);
+    const double hz = static_cast<double>(bin) * fps / steps;
     const auto band = std::ranges::upper_bound(kBandEdges, hz) - kBandEdges.begin() - 1;
     if (band >= kBands) break;
     const Eigen::VectorXd angles = Eigen::VectorXd::LinSpaced(
-        steps, 0, 2 * M_PI * static_cast<double>(bin * (steps - 1)) / static_cast<double>(steps));
+        steps, 0, 2 * M_PI * static_cast<double>(bin * (steps - 1)) / steps);
     // Parseval: both halves of the spectrum, but for the bins that are their own mirror image.
     const double mirrored = bin == 0 || 2 * bin == steps ? 1 : 2;
     const Eigen::RowVectorXd squares =

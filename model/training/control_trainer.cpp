@@ -49,7 +49,7 @@ class ControlRun : public TrainingRun {
   void TrainStep(Random* random) override {
     model_->train();
     const ControlBatch batch =
-        Draw(random, static_cast<double>(step()) / static_cast<double>(options().steps));
+        Draw(random, static_cast<double>(step()) / options().steps);
     Descend(Walk(batch, model_->Prepare(batch.transition), std::pow(kTruthDecay, step())));
   }
 

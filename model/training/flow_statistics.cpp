@@ -57,7 +57,7 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
   }
   measured.surprise = both / square;
   std::ranges::sort(whole, {}, [](const auto& one) { return one[0]; });
-  const auto rank = static_cast<size_t>(kRare * static_cast<double>(whole.size()));
+  const auto rank = static_cast<size_t>(kRare * whole.size());
   measured.least = std::exp(whole[rank][0]);
   measured.most = std::exp(whole[whole.size() - 1 - rank][0]);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -73,7 +73,7 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
   // So that squares, not their logarithms, are 1 on average.
   double ratio = 0;
   for (const auto& one : parts) ratio += std::exp(one[3] - powers[1] * one[1] - powers[2] * one[2]);
-  measured.offset = std::log(ratio / static_cast<double>(parts.size()));
+  measured.offset = std::log(ratio / parts.size());
   return measured;
 }
 
@@ -131,7 +131,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowB
       std::vector<double> values;
       for (const EnergyPrior::Inputs& one : inputs) values.push_back(one[input]);
       std::ranges::sort(values);
-      const auto rank = static_cast<size_t>(kRare * static_cast<double>(values.size()));
+      const auto rank = static_cast<size_t>(kRare * values.size());
       measured.least[input] = values[rank];
       measured.most[input] = values[values.size() - 1 - rank];
     }
