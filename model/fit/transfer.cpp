@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/smooth_step.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/limb.h"
 #include "model/motion/rotation.h"
@@ -153,8 +154,7 @@ class Hands {
 
   // 1 where a hand touches, 0 where it is free, smooth in between.
   static double Nearness(double distance) {
-    const double u = std::clamp((kFree - distance) / (kFree - kTouches), 0.0, 1.0);
-    return u * u * (3 - 2 * u);
+    return SmoothStep(std::clamp((kFree - distance) / (kFree - kTouches), 0.0, 1.0));
   }
 
   Eigen::Vector3d Way(size_t side, const Eigen::Matrix3Xd& smpl,

@@ -29,9 +29,7 @@ std::string Raw(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-NpyArray Parse(const std::string& bytes) {
-  return ParseNpy(bytes, "array");
-}
+NpyArray Parse(const std::string& bytes) { return ParseNpy(bytes, "array"); }
 
 std::string Refusal(const std::string& bytes) {
   try {
