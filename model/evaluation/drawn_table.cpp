@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "model/evaluation/control_course.h"
 #include "model/metrics/control_figures.h"
@@ -15,15 +16,10 @@ constexpr double kAside = 1;  // metres beside the straight way, in its middle
 
 enum class Way { kDanced, kStraight, kOnTheSpot, kBow };
 
-struct DrawnPath {
-  const char* name;
-  Way way;
-};
-
-constexpr DrawnPath kPaths[] = {{"as danced", Way::kDanced},
-                                {"straight", Way::kStraight},
-                                {"on the spot", Way::kOnTheSpot},
-                                {"a bow", Way::kBow}};
+constexpr std::pair<const char*, Way> kPaths[] = {{"as danced", Way::kDanced},
+                                                  {"straight", Way::kStraight},
+                                                  {"on the spot", Way::kOnTheSpot},
+                                                  {"a bow", Way::kBow}};
 
 // Heights are nobody's concern: they lead from the dancer's to the key's.
 RootPath Draw(Way way, ControlledWindow* window) {
@@ -69,19 +65,19 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
                 kFrames, kAside);
   table.note = note;
   const Skeleton& skeleton = model.skeleton;
-  for (const DrawnPath& path : kPaths) {
+  for (const auto& [name, shape] : kPaths) {
     ControlCourse course(evaluation, kFrames);
-    if (path.way != Way::kDanced)
-      course.Redraw([&](ControlledWindow* window) { return Draw(path.way, window); });
+    if (shape != Way::kDanced)
+      course.Redraw([&, shape = shape](ControlledWindow* window) { return Draw(shape, window); });
     for (const Method& way : WaysOf(evaluation.methods)) {
       if (!way.TakesPath() || !way.keys) continue;
-      if (way.kind == Method::Kind::kReal && path.way != Way::kDanced) continue;
+      if (way.kind == Method::Kind::kReal && shape != Way::kDanced) continue;
       const Dances dances = course.Dance(way);
       using Danced = const std::vector<Pose>&;
       const auto put = [&](const char* heading, int digits, const ControlCourse::Figure& figure) {
         table.Put(heading, digits, course.MeanOf(dances, figure));
       };
-      table.Begin({path.name, way.name});
+      table.Begin({name, way.name});
       put("root asked m/s", 2,
           [&](const ControlledWindow& window, Danced) { return PathSpeed(window, model.fps); });
       put("skating", 2, [&](const ControlledWindow& window, Danced danced) {
