@@ -27,7 +27,7 @@ void InterpolationEngine::StepSlots(std::span<const StepInput> in, std::span<Ste
     InterpolatedTransition& way = At(in[i]);
     out[i] = {};
     out[i].pose = InterpolatePoses(way.from, way.to, (way.done + 1.0) / way.frames);
-    if (way.path.cols() > 0) out[i].pose.root_position = way.path.col(way.done).cast<double>();
+    if (way.path.cols() > 0) out[i].pose.root_position = way.path.col(way.done);
     ++way.done;
   }
 }

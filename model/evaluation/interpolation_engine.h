@@ -7,7 +7,7 @@ namespace choreo {
 struct InterpolatedTransition {
   Pose from, to;
   int frames, done;
-  Eigen::Matrix3Xf path;
+  Eigen::Matrix3Xd path;
 
   SlotProgress progress() const { return {done, frames, false}; }
 };
