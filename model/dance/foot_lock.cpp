@@ -21,6 +21,9 @@ constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metre
 constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
 constexpr int kFewestStepFrames = 4;
 constexpr int kHalvings = 12;
+constexpr double kStraight = 5 * M_PI / 180;        // a knee that is bent by less
+constexpr double kStraightTurn = 200 * M_PI / 180;  // radians a second that it turns at most,
+constexpr double kFreedom = 30;                     // and that much more for each beyond straight
 constexpr double kLandsAhead = 0.1;  // seconds before the key, which a landing would jolt
 
 double Apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -34,6 +37,15 @@ bool Fixes(const Target& target, const Leg& leg, const Skeleton& skeleton) {
     if (!target.mask.Asks(joint)) return false;
   }
   return true;
+}
+
+// What a knee may come to in `seconds`. On a straight leg a centimetre of toes is ten degrees of
+// knee: what asks it of one frame would snap it.
+BendRange Following(double bend, double seconds) {
+  const double room = kStraightTurn * seconds, more = kFreedom * seconds;
+  const double beyond = bend - kStraight;
+  return {beyond > room ? kStraight + (beyond - room) / (1 + more) : bend - room,
+          bend + room + more * std::max(0.0, beyond)};
 }
 
 int StepFrames(double fps, int transition_frames) {
@@ -57,7 +69,8 @@ FootLock::FootLock(const Skeleton& skeleton, double fps, int transition_frames,
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   rest_height_ = std::min(rest(1, feet_[0].leg.toes), rest(1, feet_[1].leg.toes));
   ankle_height_ = std::min(rest(1, feet_[0].leg.ankle), rest(1, feet_[1].leg.ankle));
-  const Eigen::Matrix3Xd now = JointPositions(skeleton, history.back());
+  const JointPlacement last = ForwardKinematics(skeleton, history.back());
+  const Eigen::Matrix3Xd& now = last.positions;
   const Eigen::Matrix3Xd before =
       JointPositions(skeleton, history[history.size() - std::min<size_t>(2, history.size())]);
   for (Foot& foot : feet_) {
@@ -65,6 +78,7 @@ FootLock::FootLock(const Skeleton& skeleton, double fps, int transition_frames,
     foot.planted = foot.at.y() < rest_height_ + kLowToes &&
                    Apart(now.col(foot.leg.toes), before.col(foot.leg.toes)) < kStillSpeed / fps_;
     foot.last_start = frames_;
+    foot.bend = KneeBend(foot.leg, last);
   }
   if (target) PlanLastSteps(*target);
 }
@@ -182,8 +196,11 @@ Pose FootLock::Apply(const Pose& steered) {
     // On the key itself the steered pose is the key: nothing may touch it.
     if (ends_on_key_ && next_ == frames_ - 1) {
       foot.at = raw;
-    } else if ((foot.at - raw).norm() > 0) {
-      PlaceToes(foot.leg, skeleton_, placement_, foot.at, &emitted);
+    } else {
+      const BendRange range = Following(foot.bend, 1 / fps_);
+      foot.bend = KneeBend(foot.leg, placement_);
+      if (foot.at != raw || foot.bend < range.least || foot.bend > range.most)
+        foot.bend = PlaceToes(foot.leg, skeleton_, placement_, foot.at, &emitted, range);
     }
     // The foot keeps its turn, so its ankle moves with its toes.
     const double ankle = placement_.positions(1, foot.leg.ankle) + foot.at.y() - raw.y();

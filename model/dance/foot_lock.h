@@ -41,6 +41,7 @@ class FootLock {
     bool planted = false;
     Eigen::Vector3d at;   // the toes, emitted last
     Eigen::Vector3d raw;  // the same before
+    double bend = 0;      // the knee's, emitted last
     // Of a foot in the air: it left `from` at frame `start` and comes down `duration` later.
     Eigen::Vector3d from;
     int start = 0, duration = 0;

@@ -40,30 +40,44 @@ struct Knee {
   }
 };
 
-}  // namespace
+struct Bend {
+  Eigen::Vector3d thigh, shin, axis;  // about which the ankle swings backwards, across the thigh
+  double angle;
+};
 
-void PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
-              const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose) {
+// The plane of a bent leg counts by how far it bends as the hinge does: a knee that is bent
+// backwards or sideways bends forward from there.
+Bend FindBend(const Limb& limb, const Eigen::Vector3d& hinge, const JointPlacement& placement) {
   const auto at = [&](int joint) -> Eigen::Vector3d { return placement.positions.col(joint); };
-  const auto turned = [&](int joint) -> const Eigen::Matrix3d& {
-    return placement.rotations[static_cast<size_t>(joint)];
-  };
   const Eigen::Vector3d thigh = at(limb.middle) - at(limb.upper);
   const Eigen::Vector3d shin = at(limb.end) - at(limb.middle);
-  const double a = thigh.norm(), b = shin.norm();
-  const double distance = std::max(goal.norm(), std::abs(a - b) + 0.05 * b);
-
-  // Across the thigh; about it the ankle swings backwards. The plane of a bent leg counts by how
-  // far it bends as the hinge does: a knee that is bent backwards or sideways bends forward from
-  // there.
-  const Eigen::Vector3d along = thigh / a;
-  const Eigen::Vector3d plane = thigh.cross(shin) / (a * b);
+  const Eigen::Vector3d along = thigh.normalized();
+  const Eigen::Vector3d plane = along.cross(shin) / shin.norm();
   const double forward = std::max(0.0, plane.dot(hinge)) / std::max(plane.norm(), 1e-12);
   const Eigen::Vector3d axis =
       (forward * plane + kHingeWeight * (hinge - hinge.dot(along) * along)).normalized();
-  const double bend = std::atan2(axis.dot(along.cross(shin)), along.dot(shin));
+  return {thigh, shin, axis, std::atan2(axis.dot(along.cross(shin)), along.dot(shin))};
+}
+
+Eigen::Vector3d HingeOf(const Leg& leg, const JointPlacement& placement) {
+  return placement.rotations[static_cast<size_t>(leg.hip)].col(0);
+}
+
+}  // namespace
+
+double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
+                const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose,
+                const BendRange& range) {
+  const auto turned = [&](int joint) -> const Eigen::Matrix3d& {
+    return placement.rotations[static_cast<size_t>(joint)];
+  };
+  const auto [thigh, shin, axis, bend] = FindBend(limb, hinge, placement);
+  const double a = thigh.norm(), b = shin.norm();
+  const double distance = std::max(goal.norm(), std::abs(a - b) + 0.05 * b);
   const double in_plane = std::max(0.1, (shin - shin.dot(axis) * axis).norm() / b);
-  const double wanted = Knee{a, b, in_plane}.BendFrom(bend, (thigh + shin).norm(), distance);
+  const double wanted =
+      std::clamp(Knee{a, b, in_plane}.BendFrom(bend, (thigh + shin).norm(), distance), range.least,
+                 range.most);
   const Eigen::Matrix3d knee = Eigen::AngleAxisd(wanted - bend, axis).toRotationMatrix();
   const Eigen::Matrix3d swing =
       Eigen::Quaterniond::FromTwoVectors(thigh + knee * shin, goal).toRotationMatrix();
@@ -77,6 +91,7 @@ void PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& sk
   set(limb.upper, pelvis.transpose() * new_hip);
   set(limb.middle, new_hip.transpose() * new_knee);
   set(limb.end, new_knee.transpose() * turned(limb.end));
+  return wanted;
 }
 
 std::array<Leg, 2> Leg::Of(const Skeleton& skeleton) {
@@ -116,12 +131,16 @@ Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
   return now + std::clamp(share, 0.0, 1.0) * way;
 }
 
-void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
-               const Eigen::Vector3d& toes, Pose* pose) {
+double PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
+                 const Eigen::Vector3d& toes, Pose* pose, const BendRange& range) {
   const auto at = [&](int joint) -> Eigen::Vector3d { return placement.positions.col(joint); };
   const Eigen::Vector3d goal = toes - (at(leg.toes) - at(leg.ankle)) - at(leg.hip);
-  const Eigen::Vector3d hinge = placement.rotations[static_cast<size_t>(leg.hip)].col(0);
-  PlaceEnd({leg.hip, leg.knee, leg.ankle}, hinge, skeleton, placement, goal, pose);
+  return PlaceEnd({leg.hip, leg.knee, leg.ankle}, HingeOf(leg, placement), skeleton, placement,
+                  goal, pose, range);
+}
+
+double KneeBend(const Leg& leg, const JointPlacement& placement) {
+  return FindBend({leg.hip, leg.knee, leg.ankle}, HingeOf(leg, placement), placement).angle;
 }
 
 }  // namespace choreo

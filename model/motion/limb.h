@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
@@ -15,13 +16,20 @@ struct Limb {
   int upper = -1, middle = -1, end = -1;
 };
 
+/// What a limb's bend may be: radians, 0 is straight, forward is positive.
+struct BendRange {
+  double least = -M_PI, most = M_PI;
+};
+
 /// Two-bone inverse kinematics: turns the upper two joints so that the end comes to `goal`, seen
 /// from the upper joint, and keeps its global rotation. The limb bends in its present plane, a
 /// straight one about `hinge` (a direction in the world by which it bends as a body does).
 /// Continuous in pose and goal; near its full length the end may stay behind by a centimetre, out
-/// of reach the limb points at the goal. `placement` is of `pose`; afterwards it is stale.
-void PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
-              const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose);
+/// of reach of a bend in `range` the limb points at the goal. `placement` is of `pose`; afterwards
+/// it is stale. Returns the bend.
+double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
+                const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose,
+                const BendRange& range = {});
 
 /// Hip, knee, ankle and toes of one leg, by joint index.
 struct Leg {
@@ -43,8 +51,12 @@ Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
                             const Eigen::Vector3d& toes, double most);
 
 /// Turns hip and knee so that the toes come to `toes`, the foot keeping its global rotation
-/// (limb.h: PlaceEnd); a straight knee bends forward. `toes` stands in the frame of `pose`.
-void PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
-               const Eigen::Vector3d& toes, Pose* pose);
+/// (PlaceEnd, whose bend it returns); a straight knee bends forward. `toes` stands in the frame of
+/// `pose`.
+double PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
+                 const Eigen::Vector3d& toes, Pose* pose, const BendRange& range = {});
+
+/// By how much the knee is bent, as PlaceToes returns it.
+double KneeBend(const Leg& leg, const JointPlacement& placement);
 
 }  // namespace choreo
