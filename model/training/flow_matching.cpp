@@ -10,11 +10,15 @@ using torch::Tensor;
 
 namespace {
 
-constexpr double kAtNoise = 0.2;     // share of samples at t = 0, half of them without noise
-constexpr double kNear = 0.01;       // share of the variance below which distances count as squares
-constexpr double kFootprint = 0.01;  // metres that feet are wrong by, below which it hardly counts
-constexpr double kStep = 0.2;        // metres that count as much as all white coordinates
-constexpr const char *kWhite = "white_mse", *kWhere = "where_distance", *kFeet = "feet_distance";
+constexpr double kAtNoise = 0.2;  // share of samples at t = 0, half of them without noise
+constexpr double kStill = 1e-3;   // metres: what strays less stands
+// Weights of how far joints, and standing feet from one frame to the next, are from where they
+// should be, in squares of how far a window's joints stray; white coordinates have 1. They stay
+// small: where they pull as hard, the pelvis makes up for what limbs can't know, and stands still.
+constexpr double kPlaces = 0.06, kSlips = 12;
+constexpr double kStandingStep = 0.01;  // metres that a standing foot goes in a frame, at most
+constexpr const char *kWhiteTerm = "white_mse", *kPlacesTerm = "places_mse",
+                     *kSlipsTerm = "slips_mse";
 
 Tensor Stack(const std::vector<MotionPrior::Bridge>& bridges) {
   std::vector<Tensor> spreads;
@@ -59,7 +63,7 @@ FlowMatching::FlowMatching(const ContinuousFlow& model)
 }
 
 const std::vector<std::string>& FlowMatching::TermNames() {
-  static const std::vector<std::string> names = {kWhite, kWhere, kFeet};
+  static const std::vector<std::string> names = {kWhiteTerm, kPlacesTerm, kSlipsTerm};
   return names;
 }
 
@@ -104,22 +108,24 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor variance =
       torch::where(batch.keyed > 0, spreads.to_key.square().sum(torch::IntArrayRef{1, 2}),
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
+  // Metres that a coordinate of the window is expected to move joints by: half of a coordinate's
+  // weight, so that the body's turn counts more than a wrist's.
+  const Tensor importance = (variance * batch.scales.square() * reach_).sqrt();
+  const Tensor weights = 0.5 + 0.5 * importance / importance.mean(1, true);
+  const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStill * kStill;
   // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
   // say.
-  const Tensor moved = body_.Move(batch, scales * colour(miss));
-  const auto joint_count = static_cast<double>(moved.size(2));
-  const Tensor where = (moved.square().sum(torch::IntArrayRef{1, 2, 3}) /
-                            (joint_count * (variance * batch.scales.square() * reach_).sum(1)) +
-                        kNear)
-                           .sqrt();
-  const Tensor share = ((1 - t) / a.sqrt()).flatten();
-  const Tensor feet =
-      (share.view({-1, 1, 1}).square() * moved.index_select(2, body_.feet()).square().sum(-1) +
-       kFootprint * kFootprint)
-          .sqrt();
-  return {{kWhite, 1.0, miss.square().mean()},
-          {kWhere, 1.0, (where * share).mean()},
-          {kFeet, 1.0, feet.mean() / kStep}};
+  const Tensor moved =
+      ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, scales * colour(miss));
+  const auto squares = [&](const Tensor& metres) { return metres.square().sum(-1) / strays; };
+  const auto feet_steps = [&](const Tensor& places) {
+    return places.index_select(2, body_.feet()).diff(1, 1);
+  };
+  const Tensor real = body_.Place(batch, scales * colour(batch.z)).reshape(moved.sizes());
+  const Tensor stands = feet_steps(real).norm(2, -1) < kStandingStep;
+  return {{kWhiteTerm, 1.0, (weights.unsqueeze(1) * miss.square()).mean()},
+          {kPlacesTerm, kPlaces, squares(moved).mean()},
+          {kSlipsTerm, kSlips, (stands * squares(feet_steps(moved))).mean()}};
 }
 
 }  // namespace choreo

@@ -23,9 +23,9 @@ class FlowMatching {
 
   const FlowModelParts& parts() const { return parts_; }
 
-  /// Mean squared error of F in white coordinates, which teaches how dancers move; a window at a
-  /// time, how far the joints of the motion that F ends in are from where they should be; and how
-  /// far its feet are, frame by frame. Times and noise from torch's generator.
+  /// Squares alone, whose least is the mean of all ways: of F in white coordinates, which teaches
+  /// how dancers move; of where the joints of the motion that F ends in are; and of how far its
+  /// feet go in a frame in which real ones stand. Times and noise from torch's generator.
   LossTerms Losses(ContinuousFlow& model, const WindowBatch& batch);
 
  private:
