@@ -118,7 +118,7 @@ TEST_F(ControllersEngineTest, DancesOnTheServedPipeline) {
   there.root_position += Eigen::Vector3d(0.4, 0, 0.6);
   there.rotations(2, 16) = 0.8;
   request.target = Target{there, {}};
-  const auto [frames, arrival, speed, stage] = DanceTransitions(*engine_, {&input, 1}).front();
+  const auto [frames, arrival, stage] = DanceTransitions(*engine_, {&input, 1}).front();
   ASSERT_EQ(frames.size(), 30U);
   ASSERT_TRUE(arrival);
   EXPECT_LT(arrival->final_error_m, 0.001);
