@@ -27,8 +27,7 @@ double SpeedPowerAt(const PositionClip& clip, double period_s) {
   }
   // The window keeps slow changes out of the other periods.
   const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(steps, 0.5, steps - 0.5);
-  const Eigen::ArrayXd window =
-      0.5 - 0.5 * (2 * std::numbers::pi / steps * time).cos();
+  const Eigen::ArrayXd window = 0.5 - 0.5 * (2 * std::numbers::pi / steps * time).cos();
   const Eigen::ArrayXd change = (speed - speed.mean()) * window;
   const double power = change.square().sum();
   if (!(power > 0)) return 0;

@@ -48,8 +48,7 @@ class ControlRun : public TrainingRun {
  protected:
   void TrainStep(Random* random) override {
     model_->train();
-    const ControlBatch batch =
-        Draw(random, static_cast<double>(step()) / options().steps);
+    const ControlBatch batch = Draw(random, static_cast<double>(step()) / options().steps);
     Descend(Walk(batch, model_->Prepare(batch.transition), std::pow(kTruthDecay, step())));
   }
 

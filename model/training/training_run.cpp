@@ -34,8 +34,7 @@ double GradientNorm(const torch::Tensor& loss, const std::vector<torch::Tensor>&
 // Warm-up, then a cosine to a twentieth of the peak.
 double RateAt(double peak, int64_t step, int64_t steps) {
   const double warm = std::min(1.0, static_cast<double>(step + 1) / kWarmUpSteps);
-  const double progress =
-      static_cast<double>(step) / std::max<int64_t>(1, steps);
+  const double progress = static_cast<double>(step) / std::max<int64_t>(1, steps);
   return peak * warm * (kLastRate + (1 - kLastRate) * 0.5 * (1 + std::cos(M_PI * progress)));
 }
 
