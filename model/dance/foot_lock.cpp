@@ -21,9 +21,9 @@ constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metre
 constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
 constexpr int kFewestStepFrames = 4;
 constexpr int kHalvings = 12;
-constexpr double kStraight = 5 * M_PI / 180;        // a knee that is bent by less
-constexpr double kStraightTurn = 200 * M_PI / 180;  // radians a second that it turns at most,
-constexpr double kFreedom = 30;                     // and that much more for each beyond straight
+constexpr double kStraight = 5 * M_PI / 180;        // radians of bend: a knee below it is straight
+constexpr double kStraightTurn = 200 * M_PI / 180;  // radians a second that it turns at most, and
+constexpr double kFreedom = 30;                     // 1/s: so much more by what it is bent beyond
 constexpr double kLandsAhead = 0.1;  // seconds before the key, which a landing would jolt
 
 double Apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
