@@ -36,6 +36,8 @@ v1::WarningCode ToCode(DanceWarning::Kind kind) {
       return v1::WARNING_CODE_PATH_AWAY;
     case DanceWarning::Kind::kBeatsTooLate:
       return v1::WARNING_CODE_BEATS_TOO_LATE;
+    case DanceWarning::Kind::kTemperatureTooHigh:
+      return v1::WARNING_CODE_TEMPERATURE_TOO_HIGH;
     case DanceWarning::Kind::kVelocityNotMet:
       return v1::WARNING_CODE_VELOCITY_NOT_MET;
     case DanceWarning::Kind::kControlsTooLate:

@@ -38,7 +38,7 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
 }
 
 void DanceChain::Begin() {
-  if (config_.ResumesInexactly(model_)) Post(InexactResume(*config_.continuation, model_));
+  for (const DanceWarning& warning : config_.Warnings(model_, first_frame_)) Post(warning);
   Change([](Timeline&) {});  // the config may have granted frames
 }
 

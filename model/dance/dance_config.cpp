@@ -28,6 +28,14 @@ void DanceStart::ValidateStart(const ModelInfo& model, const std::string& path) 
   ValidateContinuation(model, *continuation, allow_inexact_resume, path + "continuation");
 }
 
+std::vector<DanceWarning> DanceStart::Warnings(const ModelInfo& model, int64_t first_frame) const {
+  std::vector<DanceWarning> warnings;
+  if (ResumesInexactly(model)) warnings.push_back(InexactResume(*continuation, model));
+  if (temperature && *temperature > model.max_temperature)
+    warnings.push_back(TemperatureTooHigh(first_frame, *temperature, model.max_temperature));
+  return warnings;
+}
+
 void DanceConfig::Validate(const ModelInfo& model) const {
   ValidateStart(model, "config.");
   const int64_t first = FirstFrame();

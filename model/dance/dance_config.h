@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/dance/transition.h"
+#include "model/dance/warning.h"
 #include "model/engine/step_engine.h"
 
 namespace choreo {
@@ -38,9 +39,12 @@ struct DanceStart {
 
   /// The poses before the first frame, wherever they are told.
   const std::vector<Pose>& Before() const { return continuation ? continuation->poses : history; }
+
   bool ResumesInexactly(const ModelInfo& model) const {
     return continuation && continuation->fingerprint != model.fingerprint;
   }
+  /// What to tell before the first frame, `first_frame`.
+  std::vector<DanceWarning> Warnings(const ModelInfo& model, int64_t first_frame) const;
 
   /// Throws Error(kInvalidArgument) with paths that begin with `path` ("config.", ""), and
   /// Error(kFailedPrecondition) for a continuation of another fingerprint.

@@ -204,7 +204,7 @@ void TransitionGroup::Impl::Begin() {
     transition.candidate = static_cast<uint32_t>(candidate);
     jobs.push_back(std::make_shared<Job>(shared_from_this(), candidate, transition));
   }
-  if (request_.ResumesInexactly(model_)) Warn(InexactResume(*request_.continuation, model_));
+  for (const DanceWarning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
   for (const DanceWarning& warning : asked.warnings) Warn(warning);
   if (const auto warning = controls_.BehindEnd(end)) Warn(*warning);
   const auto& path = request_.controls.root_path;

@@ -27,6 +27,12 @@ DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& mo
               model.fingerprint + "\": the dance goes on differently"};
 }
 
+DanceWarning TemperatureTooHigh(int64_t frame, double asked, double most) {
+  return {DanceWarning::Kind::kTemperatureTooHigh, frame,
+          "temperature " + RoundedBeyond(asked, most) + " is beyond " + Rounded(most) +
+              ", the most that the model is trained for: it dances as at " + Rounded(most)};
+}
+
 DanceWarning PathTooFast(int64_t frame, double m_per_s) {
   return {DanceWarning::Kind::kPathTooFast, frame,
           "the root path asks for " + RoundedBeyond(m_per_s, RequiredSpeed::kRootLimit) +

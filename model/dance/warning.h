@@ -19,7 +19,8 @@ struct DanceWarning {
     kKeyOffHeight,      ///< the pose of the key at `frame` stands at another height than the path's
     kPathAway,          ///< a root path takes over at `frame`, away from the dancer
     kBeatsTooLate,      ///< beats came when their frames were frozen; `frame` is the first one's
-    kVelocityNotMet,    ///< by the end of the dance, `frame`, parts were not as fast as asked
+    kTemperatureTooHigh,  ///< the model is not trained for so high a one; `frame` is the first
+    kVelocityNotMet,      ///< by the end of the dance, `frame`, parts were not as fast as asked
   };
   Kind kind = Kind::kIntervalTooShort;
   int64_t frame = 0;  ///< model rate, absolute
@@ -31,6 +32,9 @@ DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, i
                               int64_t frames, const RequiredSpeed& speed);
 
 DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& model);
+
+/// `frame`: the dance's first.
+DanceWarning TemperatureTooHigh(int64_t frame, double asked, double most);
 
 DanceWarning PathTooFast(int64_t frame, double m_per_s);
 DanceWarning PathAway(int64_t frame, double metres);

@@ -174,6 +174,7 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
   ModelInfo info = InfoOf(checkpoint, config, skeleton, kernels);
   info.hears_music = false;  // but its beats
   info.default_temperature = config.temperature;
+  info.max_temperature = kMaxFlowTemperature;
   info.root_path = info.velocity_factors = true;
   info.velocity_references = {Median(config.median_factors)};
   info.styles = config.styles;

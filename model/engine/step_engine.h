@@ -36,6 +36,7 @@ struct ModelInfo {
   int audio_features = 40;  ///< MFCC rows' width
   int max_transition_frames = 1800;
   double default_temperature = 0.3;
+  double max_temperature = 2;     ///< beyond it nothing changes any more
   bool hears_music = true;        ///< false: learnt without; music changes when it dances, not what
   bool deterministic = false;     ///< seed, candidate and temperature change nothing
   bool root_path = false;         ///< takes Controls::root_path

@@ -22,8 +22,9 @@ struct Song {
   double phase = 0;
   bool shuffled = false;
 };
-// The first three for their tempi, the next for its phase, the last as a control.
-constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true}};
+// The first three for their tempi, the next for its phase, then a control; the last for the range.
+constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true},
+                           {60, 0}, {75, 0},  {150, 0}, {180, 0}};
 
 // All that is danced through keys, and what was really danced there.
 struct KeyedDances {

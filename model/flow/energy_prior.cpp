@@ -13,6 +13,8 @@ template <typename Prior, typename Visit>
 void VisitNumbers(Prior& prior, Visit visit) {
   visit(prior.least);
   visit(prior.most);
+  visit(prior.usual_way);
+  visit(prior.usual_way_in_world);
   visit(prior.keyed);
   visit(prior.free);
   visit(prior.spread);
@@ -21,14 +23,15 @@ void VisitNumbers(Prior& prior, Visit visit) {
 
 }  // namespace
 
-EnergyPrior::Inputs EnergyPrior::Describe(const Known& known) {
+EnergyPrior::Inputs EnergyPrior::Describe(const Known& known) const {
   constexpr int kHalf = kInputs / 2;
   Inputs inputs;
   inputs.head<kHalf>().setZero();
   inputs[0] = 1;
   // Without a key the past is all the dance's own: who went on from it would fade or rage.
   if (known.key)
-    inputs.segment<kHalf - 1>(1) << std::log(std::max(known.surprise, 1e-6)), known.history;
+    inputs.segment<kHalf - 1>(1) << std::log(std::max(known.surprise, 1e-6)), known.history,
+        known.way.value_or(usual_way), known.way_in_world.value_or(usual_way_in_world);
   inputs.tail<kHalf>() = std::log2(known.frames / kUsualFrames) * inputs.head<kHalf>();
   return inputs;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,17 +23,23 @@ class EnergyPrior {
     bool key = false;
     double surprise = 1;              ///< FlowWindow::surprise
     Levels history = Levels::Zero();  ///< of the poses before it; of a held pose zero
+    /// Of the straight way to the key, the least that a dancer can do: of the joints as the root
+    /// sees them, the root's own as the trunk's; and of all joints in the world. None: the key
+    /// leaves it open.
+    std::optional<Levels> way = {}, way_in_world = {};
     int frames = 60;
     int style = -1;  ///< that is asked for, or -1
   };
-  /// One, the logarithm of the surprise and the history's levels; then the same times how much
-  /// longer than two seconds the window is, a logarithm.
-  static constexpr int kInputs = 2 * (2 + kBodyParts);
+  /// One, the logarithm of the surprise, the history's levels and those of both ways; then the same
+  /// times how much longer than two seconds the window is, a logarithm.
+  static constexpr int kInputs = 2 * (2 + 3 * kBodyParts);
   using Inputs = Eigen::Matrix<double, kInputs, 1>;
-  static Inputs Describe(const Known& known);
+  Inputs Describe(const Known& known) const;
   /// What of that training saw: what is less or more counts as so much, and so do levels, whose
   /// range is that of the history's. At first that is everything.
   Inputs least = Inputs::Constant(-kEverything), most = Inputs::Constant(kEverything);
+  /// The ways that stand for those that a key leaves open: training's mean.
+  Levels usual_way = Levels::Zero(), usual_way_in_world = Levels::Zero();
 
   static constexpr int kHistoryInput = 2;  ///< where its levels stand
   using Weights = Eigen::Matrix<double, kBodyParts, kInputs>;

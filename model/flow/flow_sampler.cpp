@@ -12,8 +12,6 @@
 namespace choreo {
 namespace {
 
-constexpr double kHottest = 1.25;  // farther beyond the sampled way nobody dances
-
 // [dimensions, w], standard normal, correlated over dimensions as motion is.
 Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int frames) {
   Eigen::MatrixXd z(model.prior.dimensions(), frames);
@@ -123,6 +121,17 @@ class Field {
   std::optional<WindowFeatures> unheard_;
 };
 
+// Whether a key says where limbs are: all but hands and feet, whose joints carry one other at most.
+bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
+  std::vector<int> carried(static_cast<size_t>(skeleton.joints()));
+  for (int joint = skeleton.joints() - 1; joint >= 0; --joint) {
+    const auto at = static_cast<size_t>(joint);
+    if (carried[at] > 1 && !mask.Asks(joint)) return false;
+    if (joint > 0) carried[static_cast<size_t>(skeleton.parents[at])] += carried[at] + 1;
+  }
+  return true;
+}
+
 // From noise to motion; what is known fades into its noise.
 Eigen::MatrixXd Solve(Field* field, const KnownPath& known, const Eigen::MatrixXd& start,
                       int steps) {
@@ -143,15 +152,31 @@ Eigen::MatrixXd Solve(Field* field, const KnownPath& known, const Eigen::MatrixX
 }  // namespace
 
 EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request) {
+  const auto level = [&](size_t part, double factor) {
+    return EnergyLevel(factor, model.config.median_factors[part]);
+  };
   EnergyPrior::Known known{.key = request.key.has_value(),
                            .surprise = FlowWindow(model.prior, request).surprise(),
                            .frames = request.frames,
                            .style = request.style};
   const auto factors = MeanVelocityFactors(model.skeleton, request.history);
   for (size_t part = 0; part < factors.size(); ++part) {
-    if (factors[part] > 0)
-      known.history[static_cast<int>(part)] =
-          EnergyLevel(factors[part], model.config.median_factors[part]);
+    if (factors[part] > 0) known.history[static_cast<int>(part)] = level(part, factors[part]);
+  }
+  if (!request.key || !TellsLimbs(model.skeleton, request.mask)) return known;
+  const BodyPartWeights weights = WeighBodyParts(model.skeleton);
+  const Eigen::Matrix3Xd from = JointPositions(model.skeleton, request.history.back());
+  Pose key = Masked(*request.key, request.mask, request.history.back());
+  const Eigen::Matrix3Xd to = JointPositions(model.skeleton, key);
+  const auto way = VelocityFactors(weights, from, to);
+  const Eigen::VectorXd in_world = weights * (to - from).colwise().norm().transpose();
+  known.way.emplace();
+  if (request.mask.root_position) known.way_in_world.emplace();
+  for (size_t part = 0; part < way.size(); ++part) {
+    const auto row = static_cast<Eigen::Index>(part);
+    (*known.way)[row] = level(part, way[part] / request.to_key);
+    if (known.way_in_world)
+      (*known.way_in_world)[row] = level(part, in_world[row] / request.to_key);
   }
   return known;
 }
@@ -161,7 +186,7 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
   FillInEnergy(model, noise, &request);
   const FlowWindow window(model.prior, request);
   const KnownPath known(request, window);
-  const double temperature = std::min(noise.temperature, kHottest);
+  const double temperature = std::min(noise.temperature, kMaxFlowTemperature);
   const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window.frames());
   const Eigen::MatrixXd start = temperature > 0 ? Noise(model, noise, window.frames()) : still;
   Field field(model, network, std::move(request), window);

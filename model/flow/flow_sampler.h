@@ -33,12 +33,16 @@ struct FlowModelParts {
   EnergyPrior energy = EnergyPrior();
 };
 
+/// Farther beyond the sampled way nobody dances.
+inline constexpr double kMaxFlowTemperature = 1.25;
+
 struct FlowNoise {
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of the window's first frame
-  /// How far from the mean way (0, in one step) to a sampled one (1) and a little beyond (1.25 at
-  /// most). Noise itself is never scaled: the network would take a calm one for a calm dancer.
+  /// How far from the mean way (0, in one step) to a sampled one (1) and a little beyond, at most
+  /// kMaxFlowTemperature. Noise itself is never scaled: the network would take a calm one for a
+  /// calm dancer.
   double temperature = 0;
 };
 

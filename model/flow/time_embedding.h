@@ -4,8 +4,7 @@
 
 namespace choreo {
 
-/// Paper F's Eq. 9 of one frame count: even places sine, odd ones cosine, basis 10 000
-/// (TimeEmbedding of transition_tensors.h without LibTorch).
+/// Paper F's Eq. 9 of one frame count: even places sine, odd ones cosine, basis 10 000.
 void EmbedCount(double count, std::span<float> embedding);
 
 }  // namespace choreo

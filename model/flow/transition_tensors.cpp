@@ -2,8 +2,9 @@
 
 #include <torch/torch.h>
 
-#include <cmath>
+#include <vector>
 
+#include "model/flow/time_embedding.h"
 #include "model/flow/torch_kinematics.h"
 
 namespace choreo {
@@ -28,10 +29,15 @@ TrajectoryTensors Interpolate(const TransitionTensors& transition) {
 }
 
 Tensor TimeEmbedding(const Tensor& counts, int64_t width) {
-  const Tensor pair = torch::arange(0, (width + 1) / 2, counts.options());
-  const Tensor rate = torch::exp(pair * (-2.0 * std::log(10000.0) / static_cast<double>(width)));
-  const Tensor phase = counts.unsqueeze(-1) * rate;
-  return torch::stack({phase.sin(), phase.cos()}, -1).flatten(-2).narrow(-1, 0, width);
+  const Tensor each = counts.to(torch::kCPU, torch::kFloat64).contiguous();
+  const Tensor embedded = torch::empty({counts.numel(), width});
+  for (int64_t i = 0; i < counts.numel(); ++i) {
+    EmbedCount(each.data_ptr<double>()[i],
+               {embedded.data_ptr<float>() + i * width, static_cast<size_t>(width)});
+  }
+  std::vector<int64_t> sizes = counts.sizes().vec();
+  sizes.push_back(width);
+  return embedded.view(sizes).to(counts.options());
 }
 
 }  // namespace choreo

@@ -25,8 +25,7 @@ struct TrajectoryTensors {
 /// baseline); what the key does not name stays as it is. Frame N-1 is the key.
 TrajectoryTensors Interpolate(const TransitionTensors& transition);
 
-/// Sinusoidal embedding of frame counts, paper F's Eq. 9: `counts` [...] → [..., width]; even
-/// places sine, odd ones cosine, basis 10 000.
+/// EmbedCount of each: `counts` [...] → [..., width].
 torch::Tensor TimeEmbedding(const torch::Tensor& counts, int64_t width);
 
 }  // namespace choreo

@@ -245,9 +245,11 @@ class FlowMatchingRun : public TrainingRun {
                      Eigen::VectorXd::Ones(dimensions), usual);
     const WindowStatistics measured = MeasureWindows(StatisticsBatches(kEnergy));
     model_->SetPrior(covariance, powers, measured.mixing, measured.spread, usual);
-    std::vector<WindowBatch> of_all_lengths;
-    for (const int frames : {20, 60, 90})
-      std::ranges::move(StatisticsBatches(1, frames), std::back_inserter(of_all_lengths));
+    std::vector<WindowRequest> of_all_lengths;
+    for (const int frames : {20, 60, 90}) {
+      for (WindowBatch& batch : StatisticsBatches(1, frames))
+        std::ranges::move(batch.requests, std::back_inserter(of_all_lengths));
+    }
     model_->SetEnergy(MeasureEnergy(model_->Parts(), of_all_lengths));
   }
 

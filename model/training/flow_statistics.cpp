@@ -19,6 +19,37 @@ constexpr double kUsualStyle = 20;      // windows without difference that each 
 constexpr size_t kLeastEnergies = 100;  // windows that tell how lively the next are
 constexpr double kStill = 1e-3;  // metres or radians: what spreads less is not in the recordings
 
+// A window whose energy is told.
+struct LivelyWindow {
+  EnergyPrior::Known known;
+  EnergyPrior::Levels levels;
+};
+
+std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
+                                       const std::vector<WindowRequest>& requests, bool keyed) {
+  std::vector<LivelyWindow> windows;
+  for (const WindowRequest& request : requests) {
+    if (request.key.has_value() != keyed) continue;
+    const auto told = LevelsOf(request, model.config.median_factors);
+    if (!std::ranges::all_of(told, [](const auto& level) { return level.has_value(); })) continue;
+    LivelyWindow& window = windows.emplace_back(KnownOfEnergy(model, request));
+    std::ranges::transform(told, window.levels.begin(), [](const auto& level) { return *level; });
+  }
+  return windows;
+}
+
+// What training saw of each input, but for what is rare.
+void MeasureRange(const std::vector<EnergyPrior::Inputs>& inputs, EnergyPrior* measured) {
+  for (int input = 0; input < EnergyPrior::kInputs; ++input) {
+    std::vector<double> values;
+    for (const EnergyPrior::Inputs& one : inputs) values.push_back(one[input]);
+    std::ranges::sort(values);
+    const auto rank = static_cast<size_t>(kRare * static_cast<double>(values.size()));
+    measured->least[input] = values[rank];
+    measured->most[input] = values[values.size() - 1 - rank];
+  }
+}
+
 }  // namespace
 
 VariancePowers MeasureVariancePowers(const MotionPrior& prior,
@@ -77,44 +108,37 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
   return measured;
 }
 
-EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowBatch>& batches) {
+EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests) {
   EnergyPrior measured(model.config.styles.size());
   std::vector<double> of_style(model.config.styles.size(), kUsualStyle);
   for (const bool keyed : {true, false}) {
-    std::vector<EnergyPrior::Inputs> inputs;
-    std::vector<EnergyPrior::Levels> levels;
-    std::vector<int> styles;
-    for (const WindowBatch& batch : batches) {
-      for (size_t i = 0; i < batch.requests.size(); ++i) {
-        const WindowRequest& request = batch.requests[i];
-        if (request.key.has_value() != keyed) continue;
-        const auto told = LevelsOf(request, model.config.median_factors);
-        if (!std::ranges::all_of(told, [](const auto& level) { return level.has_value(); }))
-          continue;
-        EnergyPrior::Levels all;
-        std::ranges::transform(told, all.begin(), [](const auto& level) { return *level; });
-        levels.push_back(all);
-        styles.push_back(request.style);
-        inputs.push_back(EnergyPrior::Describe(KnownOfEnergy(model, request)));
-      }
+    const std::vector<LivelyWindow> windows = GatherLively(model, requests, keyed);
+    if (windows.size() < kLeastEnergies) continue;
+    const auto count = static_cast<double>(windows.size());
+    for (const LivelyWindow& window : windows) {
+      if (!keyed) break;
+      measured.usual_way += *window.known.way / count;
+      measured.usual_way_in_world += *window.known.way_in_world / count;
     }
-    if (inputs.size() < kLeastEnergies) continue;
+    std::vector<EnergyPrior::Inputs> inputs;
+    for (const LivelyWindow& window : windows) inputs.push_back(measured.Describe(window.known));
     using Square = Eigen::Matrix<double, EnergyPrior::kInputs, EnergyPrior::kInputs>;
     Square normal = Square::Identity();  // a little towards zero
     EnergyPrior::Weights right = EnergyPrior::Weights::Zero();
     for (size_t i = 0; i < inputs.size(); ++i) {
       normal += inputs[i] * inputs[i].transpose();
-      right += levels[i] * inputs[i].transpose();
+      right += windows[i].levels * inputs[i].transpose();
     }
     EnergyPrior::Weights& weights = keyed ? measured.keyed : measured.free;
     weights = normal.ldlt().solve(right.transpose()).transpose();
     Eigen::Matrix<double, kBodyParts, kBodyParts> left = 1e-6 * decltype(left)::Identity();
     for (size_t i = 0; i < inputs.size(); ++i) {
-      const EnergyPrior::Levels off = levels[i] - weights * inputs[i];
-      left += off * off.transpose() / static_cast<double>(inputs.size());
-      if (styles[i] < 0) continue;
-      measured.styles.col(styles[i]) += off;
-      ++of_style[styles[i]];
+      const EnergyPrior::Levels off = windows[i].levels - weights * inputs[i];
+      left += off * off.transpose() / count;
+      const int style = windows[i].known.style;
+      if (style < 0) continue;
+      measured.styles.col(style) += off;
+      ++of_style[style];
     }
     if (keyed) measured.spread = left.llt().matrixL();
     // So that factors, not their logarithms, are right on average: who stands still for a while has
@@ -122,19 +146,11 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowB
     const EnergyPrior::Levels spread = measured.spread.rowwise().squaredNorm();
     EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
     for (size_t i = 0; i < inputs.size(); ++i) {
-      real.array() += levels[i].array().exp();
+      real.array() += windows[i].levels.array().exp();
       said.array() += (weights * inputs[i] + 0.5 * spread).array().exp();
     }
     weights.col(0) += (real.array() / said.array()).log().matrix();
-    if (!keyed) continue;
-    for (int input = 0; input < EnergyPrior::kInputs; ++input) {
-      std::vector<double> values;
-      for (const EnergyPrior::Inputs& one : inputs) values.push_back(one[input]);
-      std::ranges::sort(values);
-      const auto rank = static_cast<size_t>(kRare * values.size());
-      measured.least[input] = values[rank];
-      measured.most[input] = values[values.size() - 1 - rank];
-    }
+    if (keyed) MeasureRange(inputs, &measured);
   }
   for (size_t i = 0; i < of_style.size(); ++i) measured.styles.col(i) /= of_style[i];
   return measured;

@@ -15,7 +15,7 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
                                      const std::vector<WindowBatch>& batches);
 
 /// How lively real windows are, of which all body parts' energy is told, by what is known of them.
-EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowBatch>& batches);
+EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests);
 
 /// Of real windows: the correlation of white coordinates over dimensions, its Cholesky factor; and
 /// the spread of displacements [dimensions].

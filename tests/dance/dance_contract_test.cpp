@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
 #include <mutex>
 
@@ -241,6 +242,31 @@ TEST_F(DanceContract, LatencyCountsWindowFilterAndResampling) {
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 2);  // 1024 / 735 frames
   config.output_fps = 120;
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 10);  // (1024 / 735 + 1) * 4
+}
+
+// One that is not trained for more.
+class CalmEngine : public FakeEngine {
+ public:
+  CalmEngine() { model_.max_temperature = 1.25; }
+};
+
+TEST(DanceWarnings, TemperatureBeyondTheModelsIsTold) {
+  for (const float asked : {1.25F, 1.5F}) {
+    std::vector<std::unique_ptr<StepEngine>> engines;
+    engines.push_back(std::make_unique<CalmEngine>());
+    Scheduler scheduler(std::move(engines), {});
+    Dance dance = RandomDance(3);
+    dance.config.temperature = asked;
+    const Recording told = Perform(scheduler, dance);
+    const auto is_it = [](const DanceWarning& warning) {
+      return warning.kind == DanceWarning::Kind::kTemperatureTooHigh;
+    };
+    EXPECT_EQ(std::ranges::count_if(told.warnings, is_it), asked > 1.25F ? 1 : 0);
+    if (asked > 1.25F) {
+      EXPECT_THAT(told.warnings[0].message,
+                  ::testing::StartsWith("temperature 1.5 is beyond 1.25"));
+    }
+  }
 }
 
 }  // namespace

@@ -93,6 +93,7 @@ TEST_F(ContinuousFlowEngineTest, TellsWhatItTakes) {
   ASSERT_EQ(model.velocity_references.size(), 1U);
   EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
   EXPECT_EQ(model.default_temperature, 1);
+  EXPECT_EQ(model.max_temperature, kMaxFlowTemperature);
 }
 
 // Windows of odd and even numbers of frames, several in a row, with and without keys: heads here

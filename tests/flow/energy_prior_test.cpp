@@ -12,6 +12,8 @@ using Levels = EnergyPrior::Levels;
 TEST(EnergyPrior, ComesBackFromItsNumbers) {
   EnergyPrior prior(3);
   prior.most.setRandom();
+  prior.usual_way.setRandom();
+  prior.usual_way_in_world.setRandom();
   prior.styles.setRandom();
   prior.keyed.setRandom();
   prior.free.setRandom();
@@ -22,6 +24,8 @@ TEST(EnergyPrior, ComesBackFromItsNumbers) {
   EXPECT_EQ(back.free, prior.free);
   EXPECT_EQ(back.spread, prior.spread);
   EXPECT_EQ(back.most, prior.most);
+  EXPECT_EQ(back.usual_way, prior.usual_way);
+  EXPECT_EQ(back.usual_way_in_world, prior.usual_way_in_world);
   EXPECT_EQ(back.styles, prior.styles);
 }
 
@@ -43,6 +47,21 @@ TEST(EnergyPrior, AFartherKeyAndALivelierPastCountAsTrainingFound) {
   EnergyPrior::Known free = known;
   free.key = false;
   EXPECT_EQ(prior.Sample(free, Levels::Zero())[2], 0) << "a dance does not follow itself";
+}
+
+TEST(EnergyPrior, AWayThatAKeyLeavesOpenIsTheUsualOne) {
+  EnergyPrior prior;
+  constexpr int kWay = EnergyPrior::kHistoryInput + kBodyParts, kInWorld = kWay + kBodyParts;
+  prior.keyed(3, kWay + 3) = 0.5;
+  prior.keyed(3, kInWorld + 3) = 0.25;
+  prior.usual_way.setConstant(2);
+  prior.usual_way_in_world.setConstant(4);
+  EnergyPrior::Known known{.key = true};
+  EXPECT_NEAR(prior.Sample(known, Levels::Zero())[3], 2, 1e-12);
+  known.way = Levels::Constant(6);
+  EXPECT_NEAR(prior.Sample(known, Levels::Zero())[3], 4, 1e-12);
+  known.way_in_world = Levels::Zero();
+  EXPECT_NEAR(prior.Sample(known, Levels::Zero())[3], 3, 1e-12);
 }
 
 TEST(EnergyPrior, WhatTrainingNeverSawCountsAsTheMostThatItSaw) {

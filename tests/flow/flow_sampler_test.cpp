@@ -320,5 +320,45 @@ TEST(WindowFeatures, BeatsHaveAPhaseAndSlowOnesAreHalved) {
   EXPECT_FALSE(PhaseAt(std::vector<double>{3}, 3));
 }
 
+// Who has to go far has to be lively; a key says so of what it asks for.
+TEST(KnownOfEnergy, TellsTheWayToTheKey) {
+  const FlowModelParts parts = Parts();
+  const Skeleton& skeleton = parts.skeleton;
+  constexpr auto kTrunk = static_cast<int>(BodyPart::kTrunk);
+  constexpr auto kLeftArm = static_cast<int>(BodyPart::kLeftArm);
+  const std::vector<Pose> history(2, RestPose(skeleton));
+  WindowRequest request{.frames = 30, .history = history, .to_key = 30};
+  EXPECT_FALSE(KnownOfEnergy(parts, request).way) << "there is no key";
+  request.key = RestPose(skeleton);
+  const EnergyPrior::Known still = KnownOfEnergy(parts, request);
+  ASSERT_TRUE(still.way && still.way_in_world);
+
+  request.key->root_position.x() += 3;
+  const EnergyPrior::Known moved = KnownOfEnergy(parts, request);
+  EXPECT_EQ((*moved.way)[kLeftArm], (*still.way)[kLeftArm]);
+  EXPECT_GT((*moved.way)[kTrunk], (*still.way)[kTrunk]);
+  for (const double level : *moved.way_in_world)
+    EXPECT_NEAR(level, std::log((0.1 + 1e-3) / 1e-3), 1e-9) << "ten centimetres a frame";
+
+  request.key->rotations(2, skeleton.left_shoulder) = 1;
+  EXPECT_GT((*KnownOfEnergy(parts, request).way)[kLeftArm], (*still.way)[kLeftArm]);
+}
+
+TEST(KnownOfEnergy, TellsNothingOfWhatAKeyLeavesOpen) {
+  const FlowModelParts parts = Parts();
+  const Skeleton& skeleton = parts.skeleton;
+  const std::vector<Pose> history(2, RestPose(skeleton));
+  WindowRequest request{.frames = 30, .history = history, .key = RestPose(skeleton), .to_key = 30};
+  request.mask.root_position = false;
+  EXPECT_TRUE(KnownOfEnergy(parts, request).way);
+  EXPECT_FALSE(KnownOfEnergy(parts, request).way_in_world);
+
+  request.mask.joints.assign(static_cast<size_t>(skeleton.joints()), true);
+  request.mask.joints[static_cast<size_t>(skeleton.Find("left_wrist"))] = false;
+  EXPECT_TRUE(KnownOfEnergy(parts, request).way) << "a hand is nothing";
+  request.mask.joints[static_cast<size_t>(skeleton.Find("left_elbow"))] = false;
+  EXPECT_FALSE(KnownOfEnergy(parts, request).way) << "a forearm is something";
+}
+
 }  // namespace
 }  // namespace choreo

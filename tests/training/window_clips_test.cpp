@@ -151,13 +151,14 @@ TEST_F(WindowClipsTest, DancersGoOnAsLivelyAsTheyWere) {
   const WindowClips clips({SyntheticClip("calm", 400, 0, false), FastClip()});
   FlowModelParts parts = Parts();
   parts.config.median_factors = MedianFactors(clips.tracks());
-  std::vector<WindowBatch> batches;
+  std::vector<WindowRequest> requests;
   for (uint32_t i = 0; i < 6; ++i) {
     Random random(4, i);
-    batches.push_back(clips.Draw(parts, 64, kFrames, kFrames,
-                                 {.no_key = i % 2 == 0 ? 1.0 : 0.0, .energy = 1}, &random));
+    const WindowBatch batch = clips.Draw(parts, 64, kFrames, kFrames,
+                                         {.no_key = i % 2 == 0 ? 1.0 : 0.0, .energy = 1}, &random);
+    requests.insert(requests.end(), batch.requests.begin(), batch.requests.end());
   }
-  const EnergyPrior measured = MeasureEnergy(parts, batches);
+  const EnergyPrior measured = MeasureEnergy(parts, requests);
   const auto trunk = [&](bool keyed, double history) {
     return measured.Sample(
         {.key = keyed, .history = EnergyPrior::Levels::Constant(history), .frames = kFrames},
