@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/audio/beats.h"
 #include "model/dance/quality_report.h"
 #include "model/evaluation/long_plans.h"
 #include "model/metrics/song_beats.h"
 
 namespace choreo {
-namespace {
-
-constexpr double kGap = 2;  // frames: a beat is a frame, too, as in the paper
-
-}  // namespace
 
 BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music,
                        double fps) {
@@ -22,7 +18,8 @@ BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>&
   if (kinematic.empty() || beats.empty()) return figures;
   const auto hits = std::ranges::count_if(kinematic, [&](int64_t frame) {
     return std::ranges::any_of(beats, [&](double beat) {
-      return std::abs(std::round(beat) - static_cast<double>(frame)) <= kGap;
+      // A beat is a frame, too, as in the paper.
+      return std::abs(std::round(beat) - static_cast<double>(frame)) <= kBeatGap;
     });
   });
   const auto count = static_cast<double>(kinematic.size());

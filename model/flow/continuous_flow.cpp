@@ -16,8 +16,6 @@ using torch::Tensor;
 
 namespace {
 
-constexpr double kDropout = 0.1;  // in training, of what a block adds
-
 // A transformer block whose norms are scaled and shifted, and whose two halves are weighed, by what
 // is known of the whole window (adaptive layer norm, Peebles & Xie 2023).
 class FlowBlockImpl : public torch::nn::Module {
@@ -44,14 +42,11 @@ class FlowBlockImpl : public torch::nn::Module {
     const std::vector<Tensor> m = modulation_(condition).unsqueeze(1).chunk(6, -1);
     const Tensor mixed =
         AttendInTime(qkv_(attention_norm_(x) * (1 + m[0]) + m[1]), distance_bias_, distance);
-    const Tensor attended = x + (1 + m[2]) * Drop(out_(mixed));
-    const Tensor up = up_(mlp_norm_(attended) * (1 + m[3]) + m[4]);
-    return attended + (1 + m[5]) * Drop(down_(torch::gelu(up)));
+    const Tensor attended = x + (1 + m[2]) * out_(mixed);
+    return attended + (1 + m[5]) * down_(torch::gelu(up_(mlp_norm_(attended) * (1 + m[3]) + m[4])));
   }
 
  private:
-  Tensor Drop(const Tensor& x) const { return torch::dropout(x, kDropout, is_training()); }
-
   torch::nn::LayerNorm attention_norm_{nullptr}, mlp_norm_{nullptr};
   torch::nn::Linear qkv_{nullptr}, out_{nullptr}, up_{nullptr}, down_{nullptr},
       modulation_{nullptr};

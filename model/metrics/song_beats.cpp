@@ -4,17 +4,17 @@
 #include <cmath>
 
 #include "model/audio/beats.h"
+#include "model/audio/format.h"
 #include "model/audio/mel.h"
 #include "model/audio/onset.h"
 
 namespace choreo {
 namespace {
 
-constexpr double kSampleRate = 22050;
 constexpr double kSigma = 3.0 / 60;    // seconds
 constexpr double kAround = 10.0 / 60;  // seconds on each side of which a motion beat is the slowest
 // librosa's onset frames lie half an analysis window behind the windows' centres.
-constexpr double kOnsetDelay = kFftSize / 2 / kSampleRate;  // seconds
+constexpr double kOnsetDelay = kFftSize / 2.0 / kModelSampleRate;  // seconds
 
 // Mean rise of the mel bands from row to row, dB; the first is 0.
 std::vector<double> Rises(const Eigen::MatrixXf& rows) {
@@ -57,7 +57,7 @@ std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps) {
   if (rows.cols() < 2) return {};
   const std::vector<double> rises = Rises(rows);
   // The tracker counts in steps of kOnsetHop.
-  const double hop = kOnsetHop / kSampleRate;
+  const double hop = static_cast<double>(kOnsetHop) / kModelSampleRate;
   const double seconds = static_cast<double>(rows.cols() - 1) / fps;
   std::vector<float> envelope;
   for (int64_t i = 0; static_cast<double>(i) * hop <= seconds; ++i) {

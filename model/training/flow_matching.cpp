@@ -12,14 +12,13 @@ namespace {
 
 constexpr double kAtNoise = 0.2;  // share of samples at t = 0, half of them without noise
 constexpr double kStill = 1e-3;   // metres: what strays less stands
-// Weights of how far joints, standing feet from one frame to the next, and the body above its feet
-// are from where they should be, in squares of how far a window's joints stray; white coordinates
-// have 1. They stay small: where they pull as hard, the pelvis makes up for what limbs can't know,
-// and stands still.
-constexpr double kPlaces = 0.06, kSlips = 12, kStance = 0.12;
+// Weights of how far joints, and standing feet from one frame to the next, are from where they
+// should be, in squares of how far a window's joints stray; white coordinates have 1. They stay
+// small: where they pull as hard, the pelvis makes up for what limbs can't know, and stands still.
+constexpr double kPlaces = 0.06, kSlips = 12;
 constexpr double kStandingStep = 0.01;  // metres that a standing foot goes in a frame, at most
 constexpr const char *kWhiteTerm = "white_mse", *kPlacesTerm = "places_mse",
-                     *kSlipsTerm = "slips_mse", *kStanceTerm = "stance_mse";
+                     *kSlipsTerm = "slips_mse";
 
 Tensor Stack(const std::vector<MotionPrior::Bridge>& bridges) {
   std::vector<Tensor> spreads;
@@ -64,7 +63,7 @@ FlowMatching::FlowMatching(const ContinuousFlow& model)
 }
 
 const std::vector<std::string>& FlowMatching::TermNames() {
-  static const std::vector<std::string> names = {kWhiteTerm, kPlacesTerm, kSlipsTerm, kStanceTerm};
+  static const std::vector<std::string> names = {kWhiteTerm, kPlacesTerm, kSlipsTerm};
   return names;
 }
 
@@ -123,12 +122,10 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
     return places.index_select(2, body_.feet()).diff(1, 1);
   };
   const Tensor real = body_.Place(batch, scales * colour(batch.z)).reshape(moved.sizes());
-  const Tensor from_feet = moved.mean(2, true) - moved.index_select(2, body_.feet());
   const Tensor stands = feet_steps(real).norm(2, -1) < kStandingStep;
   return {{kWhiteTerm, 1.0, (weights.unsqueeze(1) * miss.square()).mean()},
           {kPlacesTerm, kPlaces, squares(moved).mean()},
-          {kSlipsTerm, kSlips, (stands * squares(feet_steps(moved))).mean()},
-          {kStanceTerm, kStance, squares(from_feet).mean()}};
+          {kSlipsTerm, kSlips, (stands * squares(feet_steps(moved))).mean()}};
 }
 
 }  // namespace choreo

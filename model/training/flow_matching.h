@@ -24,9 +24,8 @@ class FlowMatching {
   const FlowModelParts& parts() const { return parts_; }
 
   /// Squares alone, whose least is the mean of all ways: of F in white coordinates, which teaches
-  /// how dancers move; of where the joints of the motion that F ends in are, and its feet as the
-  /// body sees them; and of how far its feet go in a frame in which real ones stand. Times and
-  /// noise from torch's generator.
+  /// how dancers move; of where the joints of the motion that F ends in are; and of how far its
+  /// feet go in a frame in which real ones stand. Times and noise from torch's generator.
   LossTerms Losses(ContinuousFlow& model, const WindowBatch& batch);
 
  private:

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/core/smooth_step.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
@@ -152,7 +153,7 @@ LimbRepair RepairLimbs(const Skeleton& skeleton, Motion& motion) {
       const Pose& to = motion.frames[last + 1];
       for (int frame = first; frame <= last; ++frame) {
         const double time = static_cast<double>(frame - first + 1) / (last - first + 2);
-        const double eased = time * time * (3 - 2 * time);
+        const double eased = SmoothStep(time);
         for (int joint = limb; joint < skeleton.joints(); ++joint) {
           if (jolts.limb_of[joint] != limb) continue;
           motion.frames[frame].rotations.col(joint) =

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "model/core/smooth_step.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
 #include "model/motion/rotation.h"
@@ -29,7 +30,7 @@ void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vec
   offset[0] = offset[2] = 0;  // any place on the floor is as good
   for (size_t i = 0; i < poses->size(); ++i) {
     const double way = std::clamp((static_cast<double>(i) - tau + 1) / back, 0.0, 1.0);
-    const double left = 1 - way * way * (3 - 2 * way);
+    const double left = 1 - SmoothStep(way);
     Pose& pose = (*poses)[i];
     pose.root_position += left * offset.head<3>();
     for (Eigen::Index j = 0; j < pose.rotations.cols(); ++j)
