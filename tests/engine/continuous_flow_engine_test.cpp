@@ -7,6 +7,7 @@
 #include "model/dance/transition_batch.h"
 #include "model/engine/engines.h"
 #include "model/engine/packed/kernels.h"
+#include "model/flow/flow_sampler.h"
 #include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
