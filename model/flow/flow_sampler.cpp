@@ -166,7 +166,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   if (!request.key || !TellsLimbs(model.skeleton, request.mask)) return known;
   const BodyPartWeights weights = WeighBodyParts(model.skeleton);
   const Eigen::Matrix3Xd from = JointPositions(model.skeleton, request.history.back());
-  Pose key = Masked(*request.key, request.mask, request.history.back());
+  const Pose key = Masked(*request.key, request.mask, request.history.back());
   const Eigen::Matrix3Xd to = JointPositions(model.skeleton, key);
   const auto way = VelocityFactors(weights, from, to);
   const Eigen::VectorXd in_world = weights * (to - from).colwise().norm().transpose();

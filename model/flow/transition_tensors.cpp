@@ -30,10 +30,11 @@ TrajectoryTensors Interpolate(const TransitionTensors& transition) {
 
 Tensor TimeEmbedding(const Tensor& counts, int64_t width) {
   const Tensor each = counts.to(torch::kCPU, torch::kFloat64).contiguous();
-  const Tensor embedded = torch::empty({counts.numel(), width});
-  for (int64_t i = 0; i < counts.numel(); ++i) {
-    EmbedCount(each.data_ptr<double>()[i],
-               {embedded.data_ptr<float>() + i * width, static_cast<size_t>(width)});
+  const Tensor embedded = torch::empty({counts.numel(), width}, torch::kFloat64);
+  for (int64_t i = 0; i < embedded.numel(); ++i) {
+    embedded.data_ptr<double>()[i] =
+        EmbedCountAt(each.data_ptr<double>()[i / width], static_cast<size_t>(i % width),
+                     static_cast<size_t>(width));
   }
   std::vector<int64_t> sizes = counts.sizes().vec();
   sizes.push_back(width);

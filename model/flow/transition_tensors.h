@@ -25,7 +25,7 @@ struct TrajectoryTensors {
 /// baseline); what the key does not name stays as it is. Frame N-1 is the key.
 TrajectoryTensors Interpolate(const TransitionTensors& transition);
 
-/// EmbedCount of each: `counts` [...] → [..., width].
+/// EmbedCountAt of each, all places: `counts` [...] → [..., width].
 torch::Tensor TimeEmbedding(const torch::Tensor& counts, int64_t width);
 
 }  // namespace choreo
