@@ -15,9 +15,9 @@
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 #include "model/flow/flow_tokens.h"
-#include "model/flow/random_checkpoint.h"
 #include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
+#include "tests/support/random_checkpoints.h"
 
 /// Both engines, and beside them what limits them: the bare matrix products of the same shapes, and
 /// memory. All on one thread, in CPU time of that thread, so that a machine that does something
@@ -152,8 +152,8 @@ std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
     for (int layer = 0; layer < config.layers; ++layer) {
       shapes.push_back({width, 3 * width, tokens});
       shapes.push_back({width, width, tokens});
-      shapes.push_back({width, 3 * width, tokens});
-      shapes.push_back({3 * width, width, tokens});
+      shapes.push_back({width, kMlpRatio * width, tokens});
+      shapes.push_back({kMlpRatio * width, width, tokens});
     }
     shapes.push_back({width, 2 * kFramesAToken * dimensions, tokens});
   }

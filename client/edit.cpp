@@ -11,12 +11,9 @@ namespace choreo::client {
 namespace {
 
 constexpr int64_t kLeadIn = 10;         // poses of what follows that are sent
-constexpr double kRounding = 1e-6;      // of frame numbers
 constexpr double kMusicBeyond_s = 0.5;  // the last frame hears a little beyond itself
 
 using Contacts = std::array<float, 4>;
-
-constexpr double kBackwards = 15 / kDegrees;  // more than real knees, and errors of recordings
 
 /// New frames, at the model's rate, from `first` on.
 struct Part {
@@ -83,13 +80,13 @@ class Edit {
     int64_t first = 0;
     if (part.first > 0) {
       curve.frames.insert(curve.frames.begin(), pose(--start));
-      first = Whole(std::floor(static_cast<double>(start) * rate + kRounding)) + 1;
+      first = Whole(std::floor(static_cast<double>(start) * rate + kOnFrame)) + 1;
     }
     auto end = static_cast<int64_t>(motion.frames.size());
     if (next) {
       const int64_t behind = part.first + static_cast<int64_t>(part.poses.size());
       curve.frames.push_back(*next);
-      end = Whole(std::ceil(static_cast<double>(behind) * rate - kRounding));
+      end = Whole(std::ceil(static_cast<double>(behind) * rate - kOnFrame));
     }
     if (end > static_cast<int64_t>(motion.frames.size())) {
       motion.frames.resize(static_cast<size_t>(end));
@@ -129,7 +126,7 @@ class Edit {
   void WarnOfKnees(const Part& part) {
     const Skeleton& skeleton = options_.model.skeleton;
     Warning worst;
-    double furthest = kBackwards;
+    double furthest = kBrokenBackwards / kDegrees;
     for (const Hinge& hinge : Hinges(skeleton)) {
       if (hinge.joint != skeleton.left_knee && hinge.joint != skeleton.right_knee) continue;
       for (size_t i = 0; i < part.poses.size(); ++i) {
@@ -139,7 +136,8 @@ class Edit {
         worst.frame = part.first + static_cast<int64_t>(i);
         worst.message = skeleton.joint_names[static_cast<size_t>(hinge.joint)] + " bends " +
                         Rounded(kDegrees * bend) + " degrees backwards at frame " +
-                        std::to_string(worst.frame) + "; 15 look broken";
+                        std::to_string(worst.frame) + "; " + Rounded(kBrokenBackwards) +
+                        " look broken";
       }
     }
     if (!worst.message.empty()) result_.warnings.push_back(worst);
@@ -215,7 +213,7 @@ void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
 
 int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& model) {
   if (dance.motion.frames.empty()) throw InvalidArgument("dance", "has no frames");
-  return Whole(std::floor(Duration(dance.motion) * model.fps + kRounding)) + 1;
+  return Whole(std::floor(Duration(dance.motion) * model.fps + kOnFrame)) + 1;
 }
 
 EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditOptions& options,

@@ -11,6 +11,7 @@
 #include "model/core/programs.h"
 #include "model/engine/devices.h"
 #include "model/engine/engine_kind.h"
+#include "model/engine/step_engine.h"
 #include "server/config_flags.h"
 #include "server/listener.h"
 #include "server/music_file.h"
@@ -121,7 +122,7 @@ void ServerConfig::Validate() const {
   // Whether they are there is told when they are used; `auto` is whatever is there.
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
-  CheckRange("--slots", slots, 0, 4096);
+  CheckRange("--slots", slots, 0, kMostSlots);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);
   CheckRange("--workers", workers, 0, 1024);

@@ -180,7 +180,8 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
     const v1::AudioFormat& format = message.audio_format();
     CheckMusic(format);
     config.audio = format.encoding() == v1::AUDIO_ENCODING_FILE
-                       ? DanceConfig::Audio{kFileAudioRate, 1, 0}
+                       // Its own format is not known before it has come.
+                       ? DanceConfig::Audio{kModelSampleRate, 1, 0}
                        : SamplesOf(format);
   }
   if (config.audio) {

@@ -14,10 +14,6 @@
 /// Pure functions, thread-safe.
 namespace choreo {
 
-/// Music of a file is handed to a stream at the features' own rate: its format is not known before
-/// the file has come.
-inline constexpr double kFileAudioRate = 22'050;
-
 KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& field);
 
 /// For StreamDance. `fresh_seed` is used where the message has none.

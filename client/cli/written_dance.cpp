@@ -5,15 +5,14 @@
 
 #include "model/audio/beats.h"
 #include "model/core/rounded.h"
+#include "model/motion/resample.h"
 
 namespace choreo::cli {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of frame numbers
-
 int64_t FirstFrameOfFile(const client::Header& header) {
   const double first = static_cast<double>(header.first_frame) * header.fps / header.model_fps;
-  return static_cast<int64_t>(std::ceil(first - kRounding));
+  return static_cast<int64_t>(std::ceil(first - kOnFrame));
 }
 
 WrittenKey Find(const client::Header& header, const Motion& motion, const client::KeyPose& key,
@@ -23,7 +22,7 @@ WrittenKey Find(const client::Header& header, const Motion& motion, const client
   WrittenKey found{.reached = reached};
   found.frame =
       std::clamp<int64_t>(std::llround(place), 0, static_cast<int64_t>(motion.frames.size()) - 1);
-  found.on_frame = std::abs(place - static_cast<double>(found.frame)) < kRounding;
+  found.on_frame = std::abs(place - static_cast<double>(found.frame)) < kOnFrame;
   found.error = ComparePoses(header.skeleton, key.pose,
                              motion.frames[static_cast<size_t>(found.frame)], key.mask);
   return found;
@@ -51,8 +50,8 @@ std::optional<double> BeatHitChance(const std::vector<double>& beats, int64_t fr
   if (beats.empty() || frames <= 0) return std::nullopt;
   std::vector<bool> near(static_cast<size_t>(frames), false);
   for (const double beat : beats) {
-    const auto first = static_cast<int64_t>(std::ceil(beat * fps - kBeatGap - kRounding));
-    const auto last = static_cast<int64_t>(std::floor(beat * fps + kBeatGap + kRounding));
+    const auto first = static_cast<int64_t>(std::ceil(beat * fps - kBeatGap - kOnFrame));
+    const auto last = static_cast<int64_t>(std::floor(beat * fps + kBeatGap + kOnFrame));
     for (int64_t frame = std::max<int64_t>(0, first); frame <= std::min(frames - 1, last); ++frame)
       near[static_cast<size_t>(frame)] = true;
   }

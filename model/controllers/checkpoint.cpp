@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "model/controllers/random_controllers.h"
-
 namespace choreo {
 namespace {
 
@@ -33,18 +31,6 @@ std::string SaveControllers(const std::filesystem::path& path, ControllersModel&
   content.metadata["median_factors"] = nlohmann::json(median_factors).dump();
   return WriteCheckpointFile(path, std::move(content), kFormat, model->config(), model->skeleton(),
                              card);
-}
-
-void WriteRandomControllers(const std::filesystem::path& path, const ControllersConfig& config,
-                            const Skeleton& skeleton, uint64_t seed) {
-  torch::manual_seed(seed);
-  ControllersModel model(config, skeleton);
-  FillZeros(model.get());
-  const int64_t others = skeleton.joints() - 1;
-  model->SetNormalisation(torch::zeros({others, 3}), torch::full({others, 3}, 0.1),
-                          torch::full({kBodyParts}, 0.01));
-  SaveControllers(path, model, {0.01, 0.02, 0.02, 0.015, 0.015},
-                  {{"licence", "none: random weights"}});
 }
 
 }  // namespace choreo

@@ -9,12 +9,12 @@
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/dance/transition.h"
+#include "model/plan/beat_timing.h"
 
 namespace choreo {
 namespace {
 
 constexpr double kOnsetOverMedian = 2;  // an onset is so much above what the music mostly has
-constexpr double kPauseSeconds = 1.5;   // from beat to beat, and the music pauses
 
 // Whether the music rose in the frame of a beat or in the one before.
 bool HasOnset(const AudioFeed& audio, int64_t frame) {

@@ -58,7 +58,7 @@ bool HidesAnother(const Plot& plot, size_t index, double extent) {
     if (earlier.asked) continue;
     size_t same = 0;
     for (size_t k = 0; k < std::min(line.x.size(), earlier.x.size()); ++k) {
-      const double apart = OnAxis(line.y[k], plot.log_y) - OnAxis(earlier.y[k], plot.log_y);
+      const double apart = line.y[k] - earlier.y[k];
       same += line.x[k] == earlier.x[k] && std::abs(apart) < 0.005 * extent;
     }
     if (same > 0 && 2 * same >= line.x.size()) return true;
@@ -127,7 +127,7 @@ void DrawSeries(const Canvas& canvas, const Plot& plot, const std::vector<Stroke
       run = 0;
     };
     for (size_t k = 0; k < series.x.size(); ++k) {
-      const double value = OnAxis(series.y[k], plot.log_y);
+      const double value = series.y[k];
       if (!std::isfinite(series.x[k]) || !std::isfinite(value)) {
         end_run();
         continue;
@@ -173,7 +173,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   Range xs, ys;
   for (const PlotSeries& series : plot.series) {
     for (size_t k = 0; k < series.x.size(); ++k) {
-      const double value = OnAxis(series.y[k], plot.log_y);
+      const double value = series.y[k];
       if (!std::isfinite(series.x[k]) || !std::isfinite(value)) continue;
       xs.Add(series.x[k]);
       ys.Add(value);
@@ -201,7 +201,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   DrawLegend(canvas, plot, strokes, 24, right, top);
   top += 10;
 
-  Axis y_axis(ys.low, ys.high, bottom, top, plot.log_y, 56);
+  Axis y_axis(ys.low, ys.high, bottom, top, 56);
   double widest = 0;
   for (const Tick& tick : y_axis.ticks()) {
     widest = std::max(widest, canvas.TextWidth(tick.label, kFont));
@@ -212,9 +212,9 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
         std::max((xs.high - xs.low) / (right - left), (ys.high - ys.low) / (bottom - top));
     xs.WidenTo(unit * (right - left));
     ys.WidenTo(unit * (bottom - top));
-    y_axis = Axis(ys.low, ys.high, bottom, top, false, 56);
+    y_axis = Axis(ys.low, ys.high, bottom, top, 56);
   }
-  Axis x_axis(xs.low, xs.high, left, right, false, 90);
+  Axis x_axis(xs.low, xs.high, left, right, 90);
   if (bars) {
     double widest_name = 0;
     for (const std::string& name : plot.x_names)

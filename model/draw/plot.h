@@ -7,7 +7,7 @@
 namespace choreo {
 
 /// One line of a plot. Points are joined in the order given; a point with a coordinate that is not
-/// finite (or, on a logarithmic axis, not above zero) is left out and interrupts the line.
+/// finite is left out and interrupts the line.
 struct PlotSeries {
   std::string label;
   std::vector<double> x, y;  ///< of one length
@@ -23,12 +23,11 @@ struct Plot {
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
-  bool log_y = false;
   bool map = false;  ///< a unit is as long up as to the right
-  /// The vertical axis has 0, as that of bars always has. Not with log_y.
+  /// The vertical axis has 0, as that of bars always has.
   bool from_zero = false;
   /// Names of x = 0, 1, ..., as many of them as fit; there the series' bars stand side by side.
-  /// Not with log_y or map.
+  /// Not with map.
   std::vector<std::string> x_names = {};
   int width = 1000;  ///< pixels, 200 to 8192
   int height = 600;

@@ -21,11 +21,6 @@ std::string Number(double value, double step) {
 
 }  // namespace
 
-double OnAxis(double value, bool logarithmic) {
-  if (!logarithmic) return value;
-  return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
-}
-
 void Range::Add(double value) {
   low = std::min(low, value);
   high = std::max(high, value);
@@ -46,25 +41,9 @@ void Range::Settle(double margin) {
   low -= extra, high += extra;
 }
 
-Axis::Axis(double low, double high, double from, double to, bool logarithmic, double tick_distance)
+Axis::Axis(double low, double high, double from, double to, double tick_distance)
     : low_(low), high_(high), from_(from), to_(to) {
-  const double wanted = std::max(2.0, std::abs(to - from) / tick_distance);
-  if (logarithmic) {
-    PlaceDecades(wanted);
-  } else {
-    PlaceLinear(wanted);
-  }
-}
-
-void Axis::Name(const std::vector<std::string>& names, double widest) {
-  const auto stride = static_cast<size_t>(std::ceil(widest / (At(1) - At(0))));
-  ticks_.clear();
-  for (size_t i = 0; i < names.size(); i += std::max<size_t>(1, stride))
-    ticks_.push_back({static_cast<double>(i), names[i]});
-}
-
-void Axis::PlaceLinear(double wanted) {
-  const double raw = (high_ - low_) / wanted;
+  const double raw = (high - low) / std::max(2.0, std::abs(to - from) / tick_distance);
   const double power = std::pow(10, std::floor(std::log10(raw)));
   double step = 10 * power;
   for (const double nice : {1.0, 2.0, 5.0}) {
@@ -73,24 +52,16 @@ void Axis::PlaceLinear(double wanted) {
       break;
     }
   }
-  for (double k = std::ceil(low_ / step - 1e-9); k * step <= high_ + 1e-9 * step; ++k) {
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
     ticks_.push_back({k * step, Number(k * step, step)});
   }
 }
 
-void Axis::PlaceDecades(double wanted) {
-  const double stride = std::max(1.0, std::ceil((high_ - low_) / wanted));
-  for (double k = std::floor(low_); k <= high_; k += stride) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      if (factor > 1 && high_ - low_ > wanted / 2) continue;
-      const double value = std::pow(10, k) * factor;
-      const double at = std::log10(value);
-      if (at < low_ - 1e-9 || at > high_ + 1e-9) continue;
-      char text[32];
-      std::snprintf(text, sizeof(text), "%g", value);
-      ticks_.push_back({at, text});
-    }
-  }
+void Axis::Name(const std::vector<std::string>& names, double widest) {
+  const auto stride = static_cast<size_t>(std::ceil(widest / (At(1) - At(0))));
+  ticks_.clear();
+  for (size_t i = 0; i < names.size(); i += std::max<size_t>(1, stride))
+    ticks_.push_back({static_cast<double>(i), names[i]});
 }
 
 }  // namespace choreo

@@ -7,9 +7,6 @@
 /// What a plot's axes are: ranges, round numbers along them, and where values lie in the picture.
 namespace choreo {
 
-/// Where a value lies on an axis: its logarithm to base 10, not a number for what has none.
-double OnAxis(double value, bool logarithmic);
-
 /// What an axis has to hold.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -23,14 +20,14 @@ struct Range {
 };
 
 struct Tick {
-  double value;  ///< on the axis, after the logarithm
+  double value;
   std::string label;
 };
 
 /// A range of values and where it lies in the picture: `from` to `to`, pixels.
 class Axis {
  public:
-  Axis(double low, double high, double from, double to, bool logarithmic, double tick_distance);
+  Axis(double low, double high, double from, double to, double tick_distance);
 
   double At(double value) const { return from_ + (value - low_) / (high_ - low_) * (to_ - from_); }
   const std::vector<Tick>& ticks() const { return ticks_; }
@@ -39,10 +36,6 @@ class Axis {
   void Name(const std::vector<std::string>& names, double widest);
 
  private:
-  void PlaceLinear(double wanted);
-  /// Powers of ten; with few of them in sight, 2 and 5 times those as well.
-  void PlaceDecades(double wanted);
-
   double low_, high_, from_, to_;
   std::vector<Tick> ticks_;
 };

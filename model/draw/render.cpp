@@ -14,8 +14,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kLampSpread = 0.10f;      // radians
-constexpr float kShadowBias = 0.012f;     // metres off the surface: parts overlap at the joints
+constexpr float kLampSpread = 0.10f;   // radians
+constexpr float kShadowBias = 0.012f;  // metres off the surface: parts overlap at the joints
+constexpr float kGrid = 0.5f;  // metres between the lines on the floor, which the world fixes
 constexpr float kGridHalfWidth = 0.008f;  // metres
 
 Vector3f Linear(const Colour& colour) {
@@ -67,7 +68,6 @@ class Renderer {
                                   std::max(1.0, double{1} * picture.width / picture.height))),
         lamp_(LampDirection(view.azimuth)),
         floor_light_(parts_, lamp_, kLampSpread),
-        grid_(static_cast<float>(style.grid_m)),
         background_(Linear(style.background)),
         floor_(Linear(style.floor)) {
     for (size_t i = 0; i < figure.size(); ++i) {
@@ -265,8 +265,8 @@ class Renderer {
   }
 
   // How much of a stretch of the floor, `width` wide around `at`, the grid's lines cover.
-  float Lines(float at, float width) const {
-    const float from_line = std::abs(at - grid_ * std::round(at / grid_));
+  static float Lines(float at, float width) {
+    const float from_line = std::abs(at - kGrid * std::round(at / kGrid));
     const float covered = (kGridHalfWidth + 0.5f * width - from_line) / width;
     return std::clamp(covered, 0.0f, std::min(1.0f, 2 * kGridHalfWidth / width));
   }
@@ -277,12 +277,10 @@ class Renderer {
     const float away2 = (point - OnFloor(middle_)).squaredNorm();
     if (!(away2 <= reach_ * reach_)) return background_;
     float shade = floor_light_.At(point.x(), point.y());
-    if (grid_ > 0) {
-      const Eigen::Vector2f size =
-          row.size * row.here.step.cwiseAbs() + (row.next.At(x - half_width_) - point).cwiseAbs();
-      const float free = (1 - Lines(point.x(), size.x())) * (1 - Lines(point.y(), size.y()));
-      shade *= 1 - 0.20f * (1 - free);
-    }
+    const Eigen::Vector2f size =
+        row.size * row.here.step.cwiseAbs() + (row.next.At(x - half_width_) - point).cwiseAbs();
+    const float free = (1 - Lines(point.x(), size.x())) * (1 - Lines(point.y(), size.y()));
+    shade *= 1 - 0.20f * (1 - free);
     const float fade = SmoothStep(0.55f * reach_, reach_, std::sqrt(away2));
     return (1 - fade) * shade * floor_ + fade * background_;
   }
@@ -298,7 +296,6 @@ class Renderer {
   float reach_;
   Vector3f lamp_;
   FloorLight floor_light_;
-  float grid_;
   Vector3f background_, floor_;
   const Encoding& encode_ = Encoding::Shared();
   PixelBox box_;

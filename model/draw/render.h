@@ -12,8 +12,7 @@ namespace choreo {
 struct FrameStyle {
   Colour background = Colour::Hex(0xfbf9f6);
   Colour floor = Colour::Hex(0xece6dc);
-  double grid_m = 0.5;  ///< distance of the lines on the floor, fixed in the world; 0: no lines
-  int samples = 3;      ///< rays a pixel along each side of the body, 1 to 8
+  int samples = 3;  ///< rays a pixel along each side of the body, 1 to 8
 };
 
 /// What frames a key pose.

@@ -10,6 +10,8 @@
 namespace choreo {
 namespace {
 
+constexpr double kCameraHeight = 1.6;   // metres above the floor
+constexpr double kFieldOfView = 0.45;   // vertical, radians
 constexpr double kThreeQuarters = 0.6;  // radians beside the dancer's own heading
 constexpr float kNear = 0.05f;
 
@@ -31,12 +33,11 @@ Camera::Camera(const View& view, int width, int height)
   CheckWithin("picture.width", width, 1, 32767);
   CheckWithin("picture.height", height, 1, 32767);
   CheckWithin("view.extent", view.extent, 0.1, 100);
-  CheckWithin("view.field_of_view", view.field_of_view, 0.01, 3);
-  const double slope = std::tan(view.field_of_view / 2);
+  const double slope = std::tan(kFieldOfView / 2);
   const double distance = view.extent / 2 / slope;
   Eigen::Vector3d eye =
       view.target + distance * Eigen::Vector3d(std::sin(view.azimuth), 0, std::cos(view.azimuth));
-  eye.y() = view.camera_height;
+  eye.y() = kCameraHeight;
   const Eigen::Vector3d forward = (view.target - eye).normalized();
   const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitY()).normalized();
   eye_ = eye.cast<float>();

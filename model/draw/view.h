@@ -11,10 +11,8 @@ struct View {
   Eigen::Vector3d target{0, 0.95, 0};  ///< world, metres; comes to the middle of the picture
   /// Direction from the target to the camera: 0 stands at +Z, pi/2 at +X; radians.
   double azimuth = 0;
-  double camera_height = 1.6;  ///< metres above the floor
   /// What the picture's height shows at the target, metres, 0.1 to 100.
   double extent = 2.4;
-  double field_of_view = 0.45;  ///< vertical, radians, 0.01 to 3
 };
 
 /// The azimuth from which a pose is seen three quarters from its front.

@@ -274,8 +274,9 @@ void SetTorchThreads(int threads) {
 std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& path,
                                                      std::span<const Device> devices, int slots,
                                                      EngineKind kind, const std::string& kernels) {
-  if (slots < 1 || slots > 4096) {
-    throw InvalidArgument("slots", std::to_string(slots) + " is not in [1, 4096]");
+  if (slots < 1 || slots > kMostSlots) {
+    throw InvalidArgument(
+        "slots", std::to_string(slots) + " is not in [1, " + std::to_string(kMostSlots) + "]");
   }
   std::map<Device, Factory> loaded;
   std::vector<std::unique_ptr<StepEngine>> engines;

@@ -35,7 +35,8 @@ void SetTorchThreads(int threads);
 /// one device share its weights. `kernels`: a PackedKernels::name, so that packed engines on
 /// different CPUs have one fingerprint; empty: the fastest here; what LibTorch runs is left alone.
 /// Throws as LoadCheckpoint does (model/flow/checkpoint.h), and Error(kInvalidArgument) unless
-/// slots is in [1, 4096], and for a kind or kernels that the device or this machine does not have.
+/// slots is in [1, kMostSlots], and for a kind or kernels that the device or this machine does not
+/// have.
 std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& checkpoint,
                                                      std::span<const Device> devices, int slots,
                                                      EngineKind kind = EngineKind::kAuto,

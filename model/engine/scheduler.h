@@ -68,7 +68,7 @@ class Scheduler {
   struct Options {
     int max_waiting = 64;  ///< jobs of groups beyond their slots that may wait for one, >= 0
     /// Most slots of one engine stepped at once, >= 1; its batch() at most.
-    int max_batch = 4096;
+    int max_batch = kMostSlots;
     /// Most jobs that one engine admits between two steps, >= 1, earliest deadlines first.
     int max_admissions = 1;
     /// How long a job that sleeps keeps its slot while others wait for one, >= 0.

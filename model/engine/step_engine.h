@@ -46,6 +46,8 @@ struct ModelInfo {
   std::vector<std::string> styles = {};  ///< that may be asked for
 };
 
+inline constexpr int kMostSlots = 4096;  ///< of one engine
+
 /// The key pose at the end of a transition.
 struct Target {
   Pose pose;

@@ -58,25 +58,18 @@ FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const 
   FitProblem problem(skeleton, mapping, options, clip.fps);
   std::vector<double> distances;
   distances.reserve(count * normaliser.landmarks());
-  result.report.landmark_error_m.assign(normaliser.landmarks(), 0.0);
   for (size_t frame = 0; frame < count; ++frame) {
     const FitNeighbours neighbours = {
         .before = frame > 0 ? &motion.frames[frame - 1] : nullptr,
         .after = frame + 1 < count ? &motion.frames[frame + 1] : nullptr};
     problem.Solve(targets[frame], neighbours, kRefinementIterations, motion.frames[frame]);
     if (frame > 0) MakeContinuous(motion.frames[frame], motion.frames[frame - 1]);
-    for (int i = 0; i < normaliser.landmarks(); ++i) {
-      const double distance = (problem.landmarks().col(i) - targets[frame].col(i)).norm();
-      distances.push_back(distance);
-      result.report.landmark_error_m[i] += distance / static_cast<double>(count);
-    }
+    for (int i = 0; i < normaliser.landmarks(); ++i)
+      distances.push_back((problem.landmarks().col(i) - targets[frame].col(i)).norm());
   }
   FitReport& report = result.report;
-  for (const Landmark& landmark : mapping.landmarks) report.landmark_names.push_back(landmark.name);
-  for (const double distance : distances) {
+  for (const double distance : distances)
     report.mean_error_m += distance / static_cast<double>(distances.size());
-    report.max_error_m = std::max(report.max_error_m, distance);
-  }
   report.p95_error_m = Quantile(std::move(distances), 0.95);
   report.scale = size.scale;
   if (options.ground) report.ground_shift_m = Ground(skeleton, motion);

@@ -17,11 +17,8 @@ namespace choreo {
 struct FitReport {
   double mean_error_m = 0;  ///< over frames and landmarks, against the bone-normalised source
   double p95_error_m = 0;
-  double max_error_m = 0;
-  std::vector<std::string> landmark_names;
-  std::vector<double> landmark_error_m;  ///< [landmarks] mean
-  double scale = 1;                      ///< SourceSize::scale
-  double ground_shift_m = 0;             ///< what was added to the heights, on average
+  double scale = 1;           ///< SourceSize::scale
+  double ground_shift_m = 0;  ///< what was added to the heights, on average
 };
 
 struct FitResult {

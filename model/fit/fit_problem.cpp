@@ -8,6 +8,7 @@
 namespace choreo {
 namespace {
 
+constexpr double kHingePlane = 0.2;  // radians of a hinge's axis from the plane of a bent limb
 // Damping grows with each step that is refused; beyond the most, steps are too short to matter.
 constexpr double kFirstDamping = 1e-4;
 constexpr double kMostDamping = 1e2;
@@ -19,7 +20,7 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
     : skeleton_(skeleton),
       marks_(skeleton, mapping),
       landmark_term_(skeleton_, marks_, mapping.accuracy_m),
-      hinge_term_(skeleton_, marks_, options.hinge_plane_rad),
+      hinge_term_(skeleton_, marks_, kHingePlane),
       joint_term_(skeleton_, options, fps),
       start_(skeleton_, marks_, hinge_term_.planes()) {
   const int unknowns = 3 + 3 * skeleton_.joints();

@@ -89,7 +89,7 @@ void FitStart::Start(const Eigen::Matrix3Xd& targets, Pose& pose) const {
           (targets.col(hinge.end_mark) - targets.col(hinge.hinge_mark)).normalized();
       const Eigen::Vector3d plane = upper.cross(lower);
       // A nearly straight limb whose plane says that it bends backwards is noise.
-      const bool plausible = plane.norm() > 0.3 || plane.dot(carried * hinge.axis) > 0;
+      const bool plausible = plane.norm() > kSineOfSureBend || plane.dot(carried * hinge.axis) > 0;
       if (plausible) correlation += 0.05 * plane * hinge.axis.transpose();
     }
     turns[joint] = told ? NearestRotation(correlation) : carried;

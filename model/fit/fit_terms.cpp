@@ -8,10 +8,7 @@
 namespace choreo {
 namespace {
 
-// Knees and elbows: least bend that is asked for, and the most that a body allows.
-constexpr double kLeastBend = 0.03;
-constexpr double kMostBend = 2.7;
-constexpr double kSineOfSureBend = 0.3;
+constexpr double kLeastBend = 0.03;  // radians, of knees and elbows
 // Radians that no hinge is bent backwards.
 constexpr double kMostShortWay = 2;
 
@@ -166,7 +163,7 @@ Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
 // By how much a hinge is bent less than straight, below zero, or more than a body allows, above it.
 double JointTerm::Prior::Beyond(const Eigen::Vector3d& turn) const {
   const double bend = hinge_axis.dot(turn);
-  return std::min(0.0, bend - kLeastBend) + std::max(0.0, bend - kMostBend);
+  return std::min(0.0, bend - kLeastBend) + std::max(0.0, bend - kMostHingeBend);
 }
 
 void JointTerm::AddCost(const Pose& pose, const FitNeighbours& neighbours, double* cost) const {

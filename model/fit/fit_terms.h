@@ -51,6 +51,8 @@ class LandmarkTerm {
   double accuracy_m_;
 };
 
+inline constexpr double kSineOfSureBend = 0.3;  ///< of a limb that is bent, whatever noise there is
+
 /// A bent limb's plane tells where its hinge axis points, which fixes the twist of the bone above.
 struct HingePlane {
   int upper_joint;

@@ -9,6 +9,7 @@
 namespace choreo {
 namespace {
 
+constexpr int kFirstIterations = 60;  // of a frame without a predecessor
 // Root mean square distance of the landmarks at which a warm start is taken for lost.
 constexpr double kLostDistance = 0.04;
 // Radians that no trunk turns. One that does is wound up: hips and shoulders are where they belong,
@@ -32,7 +33,7 @@ const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets, const Pose* af
   }
   if (!has_previous_) {
     problem_->Start(targets, pose_);
-    problem_->Solve(targets, {}, options_.first_iterations, pose_);
+    problem_->Solve(targets, {}, kFirstIterations, pose_);
   } else {
     previous_ = pose_;
     const FitNeighbours neighbours = {.before = &previous_, .after = after};
@@ -51,7 +52,7 @@ const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets, const Pose* af
 void PositionFitter::Recover(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
                              double distance) {
   problem_->Start(targets, fresh_);
-  const double again = problem_->Solve(targets, {}, options_.first_iterations, fresh_);
+  const double again = problem_->Solve(targets, {}, kFirstIterations, fresh_);
   const bool unwound = problem_->TrunkTurn(pose_) > kWoundTurn &&
                        problem_->TrunkTurn(fresh_) < kWoundTurn &&
                        again < std::max(distance, kLostDistance);

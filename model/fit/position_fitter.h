@@ -18,10 +18,8 @@ struct FitOptions {
   double foot_turn_rad = 0.35;     ///< of ankles about the shin
   double hinge_side_rad = 0.35;    ///< knees and elbows off their hinge axis
   double hinge_limit_rad = 0.006;  ///< knees and elbows beyond straight
-  double hinge_plane_rad = 0.2;    ///< of the hinge axis from the plane of a bent limb
   double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
   int iterations = 3;              ///< per warm-started frame
-  int first_iterations = 60;       ///< of a frame without a predecessor
   bool recover = true;             ///< begin anew where the fit is lost, even if that jumps
   bool ground = true;              ///< FitClip alone: bring the body down to the floor
 };

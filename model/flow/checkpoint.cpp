@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "model/flow/random_checkpoint.h"
-
 namespace choreo {
 namespace {
 
@@ -53,13 +51,6 @@ void ImportTensors(const Safetensors& content, const std::string& prefix,
     ImportTensor(content, prefix + item.key(), item.value());
 }
 
-void FillZeros(torch::nn::Module* module) {
-  torch::NoGradGuard no_grad;
-  for (auto& parameter : module->parameters()) {
-    if (!parameter.any().item<bool>()) parameter.copy_(0.05 * torch::randn_like(parameter));
-  }
-}
-
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card) {
   Safetensors content;
@@ -76,18 +67,6 @@ Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) 
   const CheckpointFile file(content, name, kFormat);
   file.Get<NoFormerFlow>("config");
   return TakeUp<FlowModel, FlowConfig>(file, content);
-}
-
-void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,
-                           const Skeleton& skeleton, uint64_t seed) {
-  torch::manual_seed(seed);
-  FlowModel model(config, skeleton);
-  FillZeros(model.get());
-  model->SetFeatureNormalisation(0.05 * torch::randn({model->feature_width()}),
-                                 0.02 + 0.1 * torch::rand({model->feature_width()}));
-  model->SetAudioNormalisation(torch::randn({config.audio_features}),
-                               1 + torch::rand({config.audio_features}));
-  SaveCheckpoint(path, model, {{"licence", "none: random weights"}});
 }
 
 }  // namespace choreo

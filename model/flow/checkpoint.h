@@ -50,7 +50,4 @@ CheckpointOf<Model> TakeUp(const CheckpointFile& file, const Safetensors& conten
   return checkpoint;
 }
 
-/// Gives what starts as zero, and would hide everything before it, random values.
-void FillZeros(torch::nn::Module* module);
-
 }  // namespace choreo

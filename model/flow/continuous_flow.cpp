@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "model/flow/flow_tokens.h"
-#include "model/flow/random_checkpoint.h"
 #include "model/flow/time_attention.h"
 
 namespace choreo {
@@ -29,8 +28,8 @@ class FlowBlockImpl : public torch::nn::Module {
     mlp_norm_ = register_module("mlp_norm", norm());
     qkv_ = register_module("qkv", torch::nn::Linear(width, 3 * width));
     out_ = register_module("out", torch::nn::Linear(width, width));
-    up_ = register_module("up", torch::nn::Linear(width, 3 * width));
-    down_ = register_module("down", torch::nn::Linear(3 * width, width));
+    up_ = register_module("up", torch::nn::Linear(width, kMlpRatio * width));
+    down_ = register_module("down", torch::nn::Linear(kMlpRatio * width, width));
     modulation_ = register_module("modulation", torch::nn::Linear(condition, 6 * width));
     torch::nn::init::zeros_(modulation_->weight);
     torch::nn::init::zeros_(modulation_->bias);
@@ -92,11 +91,11 @@ class Bfloat16Products {
   bool before_;
 };
 
-// Each frame less the one before; the first has none.
-Tensor Steps(const Tensor& poses) {
-  const Tensor steps =
-      poses.narrow(1, 1, poses.size(1) - 1) - poses.narrow(1, 0, poses.size(1) - 1);
-  return torch::cat({torch::zeros_like(poses.narrow(1, 0, 1)), steps}, 1);
+// One window's, of [batch, w, features] → [features, w].
+Eigen::MatrixXf RowOf(const Tensor& batch, int64_t row) {
+  const Tensor one = batch[row].detach().cpu().contiguous();
+  return Eigen::Map<const Eigen::MatrixXf>(one.data_ptr<float>(), one.size(-1),
+                                           one.numel() / one.size(-1));
 }
 
 Eigen::MatrixXd ToEigen(const Tensor& tensor) {
@@ -179,13 +178,15 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
                                    const Tensor& mean, const Tensor& frames, const Tensor& whole,
                                    const Tensor& t) {
   const int64_t batch = z.size(0), window = z.size(1), dimensions = z.size(2);
-  const int64_t tau = poses.size(1) - window;
-  const Tensor silent = torch::zeros({batch, tau, dimensions}, z.options());
-  Tensor x = torch::cat({torch::cat({silent, z}, 1), poses / spread_, Steps(poses) / velocity_,
-                         mean / spread_, Steps(mean) / velocity_, frames, joints / kBodyReach},
-                        -1);
-  // An odd frame out stands in front, where history is oldest.
-  if (x.size(1) % kFramesAToken != 0) x = torch::cat({x.narrow(1, 0, 1), x}, 1);
+  const Eigen::VectorXf spread = RowOf(spread_.unsqueeze(0), 0),
+                        velocity = RowOf(velocity_.unsqueeze(0), 0);
+  std::vector<Tensor> windows;  // data all, so nothing is learnt through them
+  for (int64_t row = 0; row < batch; ++row) {
+    const Eigen::MatrixXf seen = FlowTokens(RowOf(z, row), RowOf(poses, row), RowOf(joints, row),
+                                            RowOf(mean, row), RowOf(frames, row), spread, velocity);
+    windows.push_back(TimeFirst(seen).clone());
+  }
+  Tensor x = torch::cat(windows).to(z.device());
   const int64_t tokens = x.size(1) / kFramesAToken;
 
   const Tensor condition = torch::silu(
@@ -282,17 +283,6 @@ std::string SaveContinuousFlow(const std::filesystem::path& path, const Continuo
                                Safetensors weights, const nlohmann::json& card) {
   return WriteCheckpointFile(path, std::move(weights), kFormat, model->config(), model->skeleton(),
                              card);
-}
-
-void WriteRandomContinuousFlow(const std::filesystem::path& path,
-                               const ContinuousFlowConfig& config, const Skeleton& skeleton,
-                               uint64_t seed) {
-  torch::manual_seed(seed);
-  ContinuousFlow model(config, skeleton);
-  FillZeros(model.get());
-  Safetensors weights;
-  ExportTensors(*model, "", &weights);
-  SaveContinuousFlow(path, model, std::move(weights), {{"licence", "none: random weights"}});
 }
 
 }  // namespace choreo

@@ -39,6 +39,9 @@ struct FlowConfig {
   double history_noise =
       0.0;  ///< standard deviation added to past frames in training, in standardised units
 
+  /// Numbers of music that a frame is made of: the rows of its past, and its own.
+  int HeardWidth() const { return (history_frames + 1) * audio_features; }
+
   /// `paper` | `ablation`. Throws Error(kInvalidArgument) for another name.
   static FlowConfig Preset(const std::string& name);
 };

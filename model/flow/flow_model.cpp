@@ -7,6 +7,7 @@
 #include "model/flow/key_condition.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/pose_codec.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 
@@ -28,7 +29,7 @@ FlowModelImpl::FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton)
   audio_mean_ = register_buffer("audio_mean", torch::zeros({config.audio_features}));
   audio_std_ = register_buffer("audio_std", torch::ones({config.audio_features}));
   const int past = config.history_frames * width_;
-  const int audio = (config.history_frames + 1) * config.audio_features + 1;
+  const int audio = config.HeardWidth() + 1;
   const int fixed = key_width();
   int condition = past + audio + fixed;
   if (config.condition_width > 0) {
@@ -44,24 +45,28 @@ FlowModelImpl::FlowModelImpl(const FlowConfig& config, const Skeleton& skeleton)
 int FlowModelImpl::key_width() const { return KeyConditionWidth(skeleton_.joints(), width_); }
 
 Tensor FlowModelImpl::Begin(const TransitionTensors& transition) {
-  const int64_t batch = transition.target_position.size(0), frames = transition.frames;
-  const int64_t joints = skeleton_.joints();
-  const Tensor mask =
-      config_.keys ? transition.target_mask : torch::zeros_like(transition.target_mask);
-  const Tensor present = mask.amax(1, true);  // [batch, 1]
-  const Tensor key = torch::cat(
-      {transition.target_position * mask.narrow(1, joints, 1),
-       (SixDBatch(transition.target_rotation) * mask.narrow(1, 0, joints).unsqueeze(-1)).flatten(1),
-       mask},
-      1);
-  const Tensor since = torch::arange(frames, mask.options());
-  const Tensor count = config_.forward_embedding ? since : (frames - 1) - since;
-  const Tensor embedding =
-      TimeEmbedding(count, width_).unsqueeze(0).expand({batch, frames, width_});
-  return Encode(torch::cat(
-      {key.unsqueeze(1).expand({batch, frames, key.size(1)}),
-       config_.time_embedding ? embedding * present.unsqueeze(1) : torch::zeros_like(embedding)},
-      -1));
+  const auto here = [](const Tensor& tensor) {
+    return tensor.detach().to(torch::kCPU, torch::kFloat64).contiguous();
+  };
+  const Tensor places = here(transition.target_position), turns = here(transition.target_rotation),
+               masks = here(transition.target_mask);
+  const int joints = skeleton_.joints();
+  const Tensor conditions = torch::empty({places.size(0), transition.frames, key_width()});
+  for (int64_t row = 0; row < places.size(0); ++row) {
+    const double* turn = turns.data_ptr<double>() + row * 9 * joints;
+    const double* asked = masks.data_ptr<double>() + row * (joints + 1);
+    Pose key{Eigen::Vector3d(places.data_ptr<double>() + row * 3), Eigen::Matrix3Xd(3, joints)};
+    PoseMask mask{.root_position = asked[joints] > 0, .joints = {}};
+    for (int j = 0; j < joints; ++j) {
+      using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+      key.rotations.col(j) = LogMap(Eigen::Map<const Matrix>(turn + 9L * j));
+      mask.joints.push_back(asked[j] > 0);
+    }
+    const int frames = static_cast<int>(transition.frames);
+    Eigen::Map<Eigen::MatrixXf>(conditions[row].data_ptr<float>(), key_width(), frames) =
+        KeyConditions(config_, joints, width_, frames, &key, mask);
+  }
+  return Encode(conditions.to(transition.target_position.device()));
 }
 
 Tensor FlowModelImpl::Encode(const Tensor& conditions) {

@@ -8,6 +8,7 @@
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
+#include "model/motion/resample.h"
 
 namespace choreo {
 namespace {
@@ -24,7 +25,8 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
 }
 
 // Says how lively the parts are that nobody asks for: as dancers may be there, all along.
-void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, WindowRequest* request) {
+void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const FlowWindow& window,
+                  WindowRequest* request) {
   if (request->energy.cols() == 0) {
     request->energy = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
     request->asked.fill(false);
@@ -34,7 +36,7 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, WindowReq
   FillNormal(noise.seed, noise.candidate, noise.first_frame, normal);
   EnergyPrior::Levels levels;
   std::copy(normal.end() - kBodyParts, normal.end(), levels.begin());
-  levels = model.energy.Sample(KnownOfEnergy(model, *request),
+  levels = model.energy.Sample(KnownOfEnergy(model, *request, window),
                                std::min(noise.temperature, 1.0) * levels);
   for (size_t part = 0; part < request->asked.size(); ++part) {
     if (request->asked[part]) continue;
@@ -42,16 +44,6 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, WindowReq
     request->energy.row(row).setConstant(
         EnergyFactor(levels[row], model.config.median_factors[part]));
     request->asked[part] = true;
-  }
-}
-
-// Joint positions of each pose, by column.
-void PlaceJoints(const Skeleton& skeleton, std::span<const Pose> poses,
-                 Eigen::Ref<Eigen::MatrixXf> joints) {
-  JointPlacement placement;
-  for (size_t i = 0; i < poses.size(); ++i) {
-    ForwardKinematics(skeleton, poses[i], placement);
-    joints.col(static_cast<int>(i)) = placement.positions.reshaped().cast<float>();
   }
 }
 
@@ -77,48 +69,55 @@ class Field {
  public:
   Field(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
         const FlowWindow& window)
-      : model_(model),
-        network_(network),
-        window_(window),
-        guidance_(request.beats.empty() ? 1 : model.config.beat_guidance) {
+      : model_(model), network_(network), window_(window) {
     const auto tau = static_cast<Eigen::Index>(request.history.size());
     mean_.resize(model.prior.dimensions(), tau + window.frames());
     mean_ << window.history().cast<float>(), window.mean().cast<float>();
     poses_ = mean_;
     joints_.resize(3 * model.skeleton.joints(), mean_.cols());
-    PlaceJoints(model.skeleton, request.history, joints_.leftCols(tau));
-    const auto describe = [&] {
-      return DescribeWindow(model.skeleton, model.config, model.prior, request, window);
-    };
-    features_ = describe();
-    // What the network says without beats, for guidance: nothing else reads them.
+    for (Eigen::Index i = 0; i < tau; ++i) {
+      const Pose& pose = request.history[static_cast<size_t>(i)];
+      joints_.col(i) = JointPositions(model.skeleton, pose).reshaped().cast<float>();
+    }
+    const double beats = request.beats.empty() ? 1 : model.config.beat_guidance;
+    Look(request, beats);
     request.beats.clear();
-    if (guidance_ != 1) unheard_ = describe();
+    if (beats != 1) Look(request, 1 - beats);
   }
 
   // Where the flow stands at `angle`: z = size (cos noise + sin motion), size = 1 / (cos + sin).
   Eigen::MatrixXd At(const Eigen::MatrixXd& w, double angle) {
     const double size = 1 / (std::cos(angle) + std::sin(angle));
+    const auto t = static_cast<float>(size * std::sin(angle));
     const Eigen::MatrixXd z = size * w;
     const Eigen::MatrixXd x = window_.Colour(z);
     poses_.rightCols(x.cols()) = (window_.mean() + x).cast<float>();
-    PlaceJoints(model_.skeleton, window_.Decode(x), joints_.rightCols(x.cols()));
-    const auto f = [&](const WindowFeatures& of) -> Eigen::MatrixXd {
-      const auto t = static_cast<float>(size * std::sin(angle));
-      return network_.Evaluate(z.cast<float>(), poses_, joints_, mean_, of, t).cast<double>();
-    };
-    if (!unheard_) return f(features_);
-    return guidance_ * f(features_) - (guidance_ - 1) * f(*unheard_);
+    joints_.rightCols(x.cols()) = window_.PlaceJoints(model_.skeleton, x);
+    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(z.rows(), z.cols());
+    for (const View& view : views_) {
+      f +=
+          view.weight * network_.Evaluate(z.cast<float>(), poses_, joints_, mean_, view.features, t)
+                            .cast<double>();
+    }
+    return f;
   }
 
  private:
+  // What the network is told, and what its answer counts.
+  struct View {
+    WindowFeatures features;
+    double weight;
+  };
+  void Look(const WindowRequest& request, double weight) {
+    views_.push_back(
+        {DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window_), weight});
+  }
+
   const FlowModelParts& model_;
   const FlowNetwork& network_;
   const FlowWindow& window_;
-  double guidance_;
   Eigen::MatrixXf mean_, poses_, joints_;
-  WindowFeatures features_;
-  std::optional<WindowFeatures> unheard_;
+  std::vector<View> views_;
 };
 
 // Whether a key says where limbs are: all but hands and feet, whose joints carry one other at most.
@@ -151,12 +150,13 @@ Eigen::MatrixXd Solve(Field* field, const KnownPath& known, const Eigen::MatrixX
 
 }  // namespace
 
-EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request) {
+EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
+                                 const FlowWindow& window) {
   const auto level = [&](size_t part, double factor) {
     return EnergyLevel(factor, model.config.median_factors[part]);
   };
   EnergyPrior::Known known{.key = request.key.has_value(),
-                           .surprise = FlowWindow(model.prior, request).surprise(),
+                           .surprise = window.surprise(),
                            .frames = request.frames,
                            .style = request.style};
   const auto factors = MeanVelocityFactors(model.skeleton, request.history);
@@ -181,10 +181,14 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   return known;
 }
 
-std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
-                               WindowRequest request, const FlowNoise& noise) {
-  FillInEnergy(model, noise, &request);
-  const FlowWindow window(model.prior, request);
+namespace {
+
+// A way through the window, as the network sees it from one side.
+std::vector<Pose> Sample(const FlowModelParts& model, const FlowNetwork& network,
+                         WindowRequest request, const FlowNoise& noise) {
+  FlowWindow window(model.prior, request);
+  FillInEnergy(model, noise, window, &request);
+  window.SetEnergy(model.prior, request);
   const KnownPath known(request, window);
   const double temperature = std::min(noise.temperature, kMaxFlowTemperature);
   const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window.frames());
@@ -197,6 +201,21 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
   Eigen::MatrixXd x = window.Colour(w);
   for (const int axis : known.axes) x.row(axis) = known.x.row(axis);
   return window.Decode(x);
+}
+
+}  // namespace
+
+std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
+                               WindowRequest request, const FlowNoise& noise) {
+  if (noise.temperature > 0) return Sample(model, network, std::move(request), noise);
+  // The mean way is the mirror image of the mirrored request's. A network is not quite as
+  // symmetric: both of its answers are nearer together to the truth than each alone.
+  const std::vector<int> pairs = MirrorPairs(model.skeleton);
+  const std::vector<Pose> other = Sample(model, network, Mirror(pairs, request), noise);
+  std::vector<Pose> way = Sample(model, network, std::move(request), noise);
+  for (size_t i = 0; i < way.size(); ++i)
+    way[i] = InterpolatePoses(way[i], Mirror(pairs, other[i]), 0.5);
+  return way;
 }
 
 std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,

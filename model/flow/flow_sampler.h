@@ -46,8 +46,9 @@ struct FlowNoise {
   double temperature = 0;
 };
 
-/// What of a window says how lively it may be.
-EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request);
+/// What of a window, which is the request's, says how lively it may be.
+EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
+                                 const FlowWindow& window);
 
 /// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +
 /// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) and the

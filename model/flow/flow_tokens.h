@@ -8,6 +8,7 @@ namespace choreo {
 
 inline constexpr int kFramesAToken = 2;
 inline constexpr int kMostTokensApart = 64;  ///< farther ones are told apart no more
+inline constexpr int kMlpRatio = 3;          ///< a block's hidden width over its width
 inline constexpr int kFlowTimeWidth = 32;    ///< of the flow's embedded time
 inline constexpr float kBodyReach = 0.3F;    ///< metres: the spread of joints about the body
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -50,6 +51,30 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
   if (energy.cols() > 0) part.energy = energy.middleCols(from, count);
   if (stage) part.stage = ground.ToLocal(*stage);
   return part;
+}
+
+WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request) {
+  WindowRequest mirrored = request;
+  for (Pose& pose : mirrored.history) pose = Mirror(pairs, pose);
+  if (request.key) mirrored.key = Mirror(pairs, *request.key);
+  for (size_t joint = 0; joint < request.mask.joints.size(); ++joint)
+    mirrored.mask.joints[joint] = request.mask.joints[static_cast<size_t>(pairs[joint])];
+  // A rotation vector keeps what lies across the mirror, a place turns that alone.
+  if (request.turning) mirrored.turning->tail<2>() *= -1;
+  if (request.path.cols() > 0) mirrored.path.row(0) *= -1;
+  if (request.stage) mirrored.stage->x() *= -1;
+  for (const auto& [left, right] : {std::pair(BodyPart::kLeftArm, BodyPart::kRightArm),
+                                    std::pair(BodyPart::kLeftLeg, BodyPart::kRightLeg)}) {
+    const auto l = static_cast<size_t>(left), r = static_cast<size_t>(right);
+    std::swap(mirrored.asked[l], mirrored.asked[r]);
+    if (request.energy.cols() > 0) {
+      mirrored.energy.row(static_cast<Eigen::Index>(l)) =
+          request.energy.row(static_cast<Eigen::Index>(r));
+      mirrored.energy.row(static_cast<Eigen::Index>(r)) =
+          request.energy.row(static_cast<Eigen::Index>(l));
+    }
+  }
+  return mirrored;
 }
 
 std::array<std::optional<double>, kBodyParts> LevelsOf(
@@ -130,9 +155,19 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
     mean_.row(d) = (bridge.past * velocity.row(d).transpose() + bridge.key * way[d]).transpose();
   }
   if (known > 0) surprise_ = squares / known;
-  scales_ = prior.Scales(surprise_, LevelsOf(request, prior.powers().medians));
+  SetEnergy(prior, request);
   base_.resize(static_cast<size_t>(request.frames), last);
-  for (int i = 0; i < request.frames; ++i) Go(mean_.col(i), &base_[static_cast<size_t>(i)]);
+  base_matrices_.resize(3, 3L * joints * request.frames);
+  for (int i = 0; i < request.frames; ++i) {
+    Pose& pose = base_[static_cast<size_t>(i)];
+    Go(mean_.col(i), &pose);
+    for (int j = 0; j < joints; ++j)
+      base_matrices_.middleCols<3>(3L * (i * joints + j)) = ExpMap(pose.rotations.col(j));
+  }
+}
+
+void FlowWindow::SetEnergy(const MotionPrior& prior, const WindowRequest& request) {
+  scales_ = prior.Scales(surprise_, LevelsOf(request, prior.powers().medians));
 }
 
 std::optional<Eigen::MatrixXd> FlowWindow::Encode(std::span<const Pose> poses) const {
@@ -156,12 +191,33 @@ std::vector<Pose> FlowWindow::Decode(const Eigen::MatrixXd& x) const {
   return poses;
 }
 
-Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
-  Eigen::MatrixXd x(z.rows(), z.cols());
-  for (int d = 0; d < z.rows(); ++d) {
-    x.row(d) = (At(d).spread.triangularView<Eigen::Lower>() * z.row(d).transpose()).transpose();
+Eigen::MatrixXf FlowWindow::PlaceJoints(const Skeleton& skeleton, const Eigen::MatrixXd& x) const {
+  const int joints = skeleton.joints();
+  Eigen::MatrixXf places(3 * joints, frames());
+  Eigen::Matrix3Xd local(3, 3 * joints);
+  JointPlacement placement;
+  for (int i = 0; i < frames(); ++i) {
+    for (int j = 0; j < joints; ++j) {
+      local.middleCols<3>(3 * j).noalias() = base_matrices_.middleCols<3>(3L * (i * joints + j)) *
+                                             ExpMap(x.col(i).segment<3>(3 + 3 * j));
+    }
+    const Eigen::Vector3d root = base_[static_cast<size_t>(i)].root_position + x.col(i).head<3>();
+    ForwardKinematics(skeleton, root, local, placement);
+    places.col(i) = placement.positions.reshaped().cast<float>();
   }
-  return scales_.asDiagonal() * x;
+  return places;
+}
+
+Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
+  const Eigen::MatrixXd by_time = z.transpose();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(z.cols(), z.rows());
+  for (int d = 0; d < z.rows(); ++d) {
+    // By columns this takes half as long as Eigen's product with a triangle.
+    const Eigen::MatrixXd& spread = At(d).spread;
+    for (Eigen::Index i = 0, left = z.cols(); i < z.cols(); ++i, --left)
+      x.col(d).tail(left) += by_time(i, d) * spread.col(i).tail(left);
+  }
+  return scales_.asDiagonal() * x.transpose();
 }
 
 Eigen::VectorXd FlowWindow::Whiten(int dimension, const Eigen::VectorXd& x) const {

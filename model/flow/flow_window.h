@@ -9,6 +9,7 @@
 
 #include "model/flow/motion_prior.h"
 #include "model/motion/canonical.h"
+#include "model/motion/mirror.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
@@ -45,6 +46,9 @@ struct WindowRequest {
   bool StageCounts() const { return stage && path.cols() == 0 && !(key && mask.root_position); }
 };
 
+/// The same of a dancer whose left is its right, who stands in the mirrored canonical frame.
+WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request);
+
 /// EnergyLevel of the mean factor of each body part that is asked for.
 std::array<std::optional<double>, kBodyParts> LevelsOf(
     const WindowRequest& request, const std::array<double, kBodyParts>& medians);
@@ -76,6 +80,8 @@ class FlowWindow {
   /// MotionPrior::Scales of that and of the energy asked for, [dimensions]: white coordinates are
   /// in their units.
   const Eigen::VectorXd& scales() const { return scales_; }
+  /// Another energy is asked for than the request that it was made of asks for; all else is alike.
+  void SetEnergy(const MotionPrior& prior, const WindowRequest& request);
 
   /// Poses of that many frames → x; none where a joint strays from the mean farther than the
   /// coordinates reach, or ends a turn away from the key.
@@ -83,6 +89,8 @@ class FlowWindow {
   std::vector<Pose> Decode(const Eigen::MatrixXd& x) const;
   /// z → x, and back for one dimension's row.
   Eigen::MatrixXd Colour(const Eigen::MatrixXd& z) const;
+  /// Where `skeleton`'s joints are in Decode(x)'s poses, [3 joints, w].
+  Eigen::MatrixXf PlaceJoints(const Skeleton& skeleton, const Eigen::MatrixXd& x) const;
   Eigen::VectorXd Whiten(int dimension, const Eigen::VectorXd& x) const;
 
  private:
@@ -97,7 +105,8 @@ class FlowWindow {
   Eigen::VectorXd displacement_;
   double surprise_ = 1;
   Eigen::VectorXd scales_;
-  std::vector<Pose> base_;  // the mean, as poses
+  std::vector<Pose> base_;          // the mean, as poses
+  Eigen::Matrix3Xd base_matrices_;  // their local rotations, frame by frame
 };
 
 }  // namespace choreo

@@ -12,8 +12,7 @@ namespace choreo {
 int KeyConditionWidth(int joints, int feature_width);
 
 /// What is known of each of `frames` frames before the first (paper F, Section 3.2.1 and Eq. 9),
-/// [width, frames]. `key`: in the canonical frame; null: nothing is awaited. FlowModel::Begin has
-/// the same of batches.
+/// [width, frames]. `key`: in the canonical frame; null: nothing is awaited.
 Eigen::MatrixXf KeyConditions(const FlowConfig& config, int joints, int feature_width, int frames,
                               const Pose* key, const PoseMask& mask);
 

@@ -47,10 +47,6 @@ Tensor LogMapBatch(const Tensor& r) {
   return torch::where(sine > 1e-6, angle / sine.clamp_min(1e-6), torch::full_like(sine, 2.0)) * v;
 }
 
-Tensor SixDBatch(const Tensor& r) {
-  return torch::cat({r.index({Ellipsis, 0}), r.index({Ellipsis, 1})}, -1);
-}
-
 TorchKinematics::TorchKinematics(const Skeleton& skeleton) {
   const int joints = skeleton.joints();
   std::vector<int64_t> depth(joints, 0), place(joints, 0);

@@ -13,8 +13,6 @@ torch::Tensor ExpMapBatch(const torch::Tensor& w);
 /// [..., 3, 3] → [..., 3], angle in [0, pi]. Its gradient is not defined at 0 and pi: use it on
 /// data, not inside a loss.
 torch::Tensor LogMapBatch(const torch::Tensor& r);
-/// [..., 3, 3] → [..., 6]: the first two columns, stacked.
-torch::Tensor SixDBatch(const torch::Tensor& r);
 
 /// Forward kinematics of one skeleton, level by level of its tree.
 class TorchKinematics {

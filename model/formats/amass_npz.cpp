@@ -53,11 +53,6 @@ Pose FromAmass(const Pose& amass) {
   return pose;
 }
 
-bool HasSmplMotion(const NpzArchive& npz) {
-  return (npz.Has("rotations") && npz.Has("root_positions")) ||
-         (npz.Has("poses") && npz.Has("trans")) || (npz.Has("smpl_poses") && npz.Has("smpl_trans"));
-}
-
 Motion ReadSmplMotion(const NpzArchive& npz) {
   Motion motion;
   if (npz.Has("rotations") && npz.Has("root_positions")) {

@@ -29,9 +29,6 @@ Eigen::Vector3d SmplRestPelvis();
 Pose ToAmass(const Pose& pose);
 Pose FromAmass(const Pose& amass);
 
-/// Whether an archive has the keys of one of the layouts above.
-bool HasSmplMotion(const NpzArchive& npz);
-
 /// SMPL's 24 joints at the file's own rate (AIST++ 60, EDGE 30 where no key `fps` states it); where
 /// several layouts are present, the first of the table counts. Throws Error(kInvalidArgument)
 /// naming the array and its shape, or the keys that are absent.

@@ -14,9 +14,6 @@
 /// thread-safe.
 namespace choreo {
 
-inline constexpr double kVelocityTolerance = 0.01;  ///< delta_v: 1 cm a frame
-inline constexpr double kRootTolerance = 0.07;      ///< delta_r: 7 cm
-
 /// LRP of one transition, Eq. 12: the L2 distance of the root-relative positions of all joints but
 /// the root at once, mean over frames; metres (the paper: cm). Root-relative: less the root's
 /// position, axes the world's.

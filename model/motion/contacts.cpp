@@ -4,9 +4,16 @@
 #include "model/motion/kinematics.h"
 
 namespace choreo {
+namespace {
 
-ContactDetector::ContactDetector(const Skeleton& skeleton, const ContactThresholds& thresholds)
-    : joints_(skeleton.feet), rest_heights_{}, thresholds_(thresholds) {
+// What a foot joint touches down below, and lifts off above: metres, and metres a second (1 cm a
+// frame at 30 fps).
+constexpr double kDownHeight = 0.04, kUpHeight = 0.07, kDownSpeed = 0.30, kUpSpeed = 0.50;
+
+}  // namespace
+
+ContactDetector::ContactDetector(const Skeleton& skeleton)
+    : joints_(skeleton.feet), rest_heights_{} {
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   for (size_t foot = 0; foot < joints_.size(); ++foot) {
     if (joints_[foot] < 0) {
@@ -24,19 +31,18 @@ const Contacts& ContactDetector::Next(const Eigen::Matrix3Xd& earlier,
     const double height = later(1, joint) - rest_heights_[foot];
     const double speed = (later.col(joint) - earlier.col(joint)).norm() * fps;
     const bool was_down = contacts_[foot] >= 0.5F;
-    const double height_limit = was_down ? thresholds_.up_height_m : thresholds_.down_height_m;
-    const double speed_limit = was_down ? thresholds_.up_speed : thresholds_.down_speed;
+    const double height_limit = was_down ? kUpHeight : kDownHeight;
+    const double speed_limit = was_down ? kUpSpeed : kDownSpeed;
     contacts_[foot] = height <= height_limit && speed <= speed_limit ? 1.0F : 0.0F;
   }
   return contacts_;
 }
 
-std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& motion,
-                                     const ContactThresholds& thresholds) {
+std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& motion) {
   std::vector<Contacts> contacts;
   if (motion.frames.empty()) return contacts;
   contacts.reserve(motion.frames.size());
-  ContactDetector detector(skeleton, thresholds);
+  ContactDetector detector(skeleton);
   JointPlacement earlier = ForwardKinematics(skeleton, motion.frames.front());
   JointPlacement later = earlier;
   if (motion.frames.size() > 1) {

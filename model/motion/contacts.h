@@ -13,22 +13,13 @@ namespace choreo {
 /// on the floor, 0 off it. A model's may lie in between.
 using Contacts = std::array<float, 4>;
 
-/// A foot joint touches down when it is both lower and slower than the first pair, and stays down
-/// until it is higher or faster than the second. Heights are above the joint's own height in the
-/// rest pose, so an ankle and a toe share them.
-struct ContactThresholds {
-  double down_height_m = 0.04;
-  double up_height_m = 0.07;
-  double down_speed = 0.30;  ///< m/s: 1 cm a frame at 30 fps
-  double up_speed = 0.50;    ///< m/s
-};
-
-/// Contacts frame by frame; holds the hysteresis. A frame's contacts depend on it and the frames
-/// before it. Not thread-safe.
+/// Contacts frame by frame. A foot joint touches down when it is both low and slow, and stays down
+/// until it is higher or faster than that by half: a frame's contacts depend on it and the frames
+/// before it. Heights are above the joint's own in the rest pose. Not thread-safe.
 class ContactDetector {
  public:
   /// Throws Error(kInvalidArgument) if the skeleton lacks a foot joint.
-  explicit ContactDetector(const Skeleton& skeleton, const ContactThresholds& thresholds = {});
+  explicit ContactDetector(const Skeleton& skeleton);
 
   /// Joint positions of two consecutive frames, [3, joints].
   const Contacts& Next(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later, double fps);
@@ -40,13 +31,11 @@ class ContactDetector {
  private:
   std::array<int, 4> joints_;
   std::array<double, 4> rest_heights_;
-  ContactThresholds thresholds_;
   Contacts contacts_ = {};
 };
 
 /// Contacts of every frame. The first frame takes its speed from the step that follows it; a single
 /// frame counts as standing still.
-std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& motion,
-                                     const ContactThresholds& thresholds = {});
+std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& motion);
 
 }  // namespace choreo

@@ -32,8 +32,6 @@ std::optional<Hinge> HingeAt(const Skeleton& skeleton, int joint) {
 
 }  // namespace
 
-int AngleCount(const Skeleton& skeleton, int joint) { return HingeAt(skeleton, joint) ? 1 : 3; }
-
 AngleRange RangeOf(const Skeleton& skeleton, int joint) {
   if (HingeAt(skeleton, joint)) return {0, kMostBend};
   const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];

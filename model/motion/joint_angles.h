@@ -21,9 +21,6 @@ struct AngleRange {
   double high = 0;
 };
 
-/// How many numbers a joint takes: 1 for a hinge, else 3.
-int AngleCount(const Skeleton& skeleton, int joint);
-
 AngleRange RangeOf(const Skeleton& skeleton, int joint);
 
 /// The index of a joint by name. Throws Error(kInvalidArgument) that names those that there are.

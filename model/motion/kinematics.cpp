@@ -7,6 +7,27 @@
 #include "model/motion/rotation.h"
 
 namespace choreo {
+namespace {
+
+// `local(joint)`: its rotation matrix.
+template <typename Local>
+void Place(const Skeleton& skeleton, const Eigen::Vector3d& root, const Local& local,
+           JointPlacement& placement) {
+  const int joints = skeleton.joints();
+  placement.positions.resize(3, joints);
+  placement.rotations.resize(joints);
+  placement.positions.col(0) = root;
+  placement.rotations[0] = local(0);
+  for (int joint = 1; joint < joints; ++joint) {
+    const int parent = skeleton.parents[joint];
+    const Eigen::Matrix3d& frame = placement.rotations[parent];
+    placement.positions.col(joint) =
+        placement.positions.col(parent) + frame * skeleton.offsets.col(joint);
+    placement.rotations[joint].noalias() = frame * local(joint);
+  }
+}
+
+}  // namespace
 
 void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement) {
   const int joints = skeleton.joints();
@@ -15,17 +36,15 @@ void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacemen
                                                 " joints, the skeleton '" + skeleton.name +
                                                 "' has " + std::to_string(joints));
   }
-  placement.positions.resize(3, joints);
-  placement.rotations.resize(joints);
-  placement.positions.col(0) = pose.root_position;
-  placement.rotations[0] = ExpMap(pose.rotations.col(0));
-  for (int joint = 1; joint < joints; ++joint) {
-    const int parent = skeleton.parents[joint];
-    const Eigen::Matrix3d& frame = placement.rotations[parent];
-    placement.positions.col(joint) =
-        placement.positions.col(parent) + frame * skeleton.offsets.col(joint);
-    placement.rotations[joint].noalias() = frame * ExpMap(pose.rotations.col(joint));
-  }
+  Place(
+      skeleton, pose.root_position, [&](int j) { return ExpMap(pose.rotations.col(j)); },
+      placement);
+}
+
+void ForwardKinematics(const Skeleton& skeleton, const Eigen::Vector3d& root,
+                       const Eigen::Ref<const Eigen::Matrix3Xd>& local, JointPlacement& placement) {
+  Place(
+      skeleton, root, [&](int j) { return local.middleCols<3>(3 * j); }, placement);
 }
 
 JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose) {

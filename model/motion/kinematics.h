@@ -24,6 +24,9 @@ Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose);
 
 /// The same without allocation where `placement` already has the skeleton's size.
 void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement);
+/// The same of local rotation matrices, [3, 3 joints], one joint after another.
+void ForwardKinematics(const Skeleton& skeleton, const Eigen::Vector3d& root,
+                       const Eigen::Ref<const Eigen::Matrix3Xd>& local, JointPlacement& placement);
 
 /// How far apart two poses are: the largest joint distance (metres) and the largest angle of a
 /// local joint rotation (degrees). Degrees of freedom outside `mask` do not count: without the

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kUnderFloor = 0.05;  // metres that a rounded pose may be
 constexpr double kHighestJump = 1.2;  // metres that feet are above the floor
-constexpr double kBackwards = 15;     // degrees; more than real limbs, or recordings
 constexpr double kFolded = 165;       // degrees
 constexpr double kInAir = 0.15;       // metres; less may be tiptoe
 constexpr double kLongestJump = 1.0;  // seconds
@@ -67,7 +66,7 @@ std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
     if (!mask.Asks(hinge.joint)) continue;
     const double bend = kDegrees * hinge.axis.dot(pose.rotations.col(hinge.joint));
     const bool backwards = bend < 0;
-    const double limit = backwards ? kBackwards : kFolded;
+    const double limit = backwards ? kBrokenBackwards : kFolded;
     if (std::abs(bend) <= limit) continue;
     faults.push_back(skeleton.joint_names[static_cast<size_t>(hinge.joint)] + " bends " +
                      RoundedBeyond(std::abs(bend), limit) + " degrees" +

@@ -4,6 +4,8 @@
 
 namespace choreo {
 
+inline constexpr double kOnFrame = 1e-6;  ///< frames: closer than this is the frame itself
+
 /// Seconds from the first frame to the last.
 double Duration(const Motion& motion);
 

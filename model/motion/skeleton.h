@@ -73,6 +73,9 @@ struct Hinge {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length
 };
 
+inline constexpr double kMostHingeBend = 2.7;   ///< radians: a calf on its thigh
+inline constexpr double kBrokenBackwards = 15;  ///< degrees: more than real limbs, or recordings
+
 /// Left knee, right knee, left elbow, right elbow: those that the skeleton has.
 std::vector<Hinge> Hinges(const Skeleton& skeleton);
 

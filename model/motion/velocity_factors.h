@@ -30,6 +30,10 @@ std::optional<BodyPart> FindBodyPart(std::string_view name);
 inline constexpr float kMaxVelocityFactor = 10;  ///< a multiplier of a reference
 inline constexpr float kMaxVelocity = 0.5F;      ///< metres a frame
 
+/// What paper C calls done as told (Section 4.3).
+inline constexpr double kVelocityTolerance = 0.01;  ///< delta_v: 1 cm a frame
+inline constexpr double kRootTolerance = 0.07;      ///< delta_r: the root off its path, 7 cm
+
 /// [5, joints]: the share that each joint has in each part's factor. A joint belongs to one part;
 /// every row sums to 1.
 using BodyPartWeights = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;

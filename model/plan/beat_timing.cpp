@@ -12,7 +12,6 @@ namespace {
 constexpr double kAccent = 0.25;      // A: the share of its speed that a dancer gains on a beat
 constexpr double kWholeAccent = 1;    // seconds: shorter transitions, which keys rule, have less
 constexpr double kFastest = 1.0 / 3;  // seconds between beats; faster ones are accented less
-constexpr double kSlowest = 1.5;      // seconds between beats; beyond, the music pauses
 constexpr double kKeyAccent = 0.75;   // gained besides on a key that stands on a beat
 constexpr double kOnBeat = 2.5 / 30;  // seconds between key and beat
 constexpr double kNoKeyAccent = 1, kWholeKeyAccent = 2;  // seconds of a transition
@@ -21,7 +20,7 @@ constexpr double kNoKeyAccent = 1, kWholeKeyAccent = 2;  // seconds of a transit
 
 // How much of an accent beats have that are so many frames apart.
 double BeatTiming::Share(double period) const {
-  return period > kSlowest * fps ? 0 : std::min(1.0, period / (kFastest * fps));
+  return period > kPauseSeconds * fps ? 0 : std::min(1.0, period / (kFastest * fps));
 }
 
 // The shift of time at t, of which Time takes away what the ends have.

@@ -4,6 +4,8 @@
 
 namespace choreo {
 
+inline constexpr double kPauseSeconds = 1.5;  ///< from beat to beat, and the music pauses
+
 /// What of a transition says how its time runs.
 struct BeatTiming {
   std::span<const double> beats;  ///< in frames from frame 0, ascending

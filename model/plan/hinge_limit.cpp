@@ -6,7 +6,6 @@ namespace choreo {
 namespace {
 
 constexpr double kSoftness = 0.03;  // radians of bend, over which a hinge is led to a stop
-constexpr double kFolded = 2.7;     // radians: a calf on its thigh
 
 // As max(0, bend), but smooth.
 double SoftBend(double bend) {
@@ -22,7 +21,7 @@ void LimitHinges(const PlanContext& context, std::vector<Pose>* plan) {
     for (const Hinge& hinge : hinges) {
       auto rotation = pose.rotations.col(hinge.joint);
       const double bend = hinge.axis.dot(rotation);
-      const double possible = kFolded - SoftBend(kFolded - SoftBend(bend));
+      const double possible = kMostHingeBend - SoftBend(kMostHingeBend - SoftBend(bend));
       rotation += (possible - bend) * hinge.axis;
     }
   }

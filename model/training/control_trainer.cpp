@@ -5,6 +5,7 @@
 #include "model/controllers/checkpoint.h"
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
+#include "model/motion/velocity_factors.h"
 #include "model/training/control_clips.h"
 #include "model/training/control_losses.h"
 #include "model/training/trainer.h"
@@ -75,9 +76,11 @@ class ControlRun : public TrainingRun {
       const torch::Tensor factors = FactorsOf(Steps(Join(last, out)), model_->shares());
       const torch::Tensor miss = (factors - batch.transition.factors).abs().mean({1, 2});
       figures.emplace_back("factor_cm_" + n, 100 * miss.mean().item<double>());
-      figures.emplace_back("avf_" + n, (miss < 0.01).to(torch::kFloat).mean().item<double>());
+      figures.emplace_back("avf_" + n,
+                           (miss < kVelocityTolerance).to(torch::kFloat).mean().item<double>());
       const torch::Tensor off = (out.root - batch.truth.root).norm(2, -1).mean(1);
-      figures.emplace_back("art_" + n, (off < 0.07).to(torch::kFloat).mean().item<double>());
+      figures.emplace_back("art_" + n,
+                           (off < kRootTolerance).to(torch::kFloat).mean().item<double>());
       const torch::Tensor heading = SubtractHeadings(out.facing, batch.truth.facing);
       figures.emplace_back(
           "heading_" + n,

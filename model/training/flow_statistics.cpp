@@ -32,7 +32,8 @@ std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
     if (request.key.has_value() != keyed) continue;
     const auto told = LevelsOf(request, model.config.median_factors);
     if (!std::ranges::all_of(told, [](const auto& level) { return level.has_value(); })) continue;
-    LivelyWindow& window = windows.emplace_back(KnownOfEnergy(model, request));
+    LivelyWindow& window =
+        windows.emplace_back(KnownOfEnergy(model, request, FlowWindow(model.prior, request)));
     std::ranges::transform(told, window.levels.begin(), [](const auto& level) { return *level; });
   }
   return windows;

@@ -43,8 +43,7 @@ void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vec
 // which ends in the key, and `stage` stand in the canonical frame.
 WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
                   const Eigen::Vector3d& stage, const ClipTrack& track, int64_t first,
-                  bool mirrored, const WindowClips::Variation& variation, int frames,
-                  Random* random) {
+                  const WindowClips::Variation& variation, int frames, Random* random) {
   WindowRequest request{.frames = frames, .to_key = static_cast<int>(way.size())};
   request.history.assign(history.begin(), history.end());
   if (!(random->Uniform() < variation.no_key)) request.key = way.back();
@@ -59,10 +58,6 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
     request.beats = BeatsFor(track, first, first + frames, random);
   if (random->Uniform() < variation.energy) {
     request.energy = track.energy.middleCols(first, frames);
-    if (mirrored) {
-      request.energy.row(1).swap(request.energy.row(2));
-      request.energy.row(3).swap(request.energy.row(4));
-    }
     if (random->Uniform() < 0.7) {  // as constants
       const Eigen::VectorXd constant = request.energy.rowwise().mean();
       request.energy = constant.replicate(1, frames);
@@ -119,9 +114,6 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     const int64_t from = random->Integer(0, offered(index));
     const bool mirrored = random->Uniform() < variation.mirror;
     std::vector<Pose> poses(track.poses.begin() + from, track.poses.begin() + from + needed);
-    if (mirrored) {
-      for (Pose& pose : poses) pose = Mirror(pairs, pose);
-    }
     if (random->Uniform() < variation.astray)
       LeadAstray(model.prior.covariance().col(0).cwiseSqrt(), tau, random, &poses);
     Eigen::Vector3d turning = Eigen::Vector3d::Zero();
@@ -133,13 +125,15 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     }
     const GroundFrame ground = GroundFrame::Of(poses[tau - 1]);
     for (Pose& pose : poses) pose = ground.ToLocal(pose);
-    Eigen::Vector3d stage = track.stage;
-    if (mirrored) stage.x() = -stage.x();
     const auto way = std::span<const Pose>(poses).subspan(static_cast<size_t>(tau));
     WindowRequest request =
-        Ask(std::span(poses).first(static_cast<size_t>(tau)), way, ground.ToLocal(stage), track,
-            from + tau, mirrored, variation, frames, random);
+        Ask(std::span(poses).first(static_cast<size_t>(tau)), way, ground.ToLocal(track.stage),
+            track, from + tau, variation, frames, random);
     request.turning = turning;
+    if (mirrored) {
+      request = Mirror(pairs, request);
+      for (Pose& pose : poses) pose = Mirror(pairs, pose);
+    }
     result.Add(std::move(request), way.first(static_cast<size_t>(frames)));
   }
   return result.Build();

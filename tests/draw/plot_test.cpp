@@ -20,7 +20,6 @@ Plot Example() {
             .x_label = "step",
             .y_label = "nats",
             .series = {},
-            .log_y = false,
             .width = 640,
             .height = 400};
   PlotSeries falling{.label = "training", .x = {}, .y = {}};
@@ -70,10 +69,6 @@ TEST(Plot, LeavesOutPointsThatAreNoNumbersAndZeroOnALogarithmicAxis) {
   const DecodedPng whole(folder / "whole.png"), gap(folder / "gap.png");
   EXPECT_LT(gap.Count(kFirstLine), whole.Count(kFirstLine) - 100);
   EXPECT_GT(gap.Count(kFirstLine), 50);
-  plot.log_y = true;
-  plot.series[0].y[90] = 0;
-  DrawPlot(plot, folder / "log.png");
-  EXPECT_GT(DecodedPng(folder / "log.png").Count(kFirstLine), 50);
 }
 
 TEST(Plot, IsDrawnEvenOfNothingOrOfOneValue) {

@@ -8,10 +8,10 @@
 #include "model/engine/engines.h"
 #include "model/engine/packed/kernels.h"
 #include "model/flow/flow_sampler.h"
-#include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/random_checkpoints.h"
 
 namespace choreo {
 namespace {

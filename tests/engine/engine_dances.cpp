@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "model/core/random.h"
-#include "model/flow/random_checkpoint.h"
 #include "model/motion/kinematics.h"
+#include "tests/support/random_checkpoints.h"
 
 namespace choreo {
 namespace {

@@ -54,14 +54,9 @@ TEST(Fit, GroundsDriftButNotJumps) {
 TEST(Fit, ReportsWhatItDid) {
   const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 14, 20));
   const FitReport report = FitClip(clip, IdentitySource(Smpl()), Smpl()).report;
-  ASSERT_EQ(report.landmark_names.size(), 24U);
-  ASSERT_EQ(report.landmark_error_m.size(), 24U);
-  double sum = 0;
-  for (const double error : report.landmark_error_m) sum += error;
-  EXPECT_NEAR(sum / 24, report.mean_error_m, 1e-9);
+  EXPECT_GT(report.mean_error_m, 0);
   EXPECT_LE(report.mean_error_m, report.p95_error_m);
-  EXPECT_LE(report.p95_error_m, report.max_error_m);
-  EXPECT_GT(report.max_error_m, 0);
+  EXPECT_LT(report.p95_error_m, 0.02);
 }
 
 TEST(Fit, NamesWhatIsMissing) {

@@ -166,12 +166,75 @@ TEST(FlowWindow, ARootGoesTheWayRoundThatIsExpected) {
   EXPECT_NEAR(NearerWayRound(half, {0, -1, 0}).y(), 3.0 - 2 * M_PI, 1e-12);
 }
 
-TEST(FlowSampler, TheMeanIsOneStepAndNoSeedChangesIt) {
+TEST(FlowWindow, PlacesJointsWhereItsPosesHaveThem) {
+  const Scene scene = MakeScene(30);
+  const FlowModelParts parts = Parts();
+  const FlowWindow window(parts.prior, scene.request);
+  const Eigen::MatrixXd x = 0.3 * Eigen::MatrixXd::Random(parts.prior.dimensions(), 30);
+  const Eigen::MatrixXf places = window.PlaceJoints(parts.skeleton, x);
+  const std::vector<Pose> poses = window.Decode(x);
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Matrix3Xd at = JointPositions(parts.skeleton, poses[static_cast<size_t>(i)]);
+    EXPECT_LT((places.col(i).cast<double>() - at.reshaped()).norm(), 1e-5);
+  }
+}
+
+TEST(WindowRequest, MirroredTwiceIsItself) {
+  WindowRequest request = MakeScene(30).request;
+  request.mask.joints.assign(24, true);
+  request.mask.joints[16] = false;
+  request.turning = Eigen::Vector3d(0.1, 2, -0.3);
+  request.path = Eigen::Matrix3Xd::Random(3, 30);
+  request.energy = Eigen::MatrixXd::Random(kBodyParts, 30).cwiseAbs();
+  request.asked = {true, true, false, false, true};
+  request.stage = Eigen::Vector3d(1, 0, 2);
+  const std::vector<int> pairs = MirrorPairs(Skeleton::Smpl24());
+  const WindowRequest other = Mirror(pairs, request), back = Mirror(pairs, other);
+  EXPECT_FALSE(other.mask.joints[17]);
+  EXPECT_EQ(other.path.row(0), -request.path.row(0));
+  EXPECT_EQ(other.energy.row(1), request.energy.row(2));
+  EXPECT_EQ(other.asked, (std::array{true, false, true, true, false}));
+  EXPECT_EQ(back.mask.joints, request.mask.joints);
+  EXPECT_EQ(back.energy, request.energy);
+  EXPECT_EQ(back.path, request.path);
+  EXPECT_EQ(*back.turning, *request.turning);
+  EXPECT_EQ(*back.stage, *request.stage);
+  EXPECT_EQ(Apart(*back.key, *request.key), 0);
+}
+
+// Has a side that it favours.
+class Lopsided : public Silent {
+ public:
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                           const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
+                           const WindowFeatures& features, float t) const override {
+    Eigen::MatrixXf f = Silent::Evaluate(z, poses, joints, mean, features, t);
+    f.middleRows<3>(3 + 3 * 16).setConstant(0.5F);  // the left arm
+    return f;
+  }
+};
+
+TEST(FlowSampler, TheMeanOfWhatIsMirroredIsItsMirrorImageWhateverTheNetwork) {
+  const Scene scene = MakeScene(30);
+  const FlowModelParts parts = Parts();
+  const std::vector<int> pairs = MirrorPairs(parts.skeleton);
+  const Lopsided network;
+  const auto apart = [&](double temperature) {
+    const auto one = SampleWindow(parts, network, scene.request, {.temperature = temperature});
+    const auto other =
+        SampleWindow(parts, network, Mirror(pairs, scene.request), {.temperature = temperature});
+    return Apart(one[15], Mirror(pairs, other[15]));
+  };
+  EXPECT_LT(apart(0), 1e-9);
+  EXPECT_GT(apart(1), 0.01);
+}
+
+TEST(FlowSampler, TheMeanIsOneStepFromBothSidesAndNoSeedChangesIt) {
   const Scene scene = MakeScene(30);
   const FlowModelParts parts = Parts();
   const Silent network;
   const auto one = SampleWindow(parts, network, scene.request, {.seed = 1});
-  EXPECT_EQ(network.evaluations, 1);
+  EXPECT_EQ(network.evaluations, 2);
   const auto other = SampleWindow(parts, network, scene.request, {.seed = 2});
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(Apart(one[i], other[i]), 0);
 }
@@ -328,20 +391,22 @@ TEST(KnownOfEnergy, TellsTheWayToTheKey) {
   constexpr auto kLeftArm = static_cast<int>(BodyPart::kLeftArm);
   const std::vector<Pose> history(2, RestPose(skeleton));
   WindowRequest request{.frames = 30, .history = history, .to_key = 30};
-  EXPECT_FALSE(KnownOfEnergy(parts, request).way) << "there is no key";
+  EXPECT_FALSE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)
+      << "there is no key";
   request.key = RestPose(skeleton);
-  const EnergyPrior::Known still = KnownOfEnergy(parts, request);
+  const EnergyPrior::Known still = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
   ASSERT_TRUE(still.way && still.way_in_world);
 
   request.key->root_position.x() += 3;
-  const EnergyPrior::Known moved = KnownOfEnergy(parts, request);
+  const EnergyPrior::Known moved = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
   EXPECT_EQ((*moved.way)[kLeftArm], (*still.way)[kLeftArm]);
   EXPECT_GT((*moved.way)[kTrunk], (*still.way)[kTrunk]);
   for (const double level : *moved.way_in_world)
     EXPECT_NEAR(level, std::log((0.1 + 1e-3) / 1e-3), 1e-9) << "ten centimetres a frame";
 
   request.key->rotations(2, skeleton.left_shoulder) = 1;
-  EXPECT_GT((*KnownOfEnergy(parts, request).way)[kLeftArm], (*still.way)[kLeftArm]);
+  EXPECT_GT((*KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)[kLeftArm],
+            (*still.way)[kLeftArm]);
 }
 
 TEST(KnownOfEnergy, TellsNothingOfWhatAKeyLeavesOpen) {
@@ -350,14 +415,16 @@ TEST(KnownOfEnergy, TellsNothingOfWhatAKeyLeavesOpen) {
   const std::vector<Pose> history(2, RestPose(skeleton));
   WindowRequest request{.frames = 30, .history = history, .key = RestPose(skeleton), .to_key = 30};
   request.mask.root_position = false;
-  EXPECT_TRUE(KnownOfEnergy(parts, request).way);
-  EXPECT_FALSE(KnownOfEnergy(parts, request).way_in_world);
+  EXPECT_TRUE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way);
+  EXPECT_FALSE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way_in_world);
 
   request.mask.joints.assign(static_cast<size_t>(skeleton.joints()), true);
   request.mask.joints[static_cast<size_t>(skeleton.Find("left_wrist"))] = false;
-  EXPECT_TRUE(KnownOfEnergy(parts, request).way) << "a hand is nothing";
+  EXPECT_TRUE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)
+      << "a hand is nothing";
   request.mask.joints[static_cast<size_t>(skeleton.Find("left_elbow"))] = false;
-  EXPECT_FALSE(KnownOfEnergy(parts, request).way) << "a forearm is something";
+  EXPECT_FALSE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).way)
+      << "a forearm is something";
 }
 
 }  // namespace

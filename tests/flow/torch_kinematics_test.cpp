@@ -52,10 +52,5 @@ TEST(TorchKinematics, LogInvertsExpFromZeroToNearPi) {
   }
 }
 
-TEST(TorchKinematics, SixDIsTheFirstTwoColumns) {
-  const torch::Tensor r = ExpMapBatch(torch::tensor({0.3, -1.2, 0.7}, torch::kFloat64));
-  EXPECT_TRUE(torch::equal(SixDBatch(r), torch::cat({r.select(1, 0), r.select(1, 1)})));
-}
-
 }  // namespace
 }  // namespace choreo

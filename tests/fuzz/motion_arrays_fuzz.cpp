@@ -46,7 +46,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       const char* key = kKeys[decisions.Byte() % kKeys.size()];
       npz.SetArray(key, MakeArray(decisions));
     }
-    if (HasSmplMotion(npz)) ReadSmplMotion(npz);
+    ReadSmplMotion(npz);
   });
   return 0;
 }

@@ -30,7 +30,7 @@ struct PackedFlowNetwork::Workspace {
   RowBuffer shares;        // [tokens, tokens] of one head's attention
   RowBuffer mixed;         // [tokens, width] and a panel, into which the last head may write
   RowBuffer added;         // [tokens, width], what a half block adds
-  RowBuffer wide;          // [tokens, 3 width]
+  RowBuffer wide;          // [tokens, kMlpRatio width]
 };
 
 PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const ContinuousFlowConfig& config,
@@ -60,8 +60,8 @@ PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const Continuou
     const std::string name = "blocks." + std::to_string(i) + ".";
     Block block{.qkv = linear(products, name + "qkv", width_, 3 * width_),
                 .out = linear(products, name + "out", width_, width_),
-                .up = linear(products, name + "up", width_, 3 * width_),
-                .down = linear(products, name + "down", 3 * width_, width_),
+                .up = linear(products, name + "up", width_, kMlpRatio * width_),
+                .down = linear(products, name + "down", kMlpRatio * width_, width_),
                 .modulation = linear(products, name + "modulation", condition, 6 * width_),
                 .bias = {}};
     const auto bias = tensors.Get(name + "distance_bias", 2 * kMostTokensApart + 1, heads_);
@@ -157,7 +157,7 @@ void PackedFlowNetwork::Transform(const Block& block, const Eigen::VectorXf& con
   add(part(2));
   Normalise(work->x, part(4), part(3), tokens, &work->normal);
   block.up.Run(work->normal, &work->wide, tokens);
-  for (long i = 0; i < tokens; ++i) kernels_.gelu(work->wide.Row(i), 3 * width_);
+  for (long i = 0; i < tokens; ++i) kernels_.gelu(work->wide.Row(i), kMlpRatio * width_);
   block.down.Run(work->wide, &work->added, tokens);
   add(part(5));
 }
@@ -172,8 +172,8 @@ Eigen::MatrixXf PackedFlowNetwork::Evaluate(const Eigen::MatrixXf& z, const Eige
   const long tokens = frames.cols() / kFramesAToken, token = kFramesAToken * frames.rows();
   const long panel = kernels_.panel, padded = RoundUp(width_, panel);
   for (RowBuffer* buffer : {&work.x, &work.normal, &work.added}) buffer->Resize(tokens, padded);
-  for (RowBuffer* buffer : {&work.qkv, &work.wide})
-    buffer->Resize(tokens, RoundUp(3 * width_, panel));
+  work.qkv.Resize(tokens, RoundUp(3 * width_, panel));
+  work.wide.Resize(tokens, RoundUp(kMlpRatio * width_, panel));
   work.mixed.Resize(tokens, width_ + panel);
 
   const Eigen::VectorXf condition = Condition(features.whole, t);

@@ -68,7 +68,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config,
       flow_steps(config.flow_steps),
       hidden(config.hidden),
       encoded(config.condition_width > 0),
-      live(tau * width + (tau + 1) * audio_features + 1),
+      live(tau * width + config.HeardWidth() + 1),
       condition(encoded ? config.condition_width : live),
       key_width(KeyConditionWidth(skeleton.joints(), width)) {
   const PackedTensors tensors(content);

@@ -22,7 +22,7 @@ TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
   const FlowConfig& config = model->config();
   const int64_t tau = config.history_frames, width = model->feature_width();
   const int64_t widths[kParts] = {
-      tau * width, (tau + 1) * config.audio_features, 1, model->static_width(), width, 1};
+      tau * width, config.HeardWidth(), 1, model->static_width(), width, 1};
   begin_[0] = 0;
   for (int part = 0; part < kParts; ++part) begin_[part + 1] = begin_[part] + widths[part];
   const auto here = torch::TensorOptions().pinned_memory(weights_->device.is_cuda());

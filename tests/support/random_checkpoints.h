@@ -3,20 +3,21 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "model/controllers/controllers_config.h"
 #include "model/flow/continuous_flow_config.h"
 #include "model/flow/flow_config.h"
 #include "model/motion/skeleton.h"
 
+/// Checkpoints with weights drawn at random, the same for the same seed: they dance nothing, but
+/// every path computes. Their cards say so. For tests and benchmarks.
 namespace choreo {
 
-/// Writes a checkpoint with weights drawn at random, the same for the same seed: it dances nothing,
-/// but every path computes. For tests and benchmarks; its card says so.
 void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,
                            const Skeleton& skeleton, uint64_t seed);
-
-/// The same of a continuous flow.
 void WriteRandomContinuousFlow(const std::filesystem::path& path,
                                const ContinuousFlowConfig& config, const Skeleton& skeleton,
                                uint64_t seed);
+void WriteRandomControllers(const std::filesystem::path& path, const ControllersConfig& config,
+                            const Skeleton& skeleton, uint64_t seed);
 
 }  // namespace choreo

@@ -1,0 +1,61 @@
+#include "tests/support/random_checkpoints.h"
+
+#include <torch/torch.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "model/controllers/checkpoint.h"
+#include "model/flow/checkpoint.h"
+#include "model/flow/continuous_flow.h"
+
+namespace choreo {
+namespace {
+
+const nlohmann::json kCard = {{"licence", "none: random weights"}};
+
+// What starts as zero would hide everything before it.
+void FillZeros(torch::nn::Module* module) {
+  torch::NoGradGuard no_grad;
+  for (auto& parameter : module->parameters()) {
+    if (!parameter.any().item<bool>()) parameter.copy_(0.05 * torch::randn_like(parameter));
+  }
+}
+
+}  // namespace
+
+void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,
+                           const Skeleton& skeleton, uint64_t seed) {
+  torch::manual_seed(seed);
+  FlowModel model(config, skeleton);
+  FillZeros(model.get());
+  model->SetFeatureNormalisation(0.05 * torch::randn({model->feature_width()}),
+                                 0.02 + 0.1 * torch::rand({model->feature_width()}));
+  model->SetAudioNormalisation(torch::randn({config.audio_features}),
+                               1 + torch::rand({config.audio_features}));
+  SaveCheckpoint(path, model, kCard);
+}
+
+void WriteRandomContinuousFlow(const std::filesystem::path& path,
+                               const ContinuousFlowConfig& config, const Skeleton& skeleton,
+                               uint64_t seed) {
+  torch::manual_seed(seed);
+  ContinuousFlow model(config, skeleton);
+  FillZeros(model.get());
+  Safetensors weights;
+  ExportTensors(*model, "", &weights);
+  SaveContinuousFlow(path, model, std::move(weights), kCard);
+}
+
+void WriteRandomControllers(const std::filesystem::path& path, const ControllersConfig& config,
+                            const Skeleton& skeleton, uint64_t seed) {
+  torch::manual_seed(seed);
+  ControllersModel model(config, skeleton);
+  FillZeros(model.get());
+  const int64_t others = skeleton.joints() - 1;
+  model->SetNormalisation(torch::zeros({others, 3}), torch::full({others, 3}, 0.1),
+                          torch::full({kBodyParts}, 0.01));
+  SaveControllers(path, model, {0.01, 0.02, 0.02, 0.015, 0.015}, kCard);
+}
+
+}  // namespace choreo
