@@ -10,6 +10,7 @@
 
 #include "bench/bare_product.h"
 #include "bench/flow_probe.h"
+#include "bench/random_checkpoints.h"
 #include "model/core/threads.h"
 #include "model/engine/engines.h"
 #include "model/engine/packed/kernels.h"
@@ -17,7 +18,6 @@
 #include "model/flow/flow_tokens.h"
 #include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
-#include "tests/support/random_checkpoints.h"
 
 /// Both engines, and beside them what limits them: the bare matrix products of the same shapes, and
 /// memory. All on one thread, in CPU time of that thread, so that a machine that does something

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "bench/random_checkpoints.h"
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
 #include "model/dance/transition_batch.h"
@@ -11,7 +12,6 @@
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
 #include "tests/support/expect_error.h"
-#include "tests/support/random_checkpoints.h"
 
 namespace choreo {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "bench/random_checkpoints.h"
 #include "model/dance/transition_batch.h"
 #include "model/engine/engines.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/engine_dances.h"
 #include "tests/support/expect_error.h"
-#include "tests/support/random_checkpoints.h"
 
 namespace choreo {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "bench/random_checkpoints.h"
 #include "model/core/random.h"
 #include "model/motion/kinematics.h"
-#include "tests/support/random_checkpoints.h"
 
 namespace choreo {
 namespace {

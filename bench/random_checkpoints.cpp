@@ -1,4 +1,4 @@
-#include "tests/support/random_checkpoints.h"
+#include "bench/random_checkpoints.h"
 
 #include <torch/torch.h>
 
