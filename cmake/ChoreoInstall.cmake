@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/choreo)
 install(TARGETS choreo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
-install(TARGETS choreo_client choreo_motion choreo_tls choreo_proto EXPORT choreoTargets
+install(TARGETS choreo_client choreo_motion choreo_rounded choreo_tls choreo_proto EXPORT choreoTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo)
 install(FILES client/choreo_client.h client/dance_config.h client/dance_messages.h client/edit.h client/server_description.h

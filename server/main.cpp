@@ -4,6 +4,7 @@
 #include <string>
 
 #include "model/core/error.h"
+#include "model/core/programs.h"
 #include "model/core/threads.h"
 #include "model/engine/devices.h"
 #include "model/engine/engines.h"
@@ -82,6 +83,6 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());
-    return 1;
+    return choreo::kFailed;
   }
 }

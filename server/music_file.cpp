@@ -22,11 +22,6 @@ void MusicBudget::GiveBack(int64_t bytes) {
   taken_ -= bytes;
 }
 
-int64_t MusicBudget::taken() const {
-  const std::lock_guard lock(mutex_);
-  return taken_;
-}
-
 void MusicFile::Append(std::string_view bytes, const std::string& field) {
   const int64_t needed = size() + static_cast<int64_t>(bytes.size());
   if (needed > kMaxAudioFileBytes) {

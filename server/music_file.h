@@ -19,7 +19,6 @@ class MusicBudget {
   /// Throws Error(kResourceExhausted) where so much is not left.
   void Take(int64_t bytes);
   void GiveBack(int64_t bytes);
-  int64_t taken() const;
 
  private:
   const int64_t bytes_;

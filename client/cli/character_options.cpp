@@ -28,16 +28,17 @@ namespace {
     if (!taken) found.bones.try_emplace(bone, node);
   }
   const std::filesystem::path stem = std::filesystem::path(out).replace_extension();
-  const std::filesystem::path json = stem.string() + ".map.json", png = stem.string() + ".map.png";
-  if (std::filesystem::exists(json)) {
+  const std::filesystem::path map = stem.string() + ".map.json",
+                              picture = stem.string() + ".map.png";
+  if (std::filesystem::exists(map)) {
     throw InvalidArgument(name, "its names do not say which bone is the " + missing + "; " +
-                                    json.string() + " is there already: --map it, or remove it");
+                                    map.string() + " is there already: --map it, or remove it");
   }
-  WriteBoneMap(json, png, character, found);
+  WriteBoneMap(map, picture, character, found);
   throw InvalidArgument(name, "its names do not say which bone is the " + missing + "; " +
-                                  json.string() + " is a guess, " + png.string() +
+                                  map.string() + " is a guess, " + picture.string() +
                                   " a picture: mend the one by the other, then --map " +
-                                  json.string());
+                                  map.string());
 }
 
 }  // namespace

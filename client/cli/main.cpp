@@ -13,7 +13,6 @@
 
 namespace {
 
-constexpr int kFailed = 1;
 constexpr int kInterrupted = 130;  // as shells say it of Ctrl-C
 
 }  // namespace
@@ -51,6 +50,6 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     if (choreo::cli::Interruption::Came()) return kInterrupted;
     std::cerr << "choreo: " << error.what() << std::endl;
-    return kFailed;
+    return choreo::kFailed;
   }
 }

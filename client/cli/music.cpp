@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/audio/beats.h"
 #include "model/audio/onset.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
@@ -12,8 +13,6 @@ namespace {
 
 /// The last frames hear a little beyond themselves.
 constexpr double kAfterglow = 0.5;
-/// Beats are counted at a tempo that is heard in windows of 8 s.
-constexpr double kTempoWindow = 8;
 
 /// Takes the first `seconds` away.
 void LeaveOut(double seconds, const std::filesystem::path& path, DecodedAudio* audio) {
@@ -31,7 +30,7 @@ void LeaveOut(double seconds, const std::filesystem::path& path, DecodedAudio* a
 
 Music ReadMusic(const std::filesystem::path& path, double seconds, double start) {
   Music music;
-  music.audio = DecodeAudioFile(path, start + seconds + kTempoWindow);
+  music.audio = DecodeAudioFile(path, start + seconds + kTempoWindowSeconds);
   LeaveOut(start, path, &music.audio);
   music.mono = ToModelRate(music.audio);
   music.onset_strength = OnsetStrength(music.mono);

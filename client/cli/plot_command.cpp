@@ -177,10 +177,10 @@ void AddPlotCommand(CLI::App& program) {
       ->check(NumberFrom(0, 1000));
   command->add_option("--title", options->plot.title, "Heading.");
   command->add_option("--width", options->plot.width, "Pixels.")
-      ->check(WholeNumberFrom(200, 8192))
+      ->check(WholeNumberFrom(kLeastPlotPixels, kMostPlotPixels))
       ->capture_default_str();
   command->add_option("--height", options->plot.height, "Pixels.")
-      ->check(WholeNumberFrom(200, 8192))
+      ->check(WholeNumberFrom(kLeastPlotPixels, kMostPlotPixels))
       ->capture_default_str();
   command->callback([options] { Run(*options); });
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFrameRate = static_cast<double>(kModelSampleRate) / kOnsetHop;  // a second
 
-constexpr size_t kTempoWindow = 8 * kModelSampleRate / kOnsetHop;  // frames: 8 s
+constexpr size_t kTempoWindow = kTempoWindowSeconds * kModelSampleRate / kOnsetHop;  // frames
 constexpr size_t kTempoFft = 1024;  // long enough for a linear autocorrelation of the window
 static_assert(kTempoFft >= 2 * kTempoWindow - 1);
 constexpr double kPriorBpm = 120;  // its deviation is one octave

@@ -9,6 +9,9 @@ namespace choreo {
 /// Frames of the model between a dancer's beat and the music's that she still hits.
 inline constexpr double kBeatGap = 2;
 
+/// Beats are counted at a tempo that is heard in windows of so many seconds.
+inline constexpr int kTempoWindowSeconds = 8;
+
 /// Where a dancer would count.
 struct BeatTrack {
   double tempo_bpm = 0;         ///< 0 where nothing was heard
@@ -18,8 +21,8 @@ struct BeatTrack {
 };
 
 /// The tempo in beats a minute of an onset envelope, as librosa.feature.tempo (0.10.2):
-/// autocorrelation within windows of 8 s, averaged, weighed by a log-normal prior around 120, below
-/// 320. 0 for an envelope without onsets.
+/// autocorrelation within kTempoWindowSeconds, averaged, weighed by a log-normal prior around 120,
+/// below 320. 0 for an envelope without onsets.
 double EstimateTempo(std::span<const float> onset_strength);
 
 /// The beats of an onset envelope, as librosa.beat.beat_track (0.10.2; Ellis 2007): dynamic

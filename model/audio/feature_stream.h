@@ -14,15 +14,11 @@
 namespace choreo {
 
 /// Music as the models hear it, while it arrives: push samples of any format, read MFCC rows at 30
-/// a second. Row r is centred at second r / 30 of the absolute audio clock; it is that of Mfcc()
-/// without top_db. Audio before 0 and after the end is silence. A row's bits depend on the samples
-/// near it alone, neither on how they are chunked nor on where the stream starts. Not thread-safe.
+/// a second. Row r is centred at second r / 30 of the absolute audio clock; it is that of Mfcc().
+/// Audio before 0 and after the end is silence. A row's bits depend on the samples near it alone,
+/// neither on how they are chunked nor on where the stream starts. Not thread-safe.
 class FeatureStream {
  public:
-  /// Half an analysis window and, at the lowest input rate, half the resampling filter, in samples
-  /// at 22 050 Hz. No row waits for audio further ahead of its centre than this.
-  static constexpr int kMaxLatencySamples = kFftSize / 2 + 188;
-
   /// `first_sample`: absolute index, at `sample_rate`, of the first sample that will be pushed, for
   /// a stream that goes on where another one ended. Errors as Resampler.
   FeatureStream(double sample_rate, int channels, int64_t first_sample = 0);
@@ -54,8 +50,6 @@ class FeatureStream {
   /// not final.
   void Forget(int64_t row);
 
-  /// Samples (of each channel) pushed so far.
-  int64_t samples_pushed() const { return pushed_; }
   /// Absolute index of the sample that Push expects next.
   int64_t next_sample() const { return first_sample_ + pushed_; }
   bool finished() const { return finished_; }

@@ -94,13 +94,9 @@ std::span<const double, kMelBands> MelSpectrum::Power(std::span<const float> sam
   return power_;
 }
 
-MelSpectrogram MelSpectrogramDb(std::span<const float> mono, int hop,
-                                std::optional<double> top_db) {
+MelSpectrogram MelSpectrogramDb(std::span<const float> mono, int hop) {
   if (mono.empty()) throw InvalidArgument("audio", "no samples");
   if (hop < 1) throw InvalidArgument("hop", std::to_string(hop) + " is below 1");
-  if (top_db && !(*top_db >= 0)) {
-    throw InvalidArgument("top_db", std::to_string(*top_db) + " is below 0");
-  }
   const int64_t size = static_cast<int64_t>(mono.size());
   MelSpectrogram db(1 + size / hop, kMelBands);
   MelSpectrum spectrum;
@@ -114,7 +110,6 @@ MelSpectrogram MelSpectrogramDb(std::span<const float> mono, int hop,
     const auto power = spectrum.Power(window);
     for (int b = 0; b < kMelBands; ++b) db(frame, b) = PowerToDb(power[static_cast<size_t>(b)]);
   }
-  if (top_db) db = db.cwiseMax(db.maxCoeff() - *top_db);
   return db;
 }
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,9 +38,8 @@ class MelSpectrum {
 using MelSpectrogram = Eigen::Matrix<double, Eigen::Dynamic, kMelBands, Eigen::RowMajor>;
 
 /// The mel spectrogram in dB of mono samples at 22 050 Hz; frame f is centred at sample f * hop,
-/// and there are 1 + samples / hop. Audio before and after is silence. `top_db`: values are raised
-/// to this far below the loudest of the whole signal; none leaves them. Throws
-/// Error(kInvalidArgument) for no samples, hop < 1 or top_db < 0.
-MelSpectrogram MelSpectrogramDb(std::span<const float> mono, int hop, std::optional<double> top_db);
+/// and there are 1 + samples / hop. Audio before and after is silence. Throws
+/// Error(kInvalidArgument) for no samples or hop < 1.
+MelSpectrogram MelSpectrogramDb(std::span<const float> mono, int hop);
 
 }  // namespace choreo

@@ -35,8 +35,8 @@ void MfccOfMelDb(std::span<const double, kMelBands> db, std::span<float, kMfccCo
   }
 }
 
-FeatureMatrix Mfcc(std::span<const float> mono, std::optional<double> top_db, int hop) {
-  const MelSpectrogram db = MelSpectrogramDb(mono, hop, top_db);
+FeatureMatrix Mfcc(std::span<const float> mono) {
+  const MelSpectrogram db = MelSpectrogramDb(mono, kFeatureHop);
   FeatureMatrix rows(db.rows(), kMfccCount);
   for (Eigen::Index r = 0; r < db.rows(); ++r) {
     MfccOfMelDb(std::span<const double, kMelBands>(db.row(r).data(), kMelBands),

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 
 #include "model/audio/mel.h"
@@ -19,11 +18,9 @@ void MfccOfMelDb(std::span<const double, kMelBands> db, std::span<float, kMfccCo
 /// [row, coefficient]
 using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, kMfccCount, Eigen::RowMajor>;
 
-/// MFCC-40 of mono samples at 22 050 Hz as librosa 0.10.2 computes them with n_fft 2048 and centred
-/// windows; row r is centred at sample r * hop, and there are 1 + samples / hop. `top_db`: none, as
-/// the models and FeatureStream have it, since no stream can know its loudest frame in advance;
-/// librosa's default is 80. Errors as MelSpectrogramDb.
-FeatureMatrix Mfcc(std::span<const float> mono, std::optional<double> top_db = std::nullopt,
-                   int hop = kFeatureHop);
+/// MFCC-40 of mono samples at 22 050 Hz as librosa 0.10.2 computes them with n_fft 2048, centred
+/// windows and top_db None, since no stream can know its loudest frame in advance; row r is centred
+/// at sample r * kFeatureHop, and there are 1 + samples / kFeatureHop. Errors as MelSpectrogramDb.
+FeatureMatrix Mfcc(std::span<const float> mono);
 
 }  // namespace choreo

@@ -1,7 +1,6 @@
 #include "model/audio/onset.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "model/audio/format.h"
 
@@ -42,7 +41,7 @@ float OnsetMeter<kRiseRows, kLoudRows>::Add(std::span<const double, kMelBands> d
 template class OnsetMeter<2, 60>;
 
 std::vector<float> OnsetStrength(std::span<const float> mono) {
-  const MelSpectrogram db = MelSpectrogramDb(mono, kOnsetHop, std::nullopt);
+  const MelSpectrogram db = MelSpectrogramDb(mono, kOnsetHop);
   const auto frames = static_cast<size_t>(db.rows());
   std::vector<float> strength(frames, 0.0f);
   FrameOnset onset;

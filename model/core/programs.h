@@ -4,7 +4,8 @@
 
 namespace choreo {
 
-/// Exit status of a program that was called wrongly.
+// Exit statuses of a program that could not do what it was asked, and that was asked wrongly.
+inline constexpr int kFailed = 1;
 inline constexpr int kMisused = 2;
 
 /// What the first model was called before 0.2.0 where controls were wanted; server and client take

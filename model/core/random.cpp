@@ -56,25 +56,15 @@ void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::
   }
 }
 
-Random::Random(uint64_t seed, uint32_t stream) : Random(State{seed, stream, 0}) {}
-
-Random::Random(const State& state) : state_(state) {
-  // Positions inside a block need the block that Next would have made at its first word.
-  if (const uint64_t offset = state_.position % 4; offset != 0) {
-    state_.position -= offset;
-    for (uint64_t i = 0; i < offset; ++i) Next();
-  }
-}
-
 uint32_t Random::Next() {
-  const uint64_t offset = state_.position % 4;
+  const uint64_t offset = position_ % 4;
   if (offset == 0) {
-    const uint64_t block = state_.position / 4;
-    block_ = Philox4x32({static_cast<uint32_t>(block), static_cast<uint32_t>(block >> 32),
-                         state_.stream, kSequenceDomain},
-                        KeyOf(state_.seed));
+    const uint64_t block = position_ / 4;
+    block_ = Philox4x32({static_cast<uint32_t>(block), static_cast<uint32_t>(block >> 32), stream_,
+                         kSequenceDomain},
+                        KeyOf(seed_));
   }
-  ++state_.position;
+  ++position_;
   return block_[offset];
 }
 

@@ -23,18 +23,7 @@ void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::
 /// its own `stream`.
 class Random {
  public:
-  /// All that there is to a generator: save it, and a resumed run goes on with the same numbers.
-  struct State {
-    uint64_t seed = 0;
-    uint32_t stream = 0;
-    uint64_t position = 0;  ///< 32-bit words drawn so far
-    bool operator==(const State&) const = default;
-  };
-
-  explicit Random(uint64_t seed, uint32_t stream = 0);
-  explicit Random(const State& state);
-
-  const State& state() const { return state_; }
+  explicit Random(uint64_t seed, uint32_t stream = 0) : seed_(seed), stream_(stream) {}
 
   /// 32 random bits.
   uint32_t Next();
@@ -49,8 +38,10 @@ class Random {
   int64_t Integer(int64_t low, int64_t high);
 
  private:
-  State state_;
-  std::array<uint32_t, 4> block_ = {};  ///< holds word `position` unless that starts a new block
+  uint64_t seed_;
+  uint32_t stream_;
+  uint64_t position_ = 0;               // 32-bit words drawn so far
+  std::array<uint32_t, 4> block_ = {};  // holds word `position_` unless that starts a new block
 };
 
 }  // namespace choreo

@@ -21,9 +21,8 @@ constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metre
 constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
 constexpr int kFewestStepFrames = 4;
 constexpr int kHalvings = 12;
-constexpr double kStraight = 5 * M_PI / 180;        // radians of bend: a knee below it is straight
-constexpr double kStraightTurn = 200 * M_PI / 180;  // radians a second that it turns at most, and
-constexpr double kFreedom = 30;                     // 1/s: so much more by what it is bent beyond
+constexpr double kStraightTurn = 200 * M_PI / 180;  // radians a second of a straight knee at most,
+constexpr double kFreedom = 30;      // 1/s: and so much more by what it is bent beyond
 constexpr double kLandsAhead = 0.1;  // seconds before the key, which a landing would jolt
 
 double Apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -43,8 +42,8 @@ bool Fixes(const Target& target, const Leg& leg, const Skeleton& skeleton) {
 // knee: what asks it of one frame would snap it.
 BendRange Following(double bend, double seconds) {
   const double room = kStraightTurn * seconds, more = kFreedom * seconds;
-  const double beyond = bend - kStraight;
-  return {beyond > room ? kStraight + (beyond - room) / (1 + more) : bend - room,
+  const double beyond = bend - kStraightBend;
+  return {beyond > room ? kStraightBend + (beyond - room) / (1 + more) : bend - room,
           bend + room + more * std::max(0.0, beyond)};
 }
 

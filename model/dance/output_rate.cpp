@@ -6,6 +6,7 @@
 #include "model/motion/resample.h"
 
 namespace choreo {
+
 OutputRate::OutputRate(double model_fps, double output_fps, int64_t first_frame,
                        std::optional<Pose> before)
     : model_fps_(model_fps), output_fps_(output_fps), next_input_(first_frame) {

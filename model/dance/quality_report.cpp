@@ -7,6 +7,7 @@
 
 #include "model/audio/beats.h"
 #include "model/core/error.h"
+#include "model/core/gaussian_mean.h"
 #include "model/core/quantile.h"
 #include "model/motion/kinematics.h"
 
@@ -21,17 +22,12 @@ constexpr int64_t kFramesAroundKey = 2;
 // `curve` under a Gaussian of that standard deviation, in samples.
 std::vector<double> Smooth(std::span<const float> curve, double deviation) {
   const auto reach = static_cast<int64_t>(std::ceil(4 * deviation));
-  const auto size = static_cast<int64_t>(curve.size());
+  const auto last = static_cast<int64_t>(curve.size()) - 1;
   std::vector<double> smooth(curve.size());
-  for (int64_t i = 0; i < size; ++i) {
-    double sum = 0, weights = 0;
-    for (int64_t k = std::max<int64_t>(0, i - reach); k <= std::min(size - 1, i + reach); ++k) {
-      const double away = static_cast<double>(k - i) / deviation;
-      const double weight = std::exp(-0.5 * away * away);
-      sum += weight * curve[static_cast<size_t>(k)];
-      weights += weight;
-    }
-    smooth[static_cast<size_t>(i)] = sum / weights;
+  for (int64_t i = 0; i <= last; ++i) {
+    smooth[static_cast<size_t>(i)] =
+        GaussianMean(std::max<int64_t>(0, i - reach), std::min(last, i + reach), i, deviation, 0.0,
+                     [&](int64_t k) { return curve[static_cast<size_t>(k)]; });
   }
   return smooth;
 }
@@ -146,11 +142,10 @@ std::vector<int64_t> KinematicBeats(std::span<const float> curve, double fps) {
   return beats;
 }
 
-QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion,
-                            std::span<const double> music_beats) {
+QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion) {
   QualityMeter meter(skeleton, motion.fps, 0);
   for (const Pose& pose : motion.frames) meter.Add({pose, {}, 0});
-  return meter.Report(music_beats);
+  return meter.Report();
 }
 
 }  // namespace choreo

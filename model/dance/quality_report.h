@@ -90,8 +90,7 @@ class QualityMeter {
 /// beats. `speed[i]` belongs to frame i + 1; `fps` > 0.
 std::vector<int64_t> KinematicBeats(std::span<const float> speed, double fps);
 
-/// Shorthand for whole motions (evaluation). Contacts and likelihood are not judged.
-QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion,
-                            std::span<const double> music_beats = {});
+/// Shorthand for whole motions (evaluation). Contacts, likelihood and beats are not judged.
+QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion);
 
 }  // namespace choreo

@@ -9,8 +9,6 @@
 namespace choreo {
 namespace {
 
-constexpr int kMaxExtent = 32767;  // cairo's own limit
-
 void SelectFont(cairo_t* cr, double size, bool bold) {
   cairo_select_font_face(cr, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -20,10 +18,10 @@ void SelectFont(cairo_t* cr, double size, bool bold) {
 }  // namespace
 
 Canvas::Canvas(int width, int height, const Colour& background) : width_(width), height_(height) {
-  if (width < 1 || width > kMaxExtent || height < 1 || height > kMaxExtent) {
+  if (width < 1 || width > kMostPicturePixels || height < 1 || height > kMostPicturePixels) {
     throw InvalidArgument("picture", std::to_string(width) + " x " + std::to_string(height) +
                                          " pixels, each must be 1 to " +
-                                         std::to_string(kMaxExtent));
+                                         std::to_string(kMostPicturePixels));
   }
   surface_ = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
   context_ = cairo_create(surface_);

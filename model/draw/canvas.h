@@ -17,7 +17,7 @@ enum class Align { kLeft, kCentre, kRight };
 class Canvas {
  public:
   /// Filled with `background`. Throws Error(kInvalidArgument) for a width or height outside 1 to
-  /// 32767 pixels.
+  /// kMostPicturePixels.
   Canvas(int width, int height, const Colour& background);
   ~Canvas();
   Canvas(const Canvas&) = delete;
@@ -25,7 +25,6 @@ class Canvas {
 
   cairo_t* cr() const { return context_; }
   int width() const { return width_; }
-  int height() const { return height_; }
 
   void SetColour(const Colour& colour, double alpha = 1) const;
   /// Text in the current colour whose vertical middle is y.

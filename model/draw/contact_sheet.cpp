@@ -8,6 +8,7 @@
 #include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/draw/canvas.h"
+#include "model/draw/check_within.h"
 #include "model/draw/framing.h"
 
 namespace choreo {
@@ -25,13 +26,6 @@ constexpr Colour kInk = Colour::Hex(0x2b2b2b);
 constexpr Colour kFaint = Colour::Hex(0x85807a);
 const FrameStyle kPlain,
     kKeyPose = {.background = Colour::Hex(0xfff6dd), .floor = Colour::Hex(0xf3e4b8)};
-
-void CheckWithin(const char* field, int value, int low, int high) {
-  if (value < low || value > high) {
-    throw InvalidArgument(field, std::to_string(value) + ", must be " + std::to_string(low) +
-                                     " to " + std::to_string(high));
-  }
-}
 
 void RoundedRectangle(const Canvas& canvas, double x, double y, double width, double height,
                       double corner) {

@@ -5,6 +5,8 @@
 
 namespace choreo {
 
+inline constexpr int kMostPicturePixels = 32767;  ///< along a side: cairo's own limit
+
 /// An 8-bit sRGB picture.
 struct Picture {
   int width = 0, height = 0;  ///< pixels

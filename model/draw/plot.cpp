@@ -10,8 +10,6 @@
 namespace choreo {
 namespace {
 
-constexpr int kMinExtent = 200;
-constexpr int kMaxExtent = 8192;
 constexpr double kFont = 14;
 constexpr double kTitleFont = 18;
 
@@ -26,10 +24,10 @@ constexpr size_t kColours = std::size(kLines);
 
 void Check(const Plot& plot) {
   const auto check_size = [](const char* field, int value) {
-    if (value < kMinExtent || value > kMaxExtent) {
+    if (value < kLeastPlotPixels || value > kMostPlotPixels) {
       throw InvalidArgument(field, std::to_string(value) + " pixels, must be " +
-                                       std::to_string(kMinExtent) + " to " +
-                                       std::to_string(kMaxExtent));
+                                       std::to_string(kLeastPlotPixels) + " to " +
+                                       std::to_string(kMostPlotPixels));
     }
   };
   check_size("plot.width", plot.width);

@@ -16,6 +16,8 @@ struct PlotSeries {
   bool asked = false;
 };
 
+inline constexpr int kLeastPlotPixels = 200, kMostPlotPixels = 8192;  ///< along a side
+
 /// A line chart. A line of which half lies on an earlier one is dashed, so that both are
 /// seen. With `x_names` a bar chart.
 struct Plot {
@@ -29,7 +31,7 @@ struct Plot {
   /// Names of x = 0, 1, ..., as many of them as fit; there the series' bars stand side by side.
   /// Not with map.
   std::vector<std::string> x_names = {};
-  int width = 1000;  ///< pixels, 200 to 8192
+  int width = 1000;  ///< pixels
   int height = 600;
 };
 

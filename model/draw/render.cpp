@@ -7,6 +7,7 @@
 
 #include "model/body/doll.h"
 #include "model/core/error.h"
+#include "model/draw/check_within.h"
 #include "model/draw/floor_light.h"
 
 namespace choreo {
@@ -309,9 +310,7 @@ class Renderer {
 
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture) {
-  if (style.samples < 1 || style.samples > 8) {
-    throw InvalidArgument("style.samples", std::to_string(style.samples) + ", must be 1 to 8");
-  }
+  CheckWithin("style.samples", style.samples, 1, 8);
   if (!pose.root_position.allFinite() || !pose.rotations.allFinite()) {
     throw InvalidArgument("pose", "holds values that are not finite");
   }

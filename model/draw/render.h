@@ -19,9 +19,10 @@ struct FrameStyle {
 inline constexpr Colour kKeyColour = Colour::Hex(0xd99a00);
 
 /// Draws one pose, lit from the left above the camera, with its shadow on the floor y = 0, into a
-/// picture whose width and height are set (1 to 32767); `picture.rgb` is resized. The same input
-/// gives the same bytes. Throws Error(kInvalidArgument) for sizes, a view or a style outside their
-/// limits, or a pose of another joint count or with values that are not finite. Thread-safe.
+/// picture whose width and height are set (1 to kMostPicturePixels); `picture.rgb` is resized. The
+/// same input gives the same bytes. Throws Error(kInvalidArgument) for sizes, a view or a style
+/// outside their limits, or a pose of another joint count or with values that are not finite.
+/// Thread-safe.
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture);
 

@@ -6,6 +6,7 @@
 #include <future>
 
 #include "model/core/error.h"
+#include "model/core/gaussian_mean.h"
 #include "model/core/threads.h"
 #include "model/draw/framing.h"
 #include "model/draw/render.h"
@@ -24,23 +25,15 @@ std::vector<Eigen::Vector2d> SmoothPath(const Motion& motion) {
   const double sigma = kCameraLag * motion.fps;
   const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
   const auto frames = static_cast<int64_t>(motion.frames.size());
-  std::vector<double> weights;
-  for (int64_t i = 0; i <= reach; ++i) {
-    const double t = static_cast<double>(i) / sigma;
-    weights.push_back(std::exp(-0.5 * t * t));
-  }
+  const auto place = [&](int64_t frame) {
+    const auto at = static_cast<size_t>(std::clamp<int64_t>(frame, 0, frames - 1));
+    const Eigen::Vector3d& root = motion.frames[at].root_position;
+    return Eigen::Vector2d(root.x(), root.z());
+  };
   std::vector<Eigen::Vector2d> path;
   for (int64_t frame = 0; frame < frames; ++frame) {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    double total = 0;
-    for (int64_t i = -reach; i <= reach; ++i) {
-      const double weight = weights[static_cast<size_t>(std::abs(i))];
-      const auto at = static_cast<size_t>(std::clamp<int64_t>(frame + i, 0, frames - 1));
-      const Eigen::Vector3d& root = motion.frames[at].root_position;
-      sum += weight * Eigen::Vector2d(root.x(), root.z());
-      total += weight;
-    }
-    path.push_back(sum / total);
+    path.push_back(GaussianMean<Eigen::Vector2d>(frame - reach, frame + reach, frame, sigma,
+                                                 Eigen::Vector2d::Zero(), place));
   }
   return path;
 }

@@ -13,17 +13,10 @@
 #include <cstring>
 
 #include "model/core/error.h"
+#include "model/draw/check_within.h"
 
 namespace choreo {
 namespace {
-
-void CheckWithin(const char* field, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    char message[96];
-    std::snprintf(message, sizeof(message), "%g, must be %g to %g", value, low, high);
-    throw InvalidArgument(field, message);
-  }
-}
 
 void CheckFormat(const VideoFormat& format) {
   for (const auto& [field, pixels] :

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/error.h"
+#include "model/draw/check_within.h"
+#include "model/draw/picture.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -15,13 +16,6 @@ constexpr double kFieldOfView = 0.45;   // vertical, radians
 constexpr double kThreeQuarters = 0.6;  // radians beside the dancer's own heading
 constexpr float kNear = 0.05f;
 
-void CheckWithin(const char* field, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    throw InvalidArgument(field, std::to_string(value) + ", must be " + std::to_string(low) +
-                                     " to " + std::to_string(high));
-  }
-}
-
 }  // namespace
 
 double ThreeQuarterAzimuth(const Pose& pose) {
@@ -30,8 +24,8 @@ double ThreeQuarterAzimuth(const Pose& pose) {
 
 Camera::Camera(const View& view, int width, int height)
     : width_(static_cast<float>(width)), height_(static_cast<float>(height)) {
-  CheckWithin("picture.width", width, 1, 32767);
-  CheckWithin("picture.height", height, 1, 32767);
+  CheckWithin("picture.width", width, 1, kMostPicturePixels);
+  CheckWithin("picture.height", height, 1, kMostPicturePixels);
   CheckWithin("view.extent", view.extent, 0.1, 100);
   const double slope = std::tan(kFieldOfView / 2);
   const double distance = view.extent / 2 / slope;

@@ -34,9 +34,9 @@ void SetTorchThreads(int threads);
 /// Loads a checkpoint once and makes an engine on each device, with `slots` slots each; engines of
 /// one device share its weights. `kernels`: a PackedKernels::name, so that packed engines on
 /// different CPUs have one fingerprint; empty: the fastest here; what LibTorch runs is left alone.
-/// Throws as LoadCheckpoint does (model/flow/checkpoint.h), and Error(kInvalidArgument) unless
-/// slots is in [1, kMostSlots], and for a kind or kernels that the device or this machine does not
-/// have.
+/// Throws as ReadSafetensors and ParseCheckpoint (model/flow/checkpoint.h) do, and
+/// Error(kInvalidArgument) unless slots is in [1, kMostSlots], and for a kind or kernels that the
+/// device or this machine does not have.
 std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path& checkpoint,
                                                      std::span<const Device> devices, int slots,
                                                      EngineKind kind = EngineKind::kAuto,

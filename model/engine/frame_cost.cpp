@@ -10,18 +10,18 @@ namespace {
 constexpr double kStepsFade = 0.99;
 constexpr double kTransitionsFade = 0.95;
 /// As many of each as the warm-up stands for.
-constexpr double kSteps = 100;
-constexpr double kFrames = 20 * 60;
+constexpr double kWarmSteps = 100;
+constexpr double kWarmFrames = 20 * 60;
 
 }  // namespace
 
 FrameCost::FrameCost(const EngineCost& measured, int most)
     : measured_(measured),
       most_(most),
-      steps_(kSteps * measured.alone),
+      steps_(kWarmSteps * measured.alone),
       expected_steps_(steps_),
-      admissions_(kFrames * measured.admission),
-      admitted_frames_(kFrames) {}
+      admissions_(kWarmFrames * measured.admission),
+      admitted_frames_(kWarmFrames) {}
 
 double FrameCost::StepOf(double slots) const {
   const double more = std::max(0.0, measured_.together - measured_.alone);

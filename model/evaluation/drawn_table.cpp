@@ -14,20 +14,20 @@ namespace {
 constexpr int kFrames = 90;
 constexpr double kAside = 1;  // metres beside the straight way, in its middle
 
-enum class Way { kDanced, kStraight, kOnTheSpot, kBow };
+enum class Drawing { kDanced, kStraight, kOnTheSpot, kBow };
 
-constexpr std::pair<const char*, Way> kPaths[] = {{"as danced", Way::kDanced},
-                                                  {"straight", Way::kStraight},
-                                                  {"on the spot", Way::kOnTheSpot},
-                                                  {"a bow", Way::kBow}};
+constexpr std::pair<const char*, Drawing> kPaths[] = {{"as danced", Drawing::kDanced},
+                                                      {"straight", Drawing::kStraight},
+                                                      {"on the spot", Drawing::kOnTheSpot},
+                                                      {"a bow", Drawing::kBow}};
 
 // Heights are nobody's concern: they lead from the dancer's to the key's.
-RootPath Draw(Way way, ControlledWindow* window) {
+RootPath Draw(Drawing way, ControlledWindow* window) {
   const Eigen::Vector3d start = window->before.root_position;
   Eigen::Vector3d& end = window->key.root_position;
   RootPath path;
-  if (way == Way::kOnTheSpot) end = {start.x(), end.y(), start.z()};
-  if (way == Way::kBow) {
+  if (way == Drawing::kOnTheSpot) end = {start.x(), end.y(), start.z()};
+  if (way == Drawing::kBow) {
     const Eigen::Vector3d left = HeadingRotation(Heading(ExpMap(window->before.rotations.col(0)))) *
                                  Eigen::Vector3d::UnitX();
     path.frames = {0, kFrames / 2, kFrames - 1};
@@ -67,11 +67,11 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
   const Skeleton& skeleton = model.skeleton;
   for (const auto& [name, shape] : kPaths) {
     ControlCourse course(evaluation, kFrames);
-    if (shape != Way::kDanced)
+    if (shape != Drawing::kDanced)
       course.Redraw([&, shape = shape](ControlledWindow* window) { return Draw(shape, window); });
     for (const Method& way : WaysOf(evaluation.methods)) {
       if (!way.TakesPath() || !way.keys) continue;
-      if (way.kind == Method::Kind::kReal && shape != Way::kDanced) continue;
+      if (way.kind == Method::Kind::kReal && shape != Drawing::kDanced) continue;
       const Dances dances = course.Dance(way);
       using Danced = const std::vector<Pose>&;
       const auto put = [&](const char* heading, int digits, const ControlCourse::Figure& figure) {

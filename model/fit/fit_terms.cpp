@@ -161,7 +161,9 @@ Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
 }
 
 // By how much a hinge is bent less than straight, below zero, or more than a body allows, above it.
+// Of what is no hinge, 0.
 double JointTerm::Prior::Beyond(const Eigen::Vector3d& turn) const {
+  if (hinge_axis.isZero()) return 0;
   const double bend = hinge_axis.dot(turn);
   return std::min(0.0, bend - kLeastBend) + std::max(0.0, bend - kMostHingeBend);
 }
@@ -172,7 +174,7 @@ void JointTerm::AddCost(const Pose& pose, const FitNeighbours& neighbours, doubl
     const Prior& prior = priors_[joint];
     const Eigen::Vector3d w = prior.Turn(pose.rotations.col(column));
     *cost += w.dot(prior.information * w);
-    if (prior.hinge()) *cost += Square(prior.Beyond(w) / limit_rad_);
+    *cost += Square(prior.Beyond(w) / limit_rad_);
     for (const Pose* other : {neighbours.before, neighbours.after}) {
       if (other == nullptr) continue;
       *cost +=
@@ -190,8 +192,7 @@ void JointTerm::Linearise(const Pose& pose, const FitNeighbours& neighbours,
     const Eigen::Matrix3d slope = LogJacobian(w);
     Eigen::Matrix3d information = prior.information;
     Eigen::Vector3d pull = prior.information * w;
-    const double beyond = prior.hinge() ? prior.Beyond(w) : 0;
-    if (beyond != 0) {
+    if (const double beyond = prior.Beyond(w); beyond != 0) {
       const double hard = 1.0 / Square(limit_rad_);
       information += hard * prior.hinge_axis * prior.hinge_axis.transpose();
       pull += hard * beyond * prior.hinge_axis;

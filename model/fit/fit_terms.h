@@ -102,7 +102,6 @@ class JointTerm {
     Eigen::Matrix3d information;  ///< of log(R) around rest, inverse square radians
     Eigen::Vector3d hinge_axis;   ///< zero where the joint is no hinge
 
-    bool hinge() const { return !hinge_axis.isZero(); }
     Eigen::Vector3d Turn(const Eigen::Vector3d& w) const;
     double Beyond(const Eigen::Vector3d& turn) const;
   };

@@ -11,7 +11,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kAccuracy = 0.0005;  // metres, of targets
+constexpr double kPinAccuracy = 0.0005;  // metres, of targets
 constexpr int kIterations = 200;
 // How firmly joints that are no targets keep their places, beside a target: feet stand, a foot that
 // is moved stays as it is turned, the trunk and the other limbs' ends give way by centimetres.
@@ -66,7 +66,7 @@ std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
 }
 
 SourceMapping Landmarks(const Skeleton& skeleton, const std::map<int, Pin>& pins) {
-  SourceMapping mapping{.name = "pins", .landmarks = {}, .accuracy_m = kAccuracy, .feet = {}};
+  SourceMapping mapping{.name = "pins", .landmarks = {}, .accuracy_m = kPinAccuracy, .feet = {}};
   for (const auto& [joint, pin] : pins) {
     const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];
     mapping.landmarks.push_back({.name = name,

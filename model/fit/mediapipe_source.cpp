@@ -9,7 +9,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kAccuracy = 0.03;  // metres: how far landmarks of photos are off
+constexpr double kPhotoAccuracy = 0.03;  // metres: how far landmarks of photos are off
 constexpr double kLeastWeight = 0.001;
 
 }  // namespace
@@ -33,7 +33,7 @@ SourceMapping MediaPipeSource(std::span<const double> visibilities) {
     return std::clamp(visibilities[at] * visibilities[at], kLeastWeight, 1.0);
   };
   using B = MappingBuilder;
-  B builder("mediapipe", kAccuracy);
+  B builder("mediapipe", kPhotoAccuracy);
   builder.Add("hips", "", {{"left_hip", 0.5}, {"right_hip", 0.5}},
               B::Between("left_hip", "right_hip"));
   builder.Add("chest", "hips", {{"left_shoulder", 0.5}, {"right_shoulder", 0.5}},

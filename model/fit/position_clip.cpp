@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/core/error.h"
+#include "model/motion/resample.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
@@ -93,7 +94,7 @@ PositionClip ResamplePositions(const PositionClip& clip, double fps, double time
   }
   const auto last = static_cast<int>(clip.frames.size()) - 1;
   const double duration = last / clip.fps * time_scale;
-  const auto count = static_cast<int>(std::floor(duration * fps + 1e-6)) + 1;
+  const auto count = static_cast<int>(std::floor(duration * fps + kOnFrame)) + 1;
   PositionClip result;
   result.fps = fps;
   result.joint_names = clip.joint_names;

@@ -63,8 +63,6 @@ void PositionFitter::Recover(const Eigen::Matrix3Xd& targets, const FitNeighbour
   }
 }
 
-const Eigen::Matrix3Xd& PositionFitter::landmarks() const { return problem_->landmarks(); }
-
 void PositionFitter::Reset(const Pose& previous) {
   pose_ = previous;
   has_previous_ = true;

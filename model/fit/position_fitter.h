@@ -42,11 +42,6 @@ class PositionFitter {
   /// the frame before and stays close to `after`'s, where it is given.
   const Pose& Next(const Eigen::Matrix3Xd& targets, const Pose* after = nullptr);
 
-  /// Where our landmarks stand in the pose that Next returned last, [3, landmarks].
-  const Eigen::Matrix3Xd& landmarks() const;
-
-  /// Forgets the frame before.
-  void Reset() { has_previous_ = false; }
   /// Goes on from this pose, as if it had been the frame before.
   void Reset(const Pose& previous);
 

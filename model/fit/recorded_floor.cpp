@@ -14,6 +14,7 @@ constexpr double kFloorQuantile = 0.05;
 constexpr double kMaximalSlope = 0.15;
 constexpr double kLeastExtent = 1.0;
 constexpr double kDriftKnotSeconds = 15.0;
+constexpr double kDriftWindowSeconds = 8;
 
 // The lowest foot of every frame: [3, frames].
 Eigen::Matrix3Xd LowestFeet(const PositionClip& clip, const std::vector<int>& foot_joints) {
@@ -102,12 +103,11 @@ PositionClip LevelFloor(const PositionClip& clip, const FloorPlane& plane) {
   return result;
 }
 
-PositionClip RemoveHeightDrift(const PositionClip& clip, const std::vector<int>& foot_joints,
-                               double window_s) {
+PositionClip RemoveHeightDrift(const PositionClip& clip, const std::vector<int>& foot_joints) {
   ValidateClip(clip);
   const Eigen::Matrix3Xd feet = LowestFeet(clip, foot_joints);
   const std::vector<double> floor =
-      SlowQuantile({feet.row(1).begin(), feet.row(1).end()}, 0.1, window_s * clip.fps);
+      SlowQuantile({feet.row(1).begin(), feet.row(1).end()}, 0.1, kDriftWindowSeconds * clip.fps);
   PositionClip result = clip;
   for (size_t frame = 0; frame < floor.size(); ++frame)
     result.frames[frame].row(1).array() -= floor[frame];

@@ -25,9 +25,8 @@ FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_
 PositionClip LevelFloor(const PositionClip& clip, const FloorPlane& plane);
 
 /// Takes out slow drift of the floor's height: the running 10th percentile of the lowest foot joint
-/// over `window_s` seconds, smoothed over as long, is subtracted from every frame. Jumps and lifts
-/// shorter than the window survive.
-PositionClip RemoveHeightDrift(const PositionClip& clip, const std::vector<int>& foot_joints,
-                               double window_s = 8.0);
+/// over 8 s, smoothed over as long, is subtracted from every frame. Shorter jumps and lifts
+/// survive.
+PositionClip RemoveHeightDrift(const PositionClip& clip, const std::vector<int>& foot_joints);
 
 }  // namespace choreo

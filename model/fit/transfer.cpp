@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/gaussian_mean.h"
 #include "model/core/smooth_step.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/limb.h"
@@ -86,7 +87,7 @@ class Takes {
   std::vector<Take> takes_;
 };
 
-using HandWays = std::array<Eigen::Vector3d, 2>;  // left, right
+using HandWays = Eigen::Matrix<double, 3, 2>;  // left, right
 
 // Weighed over the frames around, as a Gauss curve does.
 std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
@@ -95,15 +96,10 @@ std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
   const int frames = static_cast<int>(ways.size());
   std::vector<HandWays> smooth;
   for (int frame = 0; frame < frames; ++frame) {
-    HandWays sum = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-    double weights = 0;
-    for (int at = std::max(0, frame - reach); at <= std::min(frames - 1, frame + reach); ++at) {
-      const double weight = std::exp(-0.5 * std::pow((at - frame) / std::max(sigma, 1e-9), 2));
-      weights += weight;
-      for (size_t side = 0; side < 2; ++side)
-        sum[side] += weight * ways[static_cast<size_t>(at)][side];
-    }
-    smooth.push_back({sum[0] / weights, sum[1] / weights});
+    smooth.push_back(GaussianMean<HandWays>(
+        std::max(0, frame - reach), std::min(frames - 1, frame + reach), frame,
+        std::max(sigma, 1e-9), HandWays::Zero(),
+        [&](int64_t at) -> const HandWays& { return ways[static_cast<size_t>(at)]; }));
   }
   return smooth;
 }
@@ -131,18 +127,19 @@ class Hands {
 
   /// How far both are to move from where they are, `now`.
   HandWays Ways(const Eigen::Matrix3Xd& smpl, const Eigen::Matrix3Xd& now) const {
-    return {Way(0, smpl, now), Way(1, smpl, now)};
+    return (HandWays() << Way(0, smpl, now), Way(1, smpl, now)).finished();
   }
 
   void Move(const HandWays& ways, const JointPlacement& placement, Pose* pose) const {
     for (size_t side = 0; side < 2; ++side) {
       const int elbow = side == 0 ? character_.left_elbow : character_.right_elbow;
       const int shoulder = side == 0 ? character_.left_shoulder : character_.right_shoulder;
-      if (ways[side].norm() < kNoWay * size_) continue;
+      const Eigen::Vector3d way = ways.col(static_cast<Eigen::Index>(side));
+      if (way.norm() < kNoWay * size_) continue;
       const Eigen::Vector3d hinge =
           placement.rotations[static_cast<size_t>(shoulder)] * hinges_[side];
       const Eigen::Vector3d goal =
-          Col(placement.positions, theirs_[side]) + ways[side] - Col(placement.positions, shoulder);
+          Col(placement.positions, theirs_[side]) + way - Col(placement.positions, shoulder);
       PlaceEnd({shoulder, elbow, theirs_[side]}, hinge, character_, placement, goal, pose);
     }
   }

@@ -8,7 +8,7 @@ namespace choreo {
 namespace {
 
 // Raised when the meaning of a stored tensor or field changes.
-constexpr const char* kFormat = "choreo-flow-1";
+constexpr const char* kFlowFormat = "choreo-flow-1";
 
 // Refuses by name what is danced no more.
 struct NoFormerFlow {};
@@ -55,16 +55,12 @@ std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card) {
   Safetensors content;
   ExportTensors(*model, "", &content);
-  return WriteCheckpointFile(path, std::move(content), kFormat, model->config(), model->skeleton(),
-                             card);
-}
-
-Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
-  return ParseCheckpoint(ReadSafetensors(path), path.string());
+  return WriteCheckpointFile(path, std::move(content), kFlowFormat, model->config(),
+                             model->skeleton(), card);
 }
 
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) {
-  const CheckpointFile file(content, name, kFormat);
+  const CheckpointFile file(content, name, kFlowFormat);
   file.Get<NoFormerFlow>("config");
   return TakeUp<FlowModel, FlowConfig>(file, content);
 }

@@ -20,10 +20,9 @@ struct CheckpointOf {
 };
 using Checkpoint = CheckpointOf<FlowModel>;
 
-/// Throws Error(kNotFound) or Error(kInvalidArgument): no such file, truncated, another format
-/// version, wrong hash, or tensors that do not fit the configuration; the message says which.
-Checkpoint LoadCheckpoint(const std::filesystem::path& path);
-/// Of a file that has been read already; `name` is what errors call it.
+/// Of a file that has been read; `name` is what errors call it. Throws Error(kInvalidArgument) for
+/// another format version, a wrong hash, or tensors that do not fit the configuration; the message
+/// says which.
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
 
 /// Writes atomically; returns the content hash. `card` is JSON.
@@ -39,7 +38,7 @@ void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
 void ImportTensors(const Safetensors& content, const std::string& prefix,
                    torch::nn::Module* module);
 
-/// What `file` holds, whose tensors are in `content`. Throws as LoadCheckpoint does.
+/// What `file` holds, whose tensors are in `content`. Throws as ParseCheckpoint does.
 template <typename Model, typename Config>
 CheckpointOf<Model> TakeUp(const CheckpointFile& file, const Safetensors& content) {
   CheckpointOf<Model> checkpoint{.model = Model(file.Get<Config>("config"), file.skeleton()),

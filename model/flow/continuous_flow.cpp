@@ -136,7 +136,7 @@ class TorchFlowNetwork : public FlowNetwork {
   torch::Device device_;
 };
 
-constexpr const char* kFormat = "choreo-continuous-flow-6";
+constexpr const char* kFormat = "choreo-continuous-flow-7";
 
 }  // namespace
 

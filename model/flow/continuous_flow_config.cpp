@@ -5,7 +5,7 @@
 namespace choreo {
 
 CHOREO_JSON_FIELDS(ContinuousFlowConfig, name, history_frames, window_frames, max_transition_frames,
-                   width, layers, heads, condition, steps, temperature, beat_guidance, styles,
+                   width, layers, heads, condition, steps, temperature, guidance, styles,
                    median_factors)
 
 }  // namespace choreo

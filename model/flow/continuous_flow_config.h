@@ -22,9 +22,9 @@ struct ContinuousFlowConfig {
 
   int steps = 3;           ///< K, evaluations of the network from noise to motion
   double temperature = 1;  ///< served by default, as FlowNoise has it
-  /// What beats change in F is done so many times (classifier-free guidance, Ho & Salimans 2022);
-  /// other than 1 it takes twice the evaluations where there are beats.
-  double beat_guidance = 2;
+  /// What beats and style change in F is done so many times (classifier-free guidance, Ho &
+  /// Salimans 2022); other than 1 it takes twice the evaluations where one of them is told.
+  double guidance = 2;
   std::vector<std::string> styles = {};  ///< that it was told of in training
   /// Medians of the velocity factors of the training clips, metres a frame.
   std::array<double, kBodyParts> median_factors = {};

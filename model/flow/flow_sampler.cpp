@@ -64,7 +64,7 @@ struct KnownPath {
   Eigen::MatrixXd x, z;
 };
 
-// F of one window, with beats' guidance.
+// F of one window, with guidance by its labels.
 class Field {
  public:
   Field(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
@@ -79,10 +79,12 @@ class Field {
       const Pose& pose = request.history[static_cast<size_t>(i)];
       joints_.col(i) = JointPositions(model.skeleton, pose).reshaped().cast<float>();
     }
-    const double beats = request.beats.empty() ? 1 : model.config.beat_guidance;
-    Look(request, beats);
+    const bool labelled = !request.beats.empty() || request.style >= 0;
+    const double guidance = labelled ? model.config.guidance : 1;
+    Look(request, guidance);
     request.beats.clear();
-    if (beats != 1) Look(request, 1 - beats);
+    request.style = -1;
+    if (guidance != 1) Look(request, 1 - guidance);
   }
 
   // Where the flow stands at `angle`: z = size (cos noise + sin motion), size = 1 / (cos + sin).

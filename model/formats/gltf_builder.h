@@ -29,7 +29,6 @@ class GltfBuilder {
 
   GltfBuilder(Json document, std::string_view binary);
 
-  Json& document() { return document_; }
   /// A member that is a list. Throws Error(kInvalidArgument) naming it where it is something else.
   Json& List(const char* name);
 

@@ -16,8 +16,6 @@
 
 namespace {
 
-constexpr int kFailed = 1;
-
 /// The one device that a name stands for; a model is trained on one.
 std::string OneDevice(const std::string& name) {
   const auto devices = choreo::ParseDevices(name, choreo::TorchDevices());
@@ -51,7 +49,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : choreo::kMisused;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "choreo-lab: %s\n", error.what());
-    return kFailed;
+    return choreo::kFailed;
   }
   return 0;
 }

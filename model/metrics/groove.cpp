@@ -8,6 +8,7 @@
 #include "model/core/error.h"
 #include "model/metrics/band_filter.h"
 #include "model/metrics/joint_track.h"
+#include "model/motion/limb.h"
 
 namespace choreo {
 namespace {
@@ -25,7 +26,6 @@ std::array<Eigen::Index, 4> LimbEnds(const Skeleton& skeleton) {
   return ends;
 }
 
-constexpr double kStraight = 5 * M_PI / 180;
 constexpr double kSpeed = 240 * M_PI / 180;  // a second
 
 // The angle between the bones above and below a hinge.
@@ -81,7 +81,7 @@ Snaps CountSnaps(const Skeleton& skeleton, double fps, const JointTrack& track) 
     for (size_t t = 1; t < track.size(); ++t) {
       const double before = Flexion(hinge, end, track[t - 1]);
       const double now = Flexion(hinge, end, track[t]);
-      if (std::min(before, now) < kStraight && std::abs(now - before) * fps > kSpeed)
+      if (std::min(before, now) < kStraightBend && std::abs(now - before) * fps > kSpeed)
         ++(knee ? snaps.knees : snaps.elbows);
     }
   }

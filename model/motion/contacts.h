@@ -26,7 +26,6 @@ class ContactDetector {
 
   const Contacts& contacts() const { return contacts_; }
   /// Goes on from these contacts (at or above 0.5 counts as down).
-  void Reset(const Contacts& contacts = {}) { contacts_ = contacts; }
 
  private:
   std::array<int, 4> joints_;

@@ -10,6 +10,9 @@
 
 namespace choreo {
 
+/// Radians of bend: a limb below it is straight.
+inline constexpr double kStraightBend = 5 * M_PI / 180;
+
 /// Two bones and what hangs on them: hip, knee, ankle, or shoulder, elbow, wrist; by joint index, a
 /// chain.
 struct Limb {

@@ -42,7 +42,7 @@ Motion Resample(const Motion& motion, double fps) {
   Motion result;
   result.fps = fps;
   if (motion.frames.empty()) return result;
-  const auto count = static_cast<size_t>(std::floor(Duration(motion) * fps + 1e-6)) + 1;
+  const auto count = static_cast<size_t>(std::floor(Duration(motion) * fps + kOnFrame)) + 1;
   result.frames.reserve(count);
   for (size_t frame = 0; frame < count; ++frame) {
     result.frames.push_back(PoseAt(motion, static_cast<double>(frame) / fps));

@@ -19,7 +19,7 @@ namespace {
 
 using torch::Tensor;
 
-constexpr double kTempi[] = {1.0, 0.75, 1.33};
+constexpr double kControlTempi[] = {1.0, 0.75, 1.33};
 constexpr double kHandSmoothness = 9;  // frames: what a drawn path leaves out
 constexpr double kLeastScale = 0.5, kMostScale = 1.5;
 constexpr float kScaledWeight = 0.15F;  // of real motion where the factors are not its own
@@ -45,9 +45,9 @@ Tensor DrawnPath(const Tensor& path, const Tensor& before) {
 }  // namespace
 
 ControlClips::ControlClips(const std::vector<PreparedClip>& clips)
-    : skeleton_(clips.front().skeleton), clips_(clips.size()), tempi_(std::size(kTempi)) {
+    : skeleton_(clips.front().skeleton), clips_(clips.size()), tempi_(std::size(kControlTempi)) {
   for (const PreparedClip& clip : clips) {
-    for (const double tempo : kTempi) {
+    for (const double tempo : kControlTempi) {
       for (const bool mirrored : {false, true}) tracks_.push_back(MakeTrack(clip, tempo, mirrored));
     }
   }

@@ -11,7 +11,7 @@ using torch::Tensor;
 namespace {
 
 constexpr double kAtNoise = 0.2;  // share of samples at t = 0, half of them without noise
-constexpr double kStill = 1e-3;   // metres: what strays less stands
+constexpr double kStands = 1e-3;  // metres: what strays less stands
 // Weights of how far joints, and standing feet from one frame to the next, are from where they
 // should be, in squares of how far a window's joints stray; white coordinates have 1. They stay
 // small: where they pull as hard, the pelvis makes up for what limbs can't know, and stands still.
@@ -112,7 +112,7 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   // weight, so that the body's turn counts more than a wrist's.
   const Tensor importance = (variance * batch.scales.square() * reach_).sqrt();
   const Tensor weights = 0.5 + 0.5 * importance / importance.mean(1, true);
-  const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStill * kStill;
+  const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStands * kStands;
   // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
   // say.
   const Tensor moved =

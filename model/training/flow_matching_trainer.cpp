@@ -123,9 +123,10 @@ class FlowMatchingRun : public TrainingRun {
                                      .beats = 0.8,
                                      .energy = kEnergy,
                                      .path = 0.2,
-                                     .style = 0.6,
+                                     .style = 0.8,
                                      .stage = 0.8,
                                      .hold_history = 0.05,
+                                     .other_style = 0.6,
                                      .astray = 0.2};
     if (random->Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;

@@ -8,6 +8,7 @@
 #include "model/core/smooth_step.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
+#include "model/motion/resample.h"
 #include "model/motion/rotation.h"
 #include "model/training/style.h"
 #include "model/training/window_picker.h"
@@ -36,6 +37,24 @@ void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vec
     for (Eigen::Index j = 0; j < pose.rotations.cols(); ++j)
       pose.rotations.col(j) =
           RotationCompose(pose.rotations.col(j), left * offset.segment<3>(3 + 3 * j));
+  }
+}
+
+// Puts a history of another style in front, out of which the dance turns into its own: of a
+// dancer's own history alone the network would know the style, and not listen to the label.
+void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
+                    std::vector<Pose>* poses) {
+  const int64_t turn = std::min<int64_t>(random->Integer(12, 25), std::ssize(*poses) - tau);
+  const int64_t room = std::ssize(other.poses) - tau - turn;
+  if (other.style < 0 || other.style == style || room <= 0) return;
+  const auto begin = other.poses.begin() + random->Integer(0, room);
+  const GroundFrame theirs = GroundFrame::Of(begin[tau - 1]),
+                    ours = GroundFrame::Of((*poses)[static_cast<size_t>(tau - 1)]);
+  for (int64_t i = 0; i < tau + turn; ++i) {
+    Pose& pose = (*poses)[static_cast<size_t>(i)];
+    const double way = static_cast<double>(i - tau + 1) / static_cast<double>(turn + 1);
+    pose = InterpolatePoses(ours.ToWorld(theirs.ToLocal(begin[i])), pose,
+                            SmoothStep(std::clamp(way, 0.0, 1.0)));
   }
 }
 
@@ -71,7 +90,6 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
     if (random->Uniform() < 0.4) request.path = SmoothRows(request.path, kDrawnSigma);
     request.path_heights = random->Uniform() < 0.3;
   }
-  if (random->Uniform() < variation.style) request.style = track.style;
   if (random->Uniform() < variation.stage) request.stage = stage;
   return request;
 }
@@ -114,6 +132,11 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     const int64_t from = random->Integer(0, offered(index));
     const bool mirrored = random->Uniform() < variation.mirror;
     std::vector<Pose> poses(track.poses.begin() + from, track.poses.begin() + from + needed);
+    const bool styled = random->Uniform() < variation.style;
+    if (styled && random->Uniform() < variation.other_style) {
+      const auto other = static_cast<size_t>(random->Integer(0, std::ssize(tracks_)));
+      BeginOtherwise(tracks_[other], track.style, tau, random, &poses);
+    }
     if (random->Uniform() < variation.astray)
       LeadAstray(model.prior.covariance().col(0).cwiseSqrt(), tau, random, &poses);
     Eigen::Vector3d turning = Eigen::Vector3d::Zero();
@@ -130,6 +153,7 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
         Ask(std::span(poses).first(static_cast<size_t>(tau)), way, ground.ToLocal(track.stage),
             track, from + tau, variation, frames, random);
     request.turning = turning;
+    if (styled) request.style = track.style;
     if (mirrored) {
       request = Mirror(pairs, request);
       for (Pose& pose : poses) pose = Mirror(pairs, pose);

@@ -25,6 +25,7 @@ class WindowClips {
     double beats = 0, energy = 0, path = 0, style = 0;  ///< that the label is told
     double stage = 0;                                   ///< that the stage is known
     double hold_history = 0;  ///< only the last few poses are known, the earliest being held
+    double other_style = 0;   ///< begins in another style, where the label is told
     double astray = 0;        ///< starts out of balance, as dances of a model do, and comes back
   };
   /// Windows of `frames` frames whose key stands `to_key` frames behind the history.

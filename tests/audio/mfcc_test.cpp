@@ -70,18 +70,12 @@ TEST(MfccTest, AgreesWithAnIndependentComputation) {
               {-364.5138, 85.2867, 101.5038, 67.3574, -81.4707, 8.1781, -8.3590, -35.3974});
   EXPECT_NEAR(rows(10, 37), -25.5667, 0.01);
   EXPECT_NEAR(rows(44, 39), -9.9642, 0.01);
-  const FeatureMatrix clipped = Mfcc(TonesAndBursts(), 80.0);
-  ExpectStart(clipped, 0,
-              {-141.4845, 92.1078, 25.7791, 114.4474, 14.0162, -51.9438, -19.2836, -10.1303});
-  ExpectStart(clipped, 44,
-              {-355.0870, 86.0604, 88.3626, 65.0786, -68.8883, 11.8383, -20.0504, -40.2443});
 }
 
 TEST(MfccTest, RowsAreCountedByTheHop) {
   for (const int samples : {1, 734, 735, 736, 22050}) {
     const std::vector<float> wave(static_cast<size_t>(samples), 0.1f);
     EXPECT_EQ(Mfcc(wave).rows(), 1 + samples / 735);
-    EXPECT_EQ(Mfcc(wave, std::nullopt, 512).rows(), 1 + samples / 512);
   }
 }
 

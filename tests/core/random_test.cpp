@@ -154,18 +154,6 @@ TEST(RandomTest, RefusesAnEmptyRange) {
   EXPECT_THROW(random.Integer(4, -4), Error);
 }
 
-TEST(RandomTest, GoesOnFromASavedStateAtAnyPosition) {
-  for (int drawn = 0; drawn < 9; ++drawn) {
-    Random random(16, 5);
-    for (int i = 0; i < drawn; ++i) random.Next();
-    Random resumed(random.state());
-    EXPECT_EQ(resumed.state(), random.state());
-    for (int i = 0; i < 20; ++i) ASSERT_EQ(resumed.Next(), random.Next()) << drawn << " " << i;
-    EXPECT_EQ(resumed.Normal(), random.Normal());
-    EXPECT_EQ(resumed.Uniform(), random.Uniform());
-  }
-}
-
 TEST(RandomTest, StreamsAndSeedsDiffer) {
   std::set<uint32_t> words;
   for (uint64_t seed : {1, 2}) {

@@ -83,18 +83,19 @@ TEST(QualityReport, BeatHitRateCountsKinematicBeatsNearMusicBeats) {
     pose.root_position.x() = 0.3 * std::sin(3.14159265358979 * (i + 0.25) / 15);
     motion.frames.push_back(pose);
   }
-  const Skeleton& skeleton = Skeleton::Smpl24();
+  QualityMeter meter(Skeleton::Smpl24(), motion.fps, 0);
+  for (const Pose& pose : motion.frames) meter.Add({pose, {}, 0});
   std::vector<double> beats;
   for (int i = 1; i < 8; ++i) beats.push_back(15.0 * i);
-  const QualityReport on = MeasureMotion(skeleton, motion, beats);
+  const QualityReport on = meter.Report(beats);
   ASSERT_TRUE(on.beat_hit_rate);
   EXPECT_DOUBLE_EQ(*on.beat_hit_rate, 1);
   EXPECT_NEAR(*on.beat_coverage, 1, 0.15);
   for (double& beat : beats) beat += 7;
-  EXPECT_DOUBLE_EQ(*MeasureMotion(skeleton, motion, beats).beat_hit_rate, 0);
-  EXPECT_FALSE(MeasureMotion(skeleton, motion).beat_hit_rate);
+  EXPECT_DOUBLE_EQ(*meter.Report(beats).beat_hit_rate, 0);
+  EXPECT_FALSE(meter.Report().beat_hit_rate);
   const std::vector<double> elsewhere = {-50, 500};
-  EXPECT_FALSE(MeasureMotion(skeleton, motion, elsewhere).beat_hit_rate);
+  EXPECT_FALSE(meter.Report(elsewhere).beat_hit_rate);
 }
 
 TEST(QualityReport, AccelerationsAroundKeys) {

@@ -59,7 +59,7 @@ TEST(Plot, DrawsEachLineWhereItsValuesAre) {
   EXPECT_GT(falling.front(), level.back() + 40);
 }
 
-TEST(Plot, LeavesOutPointsThatAreNoNumbersAndZeroOnALogarithmicAxis) {
+TEST(Plot, LeavesOutPointsThatAreNoNumbers) {
   const TemporaryFolder folder;
   Plot plot = Example();
   plot.series.resize(1);

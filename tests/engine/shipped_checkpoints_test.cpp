@@ -43,12 +43,14 @@ TEST(ShippedCheckpoints, AreSmallBearTheirNamesAndCardsAndDance) {
 
 TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {
   const auto engine = MakeEngine(Shipped().at("free"), {}, 1);
-  const auto card = nlohmann::json::parse(engine->model().card);
-  const auto& terms = card.at("data").at("clips_by_terms");
-  EXPECT_FALSE(terms.empty());
-  for (const auto& [of, clips] : terms.items())
-    EXPECT_THAT(of, testing::HasSubstr("CMU Graphics Lab Motion Capture Database"));
-  EXPECT_EQ(card.at("from").at("card").at("data"), card.at("data"));
+  nlohmann::json card = nlohmann::json::parse(engine->model().card);
+  for (; true; card = nlohmann::json(card["from"]["card"])) {  // and all that it went on from
+    const auto& terms = card.at("data").at("clips_by_terms");
+    EXPECT_FALSE(terms.empty());
+    for (const auto& [of, clips] : terms.items())
+      EXPECT_THAT(of, testing::HasSubstr("CMU Graphics Lab Motion Capture Database"));
+    if (!card.contains("from")) break;
+  }
 }
 
 TEST(ShippedCheckpoints, TheLicenceNamesTheTermsOfAllThatAModelWentOnFrom) {

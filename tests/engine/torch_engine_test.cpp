@@ -13,6 +13,7 @@
 #include "model/motion/rotation.h"
 #include "model/motion/velocity.h"
 #include "tests/engine/engine_dances.h"
+#include "tests/support/load_checkpoint.h"
 
 namespace choreo {
 namespace {

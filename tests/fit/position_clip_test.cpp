@@ -132,7 +132,7 @@ TEST(Floor, ADancerOnTheSpotSaysNothingAboutSlopes) {
 TEST(Floor, DriftGoesAndJumpsStay) {
   PositionClip walk = Walk(0, 0, 0, 0.25);
   for (int frame = 700; frame < 715; ++frame) walk.frames[frame].row(1).array() += 0.3;
-  const PositionClip steady = RemoveHeightDrift(walk, {0, 1}, 8);
+  const PositionClip steady = RemoveHeightDrift(walk, {0, 1});
   for (int frame = 150; frame < 1350; ++frame) {
     const double lowest = std::min(steady.frames[frame](1, 0), steady.frames[frame](1, 1));
     const bool jumps = frame >= 700 && frame < 715;

@@ -205,13 +205,11 @@ TEST(Fit, StartsFromAnyPose) {
   // No frame before: each frame is a first one, and bent limbs must come out right from positions
   // alone.
   const Motion motion = fixtures::SmoothMotion(Smpl(), 10, 300);
-  PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
   for (size_t frame = 0; frame < motion.frames.size(); frame += 15) {
-    fitter.Reset();
+    PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
     const Eigen::Matrix3Xd positions = JointPositions(Smpl(), motion.frames[frame]);
     const Pose& pose = fitter.Next(positions);
     EXPECT_LT((JointPositions(Smpl(), pose) - positions).colwise().norm().mean(), 0.002) << frame;
-    EXPECT_LT((fitter.landmarks() - JointPositions(Smpl(), pose)).norm(), 1e-9);
   }
 }
 

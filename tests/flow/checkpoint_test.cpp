@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
+#include "tests/support/load_checkpoint.h"
 
 namespace choreo {
 namespace {

@@ -287,28 +287,28 @@ TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
   EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
 }
 
-// Moves everything by `step` where it hears beats.
+// Moves everything by `step` where it is told of beats, or of one of `styles`.
 class Hearing : public Silent {
  public:
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                            const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
                            const WindowFeatures& features, float t) const override {
-    const bool hears = features.frames.row(1).any();
+    const bool hears = features.frames.row(1).any() || features.whole.tail(styles).any();
     return Silent::Evaluate(z, poses, joints, mean, features, t).array() + (hears ? step : 0);
   }
   float step = 0;
+  int styles = 0;
 };
 
-TEST(FlowSampler, WhatBeatsChangeIsDoneAsOftenAsTheModelSays) {
-  Scene scene = MakeScene(30);
-  scene.request.beats = {0, 15, 30};
-  FlowModelParts parts = Parts();
+// Samples `request`, labelled by its beats or its style, with and without guidance.
+void ExpectGuidance(WindowRequest request, FlowModelParts parts) {
   Hearing network;
+  network.styles = static_cast<int>(parts.config.styles.size());
   const auto sample = [&](double guidance, float step) {
-    parts.config.beat_guidance = guidance;
+    parts.config.guidance = guidance;
     network.step = step;
     network.evaluations = 0;
-    return SampleWindow(parts, network, scene.request, {.seed = 1, .temperature = 1});
+    return SampleWindow(parts, network, request, {.seed = 1, .temperature = 1});
   };
   const auto twice = sample(2, 0.125F);
   EXPECT_EQ(network.evaluations, 2 * parts.config.steps);
@@ -317,9 +317,23 @@ TEST(FlowSampler, WhatBeatsChangeIsDoneAsOftenAsTheModelSays) {
   for (size_t i = 0; i < once.size(); ++i) EXPECT_EQ(Apart(once[i], twice[i]), 0);
   const auto weak = sample(1, 0.125F);
   EXPECT_GT(Apart(weak[15], once[15]), 1e-3);
-  scene.request.beats.clear();
+  request.beats.clear();
+  request.style = -1;
   sample(2, 0.125F);
   EXPECT_EQ(network.evaluations, parts.config.steps);
+}
+
+TEST(FlowSampler, WhatBeatsAndStyleChangeIsDoneAsOftenAsTheModelSays) {
+  Scene scene = MakeScene(30);
+  FlowModelParts parts = Parts();
+  parts.config.styles = {"waltz", "tango"};
+  parts.energy = EnergyPrior(parts.config.styles.size());
+  scene.request.style = 1;
+  ExpectGuidance(scene.request, parts);
+  scene.request.beats = {0, 15, 30};
+  ExpectGuidance(scene.request, parts);
+  scene.request.style = -1;
+  ExpectGuidance(scene.request, parts);
 }
 
 TEST(FlowSampler, APathIsMetExactlyAndItsHeightsWhereTheyAreAskedFor) {

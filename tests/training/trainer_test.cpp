@@ -10,6 +10,7 @@
 #include "model/flow/checkpoint.h"
 #include "model/training/adam.h"
 #include "model/training/losses.h"
+#include "tests/support/load_checkpoint.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 

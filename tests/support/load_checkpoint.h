@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "model/core/safetensors.h"
+#include "model/flow/checkpoint.h"
+
+namespace choreo {
+
+inline Checkpoint LoadCheckpoint(const std::filesystem::path& path) {
+  return ParseCheckpoint(ReadSafetensors(path), path.string());
+}
+
+}  // namespace choreo
