@@ -25,7 +25,6 @@ class ContactDetector {
   const Contacts& Next(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later, double fps);
 
   const Contacts& contacts() const { return contacts_; }
-  /// Goes on from these contacts (at or above 0.5 counts as down).
 
  private:
   std::array<int, 4> joints_;
