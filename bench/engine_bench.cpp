@@ -202,7 +202,7 @@ void ReadMemory(benchmark::State& state) {
 }
 
 void Register(Models* models) {
-  const bool bf16 = Bf16KernelsHere() != nullptr;
+  const bool bf16 = !Bf16KernelsHere().empty();
   std::vector<std::string> kinds = {"packed", "torch"};
   if (bf16) kinds.push_back("packed-bf16");
   const auto add = [&](const std::string& name, auto run) {
@@ -265,7 +265,7 @@ int Measure(Models* models, int argc, char** argv) {
     return 2;
   }
   std::string kernels = PackedKernelsHere().front()->name;
-  if (Bf16KernelsHere() != nullptr) kernels += std::string(", ") + Bf16KernelsHere()->name;
+  if (!Bf16KernelsHere().empty()) kernels += std::string(", ") + Bf16KernelsHere().front()->name;
   benchmark::AddCustomContext("kernels", kernels);
   benchmark::AddCustomContext("blas", DetectBlas().name);
   Register(models);

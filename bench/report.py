@@ -102,7 +102,7 @@ def memory_figures(figures, report):
 
 
 def bars(figures, gpu):
-    """The table of what is to be reached: figure, measured, at least, aim, whether more is better."""
+    """The table of what is to be reached: figure, measured, at least, aim, whether more is better. `gpu`: what gpu_row takes."""
     served = kinds_of(figures)[-1]
     packed, bare = served[1], served[2]
     best = {name: max(figures[f"paper/{name}/{n}"] for n in STREAMS) for name in ("peer", served[3])}
@@ -142,21 +142,16 @@ def bars(figures, gpu):
         good = [value <= bar * slack if less else value >= bar for bar in (least, aim)]
         shown = f"{value:.1f}x" if unit == "x" else f"{value:.0f}" if value >= 10 else f"{value:.2f}"
         lines.append(f"| {what} | {shown} | {least} | {aim} | {'aim' if good[1] else 'yes' if good[0] else '**no**'} |")
-    return lines + gpu_rows(figures, gpu) + [""]
+    return lines + [gpu_row(*gpu), ""]
 
 
-def gpu_rows(figures, gpu):
-    """A row an engine, with the card that was there; the bars are for one of H200's class."""
-    bars = "1,500 / 60,000 | 4,000 / 250,000"
-    rows = []
-    for engine in ("torch",):
-        rates = [figures.get(f"paper/cuda/{engine}/{streams}") for streams in (1, 512)]
-        if None in rates:
-            continue
-        reached = [all(rate >= bar for rate, bar in zip(rates, of)) for of in ((1500, 60000), (4000, 250000))]
-        rows.append(f"| `{engine}` on {gpu}, `paper`: 1 / 512 streams, frames/s | {' / '.join(f'{rate:,.0f}' for rate in rates)} | {bars} | "
-                    f"{'aim' if reached[1] else 'yes' if reached[0] else '**no**'} |")
-    return rows or [f"| one H200-class GPU, `paper`: 1 / 512 streams, frames/s | not run: no GPU was there | {bars} | **no** |"]
+def gpu_row(figures, gpu):
+    """The card and what was measured on it; the bars are for one of H200's class."""
+    rates = [figures[f"paper/cuda/torch/{streams}"] for streams in (1, 512)]
+    bars = ((1500, 60000), (4000, 250000))
+    least, aim = [all(rate >= bar for rate, bar in zip(rates, of)) for of in bars]
+    shown = [" / ".join(f"{rate:,.0f}" for rate in of) for of in (rates, *bars)]
+    return f"| {gpu}, `paper`: 1 / 512 streams, frames/s | {' | '.join(shown)} | {'aim' if aim else 'yes' if least else '**no**'} |"
 
 
 def main(folder, root):
@@ -178,7 +173,9 @@ def main(folder, root):
                 f"Kernels {context['kernels']}; BLAS {context['blas']}; PyTorch {peer['torch']}; largest difference between the packed engine in float32 and eager "
                 f"PyTorch {peer['paper']['largest_difference']:.1g}. Load of the machine when it began: "
                 f"{context['load_avg'][0]:.1f} on {context['num_cpus']} cores."]
-    lines = ["# Performance", "", *bars(figures, context.get("gpu", "")), (root / "bench/notes.md").read_text().strip(), *measured]
+    elsewhere = json.loads((root / "bench/gpu.json").read_text())  # for runs where there is none
+    gpu = (figures, context["gpu"]) if "gpu" in context else (elsewhere["figures"], elsewhere["gpu"])
+    lines = ["# Performance", "", *bars(figures, gpu), (root / "bench/notes.md").read_text().strip(), *measured]
     committed = root / "bench/figures.json"
     if committed.exists():
         before = json.loads(committed.read_text())["figures"]

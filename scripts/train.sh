@@ -4,7 +4,7 @@
 #   scripts/train.sh BIN_DIRECTORY RECORDINGS RUN [default|free|NAME]
 # RECORDINGS holds a folder for each set, of BVH files but for Tang's, and splits.json (docs/training.md). RUN gets data/, all/, and
 # last/checkpoint.safetensors. `default` takes five sets, `free` CMU's two, a model of another name all that are there.
-# $STEPS and $LAST_STEPS are the steps of the two runs, $LAST the sets of the second.
+# $STEPS and $LAST_STEPS are the steps of the two runs, $LAST the sets of the second, $DEVICE where: cpu, cuda:0, auto.
 set -euo pipefail
 (($# == 3 || $# == 4)) || { echo "train.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }
 lab=$(realpath "$1")/choreo-lab
@@ -37,7 +37,7 @@ train() {  # train FOLDER OPTION...
     echo "$folder is finished"
     return
   fi
-  "$lab" train --preset default --name "$name" --splits "$recordings/splits.json" --batch 48 --tempo 0.3 --run "$folder" --resume "$@"
+  "$lab" train --preset default --name "$name" --splits "$recordings/splits.json" --batch 48 --tempo 0.3 --device "${DEVICE:-cpu}" --run "$folder" --resume "$@"
   touch "$folder/finished"
 }
 of() { printf -- '--data\n%s\n' "${@/#/$run/data/}"; }  # of SET...

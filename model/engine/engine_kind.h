@@ -20,8 +20,8 @@ inline constexpr std::array<std::string_view, 4> kEngineKindNames = {"auto", "to
 
 /// What the packed engine's kernels are called (PackedKernels::name), slowest first; which of them
 /// are here depends on the machine.
-inline constexpr std::array<std::string_view, 4> kKernelNames = {"portable", "avx2", "avx512",
-                                                                 "avx512_bf16"};
+inline constexpr std::array<std::string_view, 5> kKernelNames = {"portable", "avx2", "avx512",
+                                                                 "avx512_bf16", "amx_bf16"};
 
 /// "auto, torch, ...", for messages.
 std::string EngineKindNames();

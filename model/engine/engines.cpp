@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
 #include "model/controllers/checkpoint.h"
@@ -52,8 +53,12 @@ std::string CpuCapability() {
 // Everything that can change a bit of what LibTorch computes, but for the weights.
 std::string TorchKernels(const torch::Device& device) {
   const std::string torch = "torch " TORCH_VERSION ", ";
-  if (device.is_cuda())
-    return torch + device.str() + ", " + at::detail::getCUDAHooks().showConfig();
+  if (device.is_cuda()) {  // a list, of which a fingerprint has one line
+    std::istringstream words(at::detail::getCUDAHooks().showConfig());
+    std::string cuda;
+    for (std::string word; words >> word;) cuda += word == "-" ? ", " : word + " ";
+    return torch + device.str() + cuda;
+  }
   return torch + DetectBlas().name + ", " + CpuCapability() + ", " +
          std::to_string(at::get_num_threads()) + " threads";
 }
@@ -75,8 +80,9 @@ struct KernelSet {
 // What this machine and this engine have, fastest first.
 std::vector<KernelSet> KernelSetsHere(EngineKind kind) {
   std::vector<KernelSet> sets;
-  if (const PackedKernels* bf16 = Bf16KernelsHere(); bf16 && kind != EngineKind::kPacked) {
-    sets.push_back({PackedKernelsHere().front(), bf16});
+  if (kind != EngineKind::kPacked) {
+    for (const PackedKernels* bf16 : Bf16KernelsHere())
+      sets.push_back({PackedKernelsHere().front(), bf16});
   }
   if (kind == EngineKind::kPackedBf16) return sets;
   for (const PackedKernels* kernels : PackedKernelsHere()) sets.push_back({kernels, kernels});

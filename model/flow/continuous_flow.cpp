@@ -180,10 +180,12 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   const int64_t batch = z.size(0), window = z.size(1), dimensions = z.size(2);
   const Eigen::VectorXf spread = RowOf(spread_.unsqueeze(0), 0),
                         velocity = RowOf(velocity_.unsqueeze(0), 0);
-  std::vector<Tensor> windows;  // data all, so nothing is learnt through them
+  // Data all, so nothing is learnt through them.
+  const Tensor here[] = {z.cpu(), poses.cpu(), joints.cpu(), mean.cpu(), frames.cpu()};
+  std::vector<Tensor> windows;
   for (int64_t row = 0; row < batch; ++row) {
-    const Eigen::MatrixXf seen = FlowTokens(RowOf(z, row), RowOf(poses, row), RowOf(joints, row),
-                                            RowOf(mean, row), RowOf(frames, row), spread, velocity);
+    const auto of = [&](int i) { return RowOf(here[i], row); };
+    const Eigen::MatrixXf seen = FlowTokens(of(0), of(1), of(2), of(3), of(4), spread, velocity);
     windows.push_back(TimeFirst(seen).clone());
   }
   Tensor x = torch::cat(windows).to(z.device());

@@ -47,9 +47,10 @@ class ControlRun : public TrainingRun {
   }
 
  protected:
-  void TrainStep(Random* random) override {
+  void TrainStep() override {
+    Random random = RandomOf(step());
     model_->train();
-    const ControlBatch batch = Draw(random, static_cast<double>(step()) / options().steps);
+    const ControlBatch batch = Draw(&random, static_cast<double>(step()) / options().steps);
     Descend(Walk(batch, model_->Prepare(batch.transition), std::pow(kTruthDecay, step())));
   }
 

@@ -56,10 +56,14 @@ Tensor Colour(const Tensor& spreads, const Tensor& z) {
 }  // namespace
 
 FlowMatching::FlowMatching(const ContinuousFlow& model)
-    : parts_(model->Parts()), body_(parts_.skeleton), reach_(ReachOf(parts_.skeleton)) {
+    : parts_(model->Parts()),
+      device_(model->parameters().front().device()),
+      body_(parts_.skeleton, device_),
+      reach_(ReachOf(parts_.skeleton).to(device_)) {
   const Eigen::MatrixXf mixing = parts_.mixing.cast<float>();  // column-major: transposed below
-  mixing_ =
-      torch::from_blob(const_cast<float*>(mixing.data()), {mixing.cols(), mixing.rows()}).clone();
+  mixing_ = torch::from_blob(const_cast<float*>(mixing.data()), {mixing.cols(), mixing.rows()})
+                .clone()
+                .to(device_);
 }
 
 const std::vector<std::string>& FlowMatching::TermNames() {
@@ -70,9 +74,9 @@ const std::vector<std::string>& FlowMatching::TermNames() {
 const FlowMatching::Spreads& FlowMatching::Of(int frames, int to_key) {
   const auto [place, is_new] = spreads_.try_emplace({frames, to_key});
   if (is_new) {
-    place->second = {Stack(*parts_.prior.Bridges(frames, to_key)),
-                     Stack(*parts_.prior.Bridges(frames, 0)),
-                     Stack(*parts_.prior.StageBridges(frames))};
+    place->second = {Stack(*parts_.prior.Bridges(frames, to_key)).to(device_),
+                     Stack(*parts_.prior.Bridges(frames, 0)).to(device_),
+                     Stack(*parts_.prior.StageBridges(frames)).to(device_)};
   }
   return place->second;
 }
@@ -88,11 +92,12 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
     return torch::where(batch.keyed.unsqueeze(1) > 0, Colour(spreads.to_key, z),
                         torch::cat({root, free.narrow(2, 3, free.size(2) - 3)}, 2));
   };
-  const Tensor at_noise = torch::rand({count, 1, 1}) < kAtNoise;
-  const Tensor t = torch::where(at_noise, torch::zeros({count, 1, 1}), torch::rand({count, 1, 1}));
-  const Tensor silent = at_noise & (torch::rand({count, 1, 1}) < 0.5);
-  const Tensor noise =
-      torch::matmul(torch::randn(batch.z.sizes()), mixing_) * (1 - silent.to(torch::kFloat32));
+  const auto uniform = [&] { return torch::rand({count, 1, 1}, device_); };
+  const Tensor at_noise = uniform() < kAtNoise;
+  const Tensor t = torch::where(at_noise, torch::zeros({count, 1, 1}, device_), uniform());
+  const Tensor silent = at_noise & (uniform() < 0.5);
+  const Tensor noise = torch::matmul(torch::randn(batch.z.sizes(), device_), mixing_) *
+                       (1 - silent.to(torch::kFloat32));
   const Tensor a = t.square() + (1 - t).square();
   const Tensor z = (1 - t) * noise + t * batch.z;
   const Tensor wanted = ((1 - t) * batch.z - t * noise) / a.sqrt();

@@ -13,7 +13,7 @@ namespace choreo {
 
 /// The losses of flow matching (Lipman et al. 2023), in the continuous flow's parametrisation: of a
 /// point z_t = (1 - t) noise + t z the network says F, where F* = ((1 - t) z - t noise) / sqrt(a),
-/// a = t² + (1 - t)². Not thread-safe.
+/// a = t² + (1 - t)². On the device where the model is. Not thread-safe.
 class FlowMatching {
  public:
   explicit FlowMatching(const ContinuousFlow& model);
@@ -26,6 +26,7 @@ class FlowMatching {
   /// Squares alone, whose least is the mean of all ways: of F in white coordinates, which teaches
   /// how dancers move; of where the joints of the motion that F ends in are; and of how far its
   /// feet go in a frame in which real ones stand. Times and noise from torch's generator.
+  /// The batch's tensors are on the model's device.
   LossTerms Losses(ContinuousFlow& model, const WindowBatch& batch);
 
  private:
@@ -35,6 +36,7 @@ class FlowMatching {
   };
   const Spreads& Of(int frames, int to_key);
   FlowModelParts parts_;
+  torch::Device device_;
   WindowBody body_;
   torch::Tensor mixing_;  // transposed
   torch::Tensor reach_;   // [dimensions] square metres that a square unit moves joints, on average

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <deque>
+#include <future>
+#include <thread>
 
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
@@ -88,7 +91,10 @@ void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl
 class FlowMatchingRun : public TrainingRun {
  public:
   FlowMatchingRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
-      : TrainingRun(options, train), train_(train.clips()), validation_(validation.clips()) {
+      : TrainingRun(options, train),
+        device_(options.device),
+        train_(train.clips()),
+        validation_(validation.clips()) {
     ContinuousFlowConfig config;
     if (!options.name.empty()) config.name = options.name;
     config.styles = train_.styles();
@@ -105,8 +111,10 @@ class FlowMatchingRun : public TrainingRun {
       ImportTensors(weights, "", model_.get());
     }
     Measure();
+    model_->to(device_);
     matching_ = std::make_unique<FlowMatching>(model_);
     average_ = ContinuousFlow(config, train_.skeleton());
+    average_->to(device_);
     Copy(1);
     average_->eval();
     NameLosses(FlowMatching::TermNames());
@@ -114,9 +122,22 @@ class FlowMatchingRun : public TrainingRun {
   }
 
  protected:
-  void TrainStep(Random* random) override {
+  void TrainStep() override {
+    // Bits do not depend on how many are drawn ahead: each has random numbers of its own.
+    const size_t ahead = std::max(2U, std::thread::hardware_concurrency()) - 1;
+    while (drawn_.size() < ahead) {
+      const int64_t at = step() + std::ssize(drawn_);
+      drawn_.push_back(std::async(std::launch::async, [this, at] { return Draw(at); }));
+    }
+    const WindowBatch batch = drawn_.front().get();
+    drawn_.pop_front();
+    Descend(matching_->Losses(model_, batch.To(device_)));
+  }
+
+  WindowBatch Draw(int64_t step) const {
+    Random random = RandomOf(step);
     const int most = train_.Longest(model_->config().history_frames);
-    const int frames = std::min(kLengths[random->Integer(0, std::size(kLengths))], most);
+    const int frames = std::min(kLengths[random.Integer(0, std::size(kLengths))], most);
     WindowClips::Variation variation{.mirror = 0.5,
                                      .tempo = options().tempo,
                                      .partial_key = 0.12,
@@ -128,19 +149,18 @@ class FlowMatchingRun : public TrainingRun {
                                      .hold_history = 0.05,
                                      .other_style = 0.6,
                                      .astray = 0.2};
-    if (random->Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
+    if (random.Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;
-    const double kind = random->Uniform();
+    const double kind = random.Uniform();
     if (kind < kNoKeys) {
       variation.no_key = 1;
       window = to_key = std::min(std::max(frames, 30), most);
     } else if (kind < kNoKeys + kFarKeys) {
       window = std::min(72, most);
-      to_key = std::min(96 + 24 * static_cast<int>(random->Integer(0, 5)), most);
+      to_key = std::min(96 + 24 * static_cast<int>(random.Integer(0, 5)), most);
     }
-    const WindowBatch batch = train_.Draw(matching_->parts(), WindowsOf(options().batch, window),
-                                          window, to_key, variation, random);
-    Descend(matching_->Losses(model_, batch));
+    return train_.Draw(matching_->parts(), WindowsOf(options().batch, window), window, to_key,
+                       variation, &random);
   }
 
   void AfterStep() override {
@@ -150,7 +170,7 @@ class FlowMatchingRun : public TrainingRun {
 
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
-    const auto network = MakeTorchFlowNetwork(average_);
+    const auto network = MakeTorchFlowNetwork(average_, device_);
     const FlowModelParts& parts = matching_->parts();
     const Skeleton& skeleton = train_.skeleton();
     NamedFigures figures;
@@ -267,9 +287,11 @@ class FlowMatchingRun : public TrainingRun {
     return batches;
   }
 
+  torch::Device device_;
   WindowClips train_, validation_;
   ContinuousFlow model_{nullptr}, average_{nullptr};
   std::unique_ptr<FlowMatching> matching_;
+  std::deque<std::future<WindowBatch>> drawn_;  // of this step and those after it; ends first
 };
 
 }  // namespace

@@ -109,18 +109,19 @@ class FlowRun : public TrainingRun {
                               model_->Begin(last.transition));
   }
 
-  void TrainStep(Random* random) override {
+  void TrainStep() override {
+    Random random = RandomOf(step());
     model_->train();
     // Short transitions are common in use and cheap: half of the draws are quadratic towards the
     // short end.
-    const double u = random->Uniform();
-    const double place = random->Uniform() < 0.5 ? u * u : u;
+    const double u = random.Uniform();
+    const double place = random.Uniform() < 0.5 ? u * u : u;
     const MotionBatch batch =
-        Draw(random, options().shortest +
-                         static_cast<int>(place * (options().longest - options().shortest + 1)));
+        Draw(&random, options().shortest +
+                          static_cast<int>(place * (options().longest - options().shortest + 1)));
     Descend(LikelihoodLoss(model_, batch, model_->Begin(batch.transition)));
     if (!model_->config().key_loss) return;
-    const MotionBatch sampled = DrawRollout(random);
+    const MotionBatch sampled = DrawRollout(&random);
     Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),
                         model_->config().temperature));
   }

@@ -92,10 +92,9 @@ void TrainingRun::Go() {
   if (step_ == 0) Prepare();
   for (; step_ < total; ++step_) {
     losses_.step = step_ + 1;
-    Random random(options_.seed, static_cast<uint32_t>(step_ + 1));
     torch::manual_seed(options_.seed + static_cast<uint64_t>(step_) * 1000003);
     adam_->ZeroGrad();
-    TrainStep(&random);
+    TrainStep();
     adam_->Step(RateAt(options_.rate, step_, total), kMaxGradientNorm);
     AfterStep();
     seconds_ = seconds_before +

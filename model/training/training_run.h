@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/core/progress.h"
+#include "model/core/random.h"
 #include "model/core/safetensors.h"
 #include "model/training/adam.h"
 #include "model/training/clip_store.h"
@@ -21,7 +22,7 @@ namespace choreo {
 
 /// What every training run does, whatever it trains: steps one after another, reports, saves its
 /// state and goes on from it exactly as if it had not been left. For that, each step draws from
-/// generators of its own, keyed by its number: the one that it is handed, and torch's.
+/// generators of its own, keyed by its number: RandomOf(step()), and torch's.
 class TrainingRun {
  public:
   virtual ~TrainingRun() = default;
@@ -45,7 +46,7 @@ class TrainingRun {
   /// Before the first step of all.
   virtual void Prepare() {}
   /// Descends once or more; the optimiser's step follows.
-  virtual void TrainStep(Random* random) = 0;
+  virtual void TrainStep() = 0;
   /// The optimiser has moved the network.
   virtual void AfterStep() {}
   /// On validation clips, by name.
@@ -66,6 +67,9 @@ class TrainingRun {
 
   const TrainOptions& options() const { return options_; }
   int64_t step() const { return step_; }
+  Random RandomOf(int64_t step) const {
+    return Random(options_.seed, static_cast<uint32_t>(step + 1));
+  }
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }

@@ -72,6 +72,24 @@ struct Lever {
 
 }  // namespace
 
+WindowBatch WindowBatch::To(torch::Device device) const {
+  return {.frames = frames,
+          .to_key = to_key,
+          .z = z.to(device),
+          .scales = scales.to(device),
+          .surprise = surprise,
+          .keyed = keyed.to(device),
+          .staged = staged.to(device),
+          .mean = mean.to(device),
+          .features = features.to(device),
+          .whole = whole.to(device),
+          .history_joints = history_joints.to(device),
+          .base_root = base_root.to(device),
+          .base_turns = base_turns.to(device),
+          .axes = axes.to(device),
+          .bones = bones.to(device)};
+}
+
 WindowBatchBuilder::WindowBatchBuilder(const FlowModelParts& model, int frames, int to_key)
     : model_(model), batch_{.frames = frames, .to_key = to_key} {}
 

@@ -29,6 +29,9 @@ struct WindowBatch {
   torch::Tensor axes = {}, bones = {};
   std::vector<WindowRequest> requests = {};   ///< what each was asked for
   std::vector<std::vector<Pose>> truth = {};  ///< [batch][w] canonical frame
+
+  /// Its tensors there, without requests and truth.
+  WindowBatch To(torch::Device device) const;
 };
 
 /// Fills a batch, window by window.

@@ -22,13 +22,14 @@ Tensor Carriers(const Skeleton& skeleton) {
 
 }  // namespace
 
-WindowBody::WindowBody(const Skeleton& skeleton)
-    : kinematics_(skeleton), carriers_(Carriers(skeleton)) {
-  const std::vector<int>& parents = skeleton.parents;
-  parents_ = torch::tensor(std::vector<int64_t>(parents.begin(), parents.end()), torch::kLong)
-                 .clamp_min(0);
-  const auto& feet = skeleton.feet;
-  feet_ = torch::tensor(std::vector<int64_t>(feet.begin(), feet.end()), torch::kLong);
+WindowBody::WindowBody(const Skeleton& skeleton, torch::Device device)
+    : kinematics_(skeleton), carriers_(Carriers(skeleton).to(device)) {
+  const auto indices = [&](const auto& joints) {
+    return torch::tensor(std::vector<int64_t>(joints.begin(), joints.end()), torch::kLong)
+        .to(device);
+  };
+  parents_ = indices(skeleton.parents).clamp_min(0);
+  feet_ = indices(skeleton.feet);
 }
 
 Tensor WindowBody::Place(const WindowBatch& batch, const Tensor& x) const {

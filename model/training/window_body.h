@@ -9,7 +9,7 @@ namespace choreo {
 /// safe to share between threads.
 class WindowBody {
  public:
-  explicit WindowBody(const Skeleton& skeleton);
+  WindowBody(const Skeleton& skeleton, torch::Device device);
 
   /// Joint positions [batch, w, 3 joints], metres, of coordinates x [batch, w, dimensions] from the
   /// batch's means. No gradient.

@@ -102,14 +102,14 @@ TEST_F(ContinuousFlowEngineTest, TellsWhatItTakes) {
 TEST_F(ContinuousFlowEngineTest, EnginesAgree) {
   const auto torch = MakeEngine(path_, {}, 1, EngineKind::kTorch);
   std::vector<std::pair<std::unique_ptr<StepEngine>, double>> others;
-  for (const PackedKernels* kernels : PackedKernelsHere()) {
+  const auto add = [&](const PackedKernels* kernels, double most) {
     const Device cpu;
     others.emplace_back(
-        std::move(MakeEngines(path_, {&cpu, 1}, 1, EngineKind::kPacked, kernels->name).front()),
-        2e-4);
-  }
-  if (Bf16KernelsHere() != nullptr)
-    others.emplace_back(MakeEngine(path_, {}, 1, EngineKind::kPackedBf16), 0.1);
+        std::move(MakeEngines(path_, {&cpu, 1}, 1, EngineKind::kAuto, kernels->name).front()),
+        most);
+  };
+  for (const PackedKernels* kernels : PackedKernelsHere()) add(kernels, 2e-4);
+  for (const PackedKernels* kernels : Bf16KernelsHere()) add(kernels, 0.1);
   for (auto& [packed, most] : others) {
     EXPECT_NE(packed->model().fingerprint, torch->model().fingerprint);
     for (const int frames : {1, 2, 9, 16, 40}) {
@@ -120,6 +120,19 @@ TEST_F(ContinuousFlowEngineTest, EnginesAgree) {
             << packed->model().fingerprint << ", " << frames << " frames, seed " << seed;
       }
     }
+  }
+}
+
+TEST_F(ContinuousFlowEngineTest, CudaDancesAsTheCpuDoes) {
+  if (TorchDevices().cuda_devices == 0) GTEST_SKIP() << "no CUDA device answers";
+  const auto cpu = MakeEngine(path_, {}, 1, EngineKind::kTorch);
+  const auto gpu = MakeEngine(path_, {Device::Kind::kCuda, 0}, 2, EngineKind::kTorch);
+  EXPECT_EQ(gpu->device(), "cuda:0");
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    const TransitionSpec spec = Spec(seed, 40);
+    const auto danced = DanceAlone(gpu.get(), spec);
+    EXPECT_LT(LargestDifference(DanceAlone(cpu.get(), spec), danced), 2e-4) << "seed " << seed;
+    ExpectSameBits(DanceAlone(gpu.get(), spec), danced);
   }
 }
 

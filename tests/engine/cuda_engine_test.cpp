@@ -32,6 +32,7 @@ TEST_P(CudaEngineTest, StepsAsTheCpuDoes) {
     const auto cpu = MakeEngine(checkpoint_.path(), {}, 1, EngineKind::kTorch);
     const auto gpu = Engine(1);
     EXPECT_EQ(gpu->device(), "cuda:0");
+    EXPECT_EQ(gpu->model().fingerprint.find('\n'), std::string::npos) << "a log has it in a line";
     EXPECT_LT(LargestStepDifference(cpu.get(), gpu.get(), seed, 30), 1e-4) << "seed " << seed;
   }
 }

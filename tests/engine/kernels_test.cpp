@@ -24,8 +24,12 @@ TEST(KernelsTest, AreThoseThatAreNamed) {
     EXPECT_THAT(Fingerprint(checkpoint, kernels->name),
                 HasSubstr("/packed " + std::string(kernels->name)));
   }
-  if (const PackedKernels* bf16 = Bf16KernelsHere()) {
-    EXPECT_EQ(Fingerprint(checkpoint, bf16->name),
+  for (const PackedKernels* bf16 : Bf16KernelsHere()) {
+    EXPECT_THAT(Fingerprint(checkpoint, bf16->name),
+                HasSubstr("/packed " + std::string(bf16->name)));
+  }
+  if (!Bf16KernelsHere().empty()) {
+    EXPECT_EQ(Fingerprint(checkpoint, Bf16KernelsHere().front()->name),
               Fingerprint(checkpoint, "", EngineKind::kPackedBf16));
   }
 }

@@ -36,7 +36,7 @@ class PackedEngineTest : public testing::TestWithParam<std::tuple<Shape, EngineK
  protected:
   PackedEngineTest() : checkpoint_(std::get<0>(GetParam())) { SetTorchThreads(1); }
   void SetUp() override {
-    if (bf16() && Bf16KernelsHere() == nullptr) GTEST_SKIP() << "this CPU has no AVX512-BF16";
+    if (bf16() && Bf16KernelsHere().empty()) GTEST_SKIP() << "this CPU has no AVX512-BF16";
   }
   EngineKind kind() const { return std::get<1>(GetParam()); }
   bool bf16() const { return kind() == EngineKind::kPackedBf16; }

@@ -150,7 +150,8 @@ TEST(ServerConfigTest, ThoseThatAreKnownAreListed) {
   EXPECT_FALSE(Parse({"--kernels", "avx9"}).config);
   EXPECT_FALSE(Parse({"--engine", "fast"}).config);
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "choreod: --kernels: \"avx9\" is none of portable, avx2, avx512, avx512_bf16\n"
+            "choreod: --kernels: \"avx9\" is none of portable, avx2, avx512, avx512_bf16, "
+            "amx_bf16\n"
             "choreod: --engine: \"fast\" is none of auto, torch, packed, packed-bf16\n");
 }
 

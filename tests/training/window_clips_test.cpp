@@ -65,7 +65,7 @@ class WindowClipsTest : public testing::Test {
 
 TEST_F(WindowClipsTest, ABodyStandsWhereForwardKinematicsHasIt) {
   const WindowBatch batch = Draw({});
-  const WindowBody body(clips_.skeleton());
+  const WindowBody body(clips_.skeleton(), torch::kCPU);
   const Tensor places = body.Place(batch, Coordinates(batch));
   for (size_t i = 0; i < batch.truth.size(); ++i) {
     for (int t = 0; t < kFrames; ++t) {
@@ -104,7 +104,7 @@ TEST_F(WindowClipsTest, StagesAreToldAsOftenAsAskedFor) {
 
 TEST_F(WindowClipsTest, ABodyMovesAsItsCoordinatesDo) {
   const WindowBatch batch = Draw({.no_key = 1});  // far from the mean
-  const WindowBody body(clips_.skeleton());
+  const WindowBody body(clips_.skeleton(), torch::kCPU);
   const Tensor x = Coordinates(batch);
   EXPECT_GT(x.abs().max().item<double>(), 0.1);
   torch::manual_seed(3);

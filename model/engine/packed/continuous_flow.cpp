@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "model/engine/packed/tensors.h"
 #include "model/flow/flow_tokens.h"
 
 namespace choreo {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "model/engine/packed/tensors.h"
 #include "model/flow/key_condition.h"
 #include "model/motion/pose_codec.h"
 

@@ -62,8 +62,8 @@ struct PackedKernels {
 
 /// What this machine can run in float32, fastest first; never empty.
 std::span<const PackedKernels* const> PackedKernelsHere();
-/// The fastest of these with products of bfloat16, and the same panel; null where the machine has
-/// no instructions for them.
-const PackedKernels* Bf16KernelsHere();
+/// The same with products of bfloat16, and the panel of the fastest of those above; empty where the
+/// machine has no instructions for them.
+std::span<const PackedKernels* const> Bf16KernelsHere();
 
 }  // namespace choreo

@@ -5,6 +5,7 @@
 //   CHOREO_VECTOR_BYTES   of one register
 //   CHOREO_MOST_ROWS      of which two registers each are summed at once
 //   CHOREO_BF16           1: products of pairs of bfloat16, AVX512-BF16's
+//   CHOREO_TILES          1: the same, AMX's
 #if CHOREO_BF16
 #include <immintrin.h>
 #endif
@@ -50,6 +51,9 @@ inline Vector MultiplyAdd(Vector sum, float x, Vector weight) { return sum + x *
 constexpr void (*Pair)(const float*, long, float*) = nullptr;
 #endif
 
+#if CHOREO_TILES
+#include "model/engine/packed/tiles_of_one_cpu.h"
+#else
 template <int kRows, int kPanels>
 void Block(const PackedProduct& p, long row, long panel) {
   constexpr int kVectors = 2 * kPanels;
@@ -123,6 +127,7 @@ void Multiply(const PackedProduct& p) {
     }
   }
 }
+#endif
 
 #include "model/engine/packed/rows_of_one_cpu.h"
 

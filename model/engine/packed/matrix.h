@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 
+#include "model/core/safetensors.h"
 #include "model/engine/packed/kernels.h"
 
 namespace choreo {
@@ -84,6 +86,29 @@ class PackedLinear {
   const PackedKernels* kernels_ = nullptr;
   long depth_ = 0, columns_ = 0, panels_ = 0;
   LargePages weight_, bias_;
+};
+
+/// A checkpoint's tensors by name, as the packed engine packs them. Throws Error(kInvalidArgument)
+/// naming a tensor that is missing or does not fit the configuration.
+class PackedTensors {
+ public:
+  /// `content` must outlive this.
+  explicit PackedTensors(const Safetensors& content) : content_(content) {}
+
+  Eigen::Map<const RowMajorMatrix> Get(const std::string& name, long rows, long columns) const {
+    return {content_.Get(name, {rows, columns}).data.data(), rows, columns};
+  }
+  Eigen::Map<const Eigen::VectorXf> Get(const std::string& name, long size) const {
+    return {content_.Get(name, {size}).data.data(), size};
+  }
+  /// A linear layer `name`.weight, `name`.bias of LibTorch's, which holds [out, in].
+  PackedLinear Linear(const PackedKernels& kernels, const std::string& name, long in,
+                      long out) const {
+    return {kernels, Get(name + ".weight", out, in).transpose(), Get(name + ".bias", out)};
+  }
+
+ private:
+  const Safetensors& content_;
 };
 
 /// Multiplies random rows in every place of batches of several sizes; true if their bits never
