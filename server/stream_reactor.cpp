@@ -123,7 +123,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
       case Request::kRemoveKeyframe:
         return stream->RemoveKey(request.remove_keyframe().id());
       case Request::kControls:
-        return TakeControls(*stream, request.controls());
+        return stream->SetControls(ToControls(request.controls(), stream->NextControls()));
       case Request::kMusicBeats:
         return TakeBeats(*stream, request.music_beats());
       case Request::kGenerateUntil:
@@ -186,25 +186,18 @@ class DanceSession final : public CallSession<Response, DanceStream>,
 
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
     const ModelInfo& model = scheduler_->model();
-    const std::string field = "keyframes[" + std::to_string(keyframes_) + ']';
+    const std::string field = stream.NextKeyframe();
     if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
     const Target target =
         ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr, model.skeleton,
                  field, field + ".mask");
     stream.SetKey(keyframe.id(), ToMoment(keyframe, model.fps, field), target.pose, target.mask);
-    ++keyframes_;
-  }
-
-  void TakeControls(DanceStream& stream, const v1::Controls& controls) {
-    stream.SetControls(ToControls(controls, "controls[" + std::to_string(controls_) + ']'));
-    ++controls_;
   }
 
   void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {
-    const std::string field = "music_beats[" + std::to_string(beats_) + "].times";
+    const std::string field = stream.NextMusicBeats() + ".times";
     if (message.times().empty()) throw InvalidArgument(field, "empty");
     stream.GiveBeats(ToBeats(message.times(), field));
-    ++beats_;
   }
 
   // Of the configuration; written before the stream is there.
@@ -215,9 +208,6 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   bool finds_beats_ = false;  // of a music file
 
   // Of the messages.
-  int keyframes_ = 0;
-  int controls_ = 0;
-  int beats_ = 0;
   MusicFile file_;
   bool file_decoded_ = false;
 };

@@ -10,6 +10,13 @@
 #include "model/dance/validation.h"
 
 namespace choreo {
+namespace {
+
+std::string Numbered(const std::string& field, int number) {
+  return field + "[" + std::to_string(number) + "]";
+}
+
+}  // namespace
 
 AudioFeed& DanceStream::Audio(const char* field) {
   AudioFeed* audio = chain_->audio();
@@ -64,10 +71,23 @@ void DanceStream::SetMusicBeats(const std::vector<double>& seconds) {
   chain_->SetMusicBeats(seconds);
 }
 
+std::string DanceStream::NextKeyframe() const {
+  std::lock_guard lock(messages_);
+  return Numbered("keyframes", keyframes_);
+}
+std::string DanceStream::NextControls() const {
+  std::lock_guard lock(messages_);
+  return Numbered("controls", controls_);
+}
+std::string DanceStream::NextMusicBeats() const {
+  std::lock_guard lock(messages_);
+  return Numbered("music_beats", beats_);
+}
+
 void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
                          const PoseMask& mask) {
   std::lock_guard lock(messages_);
-  const std::string field = "keyframes[" + std::to_string(keyframes_) + "]";
+  const std::string field = Numbered("keyframes", keyframes_);
   ValidatePose(model_.skeleton, pose, field);
   ValidateMask(model_.skeleton, mask, field + ".mask");
   chain_->Change([&](Timeline& timeline) {
@@ -78,7 +98,7 @@ void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pos
 
 void DanceStream::RemoveKey(const std::string& id) {
   std::lock_guard lock(messages_);
-  const std::string field = "remove_keyframes[" + std::to_string(removals_) + "]";
+  const std::string field = Numbered("remove_keyframes", removals_);
   chain_->Change([&](Timeline& timeline) {
     if (auto rejection = timeline.Remove(id, field)) chain_->Post(*rejection);
   });
@@ -87,7 +107,7 @@ void DanceStream::RemoveKey(const std::string& id) {
 
 void DanceStream::SetControls(const ControlRequest& request) {
   std::lock_guard lock(messages_);
-  const std::string field = "controls[" + std::to_string(controls_) + "]";
+  const std::string field = Numbered("controls", controls_);
   request.Validate(model_, field);
   chain_->SetControls(request, field);
   ++controls_;
@@ -95,7 +115,7 @@ void DanceStream::SetControls(const ControlRequest& request) {
 
 void DanceStream::GiveBeats(const std::vector<double>& seconds) {
   std::lock_guard lock(messages_);
-  chain_->GiveBeats(seconds, "music_beats[" + std::to_string(beats_) + "].times");
+  chain_->GiveBeats(seconds, Numbered("music_beats", beats_) + ".times");
   ++beats_;
 }
 

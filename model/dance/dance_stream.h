@@ -49,16 +49,22 @@ class DanceStream {
   /// the first sample; none, then nothing is listened for either.
   void SetMusicBeats(const std::vector<double>& seconds);
 
-  /// See Timeline. A key too late is answered by a KeyRejection event. Errors name "keyframes[i]",
-  /// i counting the calls.
+  /// What errors call the next message of a kind, "keyframes[i]", i counting those that were taken.
+  /// For who reads a message before handing it over.
+  std::string NextKeyframe() const;
+  std::string NextControls() const;
+  std::string NextMusicBeats() const;
+
+  /// See Timeline. A key too late is answered by a KeyRejection event. Errors name
+  /// NextKeyframe().
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
               const PoseMask& mask = {});
   void RemoveKey(const std::string& id);
-  /// See ControlTrack. Holds from the first frame that is not frozen. Errors name "controls[i]", i
-  /// counting the calls; none may come after KeysComplete, which freezes all.
+  /// See ControlTrack. Holds from the first frame that is not frozen. Errors name
+  /// NextControls(); none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
   /// Seconds, ascending, at least one: see MusicBeats::Give. Those in frozen frames are left out,
-  /// and told of by a DanceWarning. Errors name "music_beats[i].times", i counting the calls; none
+  /// and told of by a DanceWarning. Errors name NextMusicBeats(); none
   /// may come after KeysComplete.
   void GiveBeats(const std::vector<double>& seconds);
   void GenerateUntil(int64_t frame);
@@ -87,7 +93,7 @@ class DanceStream {
   const ModelInfo& model_;
   const bool has_end_frame_;
   std::shared_ptr<DanceChain> chain_;
-  std::mutex
+  mutable std::mutex
       messages_;  // of what follows, and of the audio's pushing side; before the chain's lock
   int keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0;  // messages so far
   bool complete_ = false;

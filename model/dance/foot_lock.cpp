@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/core/smooth_step.h"
+#include "model/motion/contacts.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -11,8 +12,6 @@ namespace {
 
 constexpr double kStepSeconds = 0.3;
 constexpr double kDrift = 0.12;          // metres the body may leave a planted foot behind
-constexpr double kLowToes = 0.04;        // metres above rest: on the floor
-constexpr double kLiftedToes = 0.07;     // the model has lifted the foot
 constexpr double kStillSpeed = 0.6;      // m/s: a foot that the model moves slower stands
 constexpr double kSameSpot = 0.03;       // metres that need no step of their own
 constexpr double kFarthestReach = 1.02;  // of the leg's length: a toe drawn two centimetres
@@ -74,7 +73,7 @@ FootLock::FootLock(const Skeleton& skeleton, double fps, int transition_frames,
       JointPositions(skeleton, history[history.size() - std::min<size_t>(2, history.size())]);
   for (Foot& foot : feet_) {
     foot.at = foot.from = foot.raw = now.col(foot.leg.toes);
-    foot.planted = foot.at.y() < rest_height_ + kLowToes &&
+    foot.planted = foot.at.y() < rest_height_ + kDownHeight &&
                    Apart(now.col(foot.leg.toes), before.col(foot.leg.toes)) < kStillSpeed / fps_;
     foot.last_start = frames_;
     foot.bend = KneeBend(foot.leg, last);
@@ -90,7 +89,7 @@ void FootLock::PlanLastSteps(const Target& target) {
     Foot& foot = feet_[side];
     if (!Fixes(target, foot.leg, skeleton_)) continue;
     const Eigen::Vector3d toes = key.col(foot.leg.toes);
-    if (toes.y() < rest_height_ + kLiftedToes) foot.landing = toes;
+    if (toes.y() < rest_height_ + kUpHeight) foot.landing = toes;
     way[side] = Apart(toes, foot.at);
   }
   // The foot with the longer way steps last, so that the other one carries it.
@@ -113,7 +112,7 @@ void FootLock::Lift(Foot* foot, int duration) {
 }
 
 bool FootLock::WantsToStep(const Foot& foot, const Eigen::Vector3d& raw, double reach) const {
-  if (reach > kFarthestReach || raw.y() > rest_height_ + kLiftedToes) return true;
+  if (reach > kFarthestReach || raw.y() > rest_height_ + kUpHeight) return true;
   const Foot& other = &foot == feet_.data() ? feet_[1] : feet_[0];
   const bool in_time = next_ + step_frames_ < foot.last_start;
   return other.planted && in_time && Apart(raw, foot.at) > kDrift;
@@ -125,7 +124,7 @@ Eigen::Vector3d FootLock::Move(Foot* foot, const Eigen::Vector3d& raw) {
   const bool lands = foot->last_step && foot->landing;
   const Eigen::Vector3d goal = lands ? *foot->landing : raw;
   const double arc = std::min(kHighestArc, kArc + kArcPerMetre * Apart(goal, foot->from));
-  const double model_lift = std::max(0.0, raw.y() - rest_height_ - kLowToes);
+  const double model_lift = std::max(0.0, raw.y() - rest_height_ - kDownHeight);
   const auto at = [&](double u) {
     Eigen::Vector3d place = foot->from + SmoothStep(u) * (goal - foot->from);
     // A quick step, between keys that stand close together, is a low one. It leaves the floor and
@@ -153,7 +152,7 @@ Eigen::Vector3d FootLock::Move(Foot* foot, const Eigen::Vector3d& raw) {
   }
   // A step comes down where the floor is; a foot that the model moves by itself stands once it is
   // slow. A key that has the foot in the air, or leaves it open, takes it from the model's hand.
-  const bool low = goal.y() < rest_height_ + (foot->landing ? kLiftedToes : kLowToes);
+  const bool low = goal.y() < rest_height_ + (foot->landing ? kUpHeight : kDownHeight);
   const bool comes_down = foot->duration > 0 || Apart(raw, foot->raw) < kStillSpeed / fps_;
   foot->planted = u == 1 && low && comes_down && (!foot->last_step || foot->landing);
   return at(u);
@@ -203,7 +202,7 @@ Pose FootLock::Apply(const Pose& steered) {
     }
     // The foot keeps its turn, so its ankle moves with its toes.
     const double ankle = placement_.positions(1, foot.leg.ankle) + foot.at.y() - raw.y();
-    contacts_[2 * side] = foot.planted && ankle < ankle_height_ + kLowToes ? 1.0F : 0.0F;
+    contacts_[2 * side] = foot.planted && ankle < ankle_height_ + kDownHeight ? 1.0F : 0.0F;
     contacts_[2 * side + 1] = foot.planted ? 1.0F : 0.0F;
   }
   ++next_;

@@ -84,7 +84,8 @@ SampledTransition ContinuousFlowEngine::Begin(const TransitionSpec& spec, int /*
               .keyed = Keyed(spec),
               .has_path = spec.controls.root_path.cols() > 0,
               .has_heights = spec.controls.path_heights,
-              .fps = model().fps},
+              .fps = model().fps,
+              .options = parts_->config.plan},
              &transition.poses);
   Motion motion{.fps = model().fps, .frames = {spec.history.back()}};
   motion.frames.insert(motion.frames.end(), transition.poses.begin(), transition.poses.end());

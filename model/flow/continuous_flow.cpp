@@ -136,7 +136,7 @@ class TorchFlowNetwork : public FlowNetwork {
   torch::Device device_;
 };
 
-constexpr const char* kFormat = "choreo-continuous-flow-7";
+constexpr const char* kFormat = "choreo-continuous-flow-8";
 
 }  // namespace
 
@@ -277,8 +277,10 @@ bool HoldsContinuousFlow(const Safetensors& content) {
 }
 
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
-  return TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat),
-                                                      content);
+  auto checkpoint =
+      TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat), content);
+  checkpoint.model->config().plan.Validate(name + ": config.plan");
+  return checkpoint;
 }
 
 std::string SaveContinuousFlow(const std::filesystem::path& path, const ContinuousFlow& model,

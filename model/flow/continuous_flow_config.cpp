@@ -1,11 +1,24 @@
 #include "model/flow/continuous_flow_config.h"
 
+#include "model/core/error.h"
 #include "model/flow/json_fields.h"
 
 namespace choreo {
 
+void PlanOptions::Validate(const std::string& field) const {
+  if (accent < 0 || key_accent < 0 || accent + key_accent > 1)
+    throw InvalidArgument(field + ".accent", "the accents are not two shares of at most 1 in all");
+  if (whole_accent <= 0 || fastest <= 0 || on_beat < 0)
+    throw InvalidArgument(field + ".whole_accent", "a time in seconds is not above 0");
+  if (no_key_accent < 0 || whole_key_accent <= no_key_accent)
+    throw InvalidArgument(field + ".whole_key_accent", "is not above no_key_accent");
+  if (hinge_softness <= 0) throw InvalidArgument(field + ".hinge_softness", "is not above 0");
+}
+
+CHOREO_JSON_FIELDS(PlanOptions, accent, key_accent, whole_accent, fastest, on_beat, no_key_accent,
+                   whole_key_accent, hinge_softness)
 CHOREO_JSON_FIELDS(ContinuousFlowConfig, name, history_frames, window_frames, max_transition_frames,
                    width, layers, heads, condition, steps, temperature, guidance, styles,
-                   median_factors)
+                   median_factors, plan)
 
 }  // namespace choreo

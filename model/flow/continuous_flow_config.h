@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/flow/plan_options.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {
@@ -28,6 +29,7 @@ struct ContinuousFlowConfig {
   std::vector<std::string> styles = {};  ///< that it was told of in training
   /// Medians of the velocity factors of the training clips, metres a frame.
   std::array<double, kBodyParts> median_factors = {};
+  PlanOptions plan = {};
 };
 
 void to_json(nlohmann::json& json, const ContinuousFlowConfig& config);

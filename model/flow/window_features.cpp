@@ -10,10 +10,10 @@
 namespace choreo {
 namespace {
 
-constexpr int kTimeWidth = 16;      // of each embedded number of frames
-constexpr double kSlowBeat = 27;    // frames: slower beats are halved, as dancers do
-constexpr double kUsualBeat = 15;   // frames
-constexpr double kPathScale = 0.3;  // metres
+constexpr int kTimeWidth = 16;       // of each embedded number of frames
+constexpr double kLongestBeat = 27;  // frames: slower beats are halved, as dancers do
+constexpr double kUsualBeat = 15;    // frames
+constexpr double kPathScale = 0.3;   // metres
 constexpr int kBeatFeatures = 6, kPathFeatures = 5, kEnergyFeatures = 2 * kBodyParts;
 
 // Places in a frame's features.
@@ -30,7 +30,7 @@ std::optional<BeatPhase> PhaseAt(std::span<const double> beats, double at) {
   double period = *next - *(next - 1);
   if (!(period > 0)) return std::nullopt;
   double since = (at - *(next - 1)) / period;
-  if (period > kSlowBeat) {
+  if (period > kLongestBeat) {
     since *= 2;
     period /= 2;
   }

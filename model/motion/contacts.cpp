@@ -8,7 +8,7 @@ namespace {
 
 // What a foot joint touches down below, and lifts off above: metres, and metres a second (1 cm a
 // frame at 30 fps).
-constexpr double kDownHeight = 0.04, kUpHeight = 0.07, kDownSpeed = 0.30, kUpSpeed = 0.50;
+constexpr double kDownSpeed = 0.30, kUpSpeed = 0.50;
 
 }  // namespace
 

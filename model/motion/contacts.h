@@ -13,6 +13,10 @@ namespace choreo {
 /// on the floor, 0 off it. A model's may lie in between.
 using Contacts = std::array<float, 4>;
 
+/// Metres above its height in the rest pose: a joint up to the first is on the floor, one beyond
+/// the second has left it.
+inline constexpr double kDownHeight = 0.04, kUpHeight = 0.07;
+
 /// Contacts frame by frame. A foot joint touches down when it is both low and slow, and stays down
 /// until it is higher or faster than that by half: a frame's contacts depend on it and the frames
 /// before it. Heights are above the joint's own in the rest pose. Not thread-safe.

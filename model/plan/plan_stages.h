@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "model/flow/plan_options.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -18,7 +19,8 @@ struct PlanContext {
   std::span<const double> beats = {};  ///< frames from the first, ascending
   bool keyed = false;                  ///< it ends on a key
   bool has_path = false, has_heights = false;  ///< the root's place, and its height, were asked for
-  double fps = 30;                             ///< the model's
+  double fps;                                  ///< the model's
+  PlanOptions options = {};                    ///< the same
 };
 
 /// Knees and elbows bend one way, until the limb is folded: the bend of each about its hinge is led

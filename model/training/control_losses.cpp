@@ -12,8 +12,6 @@ constexpr double kRec = 0.3, kCon = 0.2, kRoot = 0.15, kKey = 0.2, kFactor = 0.1
 constexpr int64_t kKeyFrames = 5;  // m
 // Within a loss: what counts as one.
 constexpr double kHeading = 0.3, kPlace = 2, kContact = 0.05;
-constexpr double kBone = 10;   // decimetres
-constexpr double kSpeed = 10;  // decimetres a frame
 constexpr double kCentimetre = 100;
 
 Tensor Norm(const Tensor& x) { return (x.square().sum(-1) + 1e-8).sqrt(); }
@@ -49,11 +47,11 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
       OfWindow(Norm((frames.joints - truth.joints).flatten(2))) +
       kHeading * OfWindow(Norm(frames.facing - truth.facing)) +
       kPlace * OfWindow(Norm(frames.root - truth.root)) +
-      kSpeed * OfWindow(Norm(output.velocities - real)) +
+      kDecimetresPerMetre * OfWindow(Norm(output.velocities - real)) +
       kContact * OfWindow(torch::binary_cross_entropy_with_logits(
                      output.contact_logits, truth.contacts, {}, {}, at::Reduction::None));
-  Tensor consistency = weighted(kSpeed * OfWindow(Norm(steps - real)) +
-                                kSpeed * OfWindow(Norm(output.velocities - steps)));
+  Tensor consistency = weighted(kDecimetresPerMetre * OfWindow(Norm(steps - real)) +
+                                kDecimetresPerMetre * OfWindow(Norm(output.velocities - steps)));
 
   std::vector<int64_t> parents, feet;
   Tensor lengths = torch::empty({model.skeleton().joints() - 1});
@@ -68,12 +66,14 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
   const Tensor with_root =
       torch::cat({torch::zeros_like(frames.joints.narrow(2, 0, 1)), frames.joints}, 2);
   const Tensor bones = Norm(frames.joints - with_root.index_select(2, index(parents)));
-  consistency = consistency + kBone * (bones - lengths.to(bones.device())).abs().mean();
+  consistency =
+      consistency + kDecimetresPerMetre * (bones - lengths.to(bones.device())).abs().mean();
   const Tensor slide = Norm(steps.index_select(2, index(feet)) + steps.narrow(2, 0, 1));
-  consistency = consistency + kSpeed * (frames.contacts * slide).mean();
+  consistency = consistency + kDecimetresPerMetre * (frames.contacts * slide).mean();
 
-  const Tensor root = kSpeed * (OfWindow(Norm((steps - real).select(2, 0))) +
-                                OfWindow(Norm(frames.facing.diff(1, 1) - truth.facing.diff(1, 1))));
+  const Tensor root =
+      kDecimetresPerMetre * (OfWindow(Norm((steps - real).select(2, 0))) +
+                             OfWindow(Norm(frames.facing.diff(1, 1) - truth.facing.diff(1, 1))));
   LossTerms terms = {{"reconstruction", kRec, weighted(rec)},
                      {"consistency", kCon, consistency},
                      {"root", kRoot, weighted(root)}};

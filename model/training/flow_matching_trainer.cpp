@@ -148,6 +148,7 @@ class FlowMatchingRun : public TrainingRun {
                                      .stage = 0.8,
                                      .hold_history = 0.05,
                                      .other_style = 0.6,
+                                     .even_styles = 0.5,
                                      .astray = 0.2};
     if (random.Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;

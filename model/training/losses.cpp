@@ -13,7 +13,6 @@ constexpr const char *kLikelihood = "nll_nats_per_dim", *kKeyPose = "key_pose_dm
 
 // Standard deviation of the dequantisation noise, in units of each feature's own spread.
 constexpr double kDequantisation = 0.05;
-constexpr double kDecimetresPerMetre = 10;
 
 // [batch, N, joints, 3]
 Tensor GlobalPositions(const TorchKinematics& kinematics, const TrajectoryTensors& poses) {

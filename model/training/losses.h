@@ -13,6 +13,9 @@
 /// would vanish.
 namespace choreo {
 
+/// Losses of lengths are in decimetres, in which those of paper F and C are about 1.
+inline constexpr double kDecimetresPerMetre = 10;
+
 /// One term of a loss.
 struct LossTerm {
   const char* name;     ///< with its unit, as in curves.csv

@@ -116,11 +116,16 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
   const auto offered = [&](size_t track) {
     return std::max<int64_t>(0, static_cast<int64_t>(tracks_[track].poses.size()) - needed);
   };
-  std::vector<int64_t> clips;
-  for (size_t clip = 0; clip < clips_; ++clip) clips.push_back(std::ssize(tracks_[clip].poses));
-  const WindowPicker picker(clips, needed);
+  const WindowPicker of_all = PickerOf(std::nullopt, needed);
+  std::vector<WindowPicker> of_style;
+  for (int style = 0; style < std::ssize(styles_) && variation.even_styles > 0; ++style) {
+    if (Longest(0, style) >= needed) of_style.push_back(PickerOf(style, needed));
+  }
   WindowBatchBuilder result(model, frames, to_key);
   while (result.size() < batch) {
+    const bool even = !of_style.empty() && random->Uniform() < variation.even_styles;
+    const WindowPicker& picker =
+        even ? of_style[static_cast<size_t>(random->Integer(0, std::ssize(of_style)))] : of_all;
     const size_t clip = picker.Draw(random).clip;
     size_t index = clip;
     if (random->Uniform() < variation.tempo) {
@@ -163,10 +168,18 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
   return result.Build();
 }
 
-int WindowClips::Longest(int history) const {
+WindowPicker WindowClips::PickerOf(std::optional<int> style, int64_t needed) const {
+  std::vector<int64_t> clips;
+  for (const ClipTrack& track : tracks())
+    clips.push_back(style.value_or(track.style) == track.style ? std::ssize(track.poses) : 0);
+  return {clips, needed};
+}
+
+int WindowClips::Longest(int history, std::optional<int> style) const {
   size_t longest = 0;
-  for (size_t clip = 0; clip < clips_; ++clip)
-    longest = std::max(longest, tracks_[clip].poses.size());
+  for (const ClipTrack& track : tracks()) {
+    if (style.value_or(track.style) == track.style) longest = std::max(longest, track.poses.size());
+  }
   return static_cast<int>(longest) - history - 1;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "model/core/random.h"
 #include "model/training/clip_track.h"
 #include "model/training/window_batch.h"
+#include "model/training/window_picker.h"
 
 namespace choreo {
 
@@ -26,20 +28,23 @@ class WindowClips {
     double stage = 0;                                   ///< that the stage is known
     double hold_history = 0;  ///< only the last few poses are known, the earliest being held
     double other_style = 0;   ///< begins in another style, where the label is told
-    double astray = 0;        ///< starts out of balance, as dances of a model do, and comes back
+    double even_styles = 0;  ///< of a style drawn first, each alike; else of any place in the clips
+    double astray = 0;       ///< starts out of balance, as dances of a model do, and comes back
   };
   /// Windows of `frames` frames whose key stands `to_key` frames behind the history.
   WindowBatch Draw(const FlowModelParts& model, int batch, int frames, int to_key,
                    const Variation& variation, Random* random) const;
 
-  /// The longest way to a key behind `history` frames that some clip has.
-  int Longest(int history) const;
+  /// The longest way to a key behind `history` frames that some clip has, of all or of a style.
+  int Longest(int history, std::optional<int> style = {}) const;
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<std::string>& styles() const { return styles_; }
   /// Of the clips as they were danced.
   std::span<const ClipTrack> tracks() const { return {tracks_.data(), clips_}; }
 
  private:
+  WindowPicker PickerOf(std::optional<int> style, int64_t needed) const;
+
   Skeleton skeleton_;
   std::vector<std::string> styles_;
   std::vector<ClipTrack> tracks_;  // by tempo, the clips' own first

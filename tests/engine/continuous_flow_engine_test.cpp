@@ -78,6 +78,11 @@ TEST_F(ContinuousFlowEngineTest, IsRefusedUnderANameThatNobodyCanPrintAndBeyondA
                               Skeleton::Smpl24(), 3);
     refused("is not 1 to 64 printable bytes");
   }
+  ContinuousFlowConfig backwards{.width = 24, .layers = 1, .heads = 2};
+  backwards.plan.accent = 0.5;
+  WriteRandomContinuousFlow(path_, backwards, Skeleton::Smpl24(), 3);
+  refused("config.plan.accent");
+  WriteRandomContinuousFlow(path_, {.width = 24, .layers = 1, .heads = 2}, Skeleton::Smpl24(), 3);
   Safetensors content = ReadSafetensors(path_);
   content.tensors.at("velocity_covariance").data.front() = NAN;
   content.metadata["hash"] = ContentHash(content, "hash");

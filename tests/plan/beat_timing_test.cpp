@@ -34,7 +34,7 @@ TEST(BeatTiming, KeepsTheEndsAndNeverRunsBackwards) {
     for (const double first : {-11.0, -16.0}) {  // the second: on all keys of whole seconds' ways
       for (const bool keyed : {false, true}) {
         const std::vector<double> beats = EveryFifteen(first, frames + 15);
-        const auto time = [&](double t) { return BeatTiming{beats, frames, keyed}.Time(t); };
+        const auto time = [&](double t) { return BeatTiming{beats, frames, keyed, 30}.Time(t); };
         EXPECT_NEAR(time(-1), -1, 1e-12);
         EXPECT_NEAR(time(frames - 1), frames - 1, 1e-12);
         for (double t = -1; t < frames - 1; t += 0.1) {
@@ -47,15 +47,15 @@ TEST(BeatTiming, KeepsTheEndsAndNeverRunsBackwards) {
 }
 
 TEST(BeatTiming, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ((BeatTiming{{}, 31, true}.Time(t)), t);
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ((BeatTiming{{}, 31, true, 30}.Time(t)), t);
   const std::vector<double> pause = {-100, 200};
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ((BeatTiming{pause, 31, true}.Time(t)), t);
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ((BeatTiming{pause, 31, true, 30}.Time(t)), t);
 }
 
 TEST(BeatTiming, RunsFastestAtKeysThatStandOnBeats) {
   const auto pace = [](std::span<const double> beats, int frames, bool keyed, double t) {
-    return (BeatTiming{beats, frames, keyed}.Time(t + 0.05) -
-            BeatTiming{beats, frames, keyed}.Time(t)) /
+    return (BeatTiming{beats, frames, keyed, 30}.Time(t + 0.05) -
+            BeatTiming{beats, frames, keyed, 30}.Time(t)) /
            0.05;
   };
   const std::vector<double> on = EveryFifteen(-16, 100), off = EveryFifteen(-9, 100);
@@ -72,7 +72,8 @@ TEST(BeatTiming, SpeedPeaksOnTheBeats) {
   const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
   const std::vector<double> beats = EveryFifteen(-8, 110);
   std::vector<Pose> timed = plan;
-  TimeToBeats({Skeleton::Smpl24(), before, beats}, &timed);
+  TimeToBeats({.skeleton = Skeleton::Smpl24(), .history = before, .beats = beats, .fps = 30},
+              &timed);
   ASSERT_EQ(timed.size(), plan.size());
   std::vector<float> speeds;
   for (size_t t = 1; t < timed.size(); ++t) {
@@ -96,7 +97,9 @@ TEST(BeatTiming, AnEvenCurveStaysOnItself) {
   const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
   const std::vector<double> beats = EveryFifteen(-8, 60);
   std::vector<Pose> timed = plan;
-  TimeToBeats({Skeleton::Smpl24(), before, beats, /*keyed=*/true}, &timed);
+  TimeToBeats(
+      {.skeleton = Skeleton::Smpl24(), .history = before, .beats = beats, .keyed = true, .fps = 30},
+      &timed);
   for (const Pose& pose : timed) {
     // Arm and feet keep step: both are a hundredth and two of the same time.
     EXPECT_NEAR(pose.rotations(2, 16) / 0.01, (pose.root_position.x()) / 0.02, 1e-2);

@@ -14,7 +14,7 @@ const Skeleton& Body() { return Skeleton::Smpl24(); }
 double Bent(const Hinge& hinge, double bend) {
   std::vector<Pose> plan = {RestPose(Body())};
   plan[0].rotations.col(hinge.joint) = bend * hinge.axis;
-  LimitHinges({Body(), {}}, &plan);
+  LimitHinges({.skeleton = Body(), .history = {}, .fps = 30}, &plan);
   return hinge.axis.dot(plan[0].rotations.col(hinge.joint));
 }
 
@@ -38,7 +38,7 @@ TEST(LimitHinges, WhatIsNoHingeAndWhatTurnsAboutOtherAxesStays) {
   Pose before = RestPose(Body());
   before.rotations.setConstant(0.3);
   std::vector<Pose> plan = {before};
-  LimitHinges({Body(), {}}, &plan);
+  LimitHinges({.skeleton = Body(), .history = {}, .fps = 30}, &plan);
   for (int j = 0; j < Body().joints(); ++j) {
     Eigen::Vector3d change = plan[0].rotations.col(j) - before.rotations.col(j);
     for (const Hinge& hinge : Hinges(Body())) {
@@ -54,9 +54,9 @@ TEST(ReturnToFloor, AFloatingDanceComesDownAndOneOnTheFloorStays) {
     for (Pose& pose : poses) pose.root_position.y() += height;
     const double first = poses.front().root_position.y();
     const std::vector<Pose> before = poses;
-    ReturnToFloor({.skeleton = Body(), .history = {}, .keyed = true}, &poses);
+    ReturnToFloor({.skeleton = Body(), .history = {}, .keyed = true, .fps = 30}, &poses);
     EXPECT_EQ(poses.back().root_position, before.back().root_position) << "a key says where";
-    ReturnToFloor({Body(), {}}, &poses);
+    ReturnToFloor({.skeleton = Body(), .history = {}, .fps = 30}, &poses);
     EXPECT_NEAR(poses.back().root_position.y(), RestPose(Body()).root_position.y(), 1e-9);
     EXPECT_NEAR(poses.front().root_position.y(), first, 1e-3);
   }
@@ -87,7 +87,7 @@ TEST(PlanStages, AllAreApplied) {
   }
   const std::vector<double> beats = {-7, 8, 23, 38, 53, 68};
   const std::vector<Pose> history(2, plan.front()), before = plan;
-  FinishPlan({.skeleton = Body(), .history = history, .beats = beats}, &plan);
+  FinishPlan({.skeleton = Body(), .history = history, .beats = beats, .fps = 30}, &plan);
   EXPECT_LT(plan.back().root_position.y(), before.back().root_position.y() - 0.1);
   for (const Hinge& hinge : Hinges(Body()))
     EXPECT_GT(hinge.axis.dot(plan[30].rotations.col(hinge.joint)), -1e-6);

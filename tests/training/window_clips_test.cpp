@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <torch/torch.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/motion/mirror.h"
@@ -166,6 +167,22 @@ TEST_F(WindowClipsTest, DancersGoOnAsLivelyAsTheyWere) {
   };
   EXPECT_LT(trunk(true, -0.4) + 0.1, trunk(true, 0.4));
   EXPECT_EQ(trunk(false, -0.4), trunk(false, 0.4)) << "it would fade or rage";
+}
+
+TEST_F(WindowClipsTest, AStyleOfFewRecordingsIsDrawnAsOften) {
+  const WindowClips clips(
+      {SyntheticClip("salsa_1", 900, 0, false), SyntheticClip("indian_1", 100, 1, false)});
+  FlowModelParts parts = Parts();
+  parts.config.styles = clips.styles();
+  const auto indian = [&](double even_styles) {
+    Random random(4);
+    const WindowBatch batch =
+        clips.Draw(parts, 100, kFrames, kFrames, {.style = 1, .even_styles = even_styles}, &random);
+    return std::ranges::count(batch.requests, 0, &WindowRequest::style);
+  };
+  EXPECT_LT(indian(0), 20);
+  EXPECT_GT(indian(1), 35);
+  EXPECT_LT(indian(1), 65);
 }
 
 }  // namespace
