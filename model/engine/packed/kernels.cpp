@@ -1,5 +1,8 @@
 #include "model/engine/packed/kernels.h"
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -19,7 +22,9 @@ namespace {
 // Linux lends a process the registers of AMX's tiles when it asks for them.
 bool HasTiles() {
   constexpr int kRequestPermission = 0x1023, kTileData = 18;  // <asm/prctl.h>, XFEATURE_XTILEDATA
-  return __builtin_cpu_supports("amx-tile") && __builtin_cpu_supports("amx-bf16") &&
+  constexpr unsigned kTiles = 1U << 24U | 1U << 22U;          // AMX-TILE, AMX-BF16
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (d & kTiles) == kTiles &&
          syscall(SYS_arch_prctl, kRequestPermission, kTileData) == 0;
 }
 

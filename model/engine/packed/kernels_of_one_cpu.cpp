@@ -17,22 +17,13 @@ extern const PackedKernels CHOREO_KERNELS;
 namespace {
 
 constexpr int kVectorBytes = CHOREO_VECTOR_BYTES;
-constexpr int kMostRows = CHOREO_MOST_ROWS;
 constexpr long kLanes = kVectorBytes / 4;
 constexpr long kPanel = 2 * kLanes;
-constexpr long kAhead = 512;  // floats that are asked for before they are needed
 
 // Aligned as floats are: rows begin anywhere.
 typedef float Vector __attribute__((vector_size(kVectorBytes), aligned(4), may_alias));
 
 #if CHOREO_BF16
-// An element of a product is two numbers.
-inline Vector MultiplyAdd(Vector sum, float x, Vector weight) {
-  const __m512i pair = _mm512_set1_epi32(__builtin_bit_cast(int, x));
-  return _mm512_dpbf16_ps(sum, __builtin_bit_cast(__m512bh, pair),
-                          __builtin_bit_cast(__m512bh, weight));
-}
-
 // To the nearest bfloat16, of two equally near ones the even.
 inline unsigned Round(float x) {
   const unsigned bits = __builtin_bit_cast(unsigned, x);
@@ -46,14 +37,26 @@ void Pair(const float* __restrict x, long count, float* __restrict out) {
   if (count % 2 == 1) out[count / 2] = __builtin_bit_cast(float, Round(x[count - 1]));
 }
 #else
-inline Vector MultiplyAdd(Vector sum, float x, Vector weight) { return sum + x * weight; }
-
 constexpr void (*Pair)(const float*, long, float*) = nullptr;
 #endif
 
 #if CHOREO_TILES
 #include "model/engine/packed/tiles_of_one_cpu.h"
 #else
+constexpr int kMostRows = CHOREO_MOST_ROWS;
+constexpr long kAhead = 512;  // floats that are asked for before they are needed
+
+#if CHOREO_BF16
+// An element of a product is two numbers.
+inline Vector MultiplyAdd(Vector sum, float x, Vector weight) {
+  const __m512i pair = _mm512_set1_epi32(__builtin_bit_cast(int, x));
+  return _mm512_dpbf16_ps(sum, __builtin_bit_cast(__m512bh, pair),
+                          __builtin_bit_cast(__m512bh, weight));
+}
+#else
+inline Vector MultiplyAdd(Vector sum, float x, Vector weight) { return sum + x * weight; }
+#endif
+
 template <int kRows, int kPanels>
 void Block(const PackedProduct& p, long row, long panel) {
   constexpr int kVectors = 2 * kPanels;
