@@ -55,17 +55,16 @@ class DanceStream {
   std::string NextControls() const;
   std::string NextMusicBeats() const;
 
-  /// See Timeline. A key too late is answered by a KeyRejection event. Errors name
-  /// NextKeyframe().
+  /// See Timeline. A key too late is answered by a KeyRejection event. Errors name NextKeyframe().
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
               const PoseMask& mask = {});
   void RemoveKey(const std::string& id);
-  /// See ControlTrack. Holds from the first frame that is not frozen. Errors name
-  /// NextControls(); none may come after KeysComplete, which freezes all.
+  /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();
+  /// none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
   /// Seconds, ascending, at least one: see MusicBeats::Give. Those in frozen frames are left out,
-  /// and told of by a DanceWarning. Errors name NextMusicBeats(); none
-  /// may come after KeysComplete.
+  /// and told of by a DanceWarning. Errors name the times of
+  /// NextMusicBeats(); none may come after KeysComplete.
   void GiveBeats(const std::vector<double>& seconds);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
