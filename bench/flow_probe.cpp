@@ -7,7 +7,7 @@
 
 #include "model/core/random.h"
 #include "model/core/safetensors.h"
-#include "model/engine/packed/tile.h"
+#include "model/engine/packed/flow.h"
 #include "model/motion/skeleton_json.h"
 
 namespace choreo {
@@ -57,9 +57,9 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
     const auto add = [&](const char* name, NamedTensor tensor) -> NamedTensor& {
       return probe.tensors[name + number] = std::move(tensor);
     };
-    NamedTensor& past = add("past", Normal(&random, {kRows, flow->tau, width}, 0.1F));
+    NamedTensor& past = add("past", Normal(&random, {kRows, config.history_frames, width}, 0.1F));
     NamedTensor& audio =
-        add("audio", Normal(&random, {kRows, flow->tau + 1, flow->audio_features}, 1));
+        add("audio", Normal(&random, {kRows, config.history_frames + 1, config.audio_features}, 1));
     NamedTensor& has_audio = add("has_audio", Zeros({kRows}));
     NamedTensor& noise = add("noise", Zeros({kRows, width}));
     NamedTensor& features = add("features", Zeros({kRows, width}));

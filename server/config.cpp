@@ -9,8 +9,7 @@
 
 #include "model/core/error.h"
 #include "model/core/programs.h"
-#include "model/engine/devices.h"
-#include "model/engine/engine_kind.h"
+#include "model/engine/engine_choice.h"
 #include "model/engine/step_engine.h"
 #include "server/config_flags.h"
 #include "server/listener.h"

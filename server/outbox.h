@@ -21,10 +21,9 @@ namespace choreo {
 /// again after Finish; workers keep this object alive, not the reactor.
 ///
 /// The queue of answers is bounded by back-pressure: beyond `max_bytes` the dance is paused, below
-/// half of it set going again. (HTTP/2 lets some 4 MiB more run ahead of a client that stalls.)
-/// Frames that wait are joined into larger messages. What a client is answered without a dance,
-/// message by message, is bounded as well: beyond kMostWaiting times `max_bytes` no more of its
-/// messages are read until it has taken answers. Thread-safe.
+/// half of it set going again. Frames that wait are joined into larger messages. Beyond kMostWaiting
+/// times `max_bytes` no more of a client's messages are read until it has taken answers.
+/// Thread-safe.
 template <class Response>
 class Outbox {
  public:

@@ -177,8 +177,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   void DecodeFile(DanceStream& stream) {
     if (!audio_ || audio_->encoding() != v1::AUDIO_ENCODING_FILE || file_decoded_) return;
     file_decoded_ = true;
-    const std::vector<float> mono =
-        DecodeMono(AudioReader::OpenMemory(file_.bytes(), "audio"), [this] { RequireOpen(); });
+    const std::vector<float> mono = DecodeMono(file_.bytes(), [this] { RequireOpen(); });
     file_.Clear();
     if (finds_beats_) stream.SetMusicBeats(FindBeats(mono).Seconds());
     stream.PushAudio(mono, 0);

@@ -102,8 +102,7 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   void AddMusic(const v1::Audio& audio, GroupRequest* request) {
     RequireOpen();
     request->samples =
-        DecodeMono(AudioReader::OpenMemory(std::as_bytes(std::span(audio.data())), "audio"),
-                   [this] { RequireOpen(); });
+        DecodeMono(std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); });
     request->audio = DanceStart::Audio{.sample_rate = kModelSampleRate, .channels = 1};
     if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
   }
@@ -117,7 +116,7 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
 
     SendHeader(model, message.config(), request, request.FirstFrame(),
                !request.ResumesInexactly(model));
-    Adopt(std::make_shared<TransitionGroup>(*scheduler_, request, shared_from_this()));
+    Adopt(std::make_shared<TransitionGroup>(*scheduler_, std::move(request), shared_from_this()));
   }
 
   // Written before the group is there. Nothing of the message itself: it may go before the group.

@@ -6,7 +6,6 @@
 #include <boost/asio/post.hpp>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "client/cli/control_options.h"
@@ -193,9 +192,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   for (client::Warning& fault : cli::KeyFaults(keys, model.fps, model.skeleton))
     dance.warnings.push_back(std::move(fault));
   if (!as_bvh) return {.body = DanceJson(dance)};
-  std::ostringstream out;
-  WriteBvh(out, MotionToBvh(dance.header.skeleton, dance.motion));
-  return {.type = "text/plain", .body = std::move(out).str()};
+  return {.type = "text/plain", .body = BvhText(MotionToBvh(dance.header.skeleton, dance.motion))};
 }
 
 }  // namespace choreo::studio

@@ -9,19 +9,11 @@
 
 namespace choreo::studio {
 
-/// What other programs ask over plain HTTP, in JSON: a Blender add-on, a script.
-///
-///     GET /model           the model: name, frame_rate, joints, parents, offsets (metres, at
-///     rest),
-///                          pelvis_height, styles, most_seconds
-///     POST /dance          a project (client/cli/project_file.h) in, the dance out: frame_rate,
-///                          joints, root_positions [frames][3] in metres, rotations
-///                          [frames][joints][3] axis-angle, warnings [{frame, message}]
-///     POST /dance?as=bvh   the same as a BVH file, centimetres
-///
-/// A project's song comes with it: `song_data` is the file in base64, `song` its name. Without both
-/// the dance is silent, `seconds` long. What cannot be answered is {"error": "..."}, which names
-/// field, value and limit.
+/// What other programs ask over plain HTTP, in JSON (docs/programs.md): GET /model is the model, POST
+/// /dance a project (client/cli/project_file.h) in and its dance out, /dance?as=bvh as a BVH file.
+/// Metres, axis-angle. A project's song comes with it, `song_data` in base64; without one the dance
+/// is silent, `seconds` long. What cannot be answered is {"error": "..."}, which names field, value
+/// and limit.
 class ProjectCalls {
  public:
   struct Reply {

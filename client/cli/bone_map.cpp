@@ -17,7 +17,7 @@ using nlohmann::json;
 std::string Quoted(const std::string& name) { return '"' + Printable(name) + '"'; }
 
 int FindNode(const json& value, const std::string& field, const CharacterFile& character) {
-  const std::vector<std::string>& names = character.names();
+  const std::vector<std::string>& names = character.nodes().names;
   if (value.is_number_unsigned()) {
     const auto node = value.get<uint64_t>();
     if (node < names.size()) return static_cast<int>(node);
@@ -68,7 +68,7 @@ HumanBones ReadBoneMap(const std::filesystem::path& path, const CharacterFile& c
 
 void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem::path& png,
                   const CharacterFile& character, const HumanBones& bones) {
-  const std::vector<std::string>& names = character.names();
+  const std::vector<std::string>& names = character.nodes().names;
   nlohmann::ordered_json map;
   std::vector<std::string> means(names.size());
   for (const std::string& bone : AllHumanBones()) {
@@ -98,7 +98,7 @@ void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem:
     index[node] = static_cast<int>(chart.size());
     chart.push_back({.name = names[node].empty() ? std::to_string(node) : names[node],
                      .place = places.col(static_cast<Eigen::Index>(node)),
-                     .parent = character.parent(static_cast<int>(node)),
+                     .parent = character.nodes().parents[node],
                      .means = means[node]});
   }
   for (ChartBone& bone : chart)

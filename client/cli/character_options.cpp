@@ -16,13 +16,11 @@ namespace {
 // Says what is missing, and leaves a suggestion beside `out`.
 [[noreturn]] void Suggest(const std::filesystem::path& out, const CharacterFile& character,
                           const std::string& name, HumanBones found) {
-  if (character.names().empty()) throw InvalidArgument(name, "has no nodes");
+  const GltfNodes& nodes = character.nodes();
+  if (nodes.names.empty()) throw InvalidArgument(name, "has no nodes");
   const std::string missing = MissingBone(found);
-  std::vector<int> parents;
-  for (int node = 0; node < std::ssize(character.names()); ++node)
-    parents.push_back(character.parent(node));
-  for (const auto& [bone, node] :
-       GuessBones(parents, character.places(), character.joints()).bones) {
+  const HumanBones guess = GuessBones(nodes.parents, character.places(), character.joints());
+  for (const auto& [bone, node] : guess.bones) {
     const bool taken =
         std::ranges::any_of(found.bones, [n = node](const auto& o) { return o.second == n; });
     if (!taken) found.bones.try_emplace(bone, node);

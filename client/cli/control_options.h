@@ -12,18 +12,10 @@
 /// The controls of a dance as people write them down.
 namespace choreo::cli {
 
-/// A path file, JSON:
-///
-///     {"points": [{"time": 0, "x": 0, "z": 0}, {"time": 2.5, "x": 1, "z": 0.5}, ...]}
-///
-/// At least two points, in order of time: where the root should be, metres, in the world (x to the
-/// left of a dancer who faces the audience, z towards it). A smooth curve leads through them.
-/// `time` counts in seconds from the start of the music, up to an hour; `frame` may stand in its
-/// place. `y` is the height of the root above the floor, for jumps and squats: in all points or in
-/// none. `about`, beside the points, may say what the file is; any other member is an error.
+/// A path file, JSON, as docs/song.md describes it; times up to an hour. A smooth curve leads
+/// through its points. Models run at `fps`.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:points[i].MEMBER, naming value and limit.
-/// Models run at `fps`.
 client::Controls::RootPath ParsePathFile(std::string_view text, const std::string& name,
                                          double fps);
 

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "model/core/error.h"
-#include "model/core/json_depth.h"
+#include "model/core/json_limits.h"
 
 namespace choreo::cli {
 

@@ -11,26 +11,8 @@
 /// Key poses as people write them down.
 namespace choreo::cli {
 
-/// A key file, JSON:
-///
-///     {"keyframes": [{"id": "a", "time": 2.0, "root_position": [x, y, z], "rotations": [[x, y, z],
-///     ...]}]}
-///
-/// `rotations` holds one axis-angle vector for each joint, radians, local to the parent. `time` is
-/// in seconds; `frame` may stand in its place. `id` may be absent: "key1", "key2", ... are given.
-/// Without `root_position` the key asks nothing of where the dancer is; `joints`, a list of joint
-/// names, limits it to these. In place of `root_position` and `rotations` there may be
-/// `smpl_poses` and `smpl_trans` as EDGE gives them (72 numbers, Z up, the translation is the
-/// pelvis), or `poses` and `trans` as AMASS does (72, 156 or 165 numbers, Z up, the translation is
-/// SMPL's): formats/amass_npz.h; a model of another skeleton takes them retargeted.
-///
-/// Or `pose` names one of the library, which `place` ([x, z], metres) and `facing` (degrees) put
-/// somewhere; without `place` the key asks nothing of where the dancer is. `joints` may be an
-/// object of joints in degrees (motion/joint_angles.h), on top of the pose; without a pose the key
-/// asks for these joints alone. In a list, "arms", "left_leg" ... stand for whole limbs. `hold`
-/// keeps the pose for seconds, with further keys "ID held 1", "ID held 2", ... Other members
-/// of the file's outermost object are ignored, so that it may describe itself; within a key they
-/// are errors, so that a misspelt one is found.
+/// A key file, JSON, as docs/poses.md describes it. Members that it does not know are ignored in
+/// the outermost object, so that a file may describe itself; within a key they are errors.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:keyframes[i].MEMBER, naming value and limit.
 /// `name` is the file's. `places`, where it is wanted, becomes the place of each key in the file:

@@ -7,7 +7,7 @@
 
 #include "client/cli/photo_pose.h"
 #include "client/cli/pose_source.h"
-#include "model/body/ground.h"
+#include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 #include "model/fit/inverse_kinematics.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/json_fields.h"
-#include "model/core/json_depth.h"
+#include "model/core/json_limits.h"
 
 namespace choreo::cli {
 namespace {

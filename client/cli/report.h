@@ -9,25 +9,11 @@
 
 namespace choreo::cli {
 
-/// A dance's report as JSON:
-///   frames, fps                of the dance, at the model's rate; key frames count so
-///   output_frames, output_fps  of the file
-///   seed, fingerprint
-///   keyframes                  id, frame, raw_error_m (of the model's own frame), correction_m
-///   (how
-///                              far joints were moved on the way), final_error_m, final_error_deg;
-///                              output_frame (the file's nearest), on_output_frame (it stands at
-///                              the key's time), output_error_m, output_error_deg (measured there)
-///   warnings                   frame, message of each
-///   measured_from              frame from which on the rest is measured: 0, or where the last
-///   server
-///                              took over
-///   log_likelihood             nats a frame
-///   beat_hit_rate, beat_hit_chance  null where there are no beats
-///   skate_ratio, max_key_acceleration, p95_acceleration (m/s^2)
-///   part_speeds                asked, danced (m a frame) of each part; absent where nothing is
-///                              asked
-///   first_frame_latency_s, real_time_factor
+/// A dance's report as JSON, in metres, degrees and the model's frames. Of a key: what the model
+/// missed it by (raw_error_m), how far joints were moved on the way (correction_m), what is left;
+/// output_... is measured at the file's nearest frame. `measured_from`: the frame from which on the
+/// rest is measured, 0 or where the last server took over. Beats are null where there are none,
+/// `part_speeds` is absent where nothing is asked.
 std::string ReportJson(const WrittenDance& dance);
 
 /// One key of such a report, without what is measured in the file.

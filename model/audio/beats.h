@@ -20,14 +20,9 @@ struct BeatTrack {
   std::vector<double> Seconds() const;
 };
 
-/// The tempo in beats a minute of an onset envelope, as librosa.feature.tempo (0.10.2):
-/// autocorrelation within kTempoWindowSeconds, averaged, weighed by a log-normal prior around 120,
-/// below 320. 0 for an envelope without onsets.
-double EstimateTempo(std::span<const float> onset_strength);
-
 /// The beats of an onset envelope, as librosa.beat.beat_track (0.10.2; Ellis 2007): dynamic
 /// programming for the frames that are strong and keep the tempo (tightness 100); weak beats at
-/// either end are dropped. Needs the whole envelope.
+/// either end are dropped. Needs the whole envelope. None, at tempo 0, without onsets.
 BeatTrack TrackBeats(std::span<const float> onset_strength);
 
 /// The beats of mono samples at 22 050 Hz, from their OnsetStrength. Errors as that.

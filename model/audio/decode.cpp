@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
 #include <utility>
 
-#include "model/audio/byte_source.h"
 #include "model/audio/resample.h"
 #include "model/audio/truncation.h"
 #include "model/core/error.h"
@@ -16,9 +19,40 @@ namespace choreo {
 namespace {
 
 constexpr const char* kFormats = "WAV, FLAC, Ogg or MP3";
+constexpr int kReadable[] = {SF_FORMAT_WAV,  SF_FORMAT_WAVEX, SF_FORMAT_RF64,
+                             SF_FORMAT_FLAC, SF_FORMAT_OGG,   SF_FORMAT_MPEG};
 
 /// Of each channel, decoded at a time.
 constexpr size_t kPieceSamples = 65536;
+
+/// Throws Error(kNotFound), with the path as field, where the file cannot be opened.
+ByteSource FileBytes(const std::filesystem::path& path) {
+  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (!*file || error) {
+    throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened as a file");
+  }
+  return {static_cast<int64_t>(size), [file](int64_t offset, std::span<std::byte> bytes) {
+            file->clear();
+            file->seekg(offset);
+            file->read(reinterpret_cast<char*>(bytes.data()),
+                       static_cast<std::streamsize>(bytes.size()));
+            return static_cast<size_t>(std::max<std::streamsize>(file->gcount(), 0));
+          }};
+}
+
+/// `memory` must outlive the source.
+ByteSource MemoryBytes(std::span<const std::byte> memory) {
+  const auto size = static_cast<int64_t>(memory.size());
+  return {size, [memory, size](int64_t offset, std::span<std::byte> bytes) -> size_t {
+            if (offset < 0 || offset >= size) return 0;
+            const auto rest = memory.subspan(static_cast<size_t>(offset));
+            const size_t count = std::min(rest.size(), bytes.size());
+            std::copy_n(rest.begin(), count, bytes.begin());
+            return count;
+          }};
+}
 
 /// Where libsndfile is in a ByteSource.
 struct Cursor {
@@ -52,8 +86,6 @@ sf_count_t CursorRead(void* data, sf_count_t count, void* user) {
 
 sf_count_t CursorTell(void* user) { return static_cast<Cursor*>(user)->position; }
 
-sf_count_t NoWrite(const void*, sf_count_t, void*) { return 0; }
-
 /// Begins with an ID3 tag or the eleven set bits of a frame header.
 bool LooksLikeMp3(const ByteSource& source) {
   std::array<std::byte, 3> head{};
@@ -62,143 +94,104 @@ bool LooksLikeMp3(const ByteSource& source) {
   return is_tag || (head[0] == std::byte{0xff} && (head[1] & std::byte{0xe0}) == std::byte{0xe0});
 }
 
-bool IsReadableFormat(int format) {
-  switch (format & SF_FORMAT_TYPEMASK) {
-    case SF_FORMAT_WAV:
-    case SF_FORMAT_WAVEX:
-    case SF_FORMAT_RF64:
-    case SF_FORMAT_FLAC:
-    case SF_FORMAT_OGG:
-    case SF_FORMAT_MPEG:
-      return true;
-    default:
-      return false;
-  }
-}
-
 struct CloseFile {
   void operator()(SNDFILE* file) const { sf_close(file); }
 };
 
-}  // namespace
+/// A sound file read in pieces.
+class AudioReader {
+ public:
+  /// `name` is the field of errors.
+  AudioReader(ByteSource source, std::string name) : name_(std::move(name)) {
+    if (source.size == 0) throw InvalidArgument(name_, "0 bytes of audio");
+    CheckNotTruncated(source, name_);
+    cursor_.can_seek_from_end = !LooksLikeMp3(source);
+    cursor_.source = std::move(source);
+    SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, nullptr, CursorTell};
+    file_.reset(sf_open_virtual(&io, SFM_READ, &info_, &cursor_));
+    if (!file_) {
+      throw InvalidArgument(name_,
+                            std::string("not ") + kFormats + " audio: " + sf_strerror(nullptr));
+    }
+    SF_FORMAT_INFO format{};
+    format.format = info_.format & SF_FORMAT_TYPEMASK;
+    if (std::ranges::find(kReadable, format.format) == std::end(kReadable)) {
+      const bool known = sf_command(nullptr, SFC_GET_FORMAT_INFO, &format, sizeof(format)) == 0;
+      throw InvalidArgument(
+          name_, std::string(known && format.name ? format.name : "another format") + " is not " +
+                     kFormats);
+    }
+    CheckAudioFormat(sample_rate(), channels(), name_);
+    if (info_.frames == SF_COUNT_MAX) info_.frames = 0;  // not stated: MP3 without a Xing header
+    CheckAmount(info_.frames);
+  }
+  AudioReader(const AudioReader&) = delete;  // libsndfile holds on to the cursor
+  AudioReader& operator=(const AudioReader&) = delete;
 
-struct AudioReader::State {
-  std::string name;
-  Cursor cursor{};
-  SF_INFO info{};
-  std::unique_ptr<SNDFILE, CloseFile> file;
-  int64_t read = 0;  // samples of each channel so far
+  int sample_rate() const { return info_.samplerate; }
+  int channels() const { return info_.channels; }
 
-  int64_t limit() const { return int64_t{kMaxAudioSeconds} * info.samplerate; }
+  /// Fills `interleaved`, whole frames, from its beginning, and returns how many samples of each
+  /// channel were read. 0: the end.
+  int64_t Read(std::span<float> interleaved) {
+    const size_t channels_count = static_cast<size_t>(channels());
+    const int64_t wanted = static_cast<int64_t>(interleaved.size() / channels_count);
+    const int64_t got = sf_readf_float(file_.get(), interleaved.data(), wanted);
+    if (const int error = sf_error(file_.get()); error != SF_ERR_NO_ERROR) {
+      throw InvalidArgument(name_, "truncated or damaged after sample " +
+                                       std::to_string(read_ + got) + ": " + sf_error_number(error));
+    }
+    CheckFinite(interleaved.first(static_cast<size_t>(got) * channels_count), channels(), read_,
+                name_);
+    read_ += got;
+    CheckAmount(read_);
+    if (got < wanted) {
+      if (read_ == 0) throw InvalidArgument(name_, "0 samples of audio");
+      if (read_ < info_.frames) {
+        throw InvalidArgument(name_, "truncated: " + std::to_string(read_) + " of " +
+                                         std::to_string(info_.frames) + " samples");
+      }
+    }
+    return got;
+  }
+
+ private:
   /// Of `samples` of each channel.
   void CheckAmount(int64_t samples) const {
-    if (samples > limit()) FailTooLong(samples);
-    if (samples * info.channels <= kMaxFileSamples) return;
-    throw InvalidArgument(name, std::to_string(samples * info.channels) + " samples or more (" +
-                                    std::to_string(info.channels) + " channels at " +
-                                    std::to_string(info.samplerate) + " Hz), at most " +
-                                    std::to_string(kMaxFileSamples) + " are decoded");
-  }
-  [[noreturn]] void FailTooLong(int64_t samples) const {
-    throw InvalidArgument(name, std::to_string(samples / info.samplerate) +
-                                    " s or more of audio, at most " +
-                                    std::to_string(kMaxAudioSeconds) + " s are taken");
-  }
-};
-
-AudioReader::AudioReader(ByteSource source, std::string name) : state_(std::make_unique<State>()) {
-  State& s = *state_;
-  s.name = std::move(name);
-  if (source.size == 0) throw InvalidArgument(s.name, "0 bytes of audio");
-  CheckNotTruncated(source, s.name);
-  s.cursor.can_seek_from_end = !LooksLikeMp3(source);
-  s.cursor.source = std::move(source);
-  SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, NoWrite, CursorTell};
-  s.file.reset(sf_open_virtual(&io, SFM_READ, &s.info, &s.cursor));
-  if (!s.file) {
-    throw InvalidArgument(s.name,
-                          std::string("not ") + kFormats + " audio: " + sf_strerror(nullptr));
-  }
-  if (!IsReadableFormat(s.info.format)) {
-    SF_FORMAT_INFO format{};
-    format.format = s.info.format & SF_FORMAT_TYPEMASK;
-    const bool known = sf_command(nullptr, SFC_GET_FORMAT_INFO, &format, sizeof(format)) == 0;
-    throw InvalidArgument(
-        s.name,
-        std::string(known && format.name ? format.name : "another format") + " is not " + kFormats);
-  }
-  CheckAudioFormat(s.info.samplerate, s.info.channels, s.name);
-  if (s.info.frames != SF_COUNT_MAX) s.CheckAmount(s.info.frames);
-}
-
-AudioReader::~AudioReader() = default;
-AudioReader::AudioReader(AudioReader&&) noexcept = default;
-AudioReader& AudioReader::operator=(AudioReader&&) noexcept = default;
-
-AudioReader AudioReader::OpenFile(const std::filesystem::path& path) {
-  return AudioReader(FileBytes(path), path.string());
-}
-
-AudioReader AudioReader::OpenMemory(std::span<const std::byte> bytes, const std::string& name) {
-  return AudioReader(MemoryBytes(bytes), name);
-}
-
-int AudioReader::sample_rate() const { return state_->info.samplerate; }
-int AudioReader::channels() const { return state_->info.channels; }
-
-int64_t AudioReader::stated_samples() const {
-  return state_->info.frames == SF_COUNT_MAX ? 0 : std::max<int64_t>(state_->info.frames, 0);
-}
-
-int64_t AudioReader::Read(std::span<float> interleaved) {
-  State& s = *state_;
-  const size_t channels_count = static_cast<size_t>(s.info.channels);
-  if (interleaved.size() % channels_count != 0) {
-    throw InvalidArgument("interleaved", std::to_string(interleaved.size()) +
-                                             " samples are not a multiple of the " +
-                                             std::to_string(channels_count) + " channels");
-  }
-  const int64_t wanted = static_cast<int64_t>(interleaved.size() / channels_count);
-  const int64_t got = sf_readf_float(s.file.get(), interleaved.data(), wanted);
-  if (const int error = sf_error(s.file.get()); error != SF_ERR_NO_ERROR) {
-    throw InvalidArgument(s.name, "truncated or damaged after sample " +
-                                      std::to_string(s.read + got) + ": " + sf_error_number(error));
-  }
-  CheckFinite(interleaved.first(static_cast<size_t>(got) * channels_count), s.info.channels, s.read,
-              s.name);
-  s.read += got;
-  s.CheckAmount(s.read);
-  if (got < wanted) {
-    if (s.read == 0) throw InvalidArgument(s.name, "0 samples of audio");
-    if (s.read < stated_samples()) {
-      throw InvalidArgument(s.name, "truncated: " + std::to_string(s.read) + " of " +
-                                        std::to_string(stated_samples()) + " samples");
+    if (samples > int64_t{kMaxAudioSeconds} * sample_rate()) {
+      throw InvalidArgument(name_, std::to_string(samples / sample_rate()) +
+                                       " s or more of audio, at most " +
+                                       std::to_string(kMaxAudioSeconds) + " s are taken");
+    }
+    if (samples * channels() > kMaxFileSamples) {
+      throw InvalidArgument(name_, std::to_string(samples * channels()) + " samples or more (" +
+                                       std::to_string(channels()) + " channels at " +
+                                       std::to_string(sample_rate()) + " Hz), at most " +
+                                       std::to_string(kMaxFileSamples) + " are decoded");
     }
   }
-  return got;
-}
 
-namespace {
-
-DecodedAudio ReadAll(AudioReader reader, double seconds) {
-  DecodedAudio audio;
-  audio.sample_rate = reader.sample_rate();
-  audio.channels = reader.channels();
-  const size_t channels = static_cast<size_t>(audio.channels);
-  const size_t block = kPieceSamples * channels;
-  for (;;) {
-    const size_t size = audio.interleaved.size();
-    audio.interleaved.resize(size + block);
-    const int64_t got = reader.Read(std::span(audio.interleaved).subspan(size));
-    audio.interleaved.resize(size + static_cast<size_t>(got) * channels);
-    if (got == 0 || audio.seconds() >= seconds) return audio;
-  }
-}
+  const std::string name_;
+  Cursor cursor_{};
+  SF_INFO info_{};  // its `frames` are those that the header states, or 0
+  std::unique_ptr<SNDFILE, CloseFile> file_;
+  int64_t read_ = 0;  // samples of each channel so far
+};
 
 }  // namespace
 
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds) {
-  return ReadAll(AudioReader::OpenFile(path), seconds);
+  AudioReader reader(FileBytes(path), path.string());
+  DecodedAudio audio{
+      .interleaved = {}, .sample_rate = reader.sample_rate(), .channels = reader.channels()};
+  const size_t channels = static_cast<size_t>(audio.channels);
+  for (;;) {
+    const size_t size = audio.interleaved.size();
+    audio.interleaved.resize(size + kPieceSamples * channels);
+    const int64_t got = reader.Read(std::span(audio.interleaved).subspan(size));
+    audio.interleaved.resize(size + static_cast<size_t>(got) * channels);
+    if (got == 0 || audio.seconds() >= seconds) return audio;
+  }
 }
 
 std::vector<float> ToModelRate(const DecodedAudio& audio) {
@@ -210,7 +203,9 @@ std::vector<float> ToModelRate(const DecodedAudio& audio) {
   return mono;
 }
 
-std::vector<float> DecodeMono(AudioReader reader, const std::function<void()>& between) {
+std::vector<float> DecodeMono(std::span<const std::byte> bytes,
+                              const std::function<void()>& between) {
+  AudioReader reader(MemoryBytes(bytes), "audio");
   Resampler resampler(reader.sample_rate(), reader.channels());
   const size_t channels = static_cast<size_t>(reader.channels());
   std::vector<float> piece(kPieceSamples * channels);

@@ -12,10 +12,7 @@ namespace choreo {
 namespace {
 
 constexpr int64_t kHalfWindow = kFftSize / 2;
-
-/// Frames of interleaved samples handled at a time, so that a long push needs no more memory than a
-/// short one.
-constexpr size_t kBlock = 1024;
+constexpr size_t kBlock = 1024;  // frames of samples
 
 int64_t CeilDivide(int64_t value, int64_t by) { return (value + by - 1) / by; }
 
@@ -36,25 +33,14 @@ FeatureStream::FeatureStream(double sample_rate, int channels, int64_t first_sam
 }
 
 void FeatureStream::Push(std::span<const float> interleaved) {
-  const size_t channels = static_cast<size_t>(channels_);
-  if (interleaved.size() % channels != 0) {
-    throw InvalidArgument("audio.data", std::to_string(interleaved.size()) +
-                                            " samples are not a multiple of the " +
-                                            std::to_string(channels) + " channels");
-  }
-  if (finished_) {
-    throw Error(ErrorCode::kOutOfRange, "audio.data",
-                "samples after the end of the audio at sample " + std::to_string(next_sample()));
-  }
-  CheckFinite(interleaved, channels_, next_sample());
-  while (!interleaved.empty()) {
-    const size_t count = std::min(kBlock * channels, interleaved.size());
-    resampler_.Push(interleaved.first(count));
+  // In small pieces, as a stream keeps the memory that its largest one needed.
+  const size_t block = kBlock * static_cast<size_t>(channels_);
+  for (size_t at = 0; at < interleaved.size(); at += block) {
+    resampler_.Push(interleaved.subspan(at, std::min(block, interleaved.size() - at)));
     resampler_.Pull(mono_);
     ComputeRows();
-    interleaved = interleaved.subspan(count);
-    pushed_ += static_cast<int64_t>(count / channels);
   }
+  pushed_ += std::ssize(interleaved) / channels_;
 }
 
 void FeatureStream::Finish() {
@@ -87,9 +73,7 @@ void FeatureStream::ComputeRows() {
 FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples, RowOnset* onset) {
   // Its work space is several times what a stream itself holds.
   thread_local MelSpectrum spectrum;
-  std::array<double, kMelBands> db{};
-  const auto power = spectrum.Power(samples);
-  std::transform(power.begin(), power.end(), db.begin(), PowerToDb);
+  const MelBandsDb db = spectrum.Decibels(samples);
   RowValues row{};
   MfccOfMelDb(db, row.mfcc);
   if (onset != nullptr) row.onset = onset->Add(db);

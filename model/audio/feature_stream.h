@@ -23,9 +23,7 @@ class FeatureStream {
   /// a stream that goes on where another one ended. Errors as Resampler.
   FeatureStream(double sample_rate, int channels, int64_t first_sample = 0);
 
-  /// Appends interleaved samples. Throws Error(kInvalidArgument) for a number that is no multiple
-  /// of the channels and for NaN and infinite samples, naming the first one's index;
-  /// Error(kOutOfRange) after Finish. A refused call changes nothing.
+  /// Whole interleaved frames, all finite, before Finish: the caller has checked that.
   void Push(std::span<const float> interleaved);
   /// The audio ends here: every row becomes final. May be called again.
   void Finish();

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <complex>
-#include <memory>
+#include <cstddef>
 #include <span>
+#include <unsupported/Eigen/FFT>
+#include <vector>
 
 namespace choreo {
 
@@ -10,20 +12,25 @@ namespace choreo {
 /// thread.
 class RealFourier {
  public:
-  explicit RealFourier(int size);  ///< an even number of samples
-  ~RealFourier();
-  RealFourier(RealFourier&&) noexcept;
-  RealFourier& operator=(RealFourier&&) noexcept;
+  /// An even number of samples.
+  explicit RealFourier(size_t size) : bins_(size) {
+    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  }
 
   /// size samples -> the size / 2 + 1 bins from 0 to the Nyquist frequency, unscaled; valid until
   /// the next call.
-  std::span<std::complex<double>> Forward(std::span<const double> samples);
+  std::span<std::complex<double>> Forward(std::span<const double> samples) {
+    fft_.fwd(bins_.data(), samples.data(), std::ssize(bins_));
+    return std::span(bins_).first(bins_.size() / 2 + 1);
+  }
   /// What Forward returned, or the caller made of it -> the samples, scaled by 1 / size.
-  void Inverse(std::span<double> samples);
+  void Inverse(std::span<double> samples) {
+    fft_.inv(samples.data(), bins_.data(), std::ssize(bins_));
+  }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Eigen::FFT<double> fft_;
+  std::vector<std::complex<double>> bins_;
 };
 
 }  // namespace choreo

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <string>
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
@@ -54,63 +53,60 @@ std::array<Band, kMelBands> MakeBands() {
   return bands;
 }
 
-}  // namespace
-
-double PowerToDb(double power) { return 10.0 * std::log10(std::max(power, 1e-10)); }
-
-struct MelSpectrum::Tables {
+struct MelTables {
   std::array<double, kFftSize> window{};
   std::array<Band, kMelBands> bands = MakeBands();
 
-  Tables() {
+  MelTables() {
     for (int i = 0; i < kFftSize; ++i) {
       window[static_cast<size_t>(i)] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * i / kFftSize);
     }
   }
 
-  static const Tables& Shared() {
-    static const Tables tables;
+  static const MelTables& Shared() {
+    static const MelTables tables;
     return tables;
   }
 };
 
-MelSpectrum::MelSpectrum() : tables_(Tables::Shared()), fourier_(kFftSize), windowed_(kFftSize) {}
+}  // namespace
 
-std::span<const double, kMelBands> MelSpectrum::Power(std::span<const float> samples) {
+MelBandsDb MelSpectrum::Decibels(std::span<const float> samples) {
+  const MelTables& tables = MelTables::Shared();
   for (size_t i = 0; i < kFftSize; ++i) {
-    windowed_[i] = tables_.window[i] * static_cast<double>(samples[i]);
+    windowed_[i] = tables.window[i] * static_cast<double>(samples[i]);
   }
   const auto spectrum = fourier_.Forward(windowed_);
   // From here on windowed_ holds the power of each bin.
   for (size_t bin = 0; bin < spectrum.size(); ++bin) windowed_[bin] = std::norm(spectrum[bin]);
-  for (size_t b = 0; b < power_.size(); ++b) {
-    const Band& band = tables_.bands[b];
-    double sum = 0;
+  MelBandsDb db;
+  for (size_t b = 0; b < db.size(); ++b) {
+    const Band& band = tables.bands[b];
+    double power = 0;
     for (size_t i = 0; i < band.weights.size(); ++i) {
-      sum += band.weights[i] * windowed_[band.first_bin + i];
+      power += band.weights[i] * windowed_[band.first_bin + i];
     }
-    power_[b] = sum;
-  }
-  return power_;
-}
-
-MelSpectrogram MelSpectrogramDb(std::span<const float> mono, int hop) {
-  if (mono.empty()) throw InvalidArgument("audio", "no samples");
-  if (hop < 1) throw InvalidArgument("hop", std::to_string(hop) + " is below 1");
-  const int64_t size = static_cast<int64_t>(mono.size());
-  MelSpectrogram db(1 + size / hop, kMelBands);
-  MelSpectrum spectrum;
-  std::vector<float> window(kFftSize);
-  for (int64_t frame = 0; frame < db.rows(); ++frame) {
-    const int64_t start = frame * hop - kFftSize / 2;
-    const int64_t from = std::max<int64_t>(start, 0), to = std::min(start + kFftSize, size);
-    std::fill(window.begin(), window.end(), 0.0f);
-    if (from < to)
-      std::copy(mono.begin() + from, mono.begin() + to, window.begin() + (from - start));
-    const auto power = spectrum.Power(window);
-    for (int b = 0; b < kMelBands; ++b) db(frame, b) = PowerToDb(power[static_cast<size_t>(b)]);
+    db[b] = 10.0 * std::log10(std::max(power, 1e-10));
   }
   return db;
+}
+
+std::vector<MelBandsDb> MelSpectrogram(std::span<const float> mono, int hop) {
+  if (mono.empty()) throw InvalidArgument("audio", "no samples");
+  const int64_t size = std::ssize(mono);
+  std::vector<MelBandsDb> frames(static_cast<size_t>(1 + size / hop));
+  MelSpectrum spectrum;
+  std::vector<float> window(kFftSize);
+  int64_t start = -kFftSize / 2;
+  for (MelBandsDb& db : frames) {
+    const int64_t from = std::max<int64_t>(start, 0), to = std::min(start + kFftSize, size);
+    std::ranges::fill(window, 0.0f);
+    if (from < to)
+      std::copy(mono.begin() + from, mono.begin() + to, window.begin() + (from - start));
+    db = spectrum.Decibels(window);
+    start += hop;
+  }
+  return frames;
 }
 
 }  // namespace choreo

@@ -13,14 +13,14 @@ inline constexpr int kFeatureHop = 735;
 
 /// One row of cepstral coefficients: the first kMfccCount of the orthonormal DCT-II of a mel
 /// spectrum in dB.
-void MfccOfMelDb(std::span<const double, kMelBands> db, std::span<float, kMfccCount> row);
+void MfccOfMelDb(const MelBandsDb& db, std::span<float, kMfccCount> row);
 
 /// [row, coefficient]
 using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, kMfccCount, Eigen::RowMajor>;
 
 /// MFCC-40 of mono samples at 22 050 Hz as librosa 0.10.2 computes them with n_fft 2048, centred
 /// windows and top_db None, since no stream can know its loudest frame in advance; row r is centred
-/// at sample r * kFeatureHop, and there are 1 + samples / kFeatureHop. Errors as MelSpectrogramDb.
+/// at sample r * kFeatureHop, and there are 1 + samples / kFeatureHop. Errors as MelSpectrogram.
 FeatureMatrix Mfcc(std::span<const float> mono);
 
 }  // namespace choreo

@@ -15,14 +15,11 @@ constexpr size_t kBassBands = 4;
 // A window reports an attack while its centre is still before it: by about so many frames.
 constexpr size_t kShift = 1;
 
-/// The frames of OnsetStrength.
-using FrameOnset = OnsetMeter<1, 2 * kModelSampleRate / kOnsetHop>;
-
 }  // namespace
 
 template <size_t kRiseRows, size_t kLoudRows>
-float OnsetMeter<kRiseRows, kLoudRows>::Add(std::span<const double, kMelBands> db) {
-  loudest_[rows_ % kLoudRows] = *std::max_element(db.begin(), db.end());
+float OnsetMeter<kRiseRows, kLoudRows>::Add(const MelBandsDb& db) {
+  loudest_[rows_ % kLoudRows] = *std::ranges::max_element(db);
   const auto known = static_cast<std::ptrdiff_t>(std::min(rows_ + 1, kLoudRows));
   const double floor = *std::max_element(loudest_.begin(), loudest_.begin() + known) - kRangeDb;
   double all = 0, bass = 0;
@@ -41,14 +38,10 @@ float OnsetMeter<kRiseRows, kLoudRows>::Add(std::span<const double, kMelBands> d
 template class OnsetMeter<2, 60>;
 
 std::vector<float> OnsetStrength(std::span<const float> mono) {
-  const MelSpectrogram db = MelSpectrogramDb(mono, kOnsetHop);
-  const auto frames = static_cast<size_t>(db.rows());
-  std::vector<float> strength(frames, 0.0f);
-  FrameOnset onset;
-  for (size_t f = 0; f + kShift < frames; ++f) {
-    strength[f + kShift] = onset.Add(
-        std::span<const double, kMelBands>(db.row(static_cast<Eigen::Index>(f)).data(), kMelBands));
-  }
+  const std::vector<MelBandsDb> frames = MelSpectrogram(mono, kOnsetHop);
+  std::vector<float> strength(frames.size(), 0.0f);
+  OnsetMeter<1, 2 * kModelSampleRate / kOnsetHop> onset;
+  for (size_t f = 0; f + kShift < frames.size(); ++f) strength[f + kShift] = onset.Add(frames[f]);
   return strength;
 }
 

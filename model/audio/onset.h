@@ -20,11 +20,11 @@ class OnsetMeter {
   static constexpr int kMemory = kRiseRows + kLoudRows;
 
   /// `db`: the bands of the next row.
-  float Add(std::span<const double, kMelBands> db);
+  float Add(const MelBandsDb& db);
 
  private:
   size_t rows_ = 0;
-  std::array<std::array<double, kMelBands>, kRiseRows> before_{};
+  std::array<MelBandsDb, kRiseRows> before_{};
   std::array<double, kLoudRows> loudest_{};
 };
 
@@ -36,7 +36,7 @@ inline constexpr int kOnsetHop = 512;
 
 /// Onset strength of mono samples at 22 050 Hz, all of them: rises over one frame, 23 ms. Value f
 /// describes sample f * kOnsetHop; there are 1 + samples / kOnsetHop, all >= 0, the first one 0.
-/// Errors as MelSpectrogramDb.
+/// Errors as MelSpectrogram.
 std::vector<float> OnsetStrength(std::span<const float> mono);
 
 }  // namespace choreo

@@ -41,25 +41,14 @@ constexpr int kSilentRows = 75;  // without any onset, and the music has stopped
 
 double Kept(double seconds) { return std::exp(-1 / (kRowRate * seconds)); }
 
-// Times of the phases of a beat as phasors.
-const std::array<std::pair<double, double>, kPhases>& PhaseTable() {
-  static const auto table = [] {
-    std::array<std::pair<double, double>, kPhases> made;
-    for (size_t i = 0; i < kPhases; ++i) {
-      const double angle = kTwoPi * static_cast<double>(i) / kPhases;
-      made[i] = {std::cos(angle), std::sin(angle)};
-    }
-    return made;
-  }();
-  return table;
-}
-
-// What of each resonator is left a row later, turned by its tempo; how likely each tempo is.
-struct Tables {
+// What of each resonator is left a row later, turned by its tempo; how likely each tempo is; the
+// phases of a beat as phasors.
+struct PulseTables {
   std::array<double, kResonators> turn_re, turn_im;
   std::array<double, kTempi> likely;
+  std::array<std::pair<double, double>, kPhases> phasors;
 
-  Tables() {
+  PulseTables() {
     for (size_t k = 0; k < kResonators; ++k) {
       const double angle = kTwoPi / PeriodOf(static_cast<double>(k));
       turn_re[k] = Kept(kRingSeconds) * std::cos(angle);
@@ -70,6 +59,10 @@ struct Tables {
                              static_cast<double>(k) / static_cast<double>(kOctave);
       likely[k] = std::exp(-0.5 * octaves * octaves / (kLikelyOctaves * kLikelyOctaves));
     }
+    for (size_t i = 0; i < kPhases; ++i) {
+      const double angle = kTwoPi * static_cast<double>(i) / kPhases;
+      phasors[i] = {std::cos(angle), std::sin(angle)};
+    }
   }
 
   // In rows.
@@ -77,6 +70,8 @@ struct Tables {
     return 60 * kRowRate / (kSlowestBpm * std::exp2(step / static_cast<double>(kOctave)));
   }
 };
+
+const PulseTables kTables;
 
 // A tempo and where in its beat the last row stands; its strength.
 struct Choice {
@@ -112,8 +107,8 @@ class Listener {
  private:
   void Ring(double onset) {
     for (size_t k = 0; k < kResonators; ++k) {
-      const double re = re_[k] * tables_.turn_re[k] - im_[k] * tables_.turn_im[k] + onset;
-      im_[k] = re_[k] * tables_.turn_im[k] + im_[k] * tables_.turn_re[k];
+      const double re = re_[k] * kTables.turn_re[k] - im_[k] * kTables.turn_im[k] + onset;
+      im_[k] = re_[k] * kTables.turn_im[k] + im_[k] * kTables.turn_re[k];
       re_[k] = re;
     }
   }
@@ -137,7 +132,7 @@ class Listener {
     double sum = 0;
     for (size_t part = 0; part < kParts.size(); ++part) {
       const size_t k = tempo + part * kOctave;
-      const auto& [cosine, sine] = phases_[(phase << part) % kPhases];
+      const auto& [cosine, sine] = kTables.phasors[(phase << part) % kPhases];
       sum += kParts[part] * (re_[k] * cosine + im_[k] * sine);
     }
     return sum;
@@ -154,13 +149,13 @@ class Listener {
         const size_t k = tempo + part * kOctave;
         sum += kParts[part] * std::sqrt(re_[k] * re_[k] + im_[k] * im_[k]);
       }
-      most[tempo] = sum * tables_.likely[tempo];
+      most[tempo] = sum * kTables.likely[tempo];
     }
     Choice best;
     const auto look = [&](size_t tempo) {
       for (size_t i = 0; i < phases; ++i) {
         const size_t at = (phase + i) % kPhases;
-        const double strength = Strength(tempo, at) * tables_.likely[tempo];
+        const double strength = Strength(tempo, at) * kTables.likely[tempo];
         if (strength > best.strength) best = {tempo, at, strength};
       }
     };
@@ -218,12 +213,9 @@ class Listener {
         (static_cast<double>(phase) + Summit(Strength(tempo, phase + kPhases - 1),
                                              Strength(tempo, phase), Strength(tempo, phase + 1))) /
         kPhases;
-    pulse_.period = Tables::PeriodOf(step);
+    pulse_.period = PulseTables::PeriodOf(step);
     pulse_.next = (1 - turns) * pulse_.period;
   }
-
-  static const Tables tables_;
-  const std::array<std::pair<double, double>, kPhases>& phases_ = PhaseTable();
 
   size_t rows_ = 0;
   double mean_ = 0, level_ = 0;
@@ -235,8 +227,6 @@ class Listener {
   double met_ = 0, heard_ = 0;
   int silent_rows_ = 0;
 };
-
-const Tables Listener::tables_;
 
 }  // namespace
 

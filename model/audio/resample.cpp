@@ -205,10 +205,6 @@ Resampler::Resampler(double sample_rate, int channels, int64_t first_sample)
   next_output_ = first_output_;
 }
 
-Resampler::~Resampler() = default;
-Resampler::Resampler(Resampler&&) noexcept = default;
-Resampler& Resampler::operator=(Resampler&&) noexcept = default;
-
 int64_t Resampler::half_length() const { return kernel_ ? kernel_->half_length() : 0; }
 
 int64_t Resampler::latency() const {
@@ -230,8 +226,6 @@ void Resampler::Push(std::span<const float> interleaved) {
 }
 
 void Resampler::Finish() {
-  if (finished_) return;
-  finished_ = true;
   const int64_t end = input_start_ + static_cast<int64_t>(input_.size());
   input_.insert(input_.end(), static_cast<size_t>(half_length()), 0.0);
   Produce();
@@ -268,11 +262,9 @@ void Resampler::Produce() {
   }
 }
 
-int64_t Resampler::Pull(std::vector<float>& mono) {
-  const int64_t count = static_cast<int64_t>(ready_.size());
+void Resampler::Pull(std::vector<float>& mono) {
   mono.insert(mono.end(), ready_.begin(), ready_.end());
   ready_.clear();
-  return count;
 }
 
 }  // namespace choreo

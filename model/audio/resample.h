@@ -20,16 +20,14 @@ class Resampler {
   /// kMaxAudioSeconds. Throws Error(kInvalidArgument) for that and for formats that
   /// CheckAudioFormat refuses.
   Resampler(double sample_rate, int channels, int64_t first_sample = 0);
-  ~Resampler();
-  Resampler(Resampler&&) noexcept;
-  Resampler& operator=(Resampler&&) noexcept;
 
   /// Whole interleaved frames, all finite: the caller has checked them.
   void Push(std::span<const float> interleaved);
-  /// Nothing more comes. The last output sample is the last one that lies within the audio.
+  /// Nothing more comes; called once. The last output sample is the last one that lies within the
+  /// audio.
   void Finish();
-  /// Appends every output sample that is ready to `mono`, in order, and returns how many.
-  int64_t Pull(std::vector<float>& mono);
+  /// Appends every output sample that is ready to `mono`, in order.
+  void Pull(std::vector<float>& mono);
 
   /// Absolute index, at 22 050 Hz, of the first output sample: 0, or, where the stream starts
   /// later, the first whose whole support lies in the stream.
@@ -51,7 +49,6 @@ class Resampler {
   int64_t input_start_ = 0;    // absolute index of input_[0]
   int64_t first_output_ = 0;
   int64_t next_output_ = 0;
-  bool finished_ = false;
   std::vector<float> ready_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -70,30 +71,24 @@ const NamedPart kMiddle[] = {
     {{"head", 0, 0.165f, -0.075f, 0.045f}, {"head", 0, 0.170f, -0.090f, 0.042f}, kHairColour},
 };
 
-Ball Mirrored(const Ball& ball) { return {ball.joint, -ball.x, ball.y, ball.z, ball.radius}; }
-
-// False where the skeleton does not have a joint that the doll needs.
-bool AddParts(const Skeleton& skeleton, std::vector<DollPart>& doll) {
-  const auto ball = [&](const Ball& named, const std::string& joint) {
-    return DollBall{skeleton.Find(joint), {named.x, named.y, named.z}, named.radius};
+// With a joint below 0 where the skeleton does not have one that the doll needs.
+std::vector<DollPart> SmplParts(const Skeleton& skeleton) {
+  std::vector<DollPart> doll;
+  const auto as_it_is = [&](const Ball& ball) {
+    return DollBall{skeleton.Find(ball.joint), {ball.x, ball.y, ball.z}, ball.radius};
   };
-  const auto add = [&](const DollBall& a, const DollBall& b, const Colour& colour) {
-    if (a.joint < 0 || b.joint < 0) return false;
-    doll.push_back({a, b, colour});
-    return true;
+  const auto mirrored = [&](const Ball& ball) {
+    return DollBall{skeleton.Find(OtherSide(ball.joint)), {-ball.x, ball.y, ball.z}, ball.radius};
   };
   for (const NamedPart& part : kMiddle) {
-    if (!add(ball(part.a, part.a.joint), ball(part.b, part.b.joint), part.colour)) return false;
+    doll.push_back({as_it_is(part.a), as_it_is(part.b), part.colour});
   }
   for (const NamedPart& part : kSide) {
-    if (!add(ball(part.a, part.a.joint), ball(part.b, part.b.joint), part.colour)) return false;
-    const bool limb = part.colour.r == kLeftColour.r;
-    if (!add(ball(Mirrored(part.a), OtherSide(part.a.joint)),
-             ball(Mirrored(part.b), OtherSide(part.b.joint)), limb ? kRightColour : part.colour)) {
-      return false;
-    }
+    doll.push_back({as_it_is(part.a), as_it_is(part.b), part.colour});
+    doll.push_back({mirrored(part.a), mirrored(part.b),
+                    part.colour == kLeftColour ? kRightColour : part.colour});
   }
-  return true;
+  return doll;
 }
 
 // How thick the bone from a joint's parent to it is, by the joints' roles, metres.
@@ -153,11 +148,20 @@ std::vector<DollPart> Capsules(const Skeleton& skeleton) {
   return doll;
 }
 
+double LowestPoint(const std::vector<PlacedPart>& body) {
+  float lowest = std::numeric_limits<float>::infinity();
+  for (const auto& [shape, colour] : body)
+    lowest = std::min({lowest, shape.a.y() - shape.radius_a, shape.b.y() - shape.radius_b});
+  return lowest;
+}
+
 }  // namespace
 
 std::vector<DollPart> MakeDoll(const Skeleton& skeleton) {
-  std::vector<DollPart> doll;
-  return AddParts(skeleton, doll) ? doll : Capsules(skeleton);
+  const std::vector<DollPart> doll = SmplParts(skeleton);
+  const bool complete = std::ranges::all_of(
+      doll, [](const DollPart& part) { return part.a.joint >= 0 && part.b.joint >= 0; });
+  return complete ? doll : Capsules(skeleton);
 }
 
 std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
@@ -167,7 +171,6 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
         .cast<float>();
   };
   std::vector<PlacedPart> parts;
-  parts.reserve(doll.size());
   for (const DollPart& part : doll) {
     parts.push_back({{place(part.a), place(part.b), static_cast<float>(part.a.radius),
                       static_cast<float>(part.b.radius)},
@@ -178,6 +181,11 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
 
 std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose) {
   return PlaceDoll(MakeDoll(skeleton), ForwardKinematics(skeleton, pose));
+}
+
+double DollAboveFloor(const Skeleton& skeleton, const Pose& pose) {
+  return LowestPoint(BuildFigure(skeleton, pose)) -
+         LowestPoint(BuildFigure(skeleton, RestPose(skeleton)));
 }
 
 std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index) {

@@ -52,6 +52,10 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
 /// not the skeleton's.
 std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
 
+/// How far the doll of a pose is above the floor, metres: 0 where it touches the floor as at rest,
+/// below 0 where a part of it would be under the floor. Errors as BuildFigure.
+double DollAboveFloor(const Skeleton& skeleton, const Pose& pose);
+
 /// Parts of one colour are one piece of skin: those that the part `index` may meet.
 std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index);
 

@@ -20,19 +20,6 @@ int Carrier(const Skeleton& skeleton, const DollPart& part) {
                                                                    : end.joint;
 }
 
-// Two unit vectors that make a right-handed frame with `axis`.
-std::pair<Vector3f, Vector3f> Across(const Vector3f& axis) {
-  const Vector3f helper = std::abs(axis.y()) < 0.9f ? Vector3f::UnitY() : Vector3f::UnitX();
-  const Vector3f u = helper.cross(axis).normalized();
-  return {u, axis.cross(u)};
-}
-
-void Emit(SkinPatch& patch, const Vector3f& position, const Vector3f& normal, int joint) {
-  patch.positions.push_back(position);
-  patch.normals.push_back(normal);
-  patch.joints.push_back(static_cast<uint16_t>(joint));
-}
-
 // One capsule: a pole, rings of latitude over both balls, a pole. On the tangent circles both balls
 // and the cone between them share their normal, so no edge shows.
 void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int joint_b) {
@@ -41,7 +28,10 @@ void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int join
   const float slope = length > 0 ? (cone.radius_a - cone.radius_b) / length : 2;
   const bool nested = std::abs(slope) >= 1;  // one ball holds the other
   const Vector3f axis = nested ? Vector3f::UnitY() : (along / length).eval();
-  const auto [u, v] = Across(axis);
+  // Two unit vectors that make a right-handed frame with it.
+  const Vector3f helper = std::abs(axis.y()) < 0.9f ? Vector3f::UnitY() : Vector3f::UnitX();
+  const Vector3f u = helper.cross(axis).normalized();
+  const Vector3f v = axis.cross(u);
   const auto first = static_cast<uint32_t>(patch.positions.size());
 
   struct Ring {
@@ -62,8 +52,9 @@ void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int join
 
   const auto vertex = [&](const Vector3f& normal, bool at_b) {
     const Vector3f& centre = at_b ? cone.b : cone.a;
-    Emit(patch, centre + (at_b ? cone.radius_b : cone.radius_a) * normal, normal,
-         at_b ? joint_b : joint_a);
+    patch.positions.push_back(centre + (at_b ? cone.radius_b : cone.radius_a) * normal);
+    patch.normals.push_back(normal);
+    patch.joints.push_back(static_cast<uint16_t>(at_b ? joint_b : joint_a));
   };
   vertex(-axis, rings.front().at_b);
   for (const Ring& ring : rings) {
@@ -101,8 +92,7 @@ std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
       PlaceDoll(doll, ForwardKinematics(skeleton, RestPose(skeleton)));
   std::vector<SkinPatch> patches;
   for (size_t i = 0; i < parts.size(); ++i) {
-    auto patch = std::find_if(patches.begin(), patches.end(),
-                              [&](const SkinPatch& one) { return one.colour == parts[i].colour; });
+    auto patch = std::ranges::find(patches, parts[i].colour, &SkinPatch::colour);
     if (patch == patches.end()) {
       patch = patches.insert(patches.end(), SkinPatch{});
       patch->colour = parts[i].colour;

@@ -64,13 +64,9 @@ Tensor FactorsOf(const Tensor& steps, const Tensor& shares) {
 }
 
 Tensor SharesOf(const Skeleton& skeleton) {
-  const BodyPartWeights weights = WeighBodyParts(skeleton);
-  Tensor shares = torch::empty({kBodyParts, skeleton.joints()});
-  for (int part = 0; part < kBodyParts; ++part) {
-    for (int j = 0; j < skeleton.joints(); ++j)
-      shares[part][j] = static_cast<float>(weights(part, j));
-  }
-  return shares;
+  Eigen::Matrix<float, kBodyParts, Eigen::Dynamic, Eigen::RowMajor> shares =
+      WeighBodyParts(skeleton).cast<float>();
+  return torch::from_blob(shares.data(), {shares.rows(), shares.cols()}).clone();
 }
 
 }  // namespace choreo

@@ -54,10 +54,6 @@ Tensor Windows(const Tensor& before, const Tensor& given, int64_t size) {
 
 }  // namespace
 
-Tensor ControlledScale::Unit(const Tensor& joints) const {
-  return ((joints - joint_mean) / joint_std).flatten(-2);
-}
-
 ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
   ControlledGiven part = *this;
   for (Tensor* tensor : {&part.path, &part.ahead, &part.ramp, &part.joints, &part.path_window,
@@ -70,10 +66,10 @@ ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
 ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
                                            const Skeleton& skeleton)
     : config_(config), skeleton_(skeleton), others_(skeleton.joints() - 1) {
-  scale_.joint_mean = register_buffer("joint_mean", torch::zeros({others_, 3}));
-  scale_.joint_std = register_buffer("joint_std", torch::ones({others_, 3}));
-  scale_.factor_std = register_buffer("factor_std", torch::ones({kBodyParts}));
-  scale_.shares = SharesOf(skeleton);
+  joint_mean_ = register_buffer("joint_mean", torch::zeros({others_, 3}));
+  joint_std_ = register_buffer("joint_std", torch::ones({others_, 3}));
+  factor_std_ = register_buffer("factor_std", torch::ones({kBodyParts}));
+  shares_ = SharesOf(skeleton);
 
   const int64_t pose = 3 * others_;
   path_controller_ = register_module("path_controller", MakeWindowController(3, config));
@@ -112,19 +108,9 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
 void ControllersModelImpl::SetNormalisation(const Tensor& joint_mean, const Tensor& joint_std,
                                             const Tensor& factor_std) {
   torch::NoGradGuard no_grad;
-  scale_.joint_mean.copy_(joint_mean);
-  scale_.joint_std.copy_(joint_std);
-  scale_.factor_std.copy_(factor_std);
-}
-
-std::pair<Tensor, Tensor> ControllersModelImpl::Reference(const ControlledTransition& transition) {
-  const int64_t frames = transition.frames;
-  const Tensor u = torch::arange(1, frames + 1, transition.path.options()).view({1, frames}) /
-                   static_cast<double>(frames) * transition.has_target;  // [batch, N]
-  const Tensor last = transition.history.joints.narrow(1, transition.history.size() - 1, 1);
-  const Tensor way = transition.target_joints.unsqueeze(1) - last;
-  return {last + u.unsqueeze(-1).unsqueeze(-1) * way,
-          HeadingOf(u * transition.target_turn.unsqueeze(1))};
+  joint_mean_.copy_(joint_mean);
+  joint_std_.copy_(joint_std);
+  factor_std_.copy_(factor_std);
 }
 
 ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transition) {
@@ -134,7 +120,6 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
   const Tensor count = torch::arange(frames, options).view({1, frames, 1});
   const Tensor u = (count + 1) / static_cast<double>(frames);
   const Tensor has = transition.has_target.unsqueeze(1);  // [batch, 1, 1]
-  const auto [reference, ahead] = Reference(transition);
 
   ControlledGiven given;
   given.path = transition.path;
@@ -142,7 +127,11 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
   given.has_target = has;
   given.target_joints = transition.target_joints.unsqueeze(1);
   given.target_facing = HeadingOf(transition.target_turn).unsqueeze(1);
-  given.ahead = ahead;
+  // Interpolation, from which everything starts.
+  const Tensor share = u * has;
+  const Tensor last = history.joints.narrow(1, history.size() - 1, 1);
+  given.joints = last + share.unsqueeze(-1) * (given.target_joints - last);
+  given.ahead = HeadingOf(share.squeeze(-1) * transition.target_turn.unsqueeze(1));
   const Tensor from_start = ((count + 1) / kRampFrames).clamp_max(1);
   const Tensor to_target = ((frames - 1 - count) / kRampFrames).clamp_max(1);
   given.ramp = from_start * (1 - has + has * to_target);
@@ -153,7 +142,6 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
                                    u.expand({batch, frames, 1}), left * has},
                                   -1);
   given.code = position_code_(place);
-  given.joints = reference;
 
   const auto encode = [&](const WindowController& controller, const Tensor& windows) {
     return controller->Encode(windows.flatten(0, 1)).unflatten(0, {batch, frames});
@@ -165,8 +153,8 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
   given.path_memory = encode(path_controller_, given.path_window);
   if (config_.velocity_factors) {
     given.factor_window =
-        Windows(FactorsOf(Steps(history), scale_.shares), transition.factors, config_.window) /
-        scale_.factor_std;
+        Windows(FactorsOf(Steps(history), shares_), transition.factors, config_.window) /
+        factor_std_;
     given.factor_memory = encode(factor_controller_, given.factor_window);
   }
   return given;
@@ -207,34 +195,31 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
              TurnBack(roots - given.path.unsqueeze(2), given.ahead.unsqueeze(2)) / kPlace,
              given.path_window)};
   if (config_.velocity_factors) {
-    const Tensor factors = FactorsOf(Steps(walked), scale_.shares) / scale_.factor_std;
+    const Tensor factors = FactorsOf(Steps(walked), shares_) / factor_std_;
     live.push_back(decode(factor_controller_, given.factor_memory,
                           factors.unfold(1, half, 1).transpose(-1, -2), given.factor_window));
   }
 
   const Tensor facing = SubtractHeadings(now.facing, given.ahead);
-  live.push_back(state_encoder_->forward(torch::cat(
-      {scale_.Unit(now.joints), (now.root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
-       TurnBack(given.path - now.root, given.ahead) / kPlace, facing, now.contacts},
-      -1)));
+  live.push_back(state_encoder_->forward(
+      torch::cat({((now.joints - joint_mean_) / joint_std_).flatten(-2),
+                  (now.root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
+                  TurnBack(given.path - now.root, given.ahead) / kPlace, facing, now.contacts},
+                 -1)));
   live.push_back(velocity_encoder_->forward(
       torch::cat({(now.joints - before.joints).flatten(-2) / kStep,
                   TurnBack(now.root - before.root, given.ahead) / kStep,
                   SubtractHeadings(now.facing, before.facing).narrow(-1, 0, 1) / kTurnStep},
                  -1)));
   const Tensor target = target_controller_->forward(
-      torch::cat({((given.target_joints - now.joints) / scale_.joint_std).flatten(-2),
+      torch::cat({((given.target_joints - now.joints) / joint_std_).flatten(-2),
                   SubtractHeadings(given.target_facing.expand_as(now.facing), now.facing),
                   TurnBack(given.end - now.root, given.ahead),
                   torch::ones({batch, frames, 1}, now.root.options())},
                  -1) *
       given.has_target);
 
-  const auto run = [](torch::nn::LSTM& lstm, const Tensor& in, std::tuple<Tensor, Tensor>* memory) {
-    if (!std::get<0>(*memory).defined()) {
-      const Tensor zero = torch::zeros({1, in.size(0), lstm->options.hidden_size()}, in.options());
-      *memory = {zero, zero};
-    }
+  const auto run = [](torch::nn::LSTM& lstm, const Tensor& in, auto* memory) {
     auto [out, next] = lstm->forward(in, *memory);
     *memory = next;
     return out;
@@ -245,13 +230,9 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
 
   const int64_t pose = 3 * others_, all = 2 * pose + kContacts;
   const Tensor decoded = state_decoder_->forward(hidden);
-  Tensor root;
-  if (config_.root_decoder) {
-    root = root_decoder_->forward(hidden);
-  } else {
-    root = decoded.narrow(2, all, decoded.size(2) - all);
-  }
-  const Tensor joints = given.joints + given.ramp.unsqueeze(-1) * scale_.joint_std *
+  const Tensor root = config_.root_decoder ? root_decoder_->forward(hidden)
+                                           : decoded.narrow(2, all, decoded.size(2) - all);
+  const Tensor joints = given.joints + given.ramp.unsqueeze(-1) * joint_std_ *
                                            decoded.narrow(2, 0, pose).unflatten(2, {others_, 3});
   ControlledOutput output;
   output.frames = Compose(given, joints, root.narrow(2, 3, 2), kPlace * root.narrow(2, 0, 3));

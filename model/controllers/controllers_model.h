@@ -9,7 +9,6 @@
 #include <torch/types.h>
 
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "model/controllers/controlled_frames.h"
@@ -46,18 +45,9 @@ struct ControlledOutput {
   torch::Tensor velocities;
 };
 
-/// Hidden and cell state of both LSTMs; undefined tensors stand for zeros.
+/// Hidden and cell state of both LSTMs; none stands for zeros.
 struct ControllersState {
-  std::tuple<torch::Tensor, torch::Tensor> first, second;
-};
-
-/// In what units the network sees frames.
-struct ControlledScale {
-  torch::Tensor joint_mean, joint_std;  ///< [joints - 1, 3]
-  torch::Tensor factor_std;             ///< [5]
-  torch::Tensor shares;                 ///< [5, joints], as FactorsOf takes them
-
-  torch::Tensor Unit(const torch::Tensor& joints) const;  ///< [..., joints - 1, 3], flattened
+  torch::optional<std::tuple<torch::Tensor, torch::Tensor>> first, second;
 };
 
 /// The network of paper C (Section 3.2, Figure 2). It walks around interpolation.
@@ -69,9 +59,8 @@ class ControllersModelImpl : public torch::nn::Module {
   const Skeleton& skeleton() const { return skeleton_; }
   /// Frames before the first one that Walk looks at.
   int lead() const { return config_.window / 2 + 1; }
-  const torch::Tensor& shares() const {
-    return scale_.shares;
-  }  ///< [5, joints], as FactorsOf takes them
+  /// [5, joints], as FactorsOf takes them.
+  const torch::Tensor& shares() const { return shares_; }
 
   /// Mean and spread of real joints [joints - 1, 3] and of velocity factors [5].
   void SetNormalisation(const torch::Tensor& joint_mean, const torch::Tensor& joint_std,
@@ -88,15 +77,14 @@ class ControllersModelImpl : public torch::nn::Module {
   FrameTensors RollOut(const ControlledTransition& transition);
 
  private:
-  // Where everything starts from: joints [batch, N, joints - 1, 3] and headings [batch, N, 2].
-  static std::pair<torch::Tensor, torch::Tensor> Reference(const ControlledTransition& transition);
   FrameTensors Compose(const ControlledGiven& given, const torch::Tensor& joints,
                        const torch::Tensor& turn, const torch::Tensor& root) const;
 
   ControllersConfig config_;
   Skeleton skeleton_;
-  int64_t others_;  // joints but the root
-  ControlledScale scale_;
+  int64_t others_;                        // joints but the root
+  torch::Tensor joint_mean_, joint_std_;  // [joints - 1, 3]
+  torch::Tensor factor_std_, shares_;     // [5], [5, joints]
 
   WindowController path_controller_, factor_controller_;
   torch::nn::Sequential state_encoder_{nullptr}, velocity_encoder_{nullptr},

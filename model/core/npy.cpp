@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <type_traits>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -69,12 +70,6 @@ class HeaderParser {
   void Expect(char c) {
     if (!Accept(c)) Fail(std::string("expected '") + c + "'");
   }
-  bool AcceptWord(std::string_view word) {
-    SkipSpace();
-    if (text_.substr(at_, word.size()) != word) return false;
-    at_ += word.size();
-    return true;
-  }
   std::string String() {
     SkipSpace();
     const char quote = at_ < text_.size() ? text_[at_] : '\0';
@@ -86,9 +81,11 @@ class HeaderParser {
     return value;
   }
   bool Bool() {
-    if (AcceptWord("True")) return true;
-    if (AcceptWord("False")) return false;
-    Fail("expected True or False");
+    SkipSpace();
+    const bool value = text_.substr(at_).starts_with("True");
+    if (!value && !text_.substr(at_).starts_with("False")) Fail("expected True or False");
+    at_ += value ? 4 : 5;
+    return value;
   }
   std::vector<int64_t> Tuple() {
     std::vector<int64_t> shape;
@@ -132,14 +129,13 @@ std::string ShapeText(const std::vector<int64_t>& shape) {
 template <typename T>
 std::vector<T> FromFortranOrder(const std::vector<T>& values, const std::vector<int64_t>& shape) {
   std::vector<T> result(values.size());
-  std::vector<int64_t> index(shape.size(), 0);
-  for (T& out : result) {
-    size_t from = 0;
-    for (size_t d = shape.size(); d-- > 0;) {
-      from = from * static_cast<size_t>(shape[d]) + static_cast<size_t>(index[d]);
+  for (size_t i = 0; i < values.size(); ++i) {
+    size_t rest = i, to = 0;
+    for (const int64_t extent : shape) {
+      to = to * static_cast<size_t>(extent) + rest % static_cast<size_t>(extent);
+      rest /= static_cast<size_t>(extent);
     }
-    out = values[from];
-    for (size_t d = shape.size(); d-- > 0 && ++index[d] == shape[d];) index[d] = 0;
+    result[to] = values[i];
   }
   return result;
 }
@@ -162,16 +158,11 @@ std::vector<T> ReadValues(const NpyParts& parts, const std::string& name) {
   return parts.fortran_order ? FromFortranOrder(values, parts.shape) : values;
 }
 
+/// What NumPy calls T, as in "<f4": little-endian, its kind, its bytes.
 template <typename T>
-constexpr std::string_view kDescr = "";
-template <>
-constexpr std::string_view kDescr<float> = "<f4";
-template <>
-constexpr std::string_view kDescr<double> = "<f8";
-template <>
-constexpr std::string_view kDescr<int32_t> = "<i4";
-template <>
-constexpr std::string_view kDescr<int64_t> = "<i8";
+std::string Descr() {
+  return (std::is_floating_point_v<T> ? "<f" : "<i") + std::to_string(sizeof(T));
+}
 
 }  // namespace
 
@@ -219,13 +210,13 @@ NpyArray ReadNpyParts(const NpyParts& parts, const std::string& name) {
                                     std::to_string(kMaxDimensions) + " are read");
   }
   NpyArray array{parts.shape, {}};
-  if (parts.descr == kDescr<float>) {
+  if (parts.descr == Descr<float>()) {
     array.values = ReadValues<float>(parts, name);
-  } else if (parts.descr == kDescr<double>) {
+  } else if (parts.descr == Descr<double>()) {
     array.values = ReadValues<double>(parts, name);
-  } else if (parts.descr == kDescr<int32_t>) {
+  } else if (parts.descr == Descr<int32_t>()) {
     array.values = ReadValues<int32_t>(parts, name);
-  } else if (parts.descr == kDescr<int64_t>) {
+  } else if (parts.descr == Descr<int64_t>()) {
     array.values = ReadValues<int64_t>(parts, name);
   } else {
     throw InvalidArgument(name,
@@ -251,7 +242,7 @@ std::string SerializeNpy(const NpyArray& array) {
                                              std::to_string(values.size()) + " values");
         }
         return JoinNpy(
-            {.descr = std::string(kDescr<T>),
+            {.descr = Descr<T>(),
              .shape = array.shape,
              .values = {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}});
       },

@@ -14,10 +14,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kWidth = 30;
-constexpr auto kRedraw = std::chrono::milliseconds(100);
-constexpr auto kLogLine = std::chrono::seconds(10);
-
-double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+constexpr Clock::duration kRedraw = std::chrono::milliseconds(100);
+constexpr Clock::duration kLogLine = std::chrono::seconds(10);
 
 }  // namespace
 
@@ -52,9 +50,7 @@ void ProgressBar::Advance(int64_t steps, const std::string& note) {
   done_ += steps;
   note_ = note;
   const auto now = output_.now();
-  if (now - shown_ < (output_.terminal ? Clock::duration(kRedraw) : Clock::duration(kLogLine))) {
-    return;
-  }
+  if (now - shown_ < (output_.terminal ? kRedraw : kLogLine)) return;
   shown_ = now;
   Show(false);
 }
@@ -72,22 +68,19 @@ void ProgressBar::Print(const std::string& line) {
 }
 
 void ProgressBar::Show(bool last) {
-  const double elapsed = Seconds(output_.now() - start_);
+  const double elapsed = std::chrono::duration<double>(output_.now() - start_).count();
   std::string line = title_;
   if (total_ > 0) {
     const double part =
         std::clamp(static_cast<double>(done_) / static_cast<double>(total_), 0.0, 1.0);
     const int filled = static_cast<int>(part * kWidth);
-    if (output_.terminal) {
+    if (output_.terminal)
       line.append(" [").append(filled, '=').append(kWidth - filled, ' ').append("]");
-    }
     char numbers[80];
     std::snprintf(numbers, sizeof(numbers), " %3.0f %% %lld/%lld", std::floor(100 * part),
                   static_cast<long long>(done_), static_cast<long long>(total_));
     line += numbers;
-    if (!last && part > 0) {
-      line += ", " + FormatDuration(elapsed * (1 - part) / part) + " left";
-    }
+    if (!last && part > 0) line += ", " + FormatDuration(elapsed * (1 - part) / part) + " left";
   } else {
     line += " " + std::to_string(done_);
   }

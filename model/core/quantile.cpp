@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace choreo {
 
@@ -24,21 +23,21 @@ std::vector<double> SlowQuantile(const std::vector<double>& values, double q,
                                  double window_frames) {
   const auto count = static_cast<int>(values.size());
   const int half = std::max(1, static_cast<int>(std::lround(0.5 * window_frames)));
-  const auto around = [&](int frame) {
-    return std::pair(std::max(0, frame - half), std::min(count, frame + half + 1));
+  // What `summary` makes of the values around each frame.
+  const auto slide = [&](const std::vector<double>& of, const auto& summary) {
+    std::vector<double> result;
+    for (int frame = 0; frame < count; ++frame) {
+      const int first = std::max(0, frame - half), last = std::min(count, frame + half + 1);
+      result.push_back(summary(of.begin() + first, of.begin() + last));
+    }
+    return result;
   };
-  std::vector<double> quantiles(values.size()), means(values.size());
-  for (int frame = 0; frame < count; ++frame) {
-    const auto [first, last] = around(frame);
-    quantiles[static_cast<size_t>(frame)] =
-        Quantile({values.begin() + first, values.begin() + last}, q);
-  }
-  for (int frame = 0; frame < count; ++frame) {
-    const auto [first, last] = around(frame);
-    means[static_cast<size_t>(frame)] =
-        std::accumulate(quantiles.begin() + first, quantiles.begin() + last, 0.0) / (last - first);
-  }
-  return means;
+  const auto quantiles = slide(values, [&](auto first, auto last) {
+    return Quantile({first, last}, q);
+  });
+  return slide(quantiles, [](auto first, auto last) {
+    return std::accumulate(first, last, 0.0) / static_cast<double>(last - first);
+  });
 }
 
 }  // namespace choreo

@@ -146,18 +146,19 @@ void WriteSafetensors(const std::filesystem::path& path, const Safetensors& cont
   const uint64_t header_bytes = text.size();
 
   AtomicFile beside(path);
-  std::ofstream file(beside.partial(), std::ios::binary | std::ios::trunc);
+  std::ofstream file(beside.partial(), std::ios::binary);
+  const auto write = [&](const auto& values) {
+    file.write(reinterpret_cast<const char*>(values.data()),
+               static_cast<std::streamsize>(values.size() * sizeof(values[0])));
+  };
   file.write(reinterpret_cast<const char*>(&header_bytes), 8);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  write(text);
   for (const auto& [name, tensor] : content.tensors) {
     if (IsBfloat16(tensor)) {
-      const std::vector<uint16_t> halves = UpperHalves(tensor.data);
-      file.write(reinterpret_cast<const char*>(halves.data()),
-                 static_cast<std::streamsize>(halves.size() * sizeof(uint16_t)));
-      continue;
+      write(UpperHalves(tensor.data));
+    } else {
+      write(tensor.data);
     }
-    file.write(reinterpret_cast<const char*>(tensor.data.data()),
-               static_cast<std::streamsize>(tensor.data.size() * sizeof(float)));
   }
   file.close();
   if (!file) throw Error(ErrorCode::kInternal, path.string(), "can't be written (disk full?)");
@@ -165,12 +166,12 @@ void WriteSafetensors(const std::filesystem::path& path, const Safetensors& cont
 }
 
 std::string ContentHash(const Safetensors& content, const std::string& without) {
-  XXH3_state_t* state = XXH3_createState();
-  XXH3_128bits_reset(state);
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
   const auto add = [&](const void* data, size_t bytes) {
     const uint64_t length = bytes;  // lengths keep neighbouring fields apart
-    XXH3_128bits_update(state, &length, sizeof(length));
-    XXH3_128bits_update(state, data, bytes);
+    XXH3_128bits_update(&state, &length, sizeof(length));
+    XXH3_128bits_update(&state, data, bytes);
   };
   for (const auto& [key, value] : content.metadata) {
     if (key == without) continue;
@@ -182,8 +183,7 @@ std::string ContentHash(const Safetensors& content, const std::string& without) 
     add(tensor.shape.data(), tensor.shape.size() * sizeof(int64_t));
     add(tensor.data.data(), tensor.data.size() * sizeof(float));
   }
-  const XXH128_hash_t hash = XXH3_128bits_digest(state);
-  XXH3_freeState(state);
+  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
   char hex[33];
   std::snprintf(hex, sizeof(hex), "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
                 static_cast<unsigned long long>(hash.low64));

@@ -49,43 +49,33 @@ BlasInfo DetectBlas() {
   if (gemm == nullptr) gemm = dlsym(RTLD_DEFAULT, "cblas_sgemm");
   if (gemm == nullptr) return {};
 
-  BlasInfo info;
-  info.path = FileOf(gemm);
+  using enum BlasInfo::Kind;
+  const std::string path = FileOf(gemm);
+  const std::string file = std::filesystem::path(path).filename().string();
   // Debian's libblas.so.3 of OpenBLAS is a thin front of libopenblas.so.0, so the question is not
   // only whose sgemm_ it is but also what stands behind it. Netlib's never comes together with
   // these unless its file, too, is Netlib's.
-  const std::string file = std::filesystem::path(info.path).filename().string();
-  const bool netlib = info.path.ends_with("/blas/" + file);
-  if (auto* config = Find<char*()>("openblas_get_config"); config != nullptr && !netlib) {
-    info.kind = BlasInfo::Kind::kFast;
-    info.name = config();
-  } else if (dlsym(RTLD_DEFAULT, "MKL_Get_Version_String") != nullptr && !netlib) {
-    info.kind = BlasInfo::Kind::kFast;
-    info.name = "Intel MKL";
-  } else if (auto* version = Find<const char*()>("bli_info_get_version_str");
-             version != nullptr && !netlib) {
-    info.kind = BlasInfo::Kind::kFast;
-    info.name = std::string("BLIS ") + version();
-  } else if (file.starts_with("libblas.so")) {
-    info.kind = BlasInfo::Kind::kReference;
-    info.name = "Netlib reference BLAS";
-  } else {
-    info.kind = BlasInfo::Kind::kUnknown;
-    info.name = file;
+  if (!path.ends_with("/blas/" + file)) {
+    if (auto* config = Find<char*()>("openblas_get_config")) return {kFast, config(), path};
+    if (Find<void>("MKL_Get_Version_String")) return {kFast, "Intel MKL", path};
+    if (auto* version = Find<const char*()>("bli_info_get_version_str"))
+      return {kFast, std::string("BLIS ") + version(), path};
   }
-  return info;
+  if (file.starts_with("libblas.so")) return {kReference, "Netlib reference BLAS", path};
+  return {kUnknown, file, path};
 }
 
 std::string RequireFastBlas(const BlasInfo& blas) {
+  using enum BlasInfo::Kind;
   switch (blas.kind) {
-    case BlasInfo::Kind::kFast:
+    case kFast:
       return "";
-    case BlasInfo::Kind::kNone:
+    case kNone:
       return "no BLAS library is loaded; LibTorch brings its own, or products are slow";
-    case BlasInfo::Kind::kUnknown:
+    case kUnknown:
       return "nobody knows how fast the BLAS " + blas.name + " (" + blas.path +
              ") is; OpenBLAS, MKL and BLIS are";
-    case BlasInfo::Kind::kReference:
+    case kReference:
       break;
   }
   throw Error(ErrorCode::kFailedPrecondition, "",

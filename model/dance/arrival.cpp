@@ -1,7 +1,6 @@
 #include "model/dance/arrival.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "model/core/smooth_step.h"
 #include "model/motion/rotation.h"
@@ -20,10 +19,10 @@ constexpr double kNewest = 0.3;
 
 }  // namespace
 
-Arrival::Arrival(Options options, int transition_frames, const Target& target,
+Arrival::Arrival(int window, int transition_frames, const Target& target,
                  const std::vector<Pose>& before, const std::optional<Pose>& after)
-    : frames_(transition_frames),
-      window_(std::min(options.frames, transition_frames)),
+    : left_(transition_frames),
+      window_(std::min(window, transition_frames)),
       target_(target),
       previous_(before.back()),
       velocity_(
@@ -40,11 +39,6 @@ Arrival::Velocity Arrival::Between(const Pose& a, const Pose& b) {
     velocity.joints.col(joint) = RotationDifference(a.rotations.col(joint), b.rotations.col(joint));
   }
   return velocity;
-}
-
-void Arrival::Remember(const Pose& emitted) {
-  velocity_ = Between(previous_, emitted);
-  previous_ = emitted;
 }
 
 // With accelerations a_i (i = 0..m-1) added before the steps 1..m, the place after m steps is m v +
@@ -69,14 +63,15 @@ Pose Arrival::Apply(const Pose& raw) {
   model_velocity_.root += kNewest * (newest.root - model_velocity_.root);
   model_velocity_.joints += kNewest * (newest.joints - model_velocity_.joints);
   last_raw_ = raw;
+  Pose emitted = left_ > window_ ? raw : Steered(raw);
+  velocity_ = Between(previous_, emitted);
+  previous_ = emitted;
+  --left_;
+  return emitted;
+}
 
-  const int frame = next_++;
-  const int left = frames_ - frame;  // steps to the key, this one included
-  if (left > window_) {
-    Remember(raw);
-    return raw;
-  }
-  const double w = SmoothStep(std::min(1.0, (window_ - left + 1) / (kFull * window_)));
+Pose Arrival::Steered(const Pose& raw) {
+  const double w = SmoothStep(std::min(1.0, (window_ - left_ + 1) / (kFull * window_)));
   Pose emitted = raw;
   const Velocity& end_velocity = after_ ? *after_ : model_velocity_;
   const bool has_place = target_.mask.root_position;
@@ -84,11 +79,11 @@ Pose Arrival::Apply(const Pose& raw) {
   if (!has_place && target_.height) place.y() = *target_.height;
   const Eigen::Vector3d way_there = place - previous_.root_position;
   const Eigen::Vector3d path_there =
-      previous_.root_position + Step(way_there, velocity_.root, end_velocity.root, left);
+      previous_.root_position + Step(way_there, velocity_.root, end_velocity.root, left_);
   for (int axis = 0; axis < 3; ++axis) {
     if (!has_place && !(axis == 1 && target_.height)) continue;
     double& at = emitted.root_position[axis];
-    at = left == 1 ? place[axis] : at + w * (path_there[axis] - at);
+    at = left_ == 1 ? place[axis] : at + w * (path_there[axis] - at);
   }
   for (int joint = 0; joint < raw.rotations.cols(); ++joint) {
     if (!target_.mask.Asks(joint)) continue;
@@ -98,12 +93,11 @@ Pose Arrival::Apply(const Pose& raw) {
     // Near half a turn the shorter way changes sides with every small step; keep to the one begun.
     if (has_expected_way_) way = NearestBranch(way, expected_way_.col(joint));
     const Eigen::Vector3d path = RotationCompose(
-        from, Step(way, velocity_.joints.col(joint), end_velocity.joints.col(joint), left));
+        from, Step(way, velocity_.joints.col(joint), end_velocity.joints.col(joint), left_));
     emitted.rotations.col(joint) = RotationCompose(model, w * RotationDifference(model, path));
     expected_way_.col(joint) = way - RotationDifference(from, emitted.rotations.col(joint));
   }
   has_expected_way_ = true;
-  Remember(emitted);
   return emitted;
 }
 

@@ -9,46 +9,42 @@
 
 namespace choreo {
 
-/// Leads a model's frames onto a key, frame by frame, without look-ahead. Over the last A frames of
-/// a transition the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is the model's frame, w
-/// rises smoothly from 0 to 1 over the first two thirds of them, and h_t is the next frame of the
-/// path from y_{t-1} to the key that has the least sum of squared second differences and passes the
-/// key with the velocity of the model's own frames (with a free end it would race through the key:
-/// docs/decisions.md). Root and joints (on the tangent space at y_{t-1}) are treated alike; what
-/// the key's mask leaves free passes through.
-///
-/// All poses stand in one frame (the transition's canonical one). Not thread-safe.
+/// Leads a model's frames onto a key, frame by frame, without look-ahead. In its window, the last
+/// frames of a transition, the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is the model's
+/// frame, w rises smoothly from 0 to 1 over the first two thirds of the window, and h_t is the next
+/// frame of the path from y_{t-1} to the key that has the least sum of squared second differences
+/// and passes the key with the velocity of the model's own frames (docs/decisions.md). Root and
+/// joints (on the tangent space at y_{t-1}) are treated alike; what the key's mask leaves free
+/// passes through. All poses stand in one frame (the canonical one). Not thread-safe.
 class Arrival {
  public:
-  struct Options {
-    int frames = 12;  ///< A; a shorter transition has as many as it is long. 0: arrival is off
-  };
-
-  /// `before`: the last one or two poses before frame 0, oldest first. `after`: the pose one frame
-  /// after the key, where the motion that follows is known (the edit of one interval, loops): the
-  /// path then also arrives with the velocity towards it.
-  Arrival(Options options, int transition_frames, const Target& target,
-          const std::vector<Pose>& before, const std::optional<Pose>& after = std::nullopt);
+  /// `window`: frames; a shorter transition has as many as it is long. `before`: the poses
+  /// before frame 0, at least one, oldest first. `after`: the pose one frame after the key, where
+  /// the motion that follows is known (the edit of one interval, loops): the path then also arrives
+  /// with the velocity towards it.
+  Arrival(int window, int transition_frames, const Target& target, const std::vector<Pose>& before,
+          const std::optional<Pose>& after = std::nullopt);
 
   /// The emitted pose of the next frame; call once for each of the transition's frames, in order.
   Pose Apply(const Pose& raw);
+
+  int window() const { return window_; }
 
  private:
   /// A step from one frame to the next.
   struct Velocity {
     Eigen::Vector3d root;
-    Eigen::Matrix3Xd
-        joints;  // [3, joints] radians, each on the tangent space at the joint's former rotation
+    // [3, joints] radians, each on the tangent space at the joint's former rotation.
+    Eigen::Matrix3Xd joints;
   };
   static Velocity Between(const Pose& a, const Pose& b);
   // The next of `frames_left` steps along the path.
   static Eigen::Vector3d Step(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity,
                               const Eigen::Vector3d& end_velocity, int frames_left);
-  void Remember(const Pose& emitted);
+  Pose Steered(const Pose& raw);
 
-  int frames_;
+  int left_;  // frames to the key, the next one included
   int window_;
-  int next_ = 0;
   Target target_;
   std::optional<Velocity> after_;  // from the key on, where it is known
   Pose previous_;                  // emitted last

@@ -61,9 +61,9 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
   }
   const size_t second = static_cast<size_t>(sample_rate_) * channels;
   while (!interleaved.empty()) {
-    const size_t count = std::min(second, interleaved.size());
-    features_.Push(interleaved.first(count));
-    interleaved = interleaved.subspan(count);
+    const auto next = interleaved.first(std::min(second, interleaved.size()));
+    features_.Push(next);
+    interleaved = interleaved.subspan(next.size());
     Publish();
     on_rows();
   }
@@ -98,20 +98,14 @@ int64_t AudioFeed::ready() const {
   return ready_;
 }
 
-bool AudioFeed::CopyRow(int64_t row, std::span<float> to) const {
+void AudioFeed::CopyRow(int64_t row, std::span<float> to) const {
   std::lock_guard lock(mutex_);
-  if (row >= ready_) return false;
-  const int64_t at = row - first_row_;
-  if (row < 0 || at >= static_cast<int64_t>(rows_.size())) {
-    std::copy(silence_.begin(), silence_.end(), to.begin());
-    return true;
-  }
-  if (at < 0) {
+  if (row >= ready_ || (row >= 0 && row < first_row_)) {
     throw Error(ErrorCode::kInternal, "",
                 "audio row " + std::to_string(row) + " is forgotten, or was never sent");
   }
-  std::ranges::copy(rows_[static_cast<size_t>(at)], to.begin());
-  return true;
+  const auto at = static_cast<size_t>(row - first_row_);
+  std::ranges::copy(row < 0 || at >= rows_.size() ? silence_ : rows_[at], to.begin());
 }
 
 void AudioFeed::Forget(int64_t row) {
@@ -132,10 +126,7 @@ std::vector<float> AudioFeed::Onsets(int64_t row) const {
 Eigen::MatrixXf AudioFeed::History(int64_t frame, int count) const {
   Eigen::MatrixXf history(kMfccCount, count);
   for (int i = 0; i < count; ++i) {
-    if (!CopyRow(frame - count + i, {history.col(i).data(), static_cast<size_t>(kMfccCount)})) {
-      throw Error(ErrorCode::kInternal, "",
-                  "audio row " + std::to_string(frame - count + i) + " is not there yet");
-    }
+    CopyRow(frame - count + i, {history.col(i).data(), static_cast<size_t>(kMfccCount)});
   }
   return history;
 }

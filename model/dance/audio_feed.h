@@ -6,7 +6,6 @@
 #include <deque>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,8 +42,8 @@ class AudioFeed {
 
   /// Rows below this one can be read.
   int64_t ready() const;
-  /// Copies a row; false if it is not ready. Rows before 0 are silence's.
-  bool CopyRow(int64_t row, std::span<float> to) const;
+  /// Copies a row, which must be ready. Rows before 0 are silence's.
+  void CopyRow(int64_t row, std::span<float> to) const;
   /// The `count` rows before `frame`, oldest first, one a column; all must be ready.
   Eigen::MatrixXf History(int64_t frame, int count) const;
   /// Onset strengths of the last kPulseMemory rows before `row`, or of as many as there are of the

@@ -120,15 +120,11 @@ void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request
   if (missed > kKeyTolerance) warnings->push_back(KeyOffPath(key_id, last, missed));
   if (standing && !has_place && std::abs(path(1, frames - 1) - *standing) > kKeyTolerance)
     warnings->push_back(KeyOffHeight(key_id, last, *standing, path(1, frames - 1)));
-  double fastest = 0;
-  int where = 0;
-  for (int frame = 0; frame < frames; ++frame) {
-    const Eigen::Vector3d before = frame == 0 ? start : Eigen::Vector3d(path.col(frame - 1));
-    const double speed = (path.col(frame) - before).norm() * model_->fps;
-    if (speed <= fastest) continue;
-    fastest = speed;
-    where = frame;
-  }
+  Eigen::Matrix3Xd steps = path;
+  steps.col(0) -= start;
+  steps.rightCols(frames - 1) -= path.leftCols(frames - 1);
+  Eigen::Index where = 0;
+  const double fastest = steps.colwise().norm().maxCoeff(&where) * model_->fps;
   if (fastest > RequiredSpeed::kRootLimit)
     warnings->push_back(PathTooFast(first_frame + where, fastest));
 }
@@ -155,17 +151,15 @@ void ControlTrack::AskVelocities(TransitionRequest* request) const {
   VelocityRequest usual;
   usual.values = {1};
   for (int part = 0; part < kBodyParts; ++part) {
-    bool& asks = request->controls.parts_asked[static_cast<size_t>(part)];
-    asks = false;
-    for (int frame = 0; frame < request->frames; ++frame) {
-      const auto body_part = static_cast<BodyPart>(part);
-      const auto said = std::find_if(
-          velocities_.rbegin(), velocities_.rend(),
-          [&](const auto& one) { return one.from <= first_frame && one.control.Names(body_part); });
-      const VelocityRequest& asked = said == velocities_.rend() ? usual : said->control;
-      asks = asks || said != velocities_.rend();
+    const auto body_part = static_cast<BodyPart>(part);
+    const auto said = std::find_if(velocities_.rbegin(), velocities_.rend(), [&](const auto& one) {
+      return one.from <= first_frame && one.control.Names(body_part);
+    });
+    const bool is_asked = said != velocities_.rend();
+    request->controls.parts_asked[static_cast<size_t>(part)] = is_asked;
+    const VelocityRequest& asked = is_asked ? said->control : usual;
+    for (int frame = 0; frame < request->frames; ++frame)
       factors(part, frame) = asked.At(first_frame + frame, body_part, *model_);
-    }
   }
 }
 

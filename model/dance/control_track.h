@@ -32,22 +32,18 @@ struct ControlRequest {
 
 /// The controls of one dance. Of those set for transitions from a frame on, the last counts: of
 /// root paths the last that speaks of a frame, of velocity factors part by part; parts and frames
-/// that nobody speaks of have the model's first reference. What a transition is asked is a function
-/// of what was set, its history and its key, so a resumed dance is asked the same again.
-///
-/// A path is the curve of PathCurve, bent smoothly to the dancer at a transition's start and to the
-/// key at its end (LeadPath): the key wins, and a warning tells by how much. Heights that nobody
-/// asks for lead to the key's: the one it states, or that at which its pose stands on the floor; a
-/// path with heights wins over the latter. A transition that the path has no frame of is left to
-/// the model. Not thread-safe.
+/// that nobody speaks of have the model's first reference. A path is the curve of PathCurve, bent
+/// smoothly to the dancer at a transition's start and to the key at its end (LeadPath): the key
+/// wins, and a warning tells by how much. Heights that nobody asks for lead to the key's: the one
+/// it states, or that at which its pose stands on the floor; a path with heights wins over the
+/// latter. A transition that the path has no frame of is left to the model. Not thread-safe.
 class ControlTrack {
  public:
   /// The model must outlive the track.
   explicit ControlTrack(const ModelInfo& model) : model_(&model) {}
 
   /// For transitions that begin at `from` or later. The request is valid; `from` never shrinks from
-  /// call to call. Throws Error(kInvalidArgument)
-  /// beyond kMaxControls or kMaxControlValues.
+  /// call to call. Throws Error(kInvalidArgument) beyond kMaxControls or kMaxControlValues.
   void Set(const ControlRequest& request, int64_t from, const std::string& field);
 
   /// How a dancer of whom nothing is known stands before `first_frame`: at rest, facing +Z, where a

@@ -5,11 +5,68 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/dance/ask_transition.h"
-#include "model/dance/dance_chain_job.h"
-#include "model/dance/warning.h"
+#include "model/dance/scheduled_transition.h"
 
 namespace choreo {
+
+/// One transition of the chain. Its run changes with the chain's mutex held.
+class DanceChain::Job : public ScheduledTransition {
+ public:
+  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, AskedTransition asked)
+      : ScheduledTransition(
+            chain->model_, std::move(asked), chain->audio(),
+            chain->start_time_ + chain->Seconds(segment.from - chain->first_frame_)),
+        chain_(std::move(chain)),
+        segment_(segment) {}
+
+  bool Ready() const override {
+    std::lock_guard lock(chain_->mutex_);
+    if (chain_->paused_) return false;
+    const int64_t frame = NextFrame();
+    return frame < chain_->timeline_.Current()->stop && chain_->timeline_.Certain(frame) &&
+           (!chain_->audio_ || chain_->audio_->ready() > frame);
+  }
+
+  void OnRestart() override {
+    std::lock_guard lock(chain_->mutex_);
+    ScheduledTransition::OnRestart();
+  }
+
+  bool OnFrame(const StepOutput& raw) override {
+    bool more = false;
+    {
+      std::lock_guard lock(chain_->mutex_);
+      const std::optional<DanceFrame> frame = TakeNew(raw);
+      if (!frame) return true;
+      chain_->Emit(*this, *frame);
+      more = !chain_->CurrentIsDanced();
+    }
+    chain_->mailbox_.Deliver();
+    return more;
+  }
+
+  void OnDone(const Error* failure) noexcept override {
+    chain_->Act([this, failure] {
+      chain_->job_ = nullptr;
+      if (failure != nullptr && !retired_) return chain_->mailbox_.PostError(*failure);
+      chain_->timeline_.Finish();
+      if (danced() > 0) chain_->PostContinuation();
+      chain_->Advance(/*inherits=*/true);
+    });
+  }
+
+  bool Cancelled() const override { return retired_ || chain_->cancelled_; }
+
+  /// The dance, or the transition, turned out to end before the next frame: it ends in good order.
+  void Retire() { retired_ = true; }
+
+  const Segment& segment() const { return segment_; }
+
+ private:
+  const std::shared_ptr<DanceChain> chain_;
+  const Segment segment_;
+  std::atomic<bool> retired_ = false;
+};
 
 DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
                        std::shared_ptr<DanceSink> sink)
@@ -19,9 +76,9 @@ DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
       first_frame_(config.FirstFrame()),
       mailbox_(std::move(sink)),
       audio_(config.audio
-                 ? std::optional<AudioFeed>(std::in_place, config.audio->sample_rate,
-                                            config.audio->channels, config.audio->first_sample)
-                 : std::optional<AudioFeed>()),
+                 ? std::make_unique<AudioFeed>(config.audio->sample_rate, config.audio->channels,
+                                               config.audio->first_sample)
+                 : nullptr),
       start_time_(PlaybackClock()),
       timeline_({model_.fps, first_frame_, config.end_frame, config.audio.has_value(),
                  config.generate_until, model_.max_transition_frames}),
@@ -45,11 +102,10 @@ void DanceChain::Begin() {
 void DanceChain::Change(const std::function<void(Timeline&)>& change) {
   {
     std::lock_guard lock(mutex_);
-    if (over_) return;
+    if (over()) return;
     change(timeline_);
     if (job_ != nullptr && CurrentIsDanced()) job_->Retire();
     Advance(/*inherits=*/false);
-    WakeJob();
   }
   mailbox_.Deliver();
 }
@@ -75,11 +131,6 @@ void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::string
   });
 }
 
-bool DanceChain::over() const {
-  std::lock_guard lock(mutex_);
-  return over_;
-}
-
 void DanceChain::SetMusicBeats(const std::vector<double>& seconds) {
   std::lock_guard lock(mutex_);
   beats_.Find(seconds);
@@ -87,19 +138,12 @@ void DanceChain::SetMusicBeats(const std::vector<double>& seconds) {
 
 void DanceChain::SetPaused(bool paused) {
   paused_ = paused;
-  if (paused) return;
-  Act([this] {
-    Advance(/*inherits=*/false);
-    WakeJob();
-  });
+  if (!paused) Act([this] { Advance(/*inherits=*/false); });
 }
 
 void DanceChain::Cancel() noexcept {
   cancelled_ = true;
-  Act([this] {
-    if (job_ == nullptr) Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
-    WakeJob();  // OnDone follows
-  });
+  Act([this] { Advance(/*inherits=*/false); });  // where a job runs, its OnDone follows
 }
 
 void DanceChain::Act(const std::function<void()>& act) noexcept {
@@ -110,20 +154,8 @@ void DanceChain::Act(const std::function<void()>& act) noexcept {
     }
     mailbox_.Deliver();
   } catch (...) {
-    GiveUp();
+    mailbox_.GiveUp();
   }
-}
-
-void DanceChain::GiveUp() noexcept {
-  {
-    std::lock_guard lock(mutex_);
-    over_ = true;
-  }
-  mailbox_.GiveUp();
-}
-
-void DanceChain::WakeJob() {
-  if (job_ != nullptr) scheduler_.Wake(job_);
 }
 
 bool DanceChain::CurrentIsDanced() {
@@ -132,21 +164,18 @@ bool DanceChain::CurrentIsDanced() {
   return next_frame_ >= timeline_.Current()->stop || (end && next_frame_ >= *end);
 }
 
-bool DanceChain::MayStart(const Segment& segment, bool inherits) const {
-  if (paused_ || !timeline_.Certain(segment.from)) return false;
-  // A slot that is held already is kept while the music catches up; a new one is asked for when the
-  // first frame can be made. Rows before the first frame are there once that frame's predecessor
-  // has been danced.
-  return !audio_ || audio_->ready() > (inherits ? segment.from - 1 : segment.from);
-}
-
 void DanceChain::Advance(bool inherits) {
-  if (over_ || job_ != nullptr) return;
-  if (cancelled_) return Fail(Error(ErrorCode::kCancelled, "", "cancelled"));
+  if (job_ != nullptr) return scheduler_.Wake(job_);
+  if (over()) return;
+  if (cancelled_) return mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled"));
   const std::optional<int64_t> end = timeline_.End();
   if (timeline_.complete() && end && next_frame_ >= *end) return Summarise();
   const Segment* segment = timeline_.Current();
-  if (segment != nullptr && MayStart(*segment, inherits)) Start(*segment);
+  if (segment == nullptr || paused_ || !timeline_.Certain(segment->from)) return;
+  // A slot that is held already is kept while the music catches up; a new one is asked for when the
+  // first frame can be made. Rows before the first frame are there once that frame's predecessor
+  // has been danced.
+  if (!audio_ || audio_->ready() > (inherits ? segment->from - 1 : segment->from)) Start(*segment);
 }
 
 void DanceChain::Start(const Segment& segment) {
@@ -154,33 +183,23 @@ void DanceChain::Start(const Segment& segment) {
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
   try {
     AskedTransition asked = AskTransition(config_, model_, controls_, audio(), segment, history_);
-    asked.request.candidate = config_.candidate;
     asked.request.stage = stage_;
     asked.request.beats = beats_.Around(segment.from, segment.to);
     history_ = asked.request.history;
     // The next one may begin a frame later.
     if (audio_) audio_->Forget(segment.from - model_.history_frames);
-    auto job = std::make_shared<Job>(shared_from_this(), segment, std::move(asked));
-    job_ = job.get();
-    scheduler_.Submit(std::move(job));
+    const auto job = std::make_shared<Job>(shared_from_this(), segment, std::move(asked));
+    scheduler_.Submit(job);
+    job_ = job.get();  // until its OnDone, which waits for mutex_
   } catch (const Error& error) {
-    job_ = nullptr;
-    Fail(error);
-  } catch (...) {
-    job_ = nullptr;
-    throw;
+    mailbox_.PostError(error);
   }
 }
 
-void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame,
-                      const std::vector<DanceWarning>& warnings) {
+void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
+  const TransitionRun& run = job.run();
   if (run.done() == 1) {
-    for (const DanceWarning& warning : warnings) Post(warning);
-    const std::optional<RequiredSpeed> speed = run.required_speed();
-    if (speed && speed->TooFast()) {
-      Post(IntervalTooShort(model_.skeleton, segment.key->id, segment.from,
-                            segment.to - segment.from, *speed));
-    }
+    for (const DanceWarning& warning : job.warnings()) Post(warning);
   }
   const int64_t emitted = next_frame_++;
   MoveOn(frame.pose, &history_);
@@ -194,10 +213,9 @@ void DanceChain::Emit(const Segment& segment, const TransitionRun& run, const Da
   }
   for (const MusicBeat& beat : beats_.Of(emitted)) Post(beat);
   if (run.arrival()) {
-    meter_.AddKey(segment.key->id, *run.arrival());
-    const int64_t key_frame = segment.to - 1;
-    Post(KeyReached{segment.key->id, key_frame, static_cast<double>(key_frame) / model_.fps,
-                    *run.arrival()});
+    const Key& key = *job.segment().key;
+    meter_.AddKey(key.id, *run.arrival());
+    Post(KeyReached{key.id, key.frame, Seconds(key.frame), *run.arrival()});
   }
 }
 
@@ -216,19 +234,10 @@ void DanceChain::PostContinuation() {
 }
 
 void DanceChain::Summarise() {
-  over_ = true;
   if (const auto warning = controls_.BehindEnd(next_frame_)) Post(*warning);
-  std::vector<double> beats;
-  for (const double second : beats_.told()) beats.push_back(second * model_.fps);
-  const QualityReport report = meter_.Report(beats);
+  const QualityReport report = meter_.Report(beats_.told());
   if (const auto warning = controls_.SpeedsMissed(report)) Post(*warning);
-  mailbox_.Post([report](DanceSink& sink) { sink.OnSummary(report); });
-}
-
-void DanceChain::Fail(const Error& error) {
-  if (over_) return;
-  over_ = true;
-  mailbox_.Post([error](DanceSink& sink) { sink.OnError(error); });
+  mailbox_.PostLast([report](DanceSink& sink) { sink.OnSummary(report); });
 }
 
 }  // namespace choreo

@@ -48,10 +48,10 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   void Post(const DanceEvent& event);
 
   /// The last call to the sink is made or under way.
-  bool over() const;
+  bool over() const { return mailbox_.over(); }
 
   /// Null for a dance without music. Only one thread at a time may push.
-  AudioFeed* audio() { return audio_ ? &*audio_ : nullptr; }
+  AudioFeed* audio() { return audio_.get(); }
 
   /// Of the whole music, before its first sample.
   void SetMusicBeats(const std::vector<double>& seconds);
@@ -61,24 +61,19 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
  private:
   class Job;
 
-  // Those two without mutex_. Acts with it held, and tells the sink what came of it.
+  // Called without mutex_: acts with it held, and tells the sink what came of it.
   void Act(const std::function<void()>& act) noexcept;
-  // When something failed that would have told the sink what failed.
-  void GiveUp() noexcept;
 
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }
 
   // Those below are called with mutex_ held.
+  // Wakes the running job, or starts the next one, or ends the dance.
   void Advance(bool inherits);
   void Start(const Segment& segment);
-  bool MayStart(const Segment& segment, bool inherits) const;
   bool CurrentIsDanced();
-  void WakeJob();
   void PostContinuation();
   void Summarise();
-  void Fail(const Error& error);
-  void Emit(const Segment& segment, const TransitionRun& run, const DanceFrame& frame,
-            const std::vector<DanceWarning>& warnings);
+  void Emit(const Job& job, const DanceFrame& frame);
 
   Scheduler& scheduler_;
   const ModelInfo& model_;
@@ -87,7 +82,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
   Mailbox<DanceSink> mailbox_;
-  std::optional<AudioFeed> audio_;
+  const std::unique_ptr<AudioFeed> audio_;
 
   mutable std::mutex mutex_;  // of what follows
   double start_time_;         // of the playback: frames are due by it
@@ -99,7 +94,6 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   int64_t next_frame_;                    // to be emitted
   Job* job_ = nullptr;  // of the timeline's current transition: submitted and not done; the
                         // scheduler keeps it alive
-  bool over_ = false;   // the last call to the sink is posted
   QualityMeter meter_;
   OutputRate output_;
   MusicBeats beats_;

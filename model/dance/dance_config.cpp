@@ -7,6 +7,7 @@
 #include "model/audio/format.h"
 #include "model/audio/pulse.h"
 #include "model/core/error.h"
+#include "model/dance/audio_feed.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 
@@ -52,6 +53,30 @@ void DanceConfig::Validate(const ModelInfo& model) const {
                       ", the first that the continuation needs");
     }
   }
+}
+
+void GroupRequest::Validate(const ModelInfo& model) const {
+  CheckedIn(candidates, 1, kMaxCandidates, "candidates");
+  CheckedIn(frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames), "frames");
+  ValidateStart(model, "");
+  CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "first_frame");
+  if (target) {
+    ValidatePose(model.skeleton, target->pose, "target");
+    ValidateMask(model.skeleton, target->mask, "target.mask");
+  }
+  ValidateKeyId(target_id, "target_id");
+  if (after) {
+    if (!target) throw InvalidArgument("after", "needs a target");
+    ValidatePose(model.skeleton, *after, "after");
+  }
+  controls.Validate(model, "controls");
+  if (!audio) {
+    if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
+    return;
+  }
+  ValidateAudioStart(model, *audio, FirstFrame(), "audio");
+  if (samples.empty()) throw InvalidArgument("audio", "has no samples");
+  CheckSamples(samples, audio->channels, audio->first_sample);
 }
 
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model) {

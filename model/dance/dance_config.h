@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "model/dance/control_track.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
-#include "model/engine/step_engine.h"
 
 namespace choreo {
 
@@ -53,8 +53,6 @@ struct DanceStart {
 
 /// What a stream starts from. Everything else arrives as messages.
 struct DanceConfig : DanceStart {
-  /// Which of the seed's dances. Candidate 0 is that of chained single transitions.
-  uint32_t candidate = 0;
   /// The dance is frames [first, end_frame), model rate, absolute. Without it a dance with music
   /// ends with the music or the last key, whichever is later, one without music at the last key.
   std::optional<int64_t> end_frame;
@@ -66,6 +64,28 @@ struct DanceConfig : DanceStart {
 
   /// Throws as ValidateStart; Error(kOutOfRange) for audio that begins too late;
   /// Error(kUnimplemented) for music that the model can't hear. Paths are below "config".
+  void Validate(const ModelInfo& model) const;
+};
+
+/// GenerateTransition: one transition, several candidates of it, ranked.
+struct GroupRequest : DanceStart {
+  int candidates = 1;       ///< 1..32, numbered from 0
+  int frames = 0;           ///< 1..min(1800, the model's longest)
+  int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
+  std::optional<Target> target;
+  std::string target_id = "target";  ///< how warnings and the report call it
+  std::optional<Pose> after;
+  ControlRequest controls;
+
+  /// The music around the transition, from audio->first_sample on, interleaved; beyond its end is
+  /// silence.
+  std::vector<float> samples;
+
+  /// Number of the first frame to be made.
+  int64_t FirstFrame() const { return continuation ? continuation->frame : first_frame; }
+
+  /// Throws Error with paths of the request: "frames", "target.rotations[3]", "history[0]",
+  /// "audio.sample_rate", ...
   void Validate(const ModelInfo& model) const;
 };
 

@@ -10,13 +10,6 @@
 #include "model/dance/validation.h"
 
 namespace choreo {
-namespace {
-
-std::string Numbered(const std::string& field, int number) {
-  return field + "[" + std::to_string(number) + "]";
-}
-
-}  // namespace
 
 AudioFeed& DanceStream::Audio(const char* field) {
   AudioFeed* audio = chain_->audio();
@@ -34,20 +27,9 @@ void DanceStream::FinishAudio() {
   chain_->Change([](Timeline&) {});
 }
 
-void DanceStream::CompleteKeys() {
-  chain_->Change([this](Timeline& timeline) {
-    if (chain_->audio() == nullptr && !has_end_frame_ && timeline.Empty()) {
-      throw InvalidArgument("keyframes_complete",
-                            "the dance has no end: no keyframe, no music and no config.frames");
-    }
-    timeline.Complete();
-  });
-  complete_ = true;
-}
-
 DanceStream::DanceStream(Scheduler& scheduler, const DanceConfig& config,
                          std::shared_ptr<DanceSink> sink)
-    : model_(scheduler.model()), has_end_frame_(config.end_frame.has_value()) {
+    : model_(scheduler.model()) {
   config.Validate(model_);
   chain_ = std::make_shared<DanceChain>(scheduler, config, std::move(sink));
   chain_->Begin();
@@ -71,23 +53,14 @@ void DanceStream::SetMusicBeats(const std::vector<double>& seconds) {
   chain_->SetMusicBeats(seconds);
 }
 
-std::string DanceStream::NextKeyframe() const {
-  std::lock_guard lock(messages_);
-  return Numbered("keyframes", keyframes_);
-}
-std::string DanceStream::NextControls() const {
-  std::lock_guard lock(messages_);
-  return Numbered("controls", controls_);
-}
-std::string DanceStream::NextMusicBeats() const {
-  std::lock_guard lock(messages_);
-  return Numbered("music_beats", beats_);
-}
+std::string DanceStream::NextKeyframe() const { return At("keyframes", keyframes_); }
+std::string DanceStream::NextControls() const { return At("controls", controls_); }
+std::string DanceStream::NextMusicBeats() const { return At("music_beats", beats_); }
 
 void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
                          const PoseMask& mask) {
   std::lock_guard lock(messages_);
-  const std::string field = Numbered("keyframes", keyframes_);
+  const std::string field = NextKeyframe();
   ValidatePose(model_.skeleton, pose, field);
   ValidateMask(model_.skeleton, mask, field + ".mask");
   chain_->Change([&](Timeline& timeline) {
@@ -98,7 +71,7 @@ void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pos
 
 void DanceStream::RemoveKey(const std::string& id) {
   std::lock_guard lock(messages_);
-  const std::string field = Numbered("remove_keyframes", removals_);
+  const std::string field = At("remove_keyframes", removals_);
   chain_->Change([&](Timeline& timeline) {
     if (auto rejection = timeline.Remove(id, field)) chain_->Post(*rejection);
   });
@@ -107,7 +80,7 @@ void DanceStream::RemoveKey(const std::string& id) {
 
 void DanceStream::SetControls(const ControlRequest& request) {
   std::lock_guard lock(messages_);
-  const std::string field = Numbered("controls", controls_);
+  const std::string field = NextControls();
   request.Validate(model_, field);
   chain_->SetControls(request, field);
   ++controls_;
@@ -115,7 +88,7 @@ void DanceStream::SetControls(const ControlRequest& request) {
 
 void DanceStream::GiveBeats(const std::vector<double>& seconds) {
   std::lock_guard lock(messages_);
-  chain_->GiveBeats(seconds, Numbered("music_beats", beats_) + ".times");
+  chain_->GiveBeats(seconds, NextMusicBeats() + ".times");
   ++beats_;
 }
 
@@ -126,14 +99,16 @@ void DanceStream::GenerateUntil(int64_t frame) {
 
 void DanceStream::KeysComplete() {
   std::lock_guard lock(messages_);
-  CompleteKeys();
+  chain_->Change([](Timeline& timeline) { timeline.Complete(); });
 }
 
 void DanceStream::HalfClose() {
   std::lock_guard lock(messages_);
   const AudioFeed* audio = chain_->audio();
   if (audio != nullptr && !audio->finished()) FinishAudio();
-  if (!complete_) CompleteKeys();
+  chain_->Change([](Timeline& timeline) {
+    if (!timeline.complete()) timeline.Complete();
+  });
 }
 
 void DanceStream::SetPaused(bool paused) { chain_->SetPaused(paused); }
@@ -142,10 +117,8 @@ void DanceStream::Cancel() noexcept { chain_->Cancel(); }
 int DanceStream::LatencyFrames(const DanceStart& config, const ModelInfo& model) {
   double seconds = 0;
   if (config.audio) {
-    seconds +=
-        static_cast<double>(
-            FeatureStream(config.audio->sample_rate, config.audio->channels).latency_samples()) /
-        kModelSampleRate;
+    const FeatureStream stream(config.audio->sample_rate, config.audio->channels);
+    seconds += static_cast<double>(stream.latency_samples()) / kModelSampleRate;
   }
   if (config.output_fps != model.fps) seconds += 1 / model.fps;
   return static_cast<int>(std::ceil(seconds * config.output_fps));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -18,18 +19,14 @@ namespace choreo {
 class AudioFeed;
 class DanceChain;
 
-/// A dance in progress: a chain of transitions folded over messages. What is danced is a function
-/// of the config, of the order of SetKey, RemoveKey, SetControls, GiveBeats, GenerateUntil and
-/// KeysComplete among themselves (see Timeline), of the samples, and of where the music ends; not
-/// of the clock, of how samples are cut, of how they interleave with the rest, or of other streams.
+/// A dance in progress. What is danced is a function of the config, of the order of SetKey,
+/// RemoveKey, SetControls, GiveBeats, GenerateUntil and KeysComplete among themselves (see
+/// Timeline), of the samples, and of where the music ends. A new stream with the last continuation
+/// and the same config and messages (but those that were rejected) goes on bit for bit; audio
+/// starts at ResumeSample, and frames behind that continuation come again.
 ///
-/// Resuming: a new stream with the last continuation, the same config and the same messages again
-/// in the same order (but those that were rejected) goes on bit for bit; audio starts at
-/// ResumeSample. Frames between that continuation and where the first stream broke come again.
-///
-/// A message that throws leaves the stream as it was. After the last callback messages are ignored.
-/// Thread-safe; messages are taken one at a time. Destruction cancels. The scheduler must outlive
-/// the last callback.
+/// A message that throws leaves the stream as it was; after the last callback it is ignored.
+/// Thread-safe. Destruction cancels. The scheduler must outlive the last callback.
 class DanceStream {
  public:
   /// Throws as DanceConfig::Validate does.
@@ -63,8 +60,8 @@ class DanceStream {
   /// none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
   /// Seconds, ascending, at least one: see MusicBeats::Give. Those in frozen frames are left out,
-  /// and told of by a DanceWarning. Errors name the times of
-  /// NextMusicBeats(); none may come after KeysComplete.
+  /// and told of by a DanceWarning. Errors name the times of NextMusicBeats(); none may come after
+  /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
@@ -87,15 +84,11 @@ class DanceStream {
  private:
   AudioFeed& Audio(const char* field);
   void FinishAudio();
-  void CompleteKeys();
 
   const ModelInfo& model_;
-  const bool has_end_frame_;
   std::shared_ptr<DanceChain> chain_;
-  mutable std::mutex
-      messages_;  // of what follows, and of the audio's pushing side; before the chain's lock
-  int keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0;  // messages so far
-  bool complete_ = false;
+  std::mutex messages_;  // they are taken one at a time; before the chain's lock
+  std::atomic<int> keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0;  // taken so far
 };
 
 }  // namespace choreo

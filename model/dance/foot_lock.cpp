@@ -20,30 +20,10 @@ constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // metre
 constexpr double kSettle = 0.6;  // a frame's share of a planted foot's height above its place
 constexpr int kFewestStepFrames = 4;
 constexpr int kHalvings = 12;
-constexpr double kStraightTurn = 200 * M_PI / 180;  // radians a second of a straight knee at most,
-constexpr double kFreedom = 30;      // 1/s: and so much more by what it is bent beyond
 constexpr double kLandsAhead = 0.1;  // seconds before the key, which a landing would jolt
 
 double Apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::hypot(a.x() - b.x(), a.z() - b.z());
-}
-
-// Whether the target says where the toes are.
-bool Fixes(const Target& target, const Leg& leg, const Skeleton& skeleton) {
-  if (!target.mask.root_position) return false;
-  for (int joint = leg.ankle; joint >= 0; joint = skeleton.parents[static_cast<size_t>(joint)]) {
-    if (!target.mask.Asks(joint)) return false;
-  }
-  return true;
-}
-
-// What a knee may come to in `seconds`. On a straight leg a centimetre of toes is ten degrees of
-// knee: what asks it of one frame would snap it.
-BendRange Following(double bend, double seconds) {
-  const double room = kStraightTurn * seconds, more = kFreedom * seconds;
-  const double beyond = bend - kStraightBend;
-  return {beyond > room ? kStraightBend + (beyond - room) / (1 + more) : bend - room,
-          bend + room + more * std::max(0.0, beyond)};
 }
 
 int StepFrames(double fps, int transition_frames) {
@@ -85,9 +65,10 @@ void FootLock::PlanLastSteps(const Target& target) {
   ends_on_key_ = true;
   std::array<double, 2> way = {0, 0};
   const Eigen::Matrix3Xd key = JointPositions(skeleton_, target.pose);
+  const std::vector<bool> known = KnownPlaces(skeleton_, target.mask);
   for (size_t side = 0; side < 2; ++side) {
     Foot& foot = feet_[side];
-    if (!Fixes(target, foot.leg, skeleton_)) continue;
+    if (!target.mask.root_position || !known[static_cast<size_t>(foot.leg.toes)]) continue;
     const Eigen::Vector3d toes = key.col(foot.leg.toes);
     if (toes.y() < rest_height_ + kUpHeight) foot.landing = toes;
     way[side] = Apart(toes, foot.at);
@@ -104,11 +85,11 @@ void FootLock::PlanLastSteps(const Target& target) {
   start(feet_[1 - last], 2);
 }
 
-void FootLock::Lift(Foot* foot, int duration) {
+void FootLock::Lift(Foot* foot) {
   foot->planted = false;
   foot->from = foot->at;
   foot->start = next_;
-  foot->duration = duration;
+  foot->duration = step_frames_;
 }
 
 bool FootLock::WantsToStep(const Foot& foot, const Eigen::Vector3d& raw, double reach) const {
@@ -179,12 +160,12 @@ Pose FootLock::Apply(const Pose& steered) {
       // A foot that is there already stays; any other takes its last step now.
       const bool there = foot.planted && foot.landing && Apart(*foot.landing, foot.at) < kSameSpot;
       if (!there) {
-        Lift(&foot, step_frames_);
+        Lift(&foot);
         foot.last_step = true;
       }
     } else if (foot.planted && next_ < foot.last_start &&
                WantsToStep(foot, raw, Reach(foot.leg, placement_, foot.at))) {
-      Lift(&foot, step_frames_);
+      Lift(&foot);
     }
     foot.at = foot.planted ? Stand(foot) : Move(&foot, raw);
     // The body may not be where the step leads yet.
@@ -195,7 +176,7 @@ Pose FootLock::Apply(const Pose& steered) {
     if (ends_on_key_ && next_ == frames_ - 1) {
       foot.at = raw;
     } else {
-      const BendRange range = Following(foot.bend, 1 / fps_);
+      const BendRange range = NextBend(foot.bend, 1 / fps_);
       foot.bend = KneeBend(foot.leg, placement_);
       if (foot.at != raw || foot.bend < range.least || foot.bend > range.most)
         foot.bend = PlaceToes(foot.leg, skeleton_, placement_, foot.at, &emitted, range);

@@ -15,11 +15,9 @@ namespace choreo {
 /// Keeps feet from sliding: a model's mean motion glides where a dancer steps. The toes of a foot
 /// on the floor stay where they touched down, and when the body has gone on too far (or the model
 /// lifts the foot) they travel in one step through the air, one foot at a time. The legs follow by
-/// inverse kinematics; all else stays.
-///
-/// Frame by frame, without look-ahead, after arrival. The state at the beginning follows from the
-/// history; the last steps land where the key has its feet, a tenth of a second ahead of it where
-/// there is time. All poses stand in one frame, whose floor is y = 0. Not thread-safe.
+/// inverse kinematics; all else stays. Frame by frame, without look-ahead, after arrival. The last
+/// steps land where the key has its feet, a tenth of a second ahead of it where there is time. All
+/// poses stand in one frame, whose floor is y = 0. Not thread-safe.
 class FootLock {
  public:
   /// False for a skeleton without legs and for a transition too short to step in.
@@ -51,15 +49,15 @@ class FootLock {
   };
 
   void PlanLastSteps(const Target& target);
-  void Lift(Foot* foot, int duration);
+  void Lift(Foot* foot);
   bool WantsToStep(const Foot& foot, const Eigen::Vector3d& raw, double reach) const;
   Eigen::Vector3d Move(Foot* foot, const Eigen::Vector3d& raw);
   Eigen::Vector3d Stand(const Foot& foot) const;
 
-  const Skeleton skeleton_;
-  const int frames_;
-  const int step_frames_;  // of a step in the air
-  const double fps_;
+  Skeleton skeleton_;
+  int frames_;
+  int step_frames_;  // of a step in the air
+  double fps_;
   double rest_height_ = 0, ankle_height_ = 0;  // of a foot that stands: toes, ankle
   bool ends_on_key_ = false;
   int next_ = 0;

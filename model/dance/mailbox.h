@@ -12,15 +12,22 @@ namespace choreo {
 
 /// Calls to a listener, made one at a time and in the order of Post, with no lock held, by
 /// whichever thread comes to Deliver first; the others go on at once. So a listener may call back
-/// what calls it. Thread-safe.
+/// what calls it. What is posted after the last call is dropped. Thread-safe.
 template <typename Listener>
 class Mailbox {
  public:
   explicit Mailbox(std::shared_ptr<Listener> listener) : listener_(std::move(listener)) {}
 
-  void Post(std::function<void(Listener&)> call) {
+  void Post(std::function<void(Listener&)> call) { Add(std::move(call), /*last=*/false); }
+  void PostLast(std::function<void(Listener&)> call) { Add(std::move(call), /*last=*/true); }
+  /// OnError is the last call.
+  void PostError(const Error& error) {
+    PostLast([error](Listener& listener) { listener.OnError(error); });
+  }
+  /// The last call is posted.
+  bool over() const {
     std::lock_guard lock(mutex_);
-    if (!gave_up_) calls_.push_back(std::move(call));
+    return over_;
   }
 
   /// What a call throws passes through; the others wait for the next Deliver.
@@ -55,7 +62,7 @@ class Mailbox {
     {
       std::lock_guard lock(mutex_);
       if (gave_up_) return;
-      gave_up_ = last_words_ = true;
+      over_ = gave_up_ = last_words_ = true;
       calls_.clear();
     }
     try {
@@ -65,11 +72,19 @@ class Mailbox {
   }
 
  private:
+  void Add(std::function<void(Listener&)> call, bool last) {
+    std::lock_guard lock(mutex_);
+    if (over_) return;
+    calls_.push_back(std::move(call));
+    over_ = last;
+  }
+
   const std::shared_ptr<Listener> listener_;
   const Error failure_{ErrorCode::kInternal, "", "it could not go on, maybe for want of memory"};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::deque<std::function<void(Listener&)>> calls_;
   bool delivering_ = false;
+  bool over_ = false;
   bool gave_up_ = false;
   bool last_words_ = false;
 };

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "model/audio/pulse.h"
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/dance/transition.h"
-#include "model/plan/beat_timing.h"
+#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
@@ -99,12 +98,6 @@ std::vector<double> MusicBeats::Around(int64_t from, int64_t to) {
   return BeatsAround(seconds, fps_, from, static_cast<int>(to - from));
 }
 
-bool MusicBeats::IsGiven(double seconds, double slack) const {
-  return std::ranges::any_of(spans_, [=](const Span& span) {
-    return seconds > span.begin - slack && seconds < span.end + slack;
-  });
-}
-
 void MusicBeats::Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const {
   const Pulse pulse = HearPulse(audio_->Onsets(from));
   if (!pulse.Certain()) return;
@@ -117,8 +110,10 @@ void MusicBeats::Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats
   for (bool is_behind = false; !is_behind; at += pulse.period) {
     is_behind = at >= frames;
     const double second = (static_cast<double>(from) + at) / fps_;
-    if (!IsGiven(second, slack))
-      beats->push_back({second, MusicBeat::Source::kPredicted, pulse.confidence});
+    const bool is_given = std::ranges::any_of(spans_, [=](const Span& span) {
+      return second > span.begin - slack && second < span.end + slack;
+    });
+    if (!is_given) beats->push_back({second, MusicBeat::Source::kPredicted, pulse.confidence});
   }
   std::ranges::stable_sort(*beats, {}, &MusicBeat::seconds);
 }

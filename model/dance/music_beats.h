@@ -57,9 +57,8 @@ class MusicBeats {
   std::vector<double> Around(int64_t from, int64_t to);
 
   /// What is told with a frame of that transition whose row is ready; each frame is asked for once,
-  /// in order. Every beat is told once: that which one transition puts before its boundary and the
-  /// next one behind it, too, and that which either leaves to the other, which comes with the first
-  /// frame behind it.
+  /// in order. Every beat is told once, also where two transitions put it on either side of their
+  /// boundary; one that each leaves to the other comes with the first frame behind it.
   std::vector<MusicBeat> Of(int64_t frame);
 
   /// The last one told, in seconds: all that a dance which is to go on from here has to know.
@@ -82,7 +81,6 @@ class MusicBeats {
 
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
   void Replace(double begin, std::span<const double> seconds, MusicBeat::Source source);
-  bool IsGiven(double seconds, double slack) const;
   void Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const;
 
   double fps_;

@@ -24,14 +24,13 @@ OutputFrames OutputRate::Push(const DanceFrame& frame) {
   for (;; ++next_output_) {
     const double at = static_cast<double>(next_output_) * model_fps_ / output_fps_;
     if (at > now + kOnFrame) break;
+    out.contacts.push_back(frame.contacts);
     if (at >= now - kOnFrame || !last_) {
       out.poses.push_back(frame.pose);
-      out.contacts.push_back(frame.contacts);
       continue;
     }
     const double t = at - (now - 1);
     out.poses.push_back(RoundToFloat(KeepSigns(InterpolatePoses(*last_, frame.pose, t), *last_)));
-    out.contacts.push_back(frame.contacts);
   }
   last_ = frame.pose;
   ++next_input_;

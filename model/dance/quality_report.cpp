@@ -113,7 +113,7 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
 
   std::vector<double> beats;
   for (double beat : music_beats) {
-    const double frame = beat - static_cast<double>(first_frame_);
+    const double frame = beat * fps_ - static_cast<double>(first_frame_);
     if (frame >= 0 && frame < static_cast<double>(frames_)) beats.push_back(frame);
   }
   if (beats.empty()) return report;

@@ -61,8 +61,8 @@ class QualityMeter {
   void Add(const DanceFrame& frame);
   /// The key at the frame that was added last.
   void AddKey(std::string id, const ArrivalResult& arrival);
-  /// `music_beats`: frames (fractions allowed), ascending; empty: no beat figures. Those outside
-  /// the dance do not count.
+  /// `music_beats`: seconds, ascending; empty: no beat figures. Those outside the dance do not
+  /// count.
   QualityReport Report(std::span<const double> music_beats = {}) const;
 
  private:

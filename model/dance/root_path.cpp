@@ -3,19 +3,10 @@
 #include <algorithm>
 
 #include "model/core/error.h"
-#include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 #include "model/motion/pose_limits.h"
 
 namespace choreo {
-namespace {
-
-Eigen::Vector3d NoLongerThan(const Eigen::Vector3d& vector, double limit) {
-  const double length = vector.norm();
-  return length > limit ? Eigen::Vector3d(vector * (limit / length)) : vector;
-}
-
-}  // namespace
 
 void RootPath::Validate(const std::string& field) const {
   ValidateFrames(frames, field + ".frames");
@@ -33,13 +24,13 @@ void RootPath::Validate(const std::string& field) const {
     for (const int axis : {0, 2}) {
       const double value = points(axis, i);
       if (std::abs(value) <= kMaxPosition) continue;
-      throw InvalidArgument(field + ".points[" + std::to_string(2 * i + axis / 2) + "]",
+      throw InvalidArgument(At(field + ".points", 2 * i + axis / 2),
                             Show(value) + " m is not within " + Show(kMaxPosition) + " m of 0");
     }
     const double height = points(1, i);
     if (has_heights && !(height >= 0 && height <= kMaxRootHeight)) {
       throw InvalidArgument(
-          field + ".heights[" + std::to_string(i) + "]",
+          At(field + ".heights", i),
           Show(height) + " m above the floor is not in [0, " + Show(kMaxRootHeight) + "]");
     }
   }
@@ -79,7 +70,10 @@ PathCurve::PathCurve(const RootPath& path)
     const double since = static_cast<double>(frames_[point] - frames_[leg]);
     const double slower = std::min(slope(point == 0 ? 0 : point - 1).norm(),
                                    slope(point == end ? end - 1 : point).norm());
-    points_[point].velocity = NoLongerThan(slope(leg) + (2 * since - d0) * bend, 3 * slower);
+    Eigen::Vector3d& velocity = points_[point].velocity;
+    velocity = slope(leg) + (2 * since - d0) * bend;
+    const double length = velocity.norm();
+    if (length > 3 * slower) velocity *= 3 * slower / length;
   }
 }
 

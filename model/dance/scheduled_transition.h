@@ -3,10 +3,14 @@
 #include <atomic>
 #include <chrono>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "model/dance/audio_feed.h"
-#include "model/dance/transition.h"
+#include "model/dance/control_track.h"
+#include "model/dance/dance_config.h"
+#include "model/dance/timeline.h"
 #include "model/engine/scheduler.h"
 
 namespace choreo {
@@ -16,35 +20,49 @@ inline double PlaybackClock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+struct AskedTransition {
+  TransitionRequest request;
+  std::string key_id;                  ///< what warnings call its target
+  std::vector<DanceWarning> warnings;  ///< of its controls
+};
+
+/// What a dance that starts so asks of one of its transitions, but for its stage and its beats.
+/// `before`: what was danced or given before it; empty: ControlTrack::Stance. `audio`: null without
+/// music; its rows before the transition must be ready.
+AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
+                              const ControlTrack& controls, const AudioFeed* audio,
+                              const Segment& segment, std::span<const Pose> before);
+
 /// A transition on its way through the scheduler, be it a stream's or one of a group's candidates:
 /// makes its inputs, takes its frames, and after a restart tells none twice. Model and feed must
 /// outlive it. As thread-safe as TransitionRun; `danced` is.
 class ScheduledTransition : public StepJob {
  public:
   const TransitionSpec& spec() const override { return run_->spec(); }
-  void OnRestart() override { run_.emplace(model_, request_); }
-
-  const TransitionRun& run() const { return *run_; }
-
- protected:
-  /// `audio`: null without music.
-  ScheduledTransition(const ModelInfo& model, TransitionRequest request, const AudioFeed* audio)
-      : model_(model),
-        request_(std::move(request)),
-        audio_(audio),
-        run_(std::in_place, model_, request_),
-        row_(static_cast<size_t>(model_.audio_features)) {}
-
-  /// The frame that NextInput asks for, absolute.
-  int64_t NextFrame() const { return request_.first_frame + run_->done(); }
-  /// That frame's input; its audio row must be ready.
-  void FillInput(StepInput* input) {
+  bool NextInput(StepInput* input) override {
+    if (!Ready()) return false;
     if (audio_ != nullptr) {
       audio_->CopyRow(NextFrame(), row_);
       input->audio_row = row_;
     }
     input->previous = run_->previous();
+    return true;
   }
+  void OnRestart() override { run_.emplace(model_, request_); }
+  double NextDeadline() const override { return start_time_ + danced_ / model_.fps; }
+
+  const TransitionRun& run() const { return *run_; }
+  /// Of its controls, and of its length; to be told with the first frame.
+  const std::vector<DanceWarning>& warnings() const { return warnings_; }
+
+ protected:
+  /// `audio`: null without music. `start_time`: when its first frame is due. Ready must say whether
+  /// the row of NextFrame is there.
+  ScheduledTransition(const ModelInfo& model, AskedTransition asked, const AudioFeed* audio,
+                      double start_time);
+
+  /// The frame that NextInput asks for, absolute.
+  int64_t NextFrame() const { return request_.first_frame + run_->done(); }
   /// The dance's frame; none if it was told before a restart.
   std::optional<DanceFrame> TakeNew(const StepOutput& raw) {
     DanceFrame frame = run_->Take(raw);
@@ -58,7 +76,9 @@ class ScheduledTransition : public StepJob {
  private:
   const ModelInfo& model_;
   const TransitionRequest request_;
+  std::vector<DanceWarning> warnings_;
   const AudioFeed* const audio_;
+  const double start_time_;
   std::optional<TransitionRun> run_;
   std::vector<float> row_;
   std::atomic<int> danced_ = 0;

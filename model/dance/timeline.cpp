@@ -84,9 +84,10 @@ KeyRejection Timeline::Reject(const std::string& id, int64_t frame, std::string 
   return {id, frame, EarliestFrame(), std::move(reason)};
 }
 
-KeyRejection Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
-  return {id, frame, EarliestFrame(),
-          "the dance goes on from frame " + Frames(options_.first_frame)};
+std::optional<KeyRejection> Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
+  if (frame >= options_.first_frame) return std::nullopt;
+  return KeyRejection{id, frame, EarliestFrame(),
+                      "the dance goes on from frame " + Frames(options_.first_frame)};
 }
 
 std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment& when,
@@ -131,8 +132,7 @@ std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment
   rejected_.erase(id);
   previous_frame_ = frame;
   if (!explicit_grants_) Grant(frame + 1);
-  if (frame < options_.first_frame) return BeforeTheDance(id, frame);
-  return std::nullopt;
+  return BeforeTheDance(id, frame);
 }
 
 std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::string& field) {
@@ -151,8 +151,7 @@ std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::s
   const int64_t frame = known->second;
   keys_.erase(frame);
   frame_of_.erase(known);
-  if (frame < options_.first_frame) return BeforeTheDance(id, frame);
-  return std::nullopt;
+  return BeforeTheDance(id, frame);
 }
 
 int64_t Timeline::Frontier(const std::string& field) const {
@@ -179,6 +178,11 @@ void Timeline::GenerateUntil(int64_t frame) {
 
 void Timeline::Complete() {
   CheckOpen("keyframes_complete");
+  const bool has_end = options_.end_frame || options_.has_music;
+  if (!has_end && keys_.empty() && rejected_.empty() && frontier_ <= options_.first_frame) {
+    throw InvalidArgument("keyframes_complete",
+                          "the dance has no end: no keyframe, no music and no config.frames");
+  }
   complete_ = true;
   CutIfChanged();
 }

@@ -30,9 +30,9 @@ struct AtFrame {
 struct AtTime {
   double seconds = 0;  ///< absolute
 };
+/// After the key of the keyframe message before this one (after time 0 for the first).
 struct AfterPrevious {
-  double seconds =
-      0;  ///< after the key of the keyframe message before this one (after time 0 for the first)
+  double seconds = 0;
 };
 using KeyMoment = std::variant<AtFrame, AtTime, AfterPrevious>;
 
@@ -69,18 +69,13 @@ struct Segment {
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 
 /// The keys of one dance, the frozen frontier, and the plan that follows from them. Each call
-/// plans, before it returns, every transition of which a frame is granted by then: to the next key,
-/// or of kFreeTransitionFrames where none stands ahead within the longest transition. So the plan
-/// depends on the order of the calls alone.
-/// - `GenerateUntil(f)` grants (and freezes) the frames before f. Keys before f are late.
-/// - Where it has never been called, and Options has no grant, each accepted key grants up to and
-///   with itself, so such keys come in order of time.
-/// - `Complete()` grants everything.
-///
-/// A transition that reaches over the frontier goes on as long as it is the one that would be
-/// planned from its first frame now, and nobody said Disturb; else it stops at the frontier. A
-/// dance that goes on is told the same again and plans the same again: keys before its first frame
-/// stand where they stood, and are answered by a rejection. Not thread-safe.
+/// plans, before it returns, every transition (TransitionEnd) of which a frame is granted by then,
+/// so the plan depends on the order of the calls alone. GenerateUntil and Complete grant; where
+/// nobody grants, each accepted key does, up to and with itself. A transition that reaches over the
+/// frontier goes on as long as it is the one that would be planned from its first frame now, and
+/// nobody said Disturb; else it stops at the frontier. A dance that goes on is told the same again:
+/// keys before its first frame stand where they stood, and are answered by a rejection. Not
+/// thread-safe.
 class Timeline {
  public:
   struct Options {
@@ -114,11 +109,12 @@ class Timeline {
   /// Something else than keys changes for frames of [first, last].
   void Disturb(int64_t first = 0, int64_t last = std::numeric_limits<int64_t>::max());
 
-  /// Absolute, exclusive. Changes nothing after Complete. Throws Error(kInvalidArgument) if it
-  /// shrinks or is out of range.
+  /// Grants, and freezes, the frames before this one: keys there are late from now on. Changes
+  /// nothing after Complete. Throws Error(kInvalidArgument) if it shrinks or is out of range.
   void GenerateUntil(int64_t frame);
 
-  /// No more keys. Throws Error(kInvalidArgument) the second time.
+  /// No more keys; all is granted. Throws Error(kInvalidArgument) the second time, and where the
+  /// dance would have no end: no end_frame, no music, no key, not even a late one, no grant.
   void Complete();
 
   /// The music ends before `frame`.
@@ -140,19 +136,15 @@ class Timeline {
   bool Certain(int64_t frame) const;
 
   bool complete() const { return complete_; }
-  /// No key has come, not even late, and nothing is granted.
-  bool Empty() const {
-    return keys_.empty() && rejected_.empty() && frontier_ <= options_.first_frame;
-  }
-  /// First frame that a new key could have now.
-  int64_t EarliestFrame() const;
 
  private:
   int64_t Resolve(const KeyMoment& when, const std::string& field) const;
   void CheckOpen(const std::string& field) const;
   const Key* Neighbour(int64_t frame, const std::string& except_id) const;
+  // First frame that a new key could have now.
+  int64_t EarliestFrame() const;
   KeyRejection Reject(const std::string& id, int64_t frame, std::string reason);
-  KeyRejection BeforeTheDance(const std::string& id, int64_t frame) const;
+  std::optional<KeyRejection> BeforeTheDance(const std::string& id, int64_t frame) const;
   void Grant(int64_t frame);
   void CutIfChanged();
   Segment From(int64_t frame) const;

@@ -51,10 +51,8 @@ std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> pose
   const size_t tau = static_cast<size_t>(model.history_frames);
   const Pose earliest = RoundToFloat(poses.empty() ? RestPose(model.skeleton) : poses.front());
   std::vector<Pose> history(tau, earliest);
-  const size_t given = std::min(tau, poses.size());
-  for (size_t i = 0; i < given; ++i) {
-    history[tau - given + i] = RoundToFloat(poses[poses.size() - given + i]);
-  }
+  const std::span<const Pose> newest = poses.last(std::min(tau, poses.size()));
+  std::ranges::transform(newest, history.end() - std::ssize(newest), &RoundToFloat);
   return history;
 }
 
@@ -87,11 +85,6 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
     CheckJoints(model.skeleton, *request.after, "after");
     if (!request.target) throw InvalidArgument("after", "needs a target");
   }
-  if (request.has_audio && (request.audio_history.rows() != model.audio_features ||
-                            request.audio_history.cols() != model.history_frames)) {
-    throw InvalidArgument("audio_history", "is not [" + std::to_string(model.audio_features) +
-                                               ", " + std::to_string(model.history_frames) + "]");
-  }
 
   const std::vector<Pose> history = FillHistory(model, request.history);
   world_ = history.back();
@@ -112,15 +105,10 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   if (request.foot_lock && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
     foot_lock_.emplace(model.skeleton, model.fps, request.frames, spec_.history, spec_.target);
   }
-  if (!request.target || request.arrival.frames <= 0) return;
-  arrival_window_ = std::min(request.arrival.frames, request.frames);
-  const size_t known = std::min<size_t>(2, spec_.history.size());
+  if (!request.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;
   if (request.after) after = ground_.ToLocal(*request.after);
-  arrival_.emplace(request.arrival, request.frames, *spec_.target,
-                   std::vector<Pose>(spec_.history.end() - static_cast<std::ptrdiff_t>(known),
-                                     spec_.history.end()),
-                   after);
+  arrival_.emplace(request.arrival_frames, request.frames, *spec_.target, spec_.history, after);
 }
 
 void TransitionRun::CheckFinite(const Pose& pose, std::span<const float> contacts,
@@ -140,18 +128,15 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
         ErrorCode::kInternal, "",
         "the likelihood of frame " + std::to_string(spec_.first_frame + done_) + " is not finite");
   }
-  if (done_ >= spec_.frames) {
-    throw Error(ErrorCode::kInternal, "", "the transition is over");
-  }
   const PoseMask mask = spec_.target ? spec_.target->mask : PoseMask{};
   steered_ = arrival_ ? arrival_->Apply(raw.pose) : raw.pose;
-  if (arrival_ && spec_.frames - done_ <= arrival_window_) {
+  if (arrival_ && spec_.frames - done_ <= arrival_->window()) {
     correction_m_ = std::max(correction_m_,
                              ComparePoses(model_->skeleton, raw.pose, steered_, mask).position_m);
   }
   const Pose emitted = foot_lock_ ? foot_lock_->Apply(steered_) : steered_;
   world_ = RoundToFloat(KeepSigns(ground_.ToWorld(emitted), world_));
-  const std::array<float, 4>& contacts = foot_lock_ ? foot_lock_->contacts() : raw.contacts;
+  const Contacts& contacts = foot_lock_ ? foot_lock_->contacts() : raw.contacts;
   CheckFinite(world_, contacts, "as arrival and foot lock leave it");
   ++done_;
   if (done_ == spec_.frames && spec_.target) {

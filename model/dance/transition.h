@@ -19,18 +19,17 @@ namespace choreo {
 /// number of poses: the last tau count, fewer are filled by holding the earliest, none is the
 /// neutral stance at the origin. What height a target without a place has need not be said.
 struct TransitionRequest : TransitionSpec {
-  std::optional<Pose>
-      after;  ///< one frame after the key, where the motion that follows stands already
-  /// To measure the model alone: arrival.frames = 0, foot_lock = false.
-  Arrival::Options arrival;
+  /// One frame after the key, where the motion that follows stands already.
+  std::optional<Pose> after;
+  // To measure the model alone: 0 and false.
+  int arrival_frames = 12;  ///< Arrival's window
   bool foot_lock = true;
 };
 
 /// One finished frame.
 struct DanceFrame {
   Pose pose;  ///< world; every number is a float's, as it is sent, and the chain goes on from these
-  std::array<float, 4> contacts =
-      {};  ///< left ankle, left toes, right ankle, right toes; the model's own without foot lock
+  Contacts contacts = {};    ///< the model's own without foot lock
   float log_likelihood = 0;  ///< nats
   /// What velocity factors ask of this frame, by BodyPart, metres a frame; none: nothing.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
@@ -44,8 +43,8 @@ struct ArrivalResult {
   double raw_error_m = 0;
   double final_error_m = 0;  ///< of the emitted frame at the key
   double final_error_deg = 0;
-  double correction_m = 0;  ///< furthest that arrival moved a joint away from the model's frame,
-                            ///< over its whole window
+  /// Furthest that arrival moved a joint away from the model's frame, over its whole window.
+  double correction_m = 0;
 };
 
 /// The end of a transition: all that a server elsewhere needs to go on with the dance.
@@ -111,7 +110,6 @@ class TransitionRun {
   GroundFrame ground_;
   std::optional<Arrival> arrival_;
   std::optional<FootLock> foot_lock_;
-  int arrival_window_ = 0;
   std::optional<ArrivalResult> arrival_result_;
   double correction_m_ = 0;
   Eigen::Vector3d stage_;  // world

@@ -33,30 +33,23 @@ std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
       }
       std::vector<StepInput> inputs;
       for (const Active& one : active) {
-        StepInput input{one.slot, one.run.previous(), {}};
         const TransitionInput& given = transitions[one.index];
+        inputs.push_back({one.slot, one.run.previous(), {}});
         if (given.request.has_audio) {
-          input.audio_row = {given.audio_rows.col(one.run.done()).data(),
-                             static_cast<size_t>(given.audio_rows.rows())};
+          inputs.back().audio_row = {given.audio_rows.col(one.run.done()).data(),
+                                     static_cast<size_t>(given.audio_rows.rows())};
         }
-        inputs.push_back(input);
       }
       std::vector<StepOutput> outputs(inputs.size());
       engine.Step(inputs, outputs);
-      std::vector<Active> going_on;
       for (size_t i = 0; i < active.size(); ++i) {
-        Active& one = active[i];
-        TransitionResult& result = results[one.index];
-        result.frames.push_back(one.run.Take(outputs[i]));
-        if (one.run.done() < one.run.frames()) {
-          going_on.push_back(std::move(one));
-          continue;
-        }
-        result.arrival = one.run.arrival();
-        result.stage = one.run.stage();
-        engine.Release(one.slot);
+        auto& [index, run, slot] = active[i];
+        results[index].frames.push_back(run.Take(outputs[i]));
+        results[index].arrival = run.arrival();
+        results[index].stage = run.stage();
+        if (run.done() == run.frames()) engine.Release(slot);
       }
-      active = std::move(going_on);
+      std::erase_if(active, [](const Active& one) { return one.run.done() == one.run.frames(); });
       if (danced) danced(static_cast<int>(inputs.size()));
     }
   } catch (...) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "model/dance/group_request.h"
+#include "model/dance/dance_config.h"
 #include "model/dance/quality_report.h"
 #include "model/dance/warning.h"
 #include "model/engine/scheduler.h"
@@ -46,8 +46,7 @@ class TransitionGroup {
  public:
   /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if not all candidates
   /// find room.
-  TransitionGroup(Scheduler& scheduler, const GroupRequest& request,
-                  std::shared_ptr<GroupSink> sink);
+  TransitionGroup(Scheduler& scheduler, GroupRequest request, std::shared_ptr<GroupSink> sink);
   ~TransitionGroup();
   TransitionGroup(const TransitionGroup&) = delete;
   TransitionGroup& operator=(const TransitionGroup&) = delete;

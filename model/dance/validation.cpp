@@ -8,15 +8,6 @@
 #include "model/dance/timeline.h"
 
 namespace choreo {
-namespace {
-
-void CheckPose(const Skeleton& skeleton, const Pose& pose, double max_rotation,
-               const std::string& limit_name, const std::string& field) {
-  CheckJoints(skeleton, pose, field);
-  CheckPoseLimits(pose, max_rotation, limit_name, field);
-}
-
-}  // namespace
 
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field) {
   if (value >= least && value <= most) return value;
@@ -35,14 +26,16 @@ std::string Show(double value) {
 }
 
 void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
-  CheckPose(skeleton, pose, kMaxRotation, "2π", field);
+  CheckJoints(skeleton, pose, field);
+  CheckPoseLimits(pose, kMaxRotation, "2π", field);
 }
 
 void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
                      const std::string& field) {
   for (size_t i = 0; i < poses.size(); ++i) {
-    CheckPose(skeleton, poses[i], kMaxWoundRotation, Show(kMaxWoundRotation),
-              At(field, static_cast<int64_t>(i)));
+    const std::string pose = At(field, static_cast<int64_t>(i));
+    CheckJoints(skeleton, poses[i], pose);
+    CheckPoseLimits(poses[i], kMaxWoundRotation, Show(kMaxWoundRotation), pose);
   }
 }
 
@@ -59,8 +52,7 @@ void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::str
                                                  " joints, the model has " +
                                                  std::to_string(skeleton.joints()));
   }
-  if (!mask.root_position &&
-      std::find(mask.joints.begin(), mask.joints.end(), true) == mask.joints.end()) {
+  if (!mask.root_position && std::ranges::count(mask.joints, true) == 0) {
     throw InvalidArgument(field, "asks for nothing");
   }
 }

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "model/dance/transition.h"
 #include "model/engine/step_engine.h"

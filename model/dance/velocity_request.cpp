@@ -1,6 +1,7 @@
 #include "model/dance/velocity_request.h"
 
 #include <algorithm>
+#include <span>
 
 #include "model/core/error.h"
 #include "model/dance/validation.h"
@@ -22,12 +23,10 @@ size_t Columns(const VelocityRequest& request) { return std::max<size_t>(1, requ
 void VelocityRequest::Validate(const ModelInfo& model, const std::string& field) const {
   ValidateFrames(frames, field + ".frames");
   for (size_t i = 0; i < parts.size(); ++i) {
-    if (std::find(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i), parts[i]) !=
-        parts.begin() + static_cast<std::ptrdiff_t>(i)) {
-      throw InvalidArgument(
-          field + ".parts[" + std::to_string(i) + "]",
-          std::string(kBodyPartNames[static_cast<size_t>(parts[i])]) + " is there twice");
-    }
+    if (std::ranges::count(std::span(parts).first(i), parts[i]) == 0) continue;
+    throw InvalidArgument(
+        field + ".parts[" + std::to_string(i) + "]",
+        std::string(kBodyPartNames[static_cast<size_t>(parts[i])]) + " is there twice");
   }
   const std::string name = field + (absolute ? ".speeds" : ".factors");
   const size_t rows = std::max<size_t>(1, frames.size());

@@ -1,5 +1,6 @@
 #include "model/draw/bone_chart.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "model/core/error.h"
@@ -33,33 +34,29 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
     throw InvalidArgument("bones", std::to_string(bones.size()) + ", a chart shows 1 to " +
                                        std::to_string(kMostChartBones));
   }
-  Eigen::Vector3d low = bones[0].place, high = low;
-  for (const ChartBone& bone : bones) {
-    low = low.cwiseMin(bone.place);
-    high = high.cwiseMax(bone.place);
-  }
+  Eigen::AlignedBox3d body;
+  for (const ChartBone& bone : bones) body.extend(bone.place);
+  const Eigen::Vector3d middle = body.center(), size = body.sizes();
   // Names stand in a column on their joint's side, the higher joint's higher.
-  std::vector<const ChartBone*> columns[2];
-  std::vector<const ChartBone*> sorted;
-  for (const ChartBone& bone : bones) sorted.push_back(&bone);
+  std::vector<ChartBone> columns[2], sorted = bones;
   std::ranges::stable_sort(sorted, std::greater<>(),
-                           [](const ChartBone* b) { return b->place.y(); });
-  const double middle = (low.x() + high.x()) / 2, near = 0.01 * (high.x() - low.x());
-  for (const ChartBone* bone : sorted) {
-    const double beside = bone->place.x() - middle;
-    const bool right = std::abs(beside) > near ? beside > 0 : columns[1].size() < columns[0].size();
+                           [](const ChartBone& b) { return b.place.y(); });
+  for (const ChartBone& bone : sorted) {
+    const double beside = bone.place.x() - middle.x();
+    const bool right =
+        std::abs(beside) > 0.01 * size.x() ? beside > 0 : columns[1].size() < columns[0].size();
     columns[right ? 1 : 0].push_back(bone);
   }
   const size_t most = std::max(columns[0].size(), columns[1].size());
   const int height =
       std::max(kLeastHeight, static_cast<int>(kLine * static_cast<double>(most) + 2 * kMargin));
-  const double scale = std::min((height - 4 * kMargin) / std::max(1e-9, high.y() - low.y()),
-                                kBody / std::max(1e-9, high.x() - low.x()));
+  const double scale =
+      std::min((height - 4 * kMargin) / std::max(1e-9, size.y()), kBody / std::max(1e-9, size.x()));
   const auto x = [&](const ChartBone& bone) {
-    return kWidth / 2.0 + scale * (bone.place.x() - middle);
+    return kWidth / 2.0 + scale * (bone.place.x() - middle.x());
   };
   const auto y = [&](const ChartBone& bone) {
-    return height / 2.0 - scale * (bone.place.y() - (low.y() + high.y()) / 2);
+    return height / 2.0 - scale * (bone.place.y() - middle.y());
   };
 
   const Canvas canvas(kWidth, height, kPaper);
@@ -68,8 +65,8 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
   cairo_set_line_width(cr, 2);
   for (const ChartBone& bone : bones) {
     if (bone.parent < 0) continue;
-    cairo_move_to(cr, x(bones[static_cast<size_t>(bone.parent)]),
-                  y(bones[static_cast<size_t>(bone.parent)]));
+    const ChartBone& parent = bones[static_cast<size_t>(bone.parent)];
+    cairo_move_to(cr, x(parent), y(parent));
     cairo_line_to(cr, x(bone), y(bone));
     cairo_stroke(cr);
   }
@@ -78,17 +75,17 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
     const auto lines = static_cast<double>(std::max<size_t>(1, columns[side].size()));
     const double pitch = std::min((height - 2 * kMargin) / lines, 3 * kLine);
     double line = (height - pitch * (lines - 1)) / 2;
-    for (const ChartBone* bone : columns[side]) {
-      const bool taken = !bone->means.empty();
-      const std::string text = Shown(bone->name) + (taken ? " = " + bone->means : "");
+    for (const ChartBone& bone : columns[side]) {
+      const bool taken = !bone.means.empty();
+      const std::string text = Shown(bone.name) + (taken ? " = " + bone.means : "");
       canvas.SetColour(taken ? kTaken : kQuiet);
       canvas.Text(text, edge, line, kText, side == 0 ? Align::kLeft : Align::kRight, taken);
       const double inner = canvas.TextWidth(text, kText, taken) + 4;
       cairo_set_line_width(cr, 0.5);
       cairo_move_to(cr, side == 0 ? edge + inner : edge - inner, line);
-      cairo_line_to(cr, x(*bone), y(*bone));
+      cairo_line_to(cr, x(bone), y(bone));
       cairo_stroke(cr);
-      cairo_arc(cr, x(*bone), y(*bone), taken ? 4 : 2.5, 0, 2 * M_PI);
+      cairo_arc(cr, x(bone), y(bone), taken ? 4 : 2.5, 0, 2 * M_PI);
       cairo_fill(cr);
       line += pitch;
     }

@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "model/body/colour.h"
@@ -19,11 +20,8 @@ class Canvas {
   /// Filled with `background`. Throws Error(kInvalidArgument) for a width or height outside 1 to
   /// kMostPicturePixels.
   Canvas(int width, int height, const Colour& background);
-  ~Canvas();
-  Canvas(const Canvas&) = delete;
-  Canvas& operator=(const Canvas&) = delete;
 
-  cairo_t* cr() const { return context_; }
+  cairo_t* cr() const { return context_.get(); }
   int width() const { return width_; }
 
   void SetColour(const Colour& colour, double alpha = 1) const;
@@ -40,8 +38,8 @@ class Canvas {
 
  private:
   int width_, height_;
-  cairo_surface_t* surface_;
-  cairo_t* context_;
+  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
+  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context_;
 };
 
 }  // namespace choreo

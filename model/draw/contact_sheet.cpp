@@ -9,7 +9,6 @@
 #include "model/core/error.h"
 #include "model/draw/canvas.h"
 #include "model/draw/check_within.h"
-#include "model/draw/framing.h"
 
 namespace choreo {
 namespace {
@@ -49,15 +48,10 @@ std::string TimeText(double seconds) {
   return text;
 }
 
-struct LegendEntry {
-  Colour colour;
-  std::string text;
-};
-
 // What stands right of the title, from left to right, or below it where that is long.
 struct Header {
   std::string facts;
-  std::vector<LegendEntry> legend;
+  std::vector<std::pair<Colour, std::string>> legend;
 
   static constexpr double kTitleFont = 20, kDot = 32;  // with its margins
   static constexpr int kLine = 26;
@@ -71,12 +65,12 @@ struct Header {
       facts = text;
     }
     legend = {{kLeftColour, "left"}, {kRightColour, "right"}};
-    if (!options.key_frames.empty()) legend.push_back({kKeyColour, "key pose"});
+    if (!options.key_frames.empty()) legend.emplace_back(kKeyColour, "key pose");
   }
 
   double Width(const Canvas& canvas) const {
     double width = canvas.TextWidth(facts, kFont);
-    for (const LegendEntry& entry : legend) width += canvas.TextWidth(entry.text, kFont) + kDot;
+    for (const auto& [colour, text] : legend) width += canvas.TextWidth(text, kFont) + kDot;
     return width;
   }
   // Whether the title leaves no room beside itself in a sheet of that width.
@@ -92,18 +86,19 @@ struct Header {
     if (wraps) y += kLine;
     double x = wraps ? kMargin : canvas.width() - kMargin - Width(canvas);
     canvas.SetColour(kFaint);
-    canvas.Text(facts, x, y, kFont, Align::kLeft);
+    canvas.Text(facts, x, y, kFont);
     x += canvas.TextWidth(facts, kFont);
-    for (const LegendEntry& entry : legend) {
-      // Without facts the first dot of a line of its own stands at the margin.
-      x += wraps && facts.empty() && &entry == &legend.front() ? 5 : 22;
-      canvas.SetColour(entry.colour);
+    // Without facts the first dot of a line of its own stands at the margin.
+    if (wraps && facts.empty()) x -= 22 - 5;
+    for (const auto& [colour, text] : legend) {
+      x += 22;
+      canvas.SetColour(colour);
       cairo_arc(canvas.cr(), x, y, 5, 0, 2 * M_PI);
       cairo_fill(canvas.cr());
       x += 10;
       canvas.SetColour(kFaint);
-      canvas.Text(entry.text, x, y, kFont, Align::kLeft);
-      x += canvas.TextWidth(entry.text, kFont);
+      canvas.Text(text, x, y, kFont);
+      x += canvas.TextWidth(text, kFont);
     }
   }
 };
@@ -153,25 +148,21 @@ std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptio
   CheckWithin("options.frames", options.frames, 1, 10000);
   const int64_t count = std::min<int64_t>(options.frames, total);
   std::vector<int64_t> places;
+  std::map<int64_t, bool> chosen;  // frame -> whether a key
   for (int64_t i = 0; i < count; ++i) {
     places.push_back(count == 1 ? 0 : (i * (total - 1) + (count - 1) / 2) / (count - 1));
+    chosen.emplace(places.back(), false);
   }
-  std::map<int64_t, int64_t> key_at;  // place -> key
-  std::map<int64_t, bool> chosen;     // frame -> whether a key
   for (const int64_t key : options.key_frames) {
     if (key < 0 || key >= total) {
       throw InvalidArgument("options.key_frames",
                             std::to_string(key) + ", must be 0 to " + std::to_string(total - 1));
     }
-    chosen[key] = true;
-    const auto nearest = std::min_element(places.begin(), places.end(), [&](int64_t a, int64_t b) {
-      return std::abs(a - key) < std::abs(b - key);
-    });
-    key_at.emplace(*nearest, key);
+    const auto nearest = std::ranges::min_element(
+        places, {}, [key](int64_t place) { return std::abs(place - key); });
+    chosen.erase(*nearest);
   }
-  for (const int64_t place : places) {
-    if (!key_at.contains(place)) chosen.emplace(place, false);
-  }
+  for (const int64_t key : options.key_frames) chosen[key] = true;
   std::vector<SheetFrame> frames;
   for (const auto& [frame, key] : chosen) frames.push_back({frame, key});
   return frames;
@@ -212,8 +203,7 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
   const double extent =
       FitExtent(skeleton, poses, static_cast<double>(options.tile_width) / options.tile_height);
   for (size_t i = 0; i < shown.size(); ++i) {
-    const Pose& pose = motion.frames[shown[i].frame];
-    DrawFrame(skeleton, pose, StandingView(poses[i], azimuth, extent),
+    DrawFrame(skeleton, *poses[i].pose, StandingView(poses[i], azimuth, extent),
               shown[i].key ? kKeyPose : kPlain, picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     const int64_t since = options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0;

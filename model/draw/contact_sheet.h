@@ -32,8 +32,7 @@ struct ContactSheetOptions {
 /// from one side, three quarters from the front of the first; the camera goes along with the
 /// dancer over a floor whose grid stands still. Throws Error(kInvalidArgument) for a motion without
 /// frames, a key frame that it does not have, another count of captions than of frames, or sizes
-/// outside their limits; Error(kInternal) where
-/// the file cannot be written. Thread-safe.
+/// outside their limits; Error(kInternal) where the file cannot be written. Thread-safe.
 void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
                       const ContactSheetOptions& options, const std::filesystem::path& png);
 

@@ -1,5 +1,6 @@
 #include "model/draw/floor_light.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -27,18 +28,17 @@ FloorLight::FloorLight(const std::vector<BoundedCone>& parts, const Vector3f& la
   const auto penumbra_of = [&](const BoundedCone& part) {
     return part.radius * (1 + 1 / lamp.y()) + 2 * lamp_spread * std::max(0.0f, part.middle.y());
   };
-  Eigen::Vector2f low = Eigen::Vector2f::Constant(1e9f), high = -low;
+  Eigen::AlignedBox2f reached;
   for (const BoundedCone& part : parts) {
     for (const auto& [point, around] : {std::pair(shadow_of(part), penumbra_of(part)),
                                         std::pair(part.middle, part.radius + kSkyMargin)}) {
-      const Eigen::Vector2f on_floor(point.x(), point.z());
-      low = low.cwiseMin(on_floor - Eigen::Vector2f::Constant(around));
-      high = high.cwiseMax(on_floor + Eigen::Vector2f::Constant(around));
+      const Eigen::Array2f on_floor(point.x(), point.z());
+      reached.extend(Eigen::AlignedBox2f(on_floor - around, on_floor + around));
     }
   }
-  low_ = low;
-  columns_ = 2 + CellsIn(high.x() - low.x());
-  rows_ = 2 + CellsIn(high.y() - low.y());
+  low_ = reached.min();
+  columns_ = 2 + CellsIn(reached.sizes().x());
+  rows_ = 2 + CellsIn(reached.sizes().y());
   // Each part darkens the cells around it and around its shadow.
   std::vector<float> hidden(static_cast<size_t>(columns_) * rows_, 0), open(hidden.size(), 1);
   const auto each_cell = [&](const Vector3f& middle, float reach, const auto& darken) {

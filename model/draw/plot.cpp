@@ -5,6 +5,7 @@
 
 #include "model/core/error.h"
 #include "model/draw/canvas.h"
+#include "model/draw/check_within.h"
 #include "model/draw/plot_axis.h"
 
 namespace choreo {
@@ -20,18 +21,10 @@ constexpr Colour kGrid = Colour::Hex(0xe1e4e8);
 constexpr Colour kLines[] = {Colour::Hex(0x0072b2), Colour::Hex(0xd55e00), Colour::Hex(0x009e73),
                              Colour::Hex(0xcc79a7), Colour::Hex(0xe69f00), Colour::Hex(0x56b4e9),
                              Colour::Hex(0x000000)};
-constexpr size_t kColours = std::size(kLines);
 
 void Check(const Plot& plot) {
-  const auto check_size = [](const char* field, int value) {
-    if (value < kLeastPlotPixels || value > kMostPlotPixels) {
-      throw InvalidArgument(field, std::to_string(value) + " pixels, must be " +
-                                       std::to_string(kLeastPlotPixels) + " to " +
-                                       std::to_string(kMostPlotPixels));
-    }
-  };
-  check_size("plot.width", plot.width);
-  check_size("plot.height", plot.height);
+  CheckWithin("plot.width", plot.width, kLeastPlotPixels, kMostPlotPixels);
+  CheckWithin("plot.height", plot.height, kLeastPlotPixels, kMostPlotPixels);
   for (const PlotSeries& series : plot.series) {
     if (series.x.size() != series.y.size()) {
       throw InvalidArgument("plot.series['" + series.label + "']",
@@ -76,10 +69,10 @@ std::vector<Stroke> ChooseStrokes(const Plot& plot, double extent) {
     const bool asked = plot.series[i].asked;
     number += !asked;
     Stroke stroke{.dashed = asked};
-    if (number > 0) stroke.colour = kLines[(number - 1) % kColours];
+    if (number > 0) stroke.colour = kLines[(number - 1) % std::size(kLines)];
     // More series than colours: the second round is dashed.
-    if (!asked && number > 0)
-      stroke.dashed = (number - 1) / kColours % 2 == 1 || HidesAnother(plot, i, extent);
+    if (!asked)
+      stroke.dashed = (number - 1) / std::size(kLines) % 2 == 1 || HidesAnother(plot, i, extent);
     strokes.push_back(stroke);
   }
   return strokes;
@@ -125,12 +118,11 @@ void DrawSeries(const Canvas& canvas, const Plot& plot, const std::vector<Stroke
       run = 0;
     };
     for (size_t k = 0; k < series.x.size(); ++k) {
-      const double value = series.y[k];
-      if (!std::isfinite(series.x[k]) || !std::isfinite(value)) {
+      if (!std::isfinite(series.x[k]) || !std::isfinite(series.y[k])) {
         end_run();
         continue;
       }
-      last_x = x_axis.At(series.x[k]), last_y = y_axis.At(value);
+      last_x = x_axis.At(series.x[k]), last_y = y_axis.At(series.y[k]);
       run++ ? cairo_line_to(cr, last_x, last_y) : cairo_move_to(cr, last_x, last_y);
       if (few) dots.emplace_back(last_x, last_y);
     }
@@ -171,10 +163,9 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   Range xs, ys;
   for (const PlotSeries& series : plot.series) {
     for (size_t k = 0; k < series.x.size(); ++k) {
-      const double value = series.y[k];
-      if (!std::isfinite(series.x[k]) || !std::isfinite(value)) continue;
+      if (!std::isfinite(series.x[k]) || !std::isfinite(series.y[k])) continue;
       xs.Add(series.x[k]);
-      ys.Add(value);
+      ys.Add(series.y[k]);
     }
   }
   const bool bars = !plot.x_names.empty();

@@ -26,30 +26,17 @@ Vector3f Linear(const Colour& colour) {
 }
 
 // Linear light, 0 to 1, as a byte of sRGB.
-class Encoding {
- public:
-  uint8_t operator()(float linear) const {
-    return bytes_[static_cast<size_t>(std::clamp(linear, 0.0f, 1.0f) * kSteps + 0.5f)];
-  }
-
-  static const Encoding& Shared() {
-    static const Encoding encoding;
-    return encoding;
-  }
-
- private:
+uint8_t Encode(float linear) {
   // Fine enough for the steep dark end: a step of the table is less than one of the byte.
-  static constexpr int kSteps = 1 << 15;
-
-  Encoding() : bytes_(kSteps + 1) {
-    for (int i = 0; i <= kSteps; ++i) {
-      bytes_[i] =
-          static_cast<uint8_t>(std::lround(255 * std::pow(double{1} * i / kSteps, 1 / 2.2)));
-    }
-  }
-
-  std::vector<uint8_t> bytes_;
-};
+  constexpr int kSteps = 1 << 15;
+  static const std::vector<uint8_t> bytes = [] {
+    std::vector<uint8_t> made;
+    for (int i = 0; i <= kSteps; ++i)
+      made.push_back(std::lround(255 * std::pow(double{1} * i / kSteps, 1 / 2.2)));
+    return made;
+  }();
+  return bytes[static_cast<size_t>(std::clamp(linear, 0.0f, 1.0f) * kSteps + 0.5f)];
+}
 
 float SmoothStep(float from, float to, float value) {
   const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
@@ -86,7 +73,7 @@ class Renderer {
     for (int y = 0; y < picture.height; ++y) {
       const FloorRow floor = RowAt(static_cast<float>(y) + 0.5f, 1);
       for (int x = 0; x < picture.width; ++x) {
-        for (const float value : Pixel(x, y, floor)) *rgb++ = encode_(value);
+        for (const float value : Pixel(x, y, floor)) *rgb++ = Encode(value);
       }
     }
   }
@@ -121,64 +108,51 @@ class Renderer {
     return nearby;
   }
 
-  // The pixels outside of which there is no body.
-  struct PixelBox {
-    int left = 0, top = 0, right = 0, bottom = 0;
-  };
-  PixelBox BoxOf(const RoundedCone& shape) const {
-    const Camera::Box a = camera_.Bounds(shape.a, shape.radius_a);
-    const Camera::Box b = camera_.Bounds(shape.b, shape.radius_b);
-    return {static_cast<int>(std::min(a.left, b.left)), static_cast<int>(std::min(a.top, b.top)),
-            1 + static_cast<int>(std::max(a.right, b.right)),
-            1 + static_cast<int>(std::max(a.bottom, b.bottom))};
+  // The pixels outside of which there is no body, [from, to).
+  Eigen::AlignedBox2i BoxOf(const RoundedCone& shape) const {
+    const Eigen::AlignedBox2f box =
+        camera_.Bounds(shape.a, shape.radius_a).merged(camera_.Bounds(shape.b, shape.radius_b));
+    return {box.min().cast<int>(), box.max().cast<int>() + Eigen::Vector2i::Ones()};
   }
 
   // Makes room for the samples of the body.
   void Enclose(const Picture& picture) {
-    box_ = {picture.width, picture.height, 0, 0};
-    for (const BoundedCone& part : parts_) {
-      const PixelBox box = BoxOf(part.shape);
-      box_ = {std::min(box_.left, box.left), std::min(box_.top, box.top),
-              std::max(box_.right, box.right), std::max(box_.bottom, box.bottom)};
-    }
-    box_.right = std::max(box_.left, std::min(box_.right, picture.width));
-    box_.bottom = std::max(box_.top, std::min(box_.bottom, picture.height));
-    columns_ = (box_.right - box_.left) * samples_;
-    rows_ = (box_.bottom - box_.top) * samples_;
+    const Eigen::Vector2i size(picture.width, picture.height);
+    box_ = {size, Eigen::Vector2i::Zero()};
+    for (const BoundedCone& part : parts_) box_.extend(BoxOf(part.shape));
+    box_.max() = box_.max().cwiseMin(size).cwiseMax(box_.min());
+    columns_ = box_.sizes().x() * samples_;
+    rows_ = box_.sizes().y() * samples_;
     const size_t count = static_cast<size_t>(columns_) * rows_;
     distance_.assign(count, -1.0f);
     part_.assign(count, -1);
     normal_.resize(count);
   }
 
-  // Columns and rows of samples count from the box's corner.
-  float PixelX(int column) const {
-    return static_cast<float>(box_.left) +
-           (static_cast<float>(column) + 0.5f) / static_cast<float>(samples_);
-  }
-  float PixelY(int row) const {
-    return static_cast<float>(box_.top) +
-           (static_cast<float>(row) + 0.5f) / static_cast<float>(samples_);
+  // A sample's place in the picture; columns and rows of samples count from the box's corner.
+  Eigen::Array2f PixelAt(int column, int row) const {
+    const Eigen::Array2f sample = Eigen::Array2i(column, row).cast<float>() + 0.5f;
+    return box_.min().array().cast<float>() + sample / static_cast<float>(samples_);
   }
 
   // Enters the parts' nearest points, row by row of samples.
   void Cast() {
-    std::vector<PixelBox> boxes;  // of samples
+    std::vector<Eigen::AlignedBox2i> boxes;  // of samples
     std::vector<SeenCone> seen;
     for (const BoundedCone& part : parts_) {
       seen.emplace_back(part.shape, camera_.eye());
-      const PixelBox box = BoxOf(part.shape);
-      boxes.push_back({(box.left - box_.left) * samples_, (box.top - box_.top) * samples_,
-                       std::min(columns_, (box.right - box_.left) * samples_),
-                       std::min(rows_, (box.bottom - box_.top) * samples_)});
+      const Eigen::AlignedBox2i box = BoxOf(part.shape).intersection(box_);
+      boxes.emplace_back(samples_ * (box.min() - box_.min()), samples_ * (box.max() - box_.min()));
     }
     std::vector<Vector3f> rays(static_cast<size_t>(columns_));
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column)
-        rays[column] = camera_.Ray(PixelX(column), PixelY(row));
+        rays[column] = camera_.Ray(PixelAt(column, row));
       for (size_t i = 0; i < parts_.size(); ++i) {
-        if (row < boxes[i].top || row >= boxes[i].bottom) continue;
-        for (int column = boxes[i].left; column < boxes[i].right; ++column) {
+        const Eigen::Vector2i& from = boxes[i].min();
+        const Eigen::Vector2i& to = boxes[i].max();
+        if (row < from.y() || row >= to.y()) continue;
+        for (int column = from.x(); column < to.x(); ++column) {
           const RayHit hit = seen[i].Enter(rays[column]);
           const size_t at = static_cast<size_t>(row) * columns_ + column;
           if (hit.distance < 0 || (part_[at] >= 0 && distance_[at] <= hit.distance)) continue;
@@ -205,19 +179,18 @@ class Renderer {
   };
   FloorRow RowAt(float y, float size) const {
     const auto line = [&](float at) -> FloorLine {
-      const Vector3f ray = camera_.Direction(half_width_, at);
+      const Vector3f ray = camera_.Direction({half_width_, at});
       const float along = -camera_.eye().y() / ray.y();
       return {OnFloor(camera_.eye() + along * ray), OnFloor(along * camera_.right())};
     };
-    return {camera_.Direction(half_width_, y).y() < 0, size, line(y), line(y + size)};
+    return {camera_.Direction({half_width_, y}).y() < 0, size, line(y), line(y + size)};
   }
 
   // Floor and parts are smooth: a pixel that shows one of them alone needs no more than one sample.
   Vector3f Pixel(int x, int y, const FloorRow& floor) const {
     const float middle = static_cast<float>(x) + 0.5f;
-    if (x < box_.left || x >= box_.right || y < box_.top || y >= box_.bottom)
-      return Floor(floor, middle);
-    const int left = (x - box_.left) * samples_, top = (y - box_.top) * samples_;
+    const int left = (x - box_.min().x()) * samples_, top = (y - box_.min().y()) * samples_;
+    if (left < 0 || left >= columns_ || top < 0 || top >= rows_) return Floor(floor, middle);
     const int first = part_[static_cast<size_t>(top) * columns_ + left];
     bool one = true;
     for (int row = top; row < top + samples_; ++row) {
@@ -235,9 +208,9 @@ class Renderer {
 
   Vector3f Sample(int column, int row) const {
     const size_t at = static_cast<size_t>(row) * columns_ + column;
-    const float x = PixelX(column), y = PixelY(row);
-    if (part_[at] < 0) return Floor(RowAt(y, 1 / static_cast<float>(samples_)), x);
-    const Vector3f ray = camera_.Ray(x, y);
+    const Eigen::Array2f pixel = PixelAt(column, row);
+    if (part_[at] < 0) return Floor(RowAt(pixel.y(), 1 / static_cast<float>(samples_)), pixel.x());
+    const Vector3f ray = camera_.Ray(pixel);
     const Vector3f point = camera_.eye() + distance_[at] * ray;
     return Body(part_[at], point, SkinNormal(skins_[part_[at]], point, normal_[at]), ray);
   }
@@ -298,8 +271,7 @@ class Renderer {
   Vector3f lamp_;
   FloorLight floor_light_;
   Vector3f background_, floor_;
-  const Encoding& encode_ = Encoding::Shared();
-  PixelBox box_;
+  Eigen::AlignedBox2i box_;
   int columns_ = 0, rows_ = 0;  // of samples, in the box
   std::vector<float> distance_;
   std::vector<int> part_;

@@ -8,7 +8,6 @@
 #include "model/core/error.h"
 #include "model/core/gaussian_mean.h"
 #include "model/core/threads.h"
-#include "model/draw/framing.h"
 #include "model/draw/render.h"
 #include "model/motion/resample.h"
 
@@ -20,8 +19,9 @@ constexpr double kKeyGlow = 0.15;   // seconds
 constexpr int kFrameShare = 90;     // of the picture's height a key's frame is this part wide
 constexpr int kSamples = 2;         // what the encoder keeps of more does not show
 
-// Where the root is over the floor, low-passed by a Gaussian, which looks ahead as far as back.
-std::vector<Eigen::Vector2d> SmoothPath(const Motion& motion) {
+// The camera's way follows the root's over the floor, low-passed by a Gaussian, which looks ahead
+// as far as back.
+std::vector<FramedPose> FollowRoot(const Motion& motion) {
   const double sigma = kCameraLag * motion.fps;
   const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
   const auto frames = static_cast<int64_t>(motion.frames.size());
@@ -30,12 +30,13 @@ std::vector<Eigen::Vector2d> SmoothPath(const Motion& motion) {
     const Eigen::Vector3d& root = motion.frames[at].root_position;
     return Eigen::Vector2d(root.x(), root.z());
   };
-  std::vector<Eigen::Vector2d> path;
+  std::vector<FramedPose> framed;
   for (int64_t frame = 0; frame < frames; ++frame) {
-    path.push_back(GaussianMean<Eigen::Vector2d>(frame - reach, frame + reach, frame, sigma,
-                                                 Eigen::Vector2d::Zero(), place));
+    const auto smooth = GaussianMean<Eigen::Vector2d>(frame - reach, frame + reach, frame, sigma,
+                                                      Eigen::Vector2d::Zero(), place);
+    framed.push_back({&motion.frames[static_cast<size_t>(frame)], smooth.x(), smooth.y()});
   }
-  return path;
+  return framed;
 }
 
 double Glow(double seconds, const std::vector<double>& keys) {
@@ -68,10 +69,7 @@ void DrawKeyFrame(double amount, Picture* picture) {
 }  // namespace
 
 std::vector<View> VideoViews(const Skeleton& skeleton, const Motion& motion, double aspect) {
-  const std::vector<Eigen::Vector2d> path = SmoothPath(motion);
-  std::vector<FramedPose> framed;
-  for (size_t frame = 0; frame < path.size(); ++frame)
-    framed.push_back({&motion.frames[frame], path[frame].x(), path[frame].y()});
+  const std::vector<FramedPose> framed = FollowRoot(motion);
   const double azimuth = ThreeQuarterAzimuth(motion.frames.front());
   const double extent = FitExtent(skeleton, framed, aspect);
   std::vector<View> views;

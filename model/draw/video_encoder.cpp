@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "model/core/error.h"
@@ -28,12 +27,6 @@ void CheckFormat(const VideoFormat& format) {
   CheckWithin("video.fps", format.fps, 1, 120);
 }
 
-std::string Decimal(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6f", value);
-  return text;
-}
-
 // "file:" keeps ffmpeg from taking a name for a protocol or an option.
 std::string FileUrl(const std::filesystem::path& path) { return "file:" + path.string(); }
 
@@ -42,21 +35,22 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
   std::vector<std::string> arguments = {
       "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
       // One frame after the other, as they come out of DrawFrame.
-      "-f", "rawvideo", "-pixel_format", "rgb24", "-framerate", Decimal(format.fps), "-video_size",
-      std::to_string(format.width) + "x" + std::to_string(format.height), "-i", "pipe:0"};
+      "-f", "rawvideo", "-pixel_format", "rgb24", "-framerate", std::to_string(format.fps),
+      "-video_size", std::to_string(format.width) + "x" + std::to_string(format.height), "-i",
+      "pipe:0"};
   const auto add = [&](std::initializer_list<std::string> more) {
     arguments.insert(arguments.end(), more);
   };
   if (!format.song.empty()) {
     // A song may hold its cover, which would be a second picture.
-    add({"-ss", Decimal(format.song_start_s), "-i", FileUrl(format.song), "-map", "0:v:0", "-map",
-         "1:a:0", "-c:a", "aac", "-b:a", "192k"});
+    add({"-ss", std::to_string(format.song_start_s), "-i", FileUrl(format.song), "-map", "0:v:0",
+         "-map", "1:a:0", "-c:a", "aac", "-b:a", "192k"});
   }
   add({"-c:v", "libx264", "-preset", "medium", "-crf", "18",
        // Players take what is not marked for BT.709 and would shift our colours.
        "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
        "-color_primaries", "bt709", "-color_trc", "bt709", "-t",
-       Decimal(static_cast<double>(frames) / format.fps), "-fflags", "+bitexact", "-flags",
+       std::to_string(static_cast<double>(frames) / format.fps), "-fflags", "+bitexact", "-flags",
        "+bitexact", "-movflags", "+faststart", "-f", "mp4", FileUrl(out)});
   return arguments;
 }
@@ -65,18 +59,8 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
 
 VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& format,
                            int64_t frames)
-    : mp4_(mp4), file_(mp4), format_(format) {
+    : mp4_(mp4), file_(mp4) {
   CheckFormat(format);
-  Start(Arguments(format, frames, file_.partial()));
-}
-
-VideoEncoder::~VideoEncoder() {
-  if (process_ > 0) kill(process_, SIGKILL);
-  Wait();
-  if (said_ >= 0) close(said_);
-}
-
-void VideoEncoder::Start(const std::vector<std::string>& arguments) {
   // A socket instead of a pipe: writing to an ffmpeg that is gone is then an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -90,17 +74,16 @@ void VideoEncoder::Start(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, said_, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, said_, STDERR_FILENO);
+  std::vector<std::string> arguments = Arguments(format, frames, file_.partial());
   std::vector<char*> pointers;
-  for (const std::string& argument : arguments)
-    pointers.push_back(const_cast<char*>(argument.c_str()));
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const int failed = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   if (failed != 0) {
-    process_ = -1;
-    close(std::exchange(input_, -1));
-    close(std::exchange(said_, -1));
+    close(input_);
+    close(said_);
     if (failed == ENOENT) {
       throw Error(ErrorCode::kNotFound, "ffmpeg",
                   "is not installed, and videos need it: scripts/install_packages.sh video");
@@ -109,13 +92,13 @@ void VideoEncoder::Start(const std::vector<std::string>& arguments) {
   }
 }
 
+VideoEncoder::~VideoEncoder() {
+  if (process_ > 0) kill(process_, SIGKILL);
+  Wait();
+  close(said_);
+}
+
 void VideoEncoder::Write(const Picture& picture) {
-  if (picture.width != format_.width || picture.height != format_.height) {
-    throw InvalidArgument("picture", std::to_string(picture.width) + " x " +
-                                         std::to_string(picture.height) + " pixels, not " +
-                                         std::to_string(format_.width) + " x " +
-                                         std::to_string(format_.height));
-  }
   const uint8_t* data = picture.rgb.data();
   size_t left = picture.rgb.size();
   while (left > 0) {

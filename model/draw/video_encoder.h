@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "model/core/atomic_file.h"
 #include "model/draw/picture.h"
@@ -34,18 +33,17 @@ class VideoEncoder {
   VideoEncoder(const VideoEncoder&) = delete;
   VideoEncoder& operator=(const VideoEncoder&) = delete;
 
+  /// A picture of the format's size.
   void Write(const Picture& picture);
   void Finish();
 
  private:
-  void Start(const std::vector<std::string>& arguments);
   /// Lets ffmpeg see the end of its input and waits for it; whether it succeeded.
   bool Wait();
   [[noreturn]] void Fail();
 
   std::filesystem::path mp4_;
   AtomicFile file_;
-  VideoFormat format_;
   pid_t process_ = -1;
   int input_ = -1;  // our end of its standard input
   int said_ = -1;   // what it prints

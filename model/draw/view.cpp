@@ -1,9 +1,9 @@
 #include "model/draw/view.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "model/body/doll.h"
 #include "model/draw/check_within.h"
 #include "model/draw/picture.h"
 #include "model/motion/rotation.h"
@@ -15,6 +15,8 @@ constexpr double kCameraHeight = 1.6;   // metres above the floor
 constexpr double kFieldOfView = 0.45;   // vertical, radians
 constexpr double kThreeQuarters = 0.6;  // radians beside the dancer's own heading
 constexpr float kNear = 0.05f;
+constexpr double kBelow = 0.22;  // metres of floor under the dancer's feet
+constexpr double kAir = 1.08;
 
 }  // namespace
 
@@ -22,8 +24,27 @@ double ThreeQuarterAzimuth(const Pose& pose) {
   return WrapAngle(Heading(ExpMap(pose.rotations.col(0))) + kThreeQuarters);
 }
 
-Camera::Camera(const View& view, int width, int height)
-    : width_(static_cast<float>(width)), height_(static_cast<float>(height)) {
+double FitExtent(const Skeleton& skeleton, const std::vector<FramedPose>& poses, double aspect) {
+  const std::vector<DollPart> doll = MakeDoll(skeleton);
+  double top = 1.8, side = 0.5;
+  for (const FramedPose& framed : poses) {
+    for (const PlacedPart& part : PlaceDoll(doll, ForwardKinematics(skeleton, *framed.pose))) {
+      for (const auto& [ball, radius] : {std::pair(part.shape.a, part.shape.radius_a),
+                                         std::pair(part.shape.b, part.shape.radius_b)}) {
+        top = std::max(top, double{ball.y()} + radius);
+        side = std::max(side, std::hypot(ball.x() - framed.x, ball.z() - framed.z) + radius);
+      }
+    }
+  }
+  return std::clamp(kAir * std::max(top + kBelow, 2 * side / aspect), 2.0, 4.0);
+}
+
+View StandingView(const FramedPose& framed, double azimuth, double extent) {
+  return {
+      .target = {framed.x, extent / 2 - kBelow, framed.z}, .azimuth = azimuth, .extent = extent};
+}
+
+Camera::Camera(const View& view, int width, int height) : size_(width, height) {
   CheckWithin("picture.width", width, 1, kMostPicturePixels);
   CheckWithin("picture.height", height, 1, kMostPicturePixels);
   CheckWithin("view.extent", view.extent, 0.1, 100);
@@ -41,24 +62,25 @@ Camera::Camera(const View& view, int width, int height)
   focal_ = static_cast<float>(height / 2.0 / slope);
 }
 
-Eigen::Vector3f Camera::Direction(float x, float y) const {
-  return focal_ * forward_ + (x - width_ / 2) * right_ - (y - height_ / 2) * up_;
+Eigen::Vector3f Camera::Direction(const Eigen::Array2f& pixel) const {
+  const Eigen::Array2f beside = pixel - size_ / 2;
+  return focal_ * forward_ + beside.x() * right_ - beside.y() * up_;
 }
 
-Camera::Box Camera::Bounds(const Eigen::Vector3f& centre, float radius) const {
+Eigen::AlignedBox2f Camera::Bounds(const Eigen::Vector3f& centre, float radius) const {
   const Eigen::Vector3f from = centre - eye_;
   const float depth = forward_.dot(from);
-  if (depth + radius < kNear) return {};
-  if (depth - radius < kNear) return {0, 0, width_, height_};
+  const Eigen::Array2f corner = Eigen::Array2f::Zero();
+  if (depth + radius < kNear) return {corner, corner};
+  if (depth - radius < kNear) return {corner, size_};
   // The cube around the ball, seen from the front: its outermost corners bound the ball.
   const auto low = [&](float side) { return side / (depth + (side < 0 ? -radius : radius)); };
   const auto high = [&](float side) { return side / (depth + (side > 0 ? -radius : radius)); };
   const float x = right_.dot(from), y = -up_.dot(from);
-  const auto clip = [](float value, float limit) { return std::clamp(value, 0.0f, limit); };
-  return {clip(width_ / 2 + focal_ * low(x - radius), width_),
-          clip(height_ / 2 + focal_ * low(y - radius), height_),
-          clip(width_ / 2 + focal_ * high(x + radius), width_),
-          clip(height_ / 2 + focal_ * high(y + radius), height_)};
+  const auto clip = [&](float right, float down) -> Eigen::Array2f {
+    return (size_ / 2 + focal_ * Eigen::Array2f(right, down)).max(corner).min(size_);
+  };
+  return {clip(low(x - radius), low(y - radius)), clip(high(x + radius), high(y + radius))};
 }
 
 }  // namespace choreo

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
 
 #include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 
@@ -18,6 +20,19 @@ struct View {
 /// The azimuth from which a pose is seen three quarters from its front.
 double ThreeQuarterAzimuth(const Pose& pose);
 
+/// A pose and the place on the floor that comes to the middle of its picture, metres.
+struct FramedPose {
+  const Pose* pose;
+  double x, z;
+};
+
+/// What the height of pictures of this aspect (width over height) must show so that every one of
+/// the poses fits in, metres, 2 to 4.
+double FitExtent(const Skeleton& skeleton, const std::vector<FramedPose>& poses, double aspect);
+
+/// The view of one of them, feet near the lower edge.
+View StandingView(const FramedPose& framed, double azimuth, double extent);
+
 /// A View worked out for a picture of a given size.
 class Camera {
  public:
@@ -28,20 +43,17 @@ class Camera {
   /// What a ray's direction gains from a column to the next: a unit vector, level.
   const Eigen::Vector3f& right() const { return right_; }
   /// Direction through a point of the picture, pixels from the upper left corner.
-  Eigen::Vector3f Direction(float x, float y) const;
+  Eigen::Vector3f Direction(const Eigen::Array2f& pixel) const;
   /// The same of unit length.
-  Eigen::Vector3f Ray(float x, float y) const { return Direction(x, y).normalized(); }
+  Eigen::Vector3f Ray(const Eigen::Array2f& pixel) const { return Direction(pixel).normalized(); }
 
-  /// Columns and rows, [from, to) in pixels within the picture, outside which a ball is not seen.
-  struct Box {
-    float left = 0, top = 0, right = 0, bottom = 0;
-  };
-  Box Bounds(const Eigen::Vector3f& centre, float radius) const;
+  /// Columns and rows, pixels within the picture, outside which a ball is not seen.
+  Eigen::AlignedBox2f Bounds(const Eigen::Vector3f& centre, float radius) const;
 
  private:
   Eigen::Vector3f eye_, right_, up_, forward_;
-  float focal_;  // pixels
-  float width_, height_;
+  float focal_;          // pixels
+  Eigen::Array2f size_;  // pixels
 };
 
 }  // namespace choreo

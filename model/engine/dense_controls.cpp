@@ -50,9 +50,8 @@ Controls DenseControls(const TransitionSpec& spec, const ModelInfo& model) {
   if (dense.root_path.cols() == 0) dense.root_path = SmoothPath(spec);
   if (dense.velocity_factors.cols() == 0) {
     const auto& median = model.velocity_references.front().factors;
-    dense.velocity_factors.resize(kBodyParts, spec.frames);
-    for (int part = 0; part < kBodyParts; ++part)
-      dense.velocity_factors.row(part).setConstant(median[static_cast<size_t>(part)]);
+    dense.velocity_factors =
+        Eigen::Map<const Eigen::Vector<float, kBodyParts>>(median.data()).replicate(1, spec.frames);
   }
   return dense;
 }

@@ -22,7 +22,6 @@
 #include "model/engine/packed/continuous_flow.h"
 #include "model/engine/packed/flow.h"
 #include "model/engine/packed/kernels.h"
-#include "model/engine/packed/tile.h"
 #include "model/engine/torch/controllers_engine.h"
 #include "model/engine/torch/tile.h"
 #include "model/flow/checkpoint.h"
@@ -30,12 +29,6 @@
 
 namespace choreo {
 namespace {
-
-torch::Device ToTorch(const Device& device) {
-  return device.kind == Device::Kind::kCpu
-             ? torch::Device(torch::kCPU)
-             : torch::Device(torch::kCUDA, static_cast<torch::DeviceIndex>(device.index));
-}
 
 /// Of the kernels in a fingerprint, where they are our own.
 constexpr const char* kPackedPrefix = "packed ";
@@ -89,8 +82,14 @@ std::vector<KernelSet> KernelSetsHere(EngineKind kind) {
   return sets;
 }
 
-// The fastest that keep rows apart; those of this name, where there is one.
-KernelSet ChooseKernels(EngineKind kind, const std::string& name) {
+// What a flow is computed with: the fastest that keep rows apart, or those of this name, where
+// there is one. None: LibTorch does it.
+std::optional<KernelSet> ChooseKernels(EngineKind kind, const Device& device,
+                                       const std::string& name) {
+  const bool on_cpu = device.kind == Device::Kind::kCpu;
+  if (kind == EngineKind::kTorch || (kind == EngineKind::kAuto && !on_cpu)) return std::nullopt;
+  if (!on_cpu)
+    throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
   const std::vector<KernelSet> here = KernelSetsHere(kind);
   if (here.empty()) {
     throw InvalidArgument("engine", "packed-bf16 needs a CPU with AVX512-BF16, which this is not");
@@ -108,26 +107,16 @@ KernelSet ChooseKernels(EngineKind kind, const std::string& name) {
   throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
 }
 
-// Those that a flow is computed with here; none: LibTorch does it.
-std::optional<KernelSet> PackedSet(EngineKind kind, const Device& device, const std::string& name) {
-  const bool on_cpu = device.kind == Device::Kind::kCpu;
-  const bool packs = kind == EngineKind::kPacked || kind == EngineKind::kPackedBf16;
-  if (packs && !on_cpu)
-    throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
-  if (!packs && !(kind == EngineKind::kAuto && on_cpu)) return std::nullopt;
-  return ChooseKernels(kind, name);
-}
-
 // What is the same of every checkpoint.
-template <typename Checkpoint, typename Config>
-ModelInfo InfoOf(const Checkpoint& checkpoint, const Config& config, const Skeleton& skeleton,
-                 const std::string& kernels) {
+template <typename Model>
+ModelInfo InfoOf(const CheckpointOf<Model>& checkpoint, const std::string& kernels) {
+  const auto& config = checkpoint.model->config();
   return {.name = config.name,
           .fingerprint = config.name + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION + ", " +
                          BuildIdentity() + "/" + kernels,
           .licence = LicenceOf(checkpoint.card),
           .card = checkpoint.card,
-          .skeleton = skeleton,
+          .skeleton = checkpoint.model->skeleton(),
           .history_frames = config.history_frames,
           .max_transition_frames = config.max_transition_frames,
           .velocity_references = {}};
@@ -146,8 +135,7 @@ using Factory = std::function<std::unique_ptr<StepEngine>(int slots)>;
 Factory LoadControllers(const Safetensors& content, const std::filesystem::path& path) {
   const ControllersCheckpoint checkpoint = ParseControllers(content, path.string());
   const ControllersConfig& config = checkpoint.model->config();
-  ModelInfo info = InfoOf(checkpoint, config, checkpoint.model->skeleton(),
-                          TorchKernels(torch::Device(torch::kCPU)));
+  ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
   info.audio_features = 0;  // it hears no music
   info.hears_music = false;
   info.default_temperature = 0;
@@ -164,20 +152,19 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
                            const Device& device, EngineKind kind, const std::string& kernel_name) {
   const ContinuousFlowCheckpoint checkpoint = ParseContinuousFlow(content, path.string());
   const ContinuousFlowConfig& config = checkpoint.model->config();
-  const Skeleton& skeleton = checkpoint.model->skeleton();
   const auto parts = std::make_shared<const FlowModelParts>(checkpoint.model->Parts());
   std::shared_ptr<const FlowNetwork> network;
   std::string kernels;
-  if (const auto set = PackedSet(kind, device, kernel_name)) {
+  if (const auto set = ChooseKernels(kind, device, kernel_name)) {
     kernels = set->Name();
-    network = std::make_shared<const PackedFlowNetwork>(content, config, skeleton, *set->exact,
-                                                        *set->products);
+    network = std::make_shared<const PackedFlowNetwork>(
+        content, config, checkpoint.model->skeleton(), *set->exact, *set->products);
   } else {
-    const torch::Device there = ToTorch(device);
+    const torch::Device there(device.name());
     kernels = TorchKernels(there);
     network = MakeTorchFlowNetwork(checkpoint.model, there);
   }
-  ModelInfo info = InfoOf(checkpoint, config, skeleton, kernels);
+  ModelInfo info = InfoOf(checkpoint, kernels);
   info.hears_music = false;  // but its beats
   info.default_temperature = config.temperature;
   info.max_temperature = kMaxFlowTemperature;
@@ -196,15 +183,16 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
   const FlowConfig& config = model->config();
   std::function<std::unique_ptr<FlowTile>(int slots)> tile;
   std::string kernels;
-  if (const auto set = PackedSet(kind, device, kernel_name)) {
+  if (const auto set = ChooseKernels(kind, device, kernel_name)) {
     kernels = set->Name();
     const auto packed = std::make_shared<const PackedFlow>(content, config, model->skeleton(),
                                                            *set->exact, *set->products);
     tile = [packed](int slots) { return std::make_unique<PackedTile>(packed, slots); };
   } else {
-    model->to(ToTorch(device));
-    const auto weights = std::make_shared<TorchWeights>(
-        TorchWeights{model, model->InverseWeights(), ToTorch(device)});
+    const torch::Device there(device.name());
+    model->to(there);
+    const auto weights =
+        std::make_shared<TorchWeights>(TorchWeights{model, model->InverseWeights(), there});
     const int rows = TorchTile::VerifiedRows(weights);
     if (rows == 1) {
       std::clog << "choreo: on " << device.name()
@@ -213,7 +201,7 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
     kernels = TorchKernels(weights->device) + ", tile " + std::to_string(rows);
     tile = [weights, rows](int slots) { return std::make_unique<TorchTile>(weights, rows, slots); };
   }
-  ModelInfo info = InfoOf(checkpoint, config, model->skeleton(), kernels);
+  ModelInfo info = InfoOf(checkpoint, kernels);
   info.audio_features = config.audio_features;
   info.hears_music = config.hears_music;
   info.default_temperature = config.temperature;
@@ -232,21 +220,9 @@ void CheckName(const std::string& name, const std::filesystem::path& path) {
                          "\", is not 1 to " + std::to_string(kMostNameBytes) + " printable bytes");
 }
 
-// Loads, and says in every error which file it is about.
-template <typename LoadIt>
-auto Naming(const std::filesystem::path& path, LoadIt load) {
-  try {
-    return load();
-  } catch (const Error& error) {
-    if (std::string_view(error.what()).find(path.string()) != std::string_view::npos) throw;
-    throw Error(error.code(), path.string(), error.what());
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::kResourceExhausted, path.string(), "there is no memory for it");
-  }
-}
-
+// Every error says which file it is about.
 Factory Load(const std::filesystem::path& path, const Device& device, EngineKind kind,
-             const std::string& kernel_name) {
+             const std::string& kernel_name) try {
   const c10::InferenceMode inference;
   // Exact float32 everywhere: bits before speed.
   at::globalContext().setAllowTF32CuBLAS(false);
@@ -263,6 +239,11 @@ Factory Load(const std::filesystem::path& path, const Device& device, EngineKind
   if (HoldsContinuousFlow(content))
     return LoadContinuousFlow(content, path, device, kind, kernel_name);
   return LoadFlow(content, path, device, kind, kernel_name);
+} catch (const Error& error) {
+  if (std::string_view(error.what()).find(path.string()) != std::string_view::npos) throw;
+  throw Error(error.code(), path.string(), error.what());
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorCode::kResourceExhausted, path.string(), "there is no memory for it");
 }
 
 }  // namespace
@@ -288,7 +269,7 @@ std::vector<std::unique_ptr<StepEngine>> MakeEngines(const std::filesystem::path
   std::vector<std::unique_ptr<StepEngine>> engines;
   for (const Device& device : devices) {
     const auto [here, is_new] = loaded.try_emplace(device);
-    if (is_new) here->second = Naming(path, [&] { return Load(path, device, kind, kernels); });
+    if (is_new) here->second = Load(path, device, kind, kernels);
     engines.push_back(here->second(slots));
     CheckName(engines.back()->model().name, path);
   }

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/engine/devices.h"
-#include "model/engine/engine_kind.h"
+#include "model/engine/engine_choice.h"
 #include "model/engine/step_engine.h"
 
 /// Makes the engines that run the continuous flow and paper F's (model/flow), and paper C's network

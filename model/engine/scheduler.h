@@ -54,15 +54,13 @@ class StepJob {
   virtual bool Cancelled() const = 0;
 };
 
-/// Feeds engines, one worker thread each: ready jobs step together, earliest deadline first, with
-/// no added delay, and few are admitted between two steps, so that a crowd does not stop those who
-/// dance. A job goes to the engine with most free slots. Who waits is given a slot when one is
-/// left, or when somebody who has one has slept for `max_sleep`.
+/// Feeds engines, one worker thread each: ready jobs step together, earliest deadline first, and
+/// few are admitted between two steps, so that a crowd does not stop those who dance. Who waits is
+/// given a slot when one is left, or when somebody who has one has slept for `max_sleep`. Jobs of
+/// dances are never refused for want of room. Jobs of groups hold half of the slots at most (at
+/// least one); their frames are made where no frame of a dance is due.
 ///
-/// Jobs of dances were admitted elsewhere and are never refused for want of room. Jobs of groups
-/// are charged here and hold half of the slots at most (at least one); their frames are made where
-/// no frame of a dance is due. Submit and SubmitGroup never block. Thread-safe. A job is held from
-/// its submission until its OnDone has returned.
+/// Thread-safe; submitting never blocks. A job is held until its OnDone has returned.
 class Scheduler {
  public:
   struct Options {

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "model/engine/frame_cost.h"
+#include "model/engine/engine_cost.h"
 #include "model/engine/scheduler.h"
 
 /// The inside of Scheduler: scheduler.cpp is what callers see of it, scheduler_worker.cpp what its
@@ -129,7 +129,6 @@ struct Scheduler::Impl {
   void GatherBatch(Worker* worker);
   void StepBatch(Worker* worker);
   bool Admit(Worker* worker, Entry* entry);
-  static int AdmitToEngine(Worker* worker, const TransitionSpec& spec);
   void Leave(Worker* worker, Entry* entry, const Error* failure);
   static void FreeSlot(Worker* worker, Entry* entry);
 
@@ -137,7 +136,6 @@ struct Scheduler::Impl {
   static bool GoesFirst(const Entry* a, const Entry* b) {
     return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
   }
-  static double DeadlineOf(const StepJob& job);
   /// What it has to be compared with now. A group's frame is never overdue, a dance's is: so that
   /// is made first.
   static double DeadlineAt(const Entry& entry, Clock::time_point now);

@@ -11,12 +11,12 @@ double Seconds(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
 }
 
-}  // namespace
-
-double Scheduler::Impl::DeadlineOf(const StepJob& job) {
+double DeadlineOf(const StepJob& job) {
   const double deadline = job.NextDeadline();
   return std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline;
 }
+
+}  // namespace
 
 double Scheduler::Impl::DeadlineAt(const Entry& entry, Clock::time_point now) {
   const double deadline = DeadlineOf(*entry.job);

@@ -187,12 +187,15 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
 
 // Starts a job in the place that it was given; false if it is cancelled or refused, and has left.
 bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
+  bool in_engine = false;
   try {
     if (entry->job->Cancelled()) throw Error(ErrorCode::kCancelled, "", "cancelled");
     if (std::exchange(entry->restarts, false)) entry->job->OnRestart();
     const TransitionSpec& spec = entry->job->spec();
     const Clock::time_point begin = Clock::now();
-    entry->slot = AdmitToEngine(worker, spec);
+    in_engine = true;
+    entry->slot = worker->engine->Admit(spec);
+    in_engine = false;
     entry->moved_at = Clock::now();
     entry->admission_s = std::chrono::duration<double>(entry->moved_at - begin).count();
     entry->frames = 0;
@@ -203,21 +206,10 @@ bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
     return true;
   } catch (...) {
     const Error failure = CurrentError();
+    // A spec that is refused is its job's fault; anything else that goes wrong is the engine's.
+    if (in_engine && failure.code() == ErrorCode::kInternal) worker->failures.fetch_add(1);
     Leave(worker, entry, &failure);
     return false;
-  }
-}
-
-// A spec that is refused is its job's fault; anything else that goes wrong is the engine's.
-int Scheduler::Impl::AdmitToEngine(Worker* worker, const TransitionSpec& spec) {
-  try {
-    return worker->engine->Admit(spec);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::kInternal) worker->failures.fetch_add(1);
-    throw;
-  } catch (...) {
-    worker->failures.fetch_add(1);
-    throw;
   }
 }
 

@@ -37,10 +37,11 @@ class SlotEngine : public StepEngine {
   }
 
   void Step(std::span<const StepInput> in, std::span<StepOutput> out) final {
-    ValidateSteps(in, out.size(), slots(), info_, [this](int slot) {
-      const auto& transition = slots_[static_cast<size_t>(slot)];
-      return transition ? std::optional(transition->progress()) : std::nullopt;
-    });
+    if (in.size() != out.size()) {
+      throw InvalidArgument("out", std::to_string(out.size()) + " outputs for " +
+                                       std::to_string(in.size()) + " inputs");
+    }
+    for (const StepInput& input : in) ValidateStep(input, ProgressOf(input.slot), info_);
     StepSlots(in, out);
   }
 
@@ -59,6 +60,11 @@ class SlotEngine : public StepEngine {
 
  private:
   static constexpr auto kTaken = &std::optional<Transition>::has_value;
+
+  std::optional<SlotProgress> ProgressOf(int slot) const {
+    if (slot < 0 || slot >= slots() || !slots_[static_cast<size_t>(slot)]) return std::nullopt;
+    return slots_[static_cast<size_t>(slot)]->progress();
+  }
 
   ModelInfo info_;
   std::string device_;

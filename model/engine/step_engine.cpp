@@ -74,30 +74,22 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
   }
 }
 
-void ValidateSteps(std::span<const StepInput> in, size_t outputs, int slots, const ModelInfo& model,
-                   const std::function<std::optional<SlotProgress>(int slot)>& progress) {
-  if (in.size() != outputs) {
-    throw InvalidArgument(
-        "out", std::to_string(outputs) + " outputs for " + std::to_string(in.size()) + " inputs");
+void ValidateStep(const StepInput& input, const std::optional<SlotProgress>& progress,
+                  const ModelInfo& model) {
+  if (!progress) throw InvalidArgument("slot", std::to_string(input.slot) + " holds no transition");
+  if (progress->frame >= progress->frames) {
+    throw InvalidArgument("slot", std::to_string(input.slot) + " has made its " +
+                                      std::to_string(progress->frames) + " frames already");
   }
-  for (const StepInput& input : in) {
-    std::optional<SlotProgress> slot;
-    if (input.slot >= 0 && input.slot < slots) slot = progress(input.slot);
-    if (!slot) throw InvalidArgument("slot", std::to_string(input.slot) + " holds no transition");
-    if (slot->frame >= slot->frames) {
-      throw InvalidArgument("slot", std::to_string(input.slot) + " has made its " +
-                                        std::to_string(slot->frames) + " frames already");
-    }
-    if ((slot->frame > 0) != (input.previous != nullptr)) {
-      throw InvalidArgument("previous", slot->frame > 0 ? "is missing after the first frame"
-                                                        : "is given before the first frame");
-    }
-    if (input.previous != nullptr) CheckJoints(model.skeleton, *input.previous, "previous");
-    if (slot->hears && static_cast<int>(input.audio_row.size()) != model.audio_features) {
-      throw InvalidArgument("audio_row", std::to_string(input.audio_row.size()) +
-                                             " values, must be " +
-                                             std::to_string(model.audio_features));
-    }
+  if ((progress->frame > 0) != (input.previous != nullptr)) {
+    throw InvalidArgument("previous", progress->frame > 0 ? "is missing after the first frame"
+                                                          : "is given before the first frame");
+  }
+  if (input.previous != nullptr) CheckJoints(model.skeleton, *input.previous, "previous");
+  if (progress->hears && static_cast<int>(input.audio_row.size()) != model.audio_features) {
+    throw InvalidArgument("audio_row", std::to_string(input.audio_row.size()) +
+                                           " values, must be " +
+                                           std::to_string(model.audio_features));
   }
 }
 

@@ -3,13 +3,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "model/engine/frame_cost.h"
+#include "model/engine/engine_cost.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
@@ -80,10 +79,10 @@ struct TransitionSpec {
   /// unread. None: where the history ends.
   std::optional<Eigen::Vector3d> stage = {};
   bool has_audio = false;  ///< false: audio rows are ignored, the model dances without music
-  Eigen::MatrixXf
-      audio_history;  ///< [audio_features, tau] MFCC rows of the history's frames, oldest first
+  /// [audio_features, tau] MFCC rows of the history's frames, oldest first.
+  Eigen::MatrixXf audio_history;
   /// Where the music beats, in frames from frame 0, ascending; a dance without a path is timed to
-  /// it (plan/beat_timing.h). Empty: unknown.
+  /// it (plan/plan_stages.h). Empty: unknown.
   std::vector<double> beats;
   Controls controls;
   uint64_t seed = 0;
@@ -115,10 +114,10 @@ struct StepInput {
 
 struct StepOutput {
   Pose pose;  ///< canonical frame, as the model has it: arrival and post-processing come after
-  std::array<float, 4> contacts =
-      {};  ///< left ankle, left toes, right ankle, right toes; probability-like, [0, 1]
-  float log_likelihood =
-      0;  ///< of this frame, nats (model's standardised space, log-determinants included)
+  /// Left ankle, left toes, right ankle, right toes; probability-like, [0, 1].
+  std::array<float, 4> contacts = {};
+  /// Of this frame, nats (model's standardised space, log-determinants included).
+  float log_likelihood = 0;
 };
 
 /// How far a slot's transition is.
@@ -128,11 +127,10 @@ struct SlotProgress {
   bool hears = false;  ///< its model listens to the rows of its music
 };
 
-/// What StepEngine::Step checks before anything moves: throws Error(kInvalidArgument) unless there
-/// are `outputs` inputs, each of a slot that holds a transition and what its next frame needs.
-/// `progress` is asked of slots in [0, slots); none: it holds no transition.
-void ValidateSteps(std::span<const StepInput> in, size_t outputs, int slots, const ModelInfo& model,
-                   const std::function<std::optional<SlotProgress>(int slot)>& progress);
+/// Throws Error(kInvalidArgument) unless the input's slot holds a transition, which has made
+/// `progress`, and the input is what its next frame needs.
+void ValidateStep(const StepInput& input, const std::optional<SlotProgress>& progress,
+                  const ModelInfo& model);
 
 /// A network on one device with a fixed number of slots. Each slot holds one transition in
 /// progress. Not thread-safe: one worker owns an engine. A slot's outputs do not depend on which

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "model/audio/beats.h"
 #include "model/dance/quality_report.h"
-#include "model/evaluation/long_plans.h"
 #include "model/metrics/song_beats.h"
 
 namespace choreo {
@@ -29,8 +29,6 @@ BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>&
   return figures;
 }
 
-BeatTable::BeatTable(const ClipSet& set) : set_(set) {}
-
 void BeatTable::Add(const std::string& name, size_t clip, int start,
                     const std::vector<float>& speeds) {
   const auto frames = static_cast<int>(speeds.size()) + 1;
@@ -51,8 +49,10 @@ void BeatTable::Add(const std::string& name, size_t clip, int start,
   }
   entry.chance.hit_rate = others > 0 ? entry.chance.hit_rate / others : NAN;
   entry.chance.alignment = others > 0 ? entry.chance.alignment / others : NAN;
-  if (!entries_.contains(name)) names_.push_back(name);
-  entries_[name].push_back(entry);
+  auto row = std::ranges::find(rows_, name, &Row::name);
+  if (row == rows_.end())
+    row = rows_.insert(name == "real" ? rows_.begin() : rows_.end(), {name, {}});
+  row->entries.push_back(entry);
 }
 
 Table BeatTable::Finish() const {
@@ -66,45 +66,35 @@ Table BeatTable::Finish() const {
       "scored on the set's other songs. Alignment (AIST++): of the frames that are the slowest "
       "within 1/6 s on each side, sigma 0.05 s. Intervals over songs.";
   table.label_headings = {"dance"};
-  std::vector<std::string> names = names_;
-  std::ranges::stable_partition(names, [](const std::string& name) { return name == "real"; });
   double real_coverage = NAN;
   Plot plot{.title = "Beat hit rate, song by song, " + set_.name,
             .x_label = "song",
             .y_label = "% of kinematic beats",
             .series = {}};
   for (const PreparedClip& clip : set_.clips) plot.x_names.push_back(clip.name);
-  for (const std::string& name : names) {
-    const std::vector<Entry>& entries = entries_.at(name);
-    const auto mean = [&](auto figure) {
-      std::vector<ClipFigure> figures;
-      for (const Entry& entry : entries) figures.push_back({entry.clip, figure(entry)});
-      return Mean(figures);
+  for (const Row& row : rows_) {
+    const auto put = [&](const char* heading, int digits, auto figure) {
+      table.Put(heading, digits, Mean(row.entries, figure));
     };
-    const Cell coverage = mean([](const Entry& entry) { return entry.own.coverage; });
-    if (name == "real") real_coverage = coverage.value;
-    table.Begin({name});
-    table.Put("dances", 0, static_cast<double>(entries.size()));
-    table.Put("hit rate %", 1, mean([](const Entry& one) { return 100 * one.own.hit_rate; }));
-    table.Put("chance %", 1, mean([](const Entry& one) { return 100 * one.chance.hit_rate; }));
-    table.Put("above chance", 1, mean([](const Entry& one) {
-                return 100 * (one.own.hit_rate - one.chance.hit_rate);
-              }));
-    table.Put("coverage", 2, coverage);
-    table.Put("coverage / real's", 2, coverage.value / real_coverage);
-    table.Put("alignment", 3, mean([](const Entry& one) { return one.own.alignment; }));
-    table.Put("its chance", 3, mean([](const Entry& one) { return one.chance.alignment; }));
-    PlotSeries own{.label = name, .x = {}, .y = {}};
-    for (size_t clip = 0; clip < set_.clips.size(); ++clip) {
-      double sum = 0, count = 0;
-      for (const Entry& entry : entries) {
-        if (entry.clip != clip) continue;
-        sum += 100 * entry.own.hit_rate;
-        ++count;
-      }
-      if (count == 0) continue;
-      own.x.push_back(static_cast<double>(clip));
-      own.y.push_back(sum / count);
+    table.Begin({row.name});
+    table.Put("dances", 0, static_cast<double>(row.entries.size()));
+    const auto hit_rate = [](const Entry& one) { return 100 * one.own.hit_rate; };
+    put("hit rate %", 1, hit_rate);
+    put("chance %", 1, [](const auto& one) { return 100 * one.chance.hit_rate; });
+    put("above chance", 1,
+        [](const auto& one) { return 100 * (one.own.hit_rate - one.chance.hit_rate); });
+    put("coverage", 2, [](const auto& one) { return one.own.coverage; });
+    const double coverage = table.rows.back().cells.back().value;
+    if (row.name == "real") real_coverage = coverage;
+    table.Put("coverage / real's", 2, coverage / real_coverage);
+    put("alignment", 3, [](const auto& one) { return one.own.alignment; });
+    put("its chance", 3, [](const auto& one) { return one.chance.alignment; });
+    PlotSeries own{.label = row.name, .x = {}, .y = {}};
+    std::map<size_t, std::vector<ClipFigure>> songs;
+    for (const ClipFigure& hit : FiguresOf(row.entries, hit_rate)) songs[hit.clip].push_back(hit);
+    for (const auto& [song, hits] : songs) {
+      own.x.push_back(static_cast<double>(song));
+      own.y.push_back(Mean(hits).value);
     }
     plot.series.push_back(own);
   }

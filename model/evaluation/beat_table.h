@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +24,7 @@ BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>&
 class BeatTable {
  public:
   /// The set outlives the table.
-  explicit BeatTable(const ClipSet& set);
+  explicit BeatTable(const ClipSet& set) : set_(set) {}
 
   /// A dance of the row `name` beside frames `start` on of a clip; mean joint speeds step by step.
   /// Those of a clip without beats do not count.
@@ -39,9 +38,12 @@ class BeatTable {
     size_t clip;
     BeatFigures own, chance;
   };
+  struct Row {
+    std::string name;
+    std::vector<Entry> entries;
+  };
   const ClipSet& set_;
-  std::vector<std::string> names_;
-  std::map<std::string, std::vector<Entry>> entries_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace choreo

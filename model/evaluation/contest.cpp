@@ -1,6 +1,7 @@
 #include "model/evaluation/contest.h"
 
 #include <algorithm>
+#include <set>
 
 #include "model/core/error.h"
 #include "model/engine/engines.h"
@@ -20,19 +21,17 @@ struct Other {
 };
 
 std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std::string& judged) {
-  std::vector<std::string> taken = {kFree, "real", "interpolation", kLockedLine};
-  if (std::ranges::find(taken, judged) != taken.end())
+  std::set<std::string> taken = {kFree, "real", "interpolation", kLockedLine};
+  if (!taken.insert(judged).second)
     throw InvalidArgument("--name", "'" + judged + "': another row is called so");
-  taken.push_back(judged);
   std::vector<Other> others;
   for (const std::string& text : texts) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw InvalidArgument("--other", "'" + text + "' is not NAME=CHECKPOINT");
     const std::string name = text.substr(0, equals);
-    if (std::ranges::find(taken, name) != taken.end())
+    if (!taken.insert(name).second)
       throw InvalidArgument("--other", "'" + text + "': another row is called '" + name + "'");
-    taken.push_back(name);
     others.push_back({name, text.substr(equals + 1)});
   }
   return others;
@@ -60,16 +59,15 @@ Contest MakeContest(const ContestOptions& options) {
   StepEngine* judged = add(MakeEngine(options.model, Device{}, kSlots, kind));
   const ModelInfo& model = judged->model();
   contest.stepped_by = EngineOf(model, kind);
-  const auto wants = [&](const char* name) {
-    return std::ranges::find(options.baselines, name) != options.baselines.end();
-  };
-  if (wants("real")) contest.methods.push_back({"real", Kind::kReal});
-  if (wants("interpolation")) {
+  const std::set<std::string> wanted(options.baselines.begin(), options.baselines.end());
+  if (wanted.contains("real")) contest.methods.push_back({"real", Kind::kReal});
+  if (wanted.contains("interpolation")) {
     contest.methods.push_back({"interpolation", Kind::kInterpolation});
     contest.methods.push_back({kLockedLine, Kind::kEngine,
                                add(std::make_unique<InterpolationEngine>(model)), true, false});
   }
-  if (wants("music_only")) contest.methods.push_back({kFree, Kind::kEngine, judged, false});
+  if (wanted.contains("music_only"))
+    contest.methods.push_back({kFree, Kind::kEngine, judged, false});
   for (const Other& other : others) {
     StepEngine* engine = add(MakeEngine(other.checkpoint, Device{}, kSlots, kind));
     if (!(engine->model().skeleton == model.skeleton)) {
@@ -103,7 +101,7 @@ std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
   const std::vector<std::string> names = SetNames(folders);
   std::vector<ClipSet> sets;
   for (size_t i = 0; i < folders.size(); ++i) {
-    sets.push_back({names[i], LoadClips({folders[i]}, splits, {split})});
+    sets.push_back({names[i], LoadClips({folders[i]}, splits, split)});
     for (const PreparedClip& clip : sets.back().clips)
       sets.back().beats.push_back(SongBeats(clip.audio, clip.motion.fps));
     const Skeleton& theirs = sets.back().clips.front().skeleton;

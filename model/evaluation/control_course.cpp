@@ -48,10 +48,9 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
     : evaluation_(evaluation), model_(evaluation.model()), frames_(frames) {
   for (const EvalWindow& window : ChooseWindows(evaluation.set, model_.history_frames, frames,
                                                 evaluation.options.windows_per_clip)) {
-    std::vector<Pose> poses = RealPoses(evaluation.set, window, frames, 1);
     ControlledWindow one{window};
-    one.before = poses.front();
-    one.real.assign(poses.begin() + 1, poses.end());
+    one.before = RealPoses(evaluation.set, window, 0, 1).front();
+    one.real = RealPoses(evaluation.set, window, frames, 0);
     one.key = one.real.back();
     one.path.resize(3, frames);
     for (int t = 0; t < frames; ++t) one.path.col(t) = one.real[t].root_position;
@@ -88,22 +87,18 @@ void ControlCourse::AskConstant(const std::array<float, kBodyParts>& speeds) {
   }
 }
 
-std::vector<Pose> ControlCourse::Interpolated(const ControlledWindow& window) const {
-  std::vector<Pose> poses;
-  for (int t = 0; t < frames_; ++t) {
-    Pose pose = InterpolatePoses(window.before, window.key, (t + 1.0) / frames_);
-    pose.root_position = window.path.col(t);
-    poses.push_back(std::move(pose));
-  }
-  return poses;
-}
-
 Dances ControlCourse::Dance(const Method& way, double scale) const {
   Dances dances;
   if (!way.Lasts(frames_)) return dances;
   if (way.kind != Method::Kind::kEngine) {
-    for (const ControlledWindow& window : windows_)
-      dances.push_back(way.kind == Method::Kind::kReal ? window.real : Interpolated(window));
+    for (const ControlledWindow& window : windows_) {
+      std::vector<Pose>& poses = dances.emplace_back(window.real);
+      if (way.kind == Method::Kind::kReal) continue;
+      for (int t = 0; t < frames_; ++t) {
+        poses[t] = InterpolatePoses(window.before, window.key, (t + 1.0) / frames_);
+        poses[t].root_position = window.path.col(t);
+      }
+    }
     return dances;
   }
   std::vector<TransitionInput> inputs;

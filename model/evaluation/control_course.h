@@ -7,16 +7,13 @@
 
 #include "model/dance/root_path.h"
 #include "model/evaluation/evaluation.h"
-#include "model/motion/velocity_factors.h"
+#include "model/metrics/control_figures.h"
 
 namespace choreo {
 
 /// Who answers requests with controls: real motion, interpolation along the path, and each engine
 /// of `methods`: the network alone, if there is one, and as served; without keys, as served.
 std::vector<Method> WaysOf(const std::vector<Method>& methods);
-
-/// [kBodyParts, frames] metres a frame.
-using FactorTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
 
 /// Factors of each of `danced`, which follows on `before`.
 FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
@@ -35,15 +32,10 @@ struct ControlledWindow : EvalWindow {
   FactorTrack factors = {};  ///< no columns: none are asked for
 };
 
-/// One dance a window.
-using Dances = std::vector<std::vector<Pose>>;
-
 /// The windows of one length, danced by anyone. The evaluation must outlive it.
 class ControlCourse {
  public:
   ControlCourse(const Evaluation& evaluation, int frames);
-
-  const std::vector<ControlledWindow>& windows() const { return windows_; }
 
   /// Asks for a path that nobody danced, as the service leads over it, and for no factors. `draw`
   /// may move the key, and gives points of frames counted from the transition's first.
@@ -53,20 +45,16 @@ class ControlCourse {
   /// Asks for the same speeds in every frame, metres a frame, instead of the real dance's.
   void AskConstant(const std::array<float, kBodyParts>& speeds);
 
-  /// With what is asked: real path and factors unless they were drawn anew; `scale` times the
-  /// factors where the way takes any. None of a way that can't dance as long.
+  /// One dance a window, with what is asked: real path and factors unless they were drawn anew;
+  /// `scale` times the factors where the way takes any. None of a way that can't dance as long.
   Dances Dance(const Method& way, double scale = 1) const;
 
-  /// A figure of each window, and its mean over windows.
+  /// A figure of each window.
   using Figure = std::function<double(const ControlledWindow&, const std::vector<Pose>& danced)>;
   std::vector<ClipFigure> FiguresOf(const Dances& dances, const Figure& figure) const;
-  Cell MeanOf(const Dances& dances, const Figure& figure) const {
-    return Mean(FiguresOf(dances, figure));
-  }
 
  private:
   TransitionInput InputFor(size_t window) const;
-  std::vector<Pose> Interpolated(const ControlledWindow& window) const;
 
   const Evaluation& evaluation_;
   const ModelInfo& model_;

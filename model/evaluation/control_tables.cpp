@@ -48,14 +48,12 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
       const Dances dances = course.Dance(way, scale);
       table.Begin({way.name, times});
       for (int part = 0; part < kBodyParts; ++part) {
-        const auto danced = course.FiguresOf(dances, [&](const ControlledWindow& window,
-                                                         const std::vector<Pose>& poses) {
+        const auto danced = course.FiguresOf(dances, [&](const auto& window, const auto& poses) {
           return FactorTrackOf(evaluation.model().skeleton, window.before, poses).row(part).mean();
         });
-        const auto unit =
-            course.FiguresOf(dances, [&](const ControlledWindow& window, const std::vector<Pose>&) {
-              return window.factors.row(part).mean();
-            });
+        const auto unit = course.FiguresOf(dances, [&](const auto& window, const auto&) {
+          return window.factors.row(part).mean();
+        });
         table.Put(std::string(kBodyPartNames[part]), 2, Ratio(danced, unit));
       }
     }
@@ -79,7 +77,6 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
     courses.emplace_back(evaluation, frames);
     for (size_t w = 0; w < ways.size(); ++w) dances[w].push_back(courses.back().Dance(ways[w]));
   }
-  using Danced = const std::vector<Pose>&;
   std::vector<Table> tables;
   // Returns the figures of all ways.
   const auto add = [&](const char* name, const char* title, const std::string& note, int digits,
@@ -101,7 +98,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   const std::vector<Lengths> lrp =
       add("lrp", "LRP, cm",
           "Paper C, Table 2: distance of root-relative positions of postures that face +Z.", 1,
-          true, [&](const ControlledWindow& window, Danced danced) {
+          true, [&](const auto& window, const auto& danced) {
             return 100 * RootRelativeDistance(FacingTrack(skeleton, danced),
                                               FacingTrack(skeleton, window.real));
           });
@@ -114,26 +111,26 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
       ratio.Put(std::to_string(kLengths[i]), 2, Ratio(lrp[w][i], lrp[kInterpolation][i]));
   }
   add("lrp_turned", "LRP in the scene's axes, cm", "As LRP, but a wrong heading counts too.", 1,
-      false, [&](const ControlledWindow& window, Danced danced) {
+      false, [&](const auto& window, const auto& danced) {
         return 100 * RootRelativeDistance(TrackJoints(skeleton, danced),
                                           TrackJoints(skeleton, window.real));
       });
   add("avf", "AVF", "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, true,
-      [&](const ControlledWindow& window, Danced danced) {
+      [&](const auto& window, const auto& danced) {
         const auto factors = FactorTrackOf(skeleton, window.before, danced);
         return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
       });
   add("art", "ART", "Paper C, Table 4: share whose root keeps within 7 cm.", 2, true,
-      [&](const ControlledWindow& window, Danced danced) {
+      [&](const auto& window, const auto& danced) {
         const double off = RootDeviation(TrackJoints(skeleton, danced), window.path);
         return off < kRootTolerance ? 1.0 : 0.0;
       });
   add("control_skate", "Skating ratio", "Share of the steps in which a foot skates.", 3, false,
-      [&](const ControlledWindow& window, Danced danced) {
+      [&](const auto& window, const auto& danced) {
         return SkateRatioOf(skeleton, model.fps, window.before, danced);
       });
   add("tremor", "Trembling", "Share of the joints' movement from the root above 4 Hz.", 2, false,
-      [&](const ControlledWindow&, Danced danced) {
+      [&](const auto&, const auto& danced) {
         return TremorShare(TrackJoints(skeleton, danced), model.fps);
       });
   return tables;
@@ -174,10 +171,10 @@ std::vector<Table> EvaluateRepetition(const Evaluation& evaluation) {
       const int frames = kLongLengths[i], ending = static_cast<int>((1 - kEnding) * frames);
       const Dances dances = courses[i].Dance(way);
       const auto put = [&](const std::string& what, double Repetition::*figure, int from) {
-        const auto share = [&](const ControlledWindow&, const std::vector<Pose>& danced) {
+        const auto shares = courses[i].FiguresOf(dances, [&](const auto&, const auto& danced) {
           return MeasureRepetition(model.skeleton, danced, model.fps, from).*figure;
-        };
-        table.Put(what + ", " + std::to_string(frames), 3, courses[i].MeanOf(dances, share));
+        });
+        table.Put(what + ", " + std::to_string(frames), 3, Mean(shares));
       };
       put("repeated", &Repetition::repeated, 0);
       put("still at the end", &Repetition::frozen, ending);

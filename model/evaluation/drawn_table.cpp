@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "model/evaluation/control_course.h"
@@ -12,7 +11,7 @@ namespace choreo {
 namespace {
 
 constexpr int kFrames = 90;
-constexpr double kAside = 1;  // metres beside the straight way, in its middle
+constexpr int kAside = 1;  // metres beside the straight way, in its middle
 
 enum class Drawing { kDanced, kStraight, kOnTheSpot, kBow };
 
@@ -57,13 +56,11 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   if (!model.root_path) return {};
   Table table = evaluation.NewTable("drawn", "Drawn paths", {"path", "method"});
-  char note[256];
-  std::snprintf(note, sizeof(note),
-                "%d frames between real poses on paths that nobody danced, no velocity factors "
-                "asked for. On the spot: the key stands where the dancer does. A bow: %.0f m to "
-                "the dancer's left in the middle. Of the key's joints the worst.",
-                kFrames, kAside);
-  table.note = note;
+  table.note = std::to_string(kFrames) +
+               " frames between real poses on paths that nobody danced, no velocity factors asked "
+               "for. On the spot: the key stands where the dancer does. A bow: " +
+               std::to_string(kAside) +
+               " m to the dancer's left in the middle. Of the key's joints the worst.";
   const Skeleton& skeleton = model.skeleton;
   for (const auto& [name, shape] : kPaths) {
     ControlCourse course(evaluation, kFrames);
@@ -73,23 +70,22 @@ std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
       if (!way.TakesPath() || !way.keys) continue;
       if (way.kind == Method::Kind::kReal && shape != Drawing::kDanced) continue;
       const Dances dances = course.Dance(way);
-      using Danced = const std::vector<Pose>&;
       const auto put = [&](const char* heading, int digits, const ControlCourse::Figure& figure) {
-        table.Put(heading, digits, course.MeanOf(dances, figure));
+        table.Put(heading, digits, Mean(course.FiguresOf(dances, figure)));
       };
       table.Begin({name, way.name});
       put("root asked m/s", 2,
-          [&](const ControlledWindow& window, Danced) { return PathSpeed(window, model.fps); });
-      put("skating", 2, [&](const ControlledWindow& window, Danced danced) {
+          [&](const auto& window, const auto&) { return PathSpeed(window, model.fps); });
+      put("skating", 2, [&](const auto& window, const auto& danced) {
         return SkateRatioOf(skeleton, model.fps, window.before, danced);
       });
-      put("root off path mean cm", 1, [&](const ControlledWindow& window, Danced danced) {
+      put("root off path mean cm", 1, [&](const auto& window, const auto& danced) {
         return 100 * RootDeviation(TrackJoints(skeleton, danced), window.path);
       });
-      put("key missed cm", 2, [&](const ControlledWindow& window, Danced danced) {
+      put("key missed cm", 2, [&](const auto& window, const auto& danced) {
         return 100 * ComparePoses(skeleton, danced.back(), window.key).position_m;
       });
-      put("a joint off degrees", 1, [&](const ControlledWindow& window, Danced danced) {
+      put("a joint off degrees", 1, [&](const auto& window, const auto& danced) {
         return ComparePoses(skeleton, danced.back(), window.key).angle_deg;
       });
     }

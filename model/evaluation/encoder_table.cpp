@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "model/evaluation/long_plans.h"
 #include "model/evaluation/motion_encoder.h"
@@ -8,16 +10,16 @@
 namespace choreo {
 namespace {
 
-constexpr int kBlock = 150;   // frames
-constexpr int kInputs = 8;    // of variability and diversity
-constexpr int kSamples = 15;  // of an input, as in the paper
-constexpr int kFrames = 300;  // of each dance, at most
+constexpr int kBlock = 150;       // frames
+constexpr int kInputs = 8;        // of variability and diversity
+constexpr int kSamples = 15;      // of an input, as in the paper
+constexpr int kMostFrames = 300;  // of each dance, at most
 
 // Inputs one after another, the samples of each together.
 std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) {
   const KeyTimes times = method.keys ? KeyTimes::kEachTwoSeconds : KeyTimes::kNone;
   EvalOptions brief = evaluation.options;
-  brief.long_frames = std::min(brief.long_frames, kFrames);
+  brief.long_frames = std::min(brief.long_frames, kMostFrames);
   std::vector<LongPlan> plans;
   for (const LongPlan& input :
        PlanLongDances(method.engine->model(), evaluation.set, times, kInputs, brief)) {
@@ -27,32 +29,6 @@ std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) 
     }
   }
   return plans;
-}
-
-void AddRow(const Method& method, Cell distance, Cell variability, Cell diversity, Table* table) {
-  table->Begin({method.name});
-  table->Put("FID", 2, distance);
-  table->Put("variability", 2, variability);
-  table->Put("diversity", 1, diversity);
-}
-
-void AddDances(const Method& method, const std::vector<LongPlan>& plans,
-               const std::vector<LongDance>& chains, const MotionEncoder& encoder,
-               const Eigen::MatrixXd& reference, Table* table) {
-  std::vector<Eigen::MatrixXd> codes;
-  for (const LongDance& chain : chains)
-    codes.push_back(encoder.Encode(method.engine->model().skeleton, chain.poses));
-  double variability = 0;
-  std::vector<Eigen::MatrixXd> firsts;
-  const size_t inputs = plans.size() / kSamples;
-  for (size_t input = 0; input < inputs; ++input) {
-    const auto first = codes.begin() + static_cast<std::ptrdiff_t>(input * kSamples);
-    variability += MeanApart({first, first + kSamples}) / inputs;
-    firsts.push_back(*first);
-  }
-  const Eigen::MatrixXd all = SideBySide(codes);
-  AddRow(method, all.cols() > 1 ? FrechetDistance(all, reference) : NAN, variability,
-         MeanApart(firsts), table);
 }
 
 }  // namespace
@@ -78,14 +54,28 @@ std::vector<Table> EvaluateEncoded(const Evaluation& evaluation) {
                "keys; units: standard deviations of training motion's codes, squared. FID to every "
                "other 5 s of the real clips, whose remaining seconds are the row of real motion.";
   if (reference.cols() < 2) return {table};
+  const auto add = [&](const Method& method, const std::vector<Eigen::MatrixXd>& codes,
+                       Cell variability, double diversity) {
+    const Eigen::MatrixXd all = SideBySide(codes);
+    table.Begin({method.name});
+    table.Put("FID", 2, all.cols() > 1 ? FrechetDistance(all, reference) : NAN);
+    table.Put("variability", 2, variability);
+    table.Put("diversity", 1, diversity);
+  };
   for (const Method& method : evaluation.methods) {
-    if (method.kind == Method::Kind::kReal && !odd.empty()) {
-      AddRow(method, FrechetDistance(SideBySide(odd), reference), {}, MeanApart(odd), &table);
-    }
+    if (method.kind == Method::Kind::kReal && !odd.empty()) add(method, odd, {}, MeanApart(odd));
     if (method.kind != Method::Kind::kEngine) continue;
     const std::vector<LongPlan> plans = Plans(evaluation, method);
-    const std::vector<LongDance> danced = evaluation.runner.DanceLong(*method.engine, plans);
-    AddDances(method, plans, danced, encoder, reference, &table);
+    std::vector<Eigen::MatrixXd> codes, firsts;
+    for (const LongDance& dance : evaluation.runner.DanceLong(*method.engine, plans))
+      codes.push_back(encoder.Encode(method.engine->model().skeleton, dance.poses));
+    const size_t inputs = plans.size() / kSamples;
+    double variability = 0;
+    for (auto first = codes.begin(); first != codes.end(); first += kSamples) {
+      variability += MeanApart({first, first + kSamples}) / inputs;
+      firsts.push_back(*first);
+    }
+    add(method, codes, variability, MeanApart(firsts));
   }
   return {table};
 }

@@ -3,13 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "model/core/error.h"
-#include "model/engine/engine_kind.h"
+#include "model/core/progress.h"
+#include "model/engine/engine_choice.h"
 #include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
 #include "model/evaluation/motion_encoder.h"
@@ -20,24 +21,15 @@ namespace {
 
 using Evaluate = std::vector<Table> (*)(const Evaluation&);
 
-enum class Scope { kAll, kControls, kPaperControls, kLiveliness };
-
 // In the order in which they are told.
-std::vector<Evaluate> TablesOf(Scope scope) {
-  switch (scope) {
-    case Scope::kPaperControls:
-      return {EvaluateControls};
-    case Scope::kControls:
-      return {EvaluateControls, EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths};
-    case Scope::kLiveliness:
-      return {EvaluateLiveliness, EvaluateStyles, EvaluateNearness};
-    case Scope::kAll:
-      break;
-  }
-  return {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths,
-          EvaluateLiveliness, EvaluateStyles,      EvaluateNearness,   EvaluateTransitions,
-          EvaluateLongDances, EvaluateEncoded,     EvaluateStress};
-}
+constexpr Evaluate kPaperControls[] = {EvaluateControls};
+constexpr Evaluate kControls[] = {EvaluateControls, EvaluateMultipliers, EvaluateRepetition,
+                                  EvaluateDrawnPaths};
+constexpr Evaluate kLiveliness[] = {EvaluateLiveliness, EvaluateStyles, EvaluateNearness};
+constexpr Evaluate kAll[] = {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition,
+                             EvaluateDrawnPaths, EvaluateLiveliness,  EvaluateStyles,
+                             EvaluateNearness,   EvaluateTransitions, EvaluateLongDances,
+                             EvaluateEncoded,    EvaluateStress};
 
 struct Arguments {
   ContestOptions contest;
@@ -47,23 +39,20 @@ struct Arguments {
   std::filesystem::path json;
   EvalOptions options;
   float temperature = -1;
-  Scope scope = Scope::kAll;
+  std::span<const Evaluate> tables = kAll;
+  bool controls = false;  // tables of controls alone, whose lengths are their own
   bool encode = true, sheets = false;
-
-  // Their lengths are their own.
-  bool controls() const { return scope == Scope::kControls || scope == Scope::kPaperControls; }
 };
-
-// Beside the progress on stderr.
-void Warn(const std::string& what) { std::fprintf(stderr, "choreo-lab: %s\n", what.c_str()); }
 
 void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
                         const std::vector<int>& lengths) {
   for (const ClipSet& set : sets) {
     for (const int frames : lengths) {
       if (!ChooseWindows(set, history, frames, 1).empty()) continue;
-      Warn("--lengths: no clip of " + set.name + " has " + std::to_string(frames) +
-           " frames behind a history of " + std::to_string(history) + ", so there are no rows");
+      std::fprintf(stderr,
+                   "choreo-lab: --lengths: no clip of %s has %d frames behind a history of %d, so "
+                   "there are no rows\n",
+                   set.name.c_str(), frames, history);
     }
   }
 }
@@ -106,10 +95,10 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
   ProgressBar progress("evaluating", 0);
   for (size_t i = 0; i < sets.size(); ++i) {
     const ClipSet& set = sets[i];
-    const Runner runner(&progress, "frames, " + set.name);
+    const Runner runner([&](int frames) { progress.Advance(frames, "frames, " + set.name); });
     const Evaluation evaluation{set,    contest.methods, arguments.options,
                                 runner, encoder,         training.empty() ? nullptr : &training[i]};
-    for (const Evaluate evaluate : TablesOf(arguments.scope))
+    for (const Evaluate evaluate : arguments.tables)
       std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
   }
   progress.Finish();
@@ -119,19 +108,6 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
   return tables;
 }
 
-void DrawSheets(const Arguments& arguments, const Contest& contest,
-                const std::vector<ClipSet>& sets) {
-  for (const ClipSet& set : sets) {
-    const auto png = [&](const std::string& clip) {
-      return PictureBeside(arguments.json, "pair_" + set.name + "_" + clip);
-    };
-    const std::string answers =
-        DrawPairedSheets(set, contest.methods.back(), arguments.options.temperature, png);
-    std::ofstream(PictureBeside(arguments.json, "pair_" + set.name).replace_extension(".txt"))
-        << answers;
-  }
-}
-
 void EvaluateAll(Arguments arguments) {
   // What can be refused is refused before the long work.
   SetNames(arguments.data);
@@ -139,18 +115,20 @@ void EvaluateAll(Arguments arguments) {
   const Contest contest = MakeContest(arguments.contest);
   const ModelInfo& model = contest.judged().model();
   EvalOptions& options = arguments.options;
-  if (arguments.controls() && !model.root_path)
+  if (arguments.controls && !model.root_path)
     throw InvalidArgument("--controls", model.name + " takes none");
-  if (!arguments.controls()) CheckLengths(contest.methods, options.lengths);
+  if (!arguments.controls) CheckLengths(contest.methods, options.lengths);
   options.temperature = arguments.temperature >= 0 ? arguments.temperature
                                                    : static_cast<float>(model.default_temperature);
   const auto sets = LoadSets(arguments.data, arguments.splits, arguments.split, model.skeleton);
-  if (!arguments.controls()) WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
   std::vector<ClipSet> training;
-  if (!arguments.controls())
+  if (!arguments.controls) {
+    WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
     training = LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton);
+  }
   std::optional<MotionEncoder> encoder;
-  if (arguments.encode && arguments.scope == Scope::kAll) encoder = MotionEncoder::Train(training);
+  if (arguments.encode && std::ranges::count(arguments.tables, &EvaluateEncoded) > 0)
+    encoder.emplace(training);
   const std::vector<Table> tables =
       MakeTables(sets, contest, encoder ? &*encoder : nullptr, training, arguments);
   const std::string summary = Summary(arguments, contest);
@@ -165,7 +143,9 @@ void EvaluateAll(Arguments arguments) {
                {"engine", contest.stepped_by},
                {"summary", summary}},
               tables);
-  if (arguments.sheets) DrawSheets(arguments, contest, sets);
+  if (!arguments.sheets) return;
+  for (const ClipSet& set : sets)
+    DrawPairedSheets(set, contest.methods.back(), options.temperature, arguments.json);
 }
 
 }  // namespace
@@ -198,14 +178,16 @@ void AddEvalCommand(CLI::App& app) {
       ->add_option_function<std::string>(
           "--controls",
           [arguments](const std::string& which) {
-            arguments->scope = which == "all" ? Scope::kControls : Scope::kPaperControls;
+            arguments->controls = true;
+            arguments->tables = kPaperControls;
+            if (which == "all") arguments->tables = kControls;
           },
           "all | paper: only the tables of controls, or of those paper C's alone; they have "
           "lengths of their own")
       ->check(CLI::IsMember({"all", "paper"}));
   command
       ->add_flag_callback(
-          "--liveliness", [arguments] { arguments->scope = Scope::kLiveliness; },
+          "--liveliness", [arguments] { arguments->tables = kLiveliness; },
           "Only the tables that tell whether the dance lives")
       ->excludes("--controls");
   command

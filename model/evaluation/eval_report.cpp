@@ -13,8 +13,7 @@ namespace choreo {
 std::filesystem::path PictureBeside(const std::filesystem::path& json, std::string name) {
   std::ranges::replace_if(
       name, [](char c) { return c == ' ' || c == ',' || c == '/'; }, '_');
-  std::filesystem::path png = json;
-  return png.replace_filename(json.stem().string() + "_" + name + ".png");
+  return std::filesystem::path(json).replace_filename(json.stem().string() + "_" + name + ".png");
 }
 
 void CheckReportPath(const std::filesystem::path& json) {

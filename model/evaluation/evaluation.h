@@ -39,7 +39,7 @@ struct Method {
   void Restrict(TransitionRequest* request) const {
     if (!keys) request->target.reset();
     if (finished) return;
-    request->arrival.frames = 0;
+    request->arrival_frames = 0;
     request->foot_lock = false;
   }
 };

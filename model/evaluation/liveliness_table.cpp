@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 
 #include "model/evaluation/evaluation.h"
 #include "model/evaluation/lively_figures.h"
@@ -7,7 +9,8 @@
 #include "model/evaluation/long_plans.h"
 #include "model/evaluation/transition_judge.h"
 #include "model/metrics/critic.h"
-#include "model/metrics/groove.h"
+#include "model/metrics/pose_distance.h"
+#include "model/metrics/speed_spectrum.h"
 
 namespace choreo {
 namespace {
@@ -29,8 +32,8 @@ constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, tru
 // All that is danced through keys, and what was really danced there.
 struct KeyedDances {
   LivelyDances real, locked;
-  std::vector<LivelyDances> seeds;  // [kSeeds]
-  std::vector<LivelyDances> songs;  // one each of kSongs, seed 0
+  std::vector<LivelyDances> seeds = std::vector<LivelyDances>(kSeeds);
+  std::vector<LivelyDances> songs = std::vector<LivelyDances>(std::size(kSongs));  // seed 0
 };
 
 void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio, Table* table) {
@@ -45,16 +48,6 @@ void AddReal(const std::string& figure, double real, Table* table) {
 }
 void AddDanced(const std::string& figure, Cell danced, Table* table) {
   Add(figure, {}, {}, danced, {}, table);
-}
-
-std::vector<LivelyDances> Measure(const ModelInfo& model, const std::vector<LongPlan>& plans,
-                                  const std::vector<LongDance>& chains, size_t repeats) {
-  std::vector<LivelyDances> all(repeats);
-  for (size_t i = 0; i < chains.size(); ++i) {
-    const size_t repeat = i / (chains.size() / repeats);
-    all[repeat].push_back(MeasureLiveliness(model, plans[i], chains[i].poses));
-  }
-  return all;
 }
 
 KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
@@ -75,16 +68,17 @@ KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
   }
   for (const Song& song : kSongs) {
     for (LongPlan plan : plans) {
-      const int frames = plan.frames;
-      plan.beats = song.shuffled ? ShuffledBeats(song.bpm, plan.clip, model.fps, frames)
-                                 : RegularBeats(song.bpm, song.phase, model.fps, frames);
+      plan.beats = song.shuffled ? ShuffledBeats(song.bpm, plan.clip, model.fps, plan.frames)
+                                 : RegularBeats(song.bpm, song.phase, model.fps, plan.frames);
       all.push_back(std::move(plan));
     }
   }
   const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.engine, all);
-  dances.seeds = Measure(model, all, chains, kSeeds + std::size(kSongs));
-  dances.songs.assign(dances.seeds.begin() + kSeeds, dances.seeds.end());
-  dances.seeds.resize(kSeeds);
+  for (size_t i = 0; i < all.size(); ++i) {
+    const size_t repeat = i / plans.size();
+    LivelyDances& of = repeat < kSeeds ? dances.seeds[repeat] : dances.songs[repeat - kSeeds];
+    of.push_back(MeasureLiveliness(model, all[i], chains[i].poses));
+  }
   return dances;
 }
 
@@ -99,7 +93,7 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   const LivelyDances danced = Flat(dances.seeds);
   const LivelyDances real = Flat(std::vector<LivelyDances>(kSeeds, dances.real));
   const auto add = [&](const std::string& name, double LivelyFigures::*figure, double unit) {
-    const auto mean = [&](const LivelyDances& some) { return Mean(FiguresOf(some, figure, unit)); };
+    const auto mean = [&](const LivelyDances& some) { return Mean(some, figure, unit); };
     Add(name, mean(dances.real), mean(dances.locked), mean(danced),
         Ratio(FiguresOf(danced, figure), FiguresOf(real, figure)), table);
   };
@@ -110,15 +104,13 @@ void AddMovement(const KeyedDances& dances, Table* table) {
     within.push_back({danced[i].clip, ratio >= kSlowest && ratio <= kFastest ? 100.0 : 0.0});
   }
   Add("dances at 0.7 to 1.4 of it %", 100, {}, Mean(within), {}, table);
+  const auto path = [](const LivelyFigures& one) { return one.limbs.path; };
+  const auto chord = [](const LivelyFigures& one) { return one.limbs.chord; };
   const auto wandering = [&](const LivelyDances& some) {
-    return Ratio(FiguresOf(some, &LivelyFigures::limb_path),
-                 FiguresOf(some, &LivelyFigures::limb_chord));
+    return Ratio(FiguresOf(some, path), FiguresOf(some, chord));
   };
   Add("limbs' path over chord m/m", wandering(dances.real), wandering(dances.locked),
-      wandering(danced),
-      Ratio(FiguresOf(danced, &LivelyFigures::limb_path),
-            FiguresOf(real, &LivelyFigures::limb_path)),
-      table);
+      wandering(danced), Ratio(FiguresOf(danced, path), FiguresOf(real, path)), table);
   add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
   add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
   add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
@@ -128,20 +120,24 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   add("kinematic beats a minute", &LivelyFigures::kinematic_beats, 1);
 }
 
+// Mean distance of all joints between the same frames of two dances of each plan, cm.
+std::vector<ClipFigure> DistancesCm(const LivelyDances& a, const LivelyDances& b) {
+  std::vector<ClipFigure> figures;
+  for (size_t i = 0; i < a.size(); ++i)
+    figures.push_back({a[i].clip, 100 * L2P(a[i].track, b[i].track)});
+  return figures;
+}
+
 void AddDifferences(const KeyedDances& dances, Table* table) {
   std::vector<ClipFigure> seeds;
   for (size_t a = 0; a < kSeeds; ++a) {
-    for (size_t b = a + 1; b < kSeeds; ++b) {
-      for (size_t i = 0; i < dances.real.size(); ++i) {
-        const LivelyDances one = {dances.seeds[a][i]}, other = {dances.seeds[b][i]};
-        seeds.push_back({dances.real[i].clip, DistanceCm(one, other).value});
-      }
-    }
+    for (size_t b = a + 1; b < kSeeds; ++b)
+      std::ranges::copy(DistancesCm(dances.seeds[a], dances.seeds[b]), std::back_inserter(seeds));
   }
+  const std::vector<LivelyDances>& songs = dances.songs;
   AddDanced("seeds differ cm", Mean(seeds), table);
-  AddDanced("songs differ, 90 and 130 bpm cm", DistanceCm(dances.songs[0], dances.songs[2]), table);
-  AddDanced("songs differ, half a beat apart cm", DistanceCm(dances.songs[1], dances.songs[3]),
-            table);
+  AddDanced("songs differ, 90 and 130 bpm cm", Mean(DistancesCm(songs[0], songs[2])), table);
+  AddDanced("songs differ, half a beat apart cm", Mean(DistancesCm(songs[1], songs[3])), table);
 }
 
 void AddHits(const KeyedDances& dances, double fps, Table* table) {
@@ -242,6 +238,30 @@ Table LivelinessTable(const Evaluation& evaluation, const Method& method,
   return table;
 }
 
+// [kBands, joints], mean over windows, floor and height together.
+Eigen::MatrixXd MeanPower(const LivelyDances& dances, double fps) {
+  Eigen::MatrixXd sum;
+  int windows = 0;
+  const auto length = static_cast<std::ptrdiff_t>(std::lround(2 * fps));
+  for (const LivelyFigures& dance : dances) {
+    const JointTrack& track = dance.track;
+    for (auto from = track.begin(); track.end() - from >= length; from += length, ++windows) {
+      const Eigen::MatrixXd power = SpeedSpectrum(JointTrack(from, from + length), fps);
+      if (windows == 0) sum.setZero(kBands, power.cols() / 2);
+      for (Eigen::Index joint = 0; joint < sum.cols(); ++joint)
+        sum.col(joint) += power.col(2 * joint) + power.col(2 * joint + 1);
+    }
+  }
+  return sum / std::max(1, windows);
+}
+
+std::string WithoutSide(const std::string& joint) {
+  for (const std::string side : {"left_", "right_"})
+    if (joint.starts_with(side)) return joint.substr(side.size());
+  return joint;
+}
+
+// The root of the danced power over the real one; left and right as one.
 Table BandTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances) {
   const ModelInfo& model = method.engine->model();
   Table table =
@@ -249,7 +269,28 @@ Table BandTable(const Evaluation& evaluation, const Method& method, const KeyedD
   table.note =
       "Speed over real motion's by frequency, through the same keys; the pelvis in the world, all "
       "else as seen from it.";
-  FillBands(model.skeleton, model.fps, dances.real, dances.seeds[0], &table);
+  const std::vector<std::string>& joints = model.skeleton.joint_names;
+  const Eigen::MatrixXd theirs = MeanPower(dances.real, model.fps);
+  const Eigen::MatrixXd ours = MeanPower(dances.seeds[0], model.fps);
+  std::vector<std::string> names;
+  for (const std::string& joint : joints) {
+    const std::string name = WithoutSide(joint);
+    if (std::ranges::find(names, name) != names.end()) continue;
+    names.push_back(name);
+    Eigen::VectorXd above = Eigen::VectorXd::Zero(kBands), below = above;
+    for (Eigen::Index j = 0; j < ours.cols(); ++j) {
+      if (WithoutSide(joints[j]) != name) continue;
+      above += ours.col(j);
+      below += theirs.col(j);
+    }
+    table.Begin({name});
+    for (int band = 0; band < kBands; ++band) {
+      char heading[64];
+      std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[band],
+                    kBandEdges[band + 1]);
+      table.Put(heading, 2, below[band] > 0 ? std::sqrt(above[band] / below[band]) : NAN);
+    }
+  }
   return table;
 }
 

@@ -4,10 +4,6 @@
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/beat_table.h"
-#include "model/evaluation/long_plans.h"
-#include "model/metrics/groove.h"
-#include "model/metrics/joint_track.h"
-#include "model/metrics/pose_distance.h"
 
 namespace choreo {
 
@@ -22,9 +18,7 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
   figures.median_speed = Percentile(figures.speeds, 0.5);
   std::vector<int> keys;
   for (const auto& [frame, pose] : plan.keys) keys.push_back(frame + 1);
-  const LimbTravel travel = MeasureLimbTravel(model.skeleton, figures.track, keys);
-  figures.limb_path = travel.path;
-  figures.limb_chord = travel.chord;
+  figures.limbs = MeasureLimbTravel(model.skeleton, figures.track, keys);
   figures.bounce = PelvisBounce(figures.track, model.fps);
   figures.jerk = SmoothJerk(figures.track, model.fps);
   figures.raw_jerk = RawJerk(figures.track, model.fps);
@@ -36,13 +30,6 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
   figures.knee_snaps = a_minute * snaps.knees;
   figures.elbow_snaps = a_minute * snaps.elbows;
   return figures;
-}
-
-Cell DistanceCm(const LivelyDances& a, const LivelyDances& b) {
-  std::vector<ClipFigure> figures;
-  for (size_t i = 0; i < a.size(); ++i)
-    figures.push_back({a[i].clip, 100 * L2P(a[i].track, b[i].track)});
-  return Mean(figures);
 }
 
 Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps) {

@@ -3,15 +3,16 @@
 #include <vector>
 
 #include "model/evaluation/long_plans.h"
+#include "model/metrics/groove.h"
 #include "model/metrics/joint_track.h"
 
 namespace choreo {
 
 /// A dance through keys judged for how alive it is.
 struct LivelyFigures {
-  size_t clip = 0;                         ///< within its set
-  double median_speed = 0;                 ///< over frames, of the mean joint speed, m/s
-  double limb_path = 0, limb_chord = 0;    ///< LimbTravel, m
+  size_t clip = 0;          ///< within its set
+  double median_speed = 0;  ///< over frames, of the mean joint speed, m/s
+  LimbTravel limbs;
   double bounce = 0;                       ///< PelvisBounce, m
   double jerk = 0, raw_jerk = 0;           ///< SmoothJerk, RawJerk, m/s^3
   double skate_ratio = 0;                  ///< quality_report.h
@@ -27,18 +28,8 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
 
 using LivelyDances = std::vector<LivelyFigures>;
 
-/// Mean distance of all joints between the same frames of two dances of each plan, cm.
-Cell DistanceCm(const LivelyDances& a, const LivelyDances& b);
-
 /// Hit rate (ScoreBeats) less what the same dance hits by chance: the mean over these beats moved
 /// by each part of their distance, a frame apart. Percentage points.
 Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps);
-
-/// How fast joints go in each band of SpeedSpectrum, over windows of two seconds, as a share of
-/// real motion's: the root of the danced power over the real one, floor and height together. A row
-/// a joint, left and right as one; the first row is of the root in the world, all others are seen
-/// from it. Name, title and note are left to the caller.
-void FillBands(const Skeleton& skeleton, double fps, const LivelyDances& real,
-               const LivelyDances& danced, Table* table);
 
 }  // namespace choreo

@@ -69,28 +69,23 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
   if (poses.empty()) return figures;
   figures.seconds = static_cast<double>(poses.size()) / fps;
   QualityMeter meter(skeleton, fps, 0);
-  auto key = key_frames.begin();
   const std::vector<Hinge> hinges = Hinges(skeleton);
   int64_t backwards = 0;
   const Eigen::Vector3d start = poses[0].root_position;
-  figures.lowest_m = figures.highest_m = start.y();
   std::vector<double> away, heights;
   for (size_t t = 0; t < poses.size(); ++t) {
     meter.Add({poses[t], {}, 0});
-    if (key != key_frames.end() && *key == static_cast<int>(t)) {
-      meter.AddKey("", {});
-      ++key;
-    }
+    if (std::ranges::binary_search(key_frames, static_cast<int>(t))) meter.AddKey("", {});
     const Eigen::Vector3d& root = poses[t].root_position;
-    figures.lowest_m = std::min(figures.lowest_m, root.y());
-    figures.highest_m = std::max(figures.highest_m, root.y());
     away.push_back(std::hypot(root.x() - start.x(), root.z() - start.z()));
     heights.push_back(root.y());
     backwards += std::ranges::count_if(hinges, [&](const Hinge& hinge) {
       return hinge.axis.dot(poses[t].rotations.col(hinge.joint)) < -kBeyondStraight;
     });
   }
-  figures.reach_m = *std::ranges::max_element(away);
+  figures.lowest_m = std::ranges::min(heights);
+  figures.highest_m = std::ranges::max(heights);
+  figures.reach_m = std::ranges::max(away);
   figures.away_m_per_min = Slope(away) * fps * 60;
   const auto ten_seconds = static_cast<size_t>(std::lround(10 * fps));
   const auto [low, high] = MeansOfEnds(heights, ten_seconds);

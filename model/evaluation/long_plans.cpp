@@ -12,6 +12,7 @@ namespace {
 constexpr int kTwoSeconds = 60;
 constexpr int kEqualInterval = 100;
 constexpr int kLeastInterval = 15;  // between keys on beats
+constexpr int kFewestSeconds = 20, kMostSpans = 30;
 
 // Frame `at` of a clip that is walked forwards, backwards, forwards.
 const Pose& WalkedPose(const PreparedClip& clip, int at) {
@@ -37,23 +38,7 @@ std::vector<int> KeyFrames(KeyTimes times, int frames, const std::vector<double>
   return keys;
 }
 
-constexpr int kFewestSeconds = 20, kMostSpans = 30;
-
 }  // namespace
-
-std::string NameOf(KeyTimes times) {
-  switch (times) {
-    case KeyTimes::kNone:
-      return "no keys";
-    case KeyTimes::kEachTwoSeconds:
-      return "keys each 2 s";
-    case KeyTimes::kEqual:
-      return "keys each 100 frames";
-    case KeyTimes::kOnBeats:
-      return "as many keys, on beats";
-  }
-  return "";
-}
 
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
                                      int count, const EvalOptions& options) {
@@ -71,8 +56,7 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
     const int places = (count + clips - 1) / clips;
     plan.start = history + (places > 1 ? spare * (i / clips) / (places - 1) : 0);
     plan.frames = music ? std::min(options.long_frames, length - plan.start) : options.long_frames;
-    const auto first = clip.motion.frames.begin() + plan.start;
-    plan.history.assign(first - history, first);
+    plan.history = RealPoses(set, {plan.clip, plan.start}, 0, history);
     if (music) plan.audio = clip.audio.middleCols(plan.start - history, history + plan.frames);
     plan.beats = set.BeatsBetween(plan.clip, plan.start, plan.frames);
     for (const int frame : KeyFrames(times, plan.frames, plan.beats))
@@ -104,10 +88,9 @@ std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set
     plan.start = model.history_frames + (usable - spans * kTwoSeconds) / 2;
     plan.frames = spans * kTwoSeconds;
     plan.temperature = temperature;
-    const auto first = poses.begin() + plan.start;
-    plan.history.assign(first - model.history_frames, first);
-    for (int key = kTwoSeconds - 1; key < plan.frames; key += kTwoSeconds)
-      plan.keys[key] = first[key];
+    plan.history = RealPoses(set, {plan.clip, plan.start}, 0, model.history_frames);
+    for (const int key : KeyFrames(KeyTimes::kEachTwoSeconds, plan.frames, {}))
+      plan.keys[key] = poses[plan.start + key];
     plans.push_back(std::move(plan));
   }
   return plans;

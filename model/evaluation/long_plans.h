@@ -14,7 +14,6 @@ enum class KeyTimes {
   kEqual,    ///< each 100 frames, as in paper F's Table 4
   kOnBeats,  ///< as many, each on the beat nearest to the equal one
 };
-std::string NameOf(KeyTimes times);
 
 /// `count` dances of EvalOptions::long_frames, spread evenly over the clips of a set and the places
 /// within each. Beside music a dance ends with it; else a clip that is shorter than the dance
@@ -22,7 +21,7 @@ std::string NameOf(KeyTimes times);
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
                                      int count, const EvalOptions& options);
 
-/// The real motion beside a long dance, of which its keys are frames: [chain.frames] poses.
+/// The real motion beside a long dance, of which its keys are frames: [plan.frames] poses.
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set);
 
 /// One dance a clip through the clip's own poses each 2 s, for as long as the clip has them, a
@@ -39,7 +38,7 @@ std::vector<double> RegularBeats(double bpm, double phase, double fps, int frame
 std::vector<double> ShuffledBeats(double bpm, uint64_t seed, double fps, int frames);
 
 /// Real motion as if a model had danced it between the keys of a plan: through the foot lock,
-/// rounded as sent. [chain.frames] poses.
+/// rounded as sent. [plan.frames] poses.
 std::vector<Pose> RealThroughFootLock(const ModelInfo& model, const LongPlan& plan,
                                       const ClipSet& set);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "model/evaluation/beat_table.h"
 #include "model/evaluation/evaluation.h"
@@ -10,28 +11,26 @@
 namespace choreo {
 namespace {
 
-std::vector<KeyTimes> KindsFor(const ClipSet& set) {
-  std::vector<KeyTimes> kinds = {KeyTimes::kNone, KeyTimes::kEachTwoSeconds};
-  if (set.HasMusic()) kinds.insert(kinds.end(), {KeyTimes::kEqual, KeyTimes::kOnBeats});
-  return kinds;
-}
+struct LongKind {
+  KeyTimes times;
+  const char* name;
+  bool to_music = false;
+};
 
-std::vector<int> KeyFramesOf(const LongPlan& plan) {
-  std::vector<int> frames;
-  for (const auto& [frame, pose] : plan.keys) frames.push_back(frame);
-  return frames;
-}
+constexpr LongKind kLongKinds[] = {{KeyTimes::kNone, "no keys"},
+                                   {KeyTimes::kEachTwoSeconds, "keys each 2 s"},
+                                   {KeyTimes::kEqual, "keys each 100 frames", true},
+                                   {KeyTimes::kOnBeats, "as many keys, on beats", true}};
 
 void AddRow(const std::string& name, const std::vector<LongFigures>& dances, const RealRange& real,
             double worst_key_m, Table* table) {
   const auto count = static_cast<double>(dances.size());
-  const auto values = [&](auto figure) {
-    std::vector<float> all;
+  const auto median = [&](auto figure) {
+    std::vector<float> values;
     for (const LongFigures& dance : dances)
-      all.push_back(static_cast<float>(std::invoke(figure, dance)));
-    return all;
+      values.push_back(static_cast<float>(std::invoke(figure, dance)));
+    return Percentile(std::move(values), 0.5);
   };
-  const auto median = [&](auto figure) { return Percentile(values(figure), 0.5); };
   const auto share = [&](auto is) { return 100.0 * std::ranges::count_if(dances, is) / count; };
   const auto sum = [&](auto figure) {
     double all = 0;
@@ -97,26 +96,19 @@ PlotSeries SpeedCurve(const std::string& label, const std::vector<LongFigures>& 
   return curve;
 }
 
-Table NewLongTable(const Evaluation& evaluation) {
-  Table table = evaluation.NewTable("long", "Long dances", {"dance"});
-  table.note =
-      "Keys are poses of the clips, whose songs end a dance. Frozen: the last fifth is slower than "
-      "a quarter of real motion's median; who stands before that and moves again shows in the "
-      "slowest fifth anywhere (stillest) alone; exploded: a frame's mean joint speed is above all "
-      "of real motion's; "
-      "drifted: the root goes away from its start (slope of a line through its distances), or is "
-      "higher or lower in the last 10 s than in the first, or the mean joint speed is another "
-      "there, "
-      "by more than in any real clip, and than 3 m/min, 15 cm, a factor of 2. Medians of these "
-      "three; heights are the extremes of all dances; a limb snaps in a step that bends or "
-      "stretches "
-      "it by more than 240 degrees a second (8 a frame) from or to less than 5 degrees of flexion; "
-      "a joint is at real speed if its median lies "
-      "between the 5th and 95th percentile of real motion's; real motion's \"keys\" are its frames "
-      "each 2 s; the real motion of the keys is what lies between them, which a clip that is "
-      "shorter than the dance has forwards, backwards, forwards.";
-  return table;
-}
+constexpr char kLongNote[] =
+    "Keys are poses of the clips, whose songs end a dance. Frozen: the last fifth is slower than a "
+    "quarter of real motion's median; who stands before that and moves again shows in the slowest "
+    "fifth anywhere (stillest) alone; exploded: a frame's mean joint speed is above all of real "
+    "motion's; drifted: the root goes away from its start (slope of a line through its distances), "
+    "or is higher or lower in the last 10 s than in the first, or the mean joint speed is another "
+    "there, by more than in any real clip, and than 3 m/min, 15 cm, a factor of 2. Medians of "
+    "these three; heights are the extremes of all dances; a limb snaps in a step that bends or "
+    "stretches it by more than 240 degrees a second (8 a frame) from or to less than 5 degrees of "
+    "flexion; a joint is at real speed if its median lies between the 5th and 95th percentile of "
+    "real motion's; real motion's \"keys\" are its frames each 2 s; the real motion of the keys is "
+    "what lies between them, which a clip that is shorter than the dance has forwards, backwards, "
+    "forwards.";
 
 }  // namespace
 
@@ -125,8 +117,11 @@ std::vector<Table> EvaluateLongDances(const Evaluation& evaluation) {
   if (options.long_seeds == 0) return {};
   const ClipSet& set = evaluation.set;
   const ModelInfo& model = evaluation.model();
+  const bool music =
+      std::ranges::any_of(set.clips, [](const auto& clip) { return clip.audio.cols() > 0; });
   const RealDances real = MeasureReal(set, model);
-  Table table = NewLongTable(evaluation);
+  Table table = evaluation.NewTable("long", "Long dances", {"dance"});
+  table.note = kLongNote;
   AddRow("real motion", real.clips, real.range, 0, &table);
   table.plot =
       Plot{.title = "Mean joint speed through long dances, " + set.name,
@@ -134,31 +129,34 @@ std::vector<Table> EvaluateLongDances(const Evaluation& evaluation) {
            .y_label = "m/s",
            .series = {SpeedCurve("real motion", real.clips, model.fps, options.long_frames)}};
   BeatTable beat_table(set);
-  for (const KeyTimes times : KindsFor(set)) {
+  for (const LongKind& kind : kLongKinds) {
+    if (kind.to_music && !music) continue;
     const std::vector<LongPlan> plans =
-        PlanLongDances(model, set, times, options.long_seeds, options);
+        PlanLongDances(model, set, kind.times, options.long_seeds, options);
     const std::vector<LongDance> chains =
         evaluation.runner.DanceLong(*evaluation.judged().engine, plans);
-    const bool keyed = times == KeyTimes::kEachTwoSeconds;
+    const bool keyed = kind.times == KeyTimes::kEachTwoSeconds;
     std::vector<LongFigures> dances, beside;
     double worst_key = 0;
     for (size_t i = 0; i < chains.size(); ++i) {
+      std::vector<int> keys;
+      for (const auto& [frame, pose] : plans[i].keys) keys.push_back(frame);
       const auto measure = [&](const std::vector<Pose>& poses) {
-        return MeasureLong(model.skeleton, model.fps, poses, KeyFramesOf(plans[i]));
+        return MeasureLong(model.skeleton, model.fps, poses, keys);
       };
       for (const auto& [frame, error] : chains[i].keys) worst_key = std::max(worst_key, error);
-      if (keyed || times == KeyTimes::kNone) dances.push_back(measure(chains[i].poses));
+      if (!kind.to_music) dances.push_back(measure(chains[i].poses));
       if (keyed) beside.push_back(measure(RealMotionBeside(plans[i], set)));
-      beat_table.Add(NameOf(times), plans[i].clip, plans[i].start,
+      beat_table.Add(kind.name, plans[i].clip, plans[i].start,
                      MeanSpeeds(TrackJoints(model.skeleton, chains[i].poses), model.fps));
     }
     if (dances.empty()) continue;
-    AddRow(NameOf(times), dances, real.range, worst_key, &table);
+    AddRow(kind.name, dances, real.range, worst_key, &table);
     if (keyed) AddRow("real motion of these keys", beside, real.range, 0, &table);
-    table.plot->series.push_back(SpeedCurve(NameOf(times), dances, model.fps, options.long_frames));
+    table.plot->series.push_back(SpeedCurve(kind.name, dances, model.fps, options.long_frames));
   }
   std::vector<Table> tables = {table};
-  if (set.HasMusic()) {
+  if (music) {
     for (size_t clip = 0; clip < set.clips.size(); ++clip)
       beat_table.Add("real", clip, 0, real.clips[clip].speeds);
     tables.push_back(beat_table.Finish());

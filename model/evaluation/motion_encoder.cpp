@@ -11,19 +11,21 @@
 namespace choreo {
 namespace {
 
-constexpr int kStep = 3;  // every third frame of a window is looked at
+constexpr int kWindow = 30;  // frames
+constexpr int kStride = 10;  // frames from one window to the next
+constexpr int kStep = 3;     // every third frame of a window is looked at
+constexpr int kCodes = 32;   // at most
 
 // Windows of a dance as the encoder sees them, [inputs, windows].
 Eigen::MatrixXd Windows(const Skeleton& skeleton, std::span<const Pose> poses) {
-  constexpr int kFrames = MotionEncoder::kWindow;
   const auto length = static_cast<int>(poses.size());
-  const int count = length < kFrames ? 0 : 1 + (length - kFrames) / MotionEncoder::kStride;
+  const int count = length < kWindow ? 0 : 1 + (length - kWindow) / kStride;
   const Eigen::Index size = 3 * skeleton.joints();
-  Eigen::MatrixXd windows(size * (kFrames / kStep), count);
+  Eigen::MatrixXd windows(size * (kWindow / kStep), count);
   for (int w = 0; w < count; ++w) {
-    const auto window = poses.subspan(static_cast<size_t>(w * MotionEncoder::kStride), kFrames);
-    const GroundFrame ground = GroundFrame::Of(window[kFrames / 2]);
-    for (int t = 0; t < kFrames / kStep; ++t) {
+    const auto window = poses.subspan(static_cast<size_t>(w * kStride), kWindow);
+    const GroundFrame ground = GroundFrame::Of(window[kWindow / 2]);
+    for (int t = 0; t < kWindow / kStep; ++t) {
       windows.col(w).segment(size * t, size) =
           JointPositions(skeleton, ground.ToLocal(window[static_cast<size_t>(t * kStep)]))
               .reshaped();
@@ -32,16 +34,9 @@ Eigen::MatrixXd Windows(const Skeleton& skeleton, std::span<const Pose> poses) {
   return windows;
 }
 
-// Mean squared distance of corresponding windows of two dances, over their common length.
-double Apart(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  const Eigen::Index common = std::min(a.cols(), b.cols());
-  if (common == 0) return 0;
-  return (a.leftCols(common) - b.leftCols(common)).colwise().squaredNorm().mean();
-}
-
 }  // namespace
 
-MotionEncoder MotionEncoder::Train(const std::vector<ClipSet>& training) {
+MotionEncoder::MotionEncoder(const std::vector<ClipSet>& training) {
   // Sums clip by clip, so that not all windows are kept at once.
   Eigen::VectorXd sum;
   Eigen::MatrixXd squares;
@@ -63,28 +58,23 @@ MotionEncoder MotionEncoder::Train(const std::vector<ClipSet>& training) {
     throw InvalidArgument(
         "training", std::to_string(count) + " windows of motion for the encoder, 2 are needed");
   }
-  MotionEncoder encoder;
-  encoder.mean_ = sum / static_cast<double>(count);
+  mean_ = sum / static_cast<double>(count);
   Eigen::MatrixXd covariance = squares / static_cast<double>(count);
-  covariance.selfadjointView<Eigen::Lower>().rankUpdate(encoder.mean_, -1);
+  covariance.selfadjointView<Eigen::Lower>().rankUpdate(mean_, -1);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   const Eigen::VectorXd variances = solver.eigenvalues().cwiseMax(0);  // ascending
-  int codes = 0;
-  while (codes < std::min<int>(kCodes, static_cast<int>(variances.size())) &&
-         variances[variances.size() - 1 - codes] > 1e-9)
-    ++codes;
-  encoder.projection_.resize(codes, variances.size());
-  for (int code = 0; code < codes; ++code) {
+  const auto codes = std::min<Eigen::Index>(kCodes, (variances.array() > 1e-9).count());
+  projection_.resize(codes, variances.size());
+  for (Eigen::Index code = 0; code < codes; ++code) {
     const Eigen::Index from = variances.size() - 1 - code;
-    encoder.projection_.row(code) =
+    projection_.row(code) =
         solver.eigenvectors().col(from).transpose() / std::sqrt(variances[from]);
   }
-  encoder.explained_ = variances.tail(codes).sum() / std::max(variances.sum(), 1e-12);
+  explained_ = variances.tail(codes).sum() / std::max(variances.sum(), 1e-12);
   std::string hash = "window " + std::to_string(kWindow) + ", stride " + std::to_string(kStride) +
                      ", step " + std::to_string(kStep) + ", codes " + std::to_string(kCodes);
   for (const ClipSet& set : training) hash = HashOfClips(set.clips, hash);
-  encoder.version_ = "linear-1/" + hash;
-  return encoder;
+  version_ = "linear-1/" + hash;
 }
 
 Eigen::MatrixXd MotionEncoder::Encode(const Skeleton& skeleton, std::span<const Pose> poses) const {
@@ -96,7 +86,12 @@ double MeanApart(const std::vector<Eigen::MatrixXd>& dances) {
   double sum = 0;
   int pairs = 0;
   for (size_t i = 0; i < dances.size(); ++i) {
-    for (size_t k = 0; k < i; ++k, ++pairs) sum += Apart(dances[i], dances[k]);
+    for (size_t k = 0; k < i; ++k, ++pairs) {
+      const Eigen::Index common = std::min(dances[i].cols(), dances[k].cols());
+      if (common == 0) continue;
+      sum +=
+          (dances[i].leftCols(common) - dances[k].leftCols(common)).colwise().squaredNorm().mean();
+    }
   }
   return pairs > 0 ? sum / pairs : 0;
 }

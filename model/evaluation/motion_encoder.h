@@ -10,19 +10,15 @@
 namespace choreo {
 
 /// The motion encoder of FID, variability and diversity (paper F, 4.5.2 and 4.5.4): the principal
-/// components of training motion, learnt at each evaluation. A window of kWindow frames, seen from
-/// its middle frame's place and heading, becomes kCodes numbers of variance 1 over the training
-/// windows. Figures of different version()s, the hash of settings and training clips, don't
-/// compare. Immutable; thread-safe.
+/// components of training motion, learnt at each evaluation. A window of 30 frames, seen from its
+/// middle frame's place and heading, becomes 32 numbers, or fewer where there are fewer training
+/// windows, of variance 1 over those; the next begins 10 frames later. Figures of different
+/// version()s, the hash of settings and training clips, don't compare. Immutable; thread-safe.
 class MotionEncoder {
  public:
-  static constexpr int kWindow = 30;  ///< frames
-  static constexpr int kStride = 10;  ///< frames from one window to the next
-  static constexpr int kCodes = 32;   ///< at most: fewer where there are fewer training windows
-
   /// Learns from every window of the sets, the same for all clips. Throws Error(kInvalidArgument)
   /// for fewer than two windows.
-  static MotionEncoder Train(const std::vector<ClipSet>& training);
+  explicit MotionEncoder(const std::vector<ClipSet>& training);
 
   /// Codes of all windows of a dance, [codes, windows].
   Eigen::MatrixXd Encode(const Skeleton& skeleton, std::span<const Pose> poses) const;

@@ -7,7 +7,6 @@
 namespace choreo {
 namespace {
 
-// What comes next in a chain.
 TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const LongDance& chain) {
   const int at = static_cast<int>(chain.poses.size());
   const auto key = plan.keys.lower_bound(at);
@@ -36,17 +35,9 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
 
 }  // namespace
 
-std::vector<TransitionResult> Runner::Results(StepEngine& engine,
-                                              std::span<const TransitionInput> inputs) const {
-  return DanceTransitions(engine, inputs, [this](int frames) {
-    if (progress_ != nullptr) progress_->Advance(frames, what_);
-  });
-}
-
-std::vector<std::vector<Pose>> Runner::Dance(StepEngine& engine,
-                                             std::span<const TransitionInput> inputs) const {
-  std::vector<std::vector<Pose>> dances;
-  for (const TransitionResult& result : Results(engine, inputs)) {
+Dances Runner::Dance(StepEngine& engine, std::span<const TransitionInput> inputs) const {
+  Dances dances;
+  for (const TransitionResult& result : DanceTransitions(engine, inputs, danced_)) {
     std::vector<Pose>& poses = dances.emplace_back();
     for (const DanceFrame& frame : result.frames) poses.push_back(frame.pose);
   }
@@ -65,7 +56,7 @@ std::vector<LongDance> Runner::DanceLong(StepEngine& engine,
       whose.push_back(i);
     }
     if (inputs.empty()) return chains;
-    const auto results = Results(engine, inputs);
+    const auto results = DanceTransitions(engine, inputs, danced_);
     for (size_t i = 0; i < results.size(); ++i) {
       LongDance& chain = chains[whose[i]];
       for (const DanceFrame& frame : results[i].frames) chain.poses.push_back(frame.pose);

@@ -2,13 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "model/core/progress.h"
 #include "model/dance/transition_batch.h"
 
 namespace choreo {
@@ -35,28 +36,23 @@ struct LongDance {
   std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, once a key said it
 };
 
-/// Dances what tables ask for, all of a call together, and says how far it is. Not
-/// thread-safe.
+using Dances = std::vector<std::vector<Pose>>;  ///< [dances] of [frames]
+
+/// Dances what tables ask for, all of a call together. Not thread-safe.
 class Runner {
  public:
-  /// `progress` may be null, and else outlives the runner; it is told frames and `what`.
-  explicit Runner(ProgressBar* progress = nullptr, std::string what = "")
-      : progress_(progress), what_(std::move(what)) {}
+  /// `danced` is told how many frames each step made.
+  explicit Runner(std::function<void(int)> danced = {}) : danced_(std::move(danced)) {}
 
   /// DanceTransitions: the poses of each.
-  std::vector<std::vector<Pose>> Dance(StepEngine& engine,
-                                       std::span<const TransitionInput> inputs) const;
+  Dances Dance(StepEngine& engine, std::span<const TransitionInput> inputs) const;
 
-  /// Of each plan a transition at a time (TransitionEnd). No dance depends on
-  /// the others. Throws Error(kInternal) as soon as a model gives a value that is not finite.
+  /// Of each plan a transition at a time (TransitionEnd). No dance depends on the others. Throws
+  /// Error(kInternal) as soon as a model gives a value that is not finite.
   std::vector<LongDance> DanceLong(StepEngine& engine, std::span<const LongPlan> plans) const;
 
  private:
-  std::vector<TransitionResult> Results(StepEngine& engine,
-                                        std::span<const TransitionInput> inputs) const;
-
-  ProgressBar* progress_;
-  std::string what_;
+  std::function<void(int)> danced_;
 };
 
 }  // namespace choreo

@@ -6,7 +6,7 @@
 #include "model/dance/quality_report.h"
 #include "model/evaluation/evaluation.h"
 #include "model/evaluation/long_figures.h"
-#include "model/evaluation/window_figures.h"
+#include "model/evaluation/transition_judge.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
@@ -74,11 +74,10 @@ struct Danced {
 std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   const ClipSet& set = evaluation.set;
-  const std::vector<EvalWindow> windows =
-      ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip);
   std::vector<TransitionInput> inputs;
   std::vector<Danced> all;
-  for (const EvalWindow& window : windows) {
+  for (const EvalWindow& window :
+       ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip)) {
     inputs.push_back(
         InputOf(model, set, window, one.frames, evaluation.options.temperature, inputs.size()));
     TransitionRequest& request = inputs.back().request;
@@ -112,24 +111,22 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
     if (all.empty()) continue;
     const auto count = static_cast<double>(all.size());
     double root = 0, joint = 0, hardest = 0, worst = 0;
-    int warned = 0, frozen = 0;
+    int warned = 0;
     std::vector<float> speeds;
     for (const Danced& danced : all) {
-      if (danced.asked) {
-        root += danced.asked->root_m_per_s / count;
-        joint += danced.asked->joint_rad_per_s / count;
-        warned += danced.asked->TooFast() ? 1 : 0;
-      }
       const std::vector<Pose>& poses = danced.motion.frames;
-      if (danced.key) {
-        const PoseError error = ComparePoses(model.skeleton, poses.back(), danced.key->pose);
-        worst = std::max(worst, error.position_m);
-      }
       hardest = std::max(hardest, MeasureMotion(model.skeleton, danced.motion).max_acceleration);
-      const double speed = MeasureLong(model.skeleton, model.fps, poses, {}).median_speed;
-      frozen += speed < 0.25 * range.median_speed ? 1 : 0;
-      speeds.push_back(static_cast<float>(speed));
+      speeds.push_back(static_cast<float>(
+          Percentile(MeanSpeeds(TrackJoints(model.skeleton, poses), model.fps), 0.5)));
+      if (!danced.key || !danced.asked) continue;
+      root += danced.asked->root_m_per_s / count;
+      joint += danced.asked->joint_rad_per_s / count;
+      warned += danced.asked->TooFast() ? 1 : 0;
+      const PoseError error = ComparePoses(model.skeleton, poses.back(), danced.key->pose);
+      worst = std::max(worst, error.position_m);
     }
+    const auto frozen = std::ranges::count_if(
+        speeds, [&](float speed) { return speed < 0.25 * range.median_speed; });
     const auto of_keys = [&](double value) { return all[0].asked ? value : NAN; };
     table.Begin({one.name, std::to_string(one.frames)});
     table.Put("transitions", 0, count);

@@ -3,16 +3,16 @@
 #include "model/evaluation/evaluation.h"
 #include "model/evaluation/long_plans.h"
 #include "model/metrics/style_classifier.h"
-#include "model/training/style.h"
+#include "model/training/prepared_clip.h"
 
 namespace choreo {
 namespace {
 
 constexpr int kSeconds = 20;
 
-// Index of a clip's style among `styles`, or -1.
-int StyleIn(const std::vector<std::string>& styles, const PreparedClip& clip) {
-  const auto found = std::ranges::find(styles, StyleOf(clip.name));
+// Index of a style among `styles`, or -1.
+int StyleIn(const std::vector<std::string>& styles, const std::string& style) {
+  const auto found = std::ranges::find(styles, style);
   return found == styles.end() ? -1 : static_cast<int>(found - styles.begin());
 }
 
@@ -30,7 +30,7 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
   if (styles.size() < 2) return {};
   CriticWindows seen;
   for (const PreparedClip& clip : evaluation.training->clips) {
-    const int style = StyleIn(styles, clip);
+    const int style = StyleIn(styles, StyleOf(clip.name));
     if (style < 0) continue;
     seen.Add(TrackJoints(model.skeleton, clip.motion.frames), model.fps,
              static_cast<size_t>(style));
@@ -46,30 +46,29 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
 
   std::vector<ClipFigure> real, danced;
   std::vector<LongPlan> plans;
-  std::vector<int> asked;
   const int history = model.history_frames, frames = kSeconds * static_cast<int>(model.fps);
   for (size_t i = 0; i < evaluation.set.clips.size(); ++i) {
     const PreparedClip& clip = evaluation.set.clips[i];
     const auto& poses = clip.motion.frames;
-    if (const int style = StyleIn(styles, clip); style >= 0 && poses.size() > 2 * model.fps)
-      real.push_back({i, recognised(poses, style)});
+    const int danced_style = StyleIn(styles, StyleOf(clip.name));
+    if (danced_style >= 0 && poses.size() > 2 * model.fps)
+      real.push_back({i, recognised(poses, danced_style)});
     if (std::ssize(poses) < history) continue;
     for (size_t style = 0; style < styles.size(); ++style) {
       LongPlan plan;
       plan.clip = i;
       plan.frames = frames;
       plan.seed = style;
-      plan.history.assign(poses.begin(), poses.begin() + history);
+      plan.history = RealPoses(evaluation.set, {i, history}, 0, history);
       plan.temperature = evaluation.options.temperature;
       plan.style = styles[style];
       plans.push_back(std::move(plan));
-      asked.push_back(static_cast<int>(style));
     }
   }
   const std::vector<LongDance> dances =
       evaluation.runner.DanceLong(*evaluation.judged().engine, plans);
   for (size_t i = 0; i < dances.size(); ++i)
-    danced.push_back({plans[i].clip, recognised(dances[i].poses, asked[i])});
+    danced.push_back({plans[i].clip, recognised(dances[i].poses, StyleIn(styles, plans[i].style))});
   Table table =
       evaluation.NewTable("liveliness_styles", "Is an asked style recognised", {"figure"});
   table.note =

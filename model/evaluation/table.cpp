@@ -78,19 +78,22 @@ void Table::Put(const std::string& heading, int digits, Cell cell) {
 }
 
 std::string ToMarkdown(const Table& table) {
-  std::vector<std::vector<std::string>> lines;
-  std::vector<std::string> headings = table.label_headings;
-  for (const Column& column : table.columns) headings.push_back(column.heading);
-  lines.push_back(headings);
+  const size_t labels = table.label_headings.size();
+  std::vector<std::vector<std::string>> lines = {table.label_headings};
+  for (const Column& column : table.columns) lines[0].push_back(column.heading);
   for (const TableRow& row : table.rows) {
-    std::vector<std::string> line = row.labels;
+    std::vector<std::string>& line = lines.emplace_back(row.labels);
     for (size_t i = 0; i < row.cells.size(); ++i)
       line.push_back(Show(row.cells[i], table.columns[i].digits));
-    lines.push_back(line);
   }
-  std::vector<size_t> widths(headings.size(), 3);
+  std::vector<size_t> widths(lines[0].size(), 3);
   for (const auto& line : lines) {
     for (size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], Width(line[i]));
+  }
+  std::string rule = "|";
+  for (size_t i = 0; i < widths.size(); ++i) {
+    const std::string dashes(widths[i], '-');
+    rule += i < labels ? ":" + dashes + "-|" : "-" + dashes + ":|";
   }
   std::string text = "### " + table.title + "\n\n";
   if (!table.note.empty()) text += table.note + "\n\n";
@@ -99,17 +102,9 @@ std::string ToMarkdown(const Table& table) {
     for (size_t i = 0; i < widths.size(); ++i) {
       const std::string& value = lines[number][i];
       const std::string padding(widths[i] - Width(value), ' ');
-      const bool label = i < table.label_headings.size();
-      text += " " + (label ? value + padding : padding + value) + " |";
+      text += " " + (i < labels ? value + padding : padding + value) + " |";
     }
-    text += "\n";
-    if (number > 0) continue;
-    text += "|";
-    for (size_t i = 0; i < widths.size(); ++i) {
-      const bool label = i < table.label_headings.size();
-      text += (label ? ":" : "-") + std::string(widths[i], '-') + (label ? "-|" : ":|");
-    }
-    text += "\n";
+    text += number == 0 ? "\n" + rule + "\n" : "\n";
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -25,12 +26,13 @@ struct ClipFigure {
   double value = 0;
 };
 
-/// One figure of each of `some`, which know their clip, times `unit`.
-template <typename Figures>
-std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, double Figures::*figure,
+/// One figure of each of `some`, which know their clip, times `unit`. `figure`: a member or a
+/// function of one.
+template <typename Figures, typename Figure>
+std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, Figure figure,
                                   double unit = 1) {
   std::vector<ClipFigure> figures;
-  for (const Figures& one : some) figures.push_back({one.clip, unit * (one.*figure)});
+  for (const Figures& one : some) figures.push_back({one.clip, unit * std::invoke(figure, one)});
   return figures;
 }
 
@@ -39,6 +41,10 @@ std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, double Figur
 Cell Ratio(const std::vector<ClipFigure>& above, const std::vector<ClipFigure>& below);
 /// Mean over windows with its interval over clips; NaN of none.
 Cell Mean(const std::vector<ClipFigure>& figures);
+template <typename Figures, typename Figure>
+Cell Mean(const std::vector<Figures>& some, Figure figure, double unit = 1) {
+  return Mean(FiguresOf(some, figure, unit));
+}
 /// Mean of the means of several groups of windows (lengths, say), with its interval over the clips
 /// of all.
 Cell MeanOfMeans(const std::vector<std::vector<ClipFigure>>& groups);

@@ -1,10 +1,79 @@
 #include "model/evaluation/transition_judge.h"
 
-#include "model/metrics/pose_distance.h"
+#include <algorithm>
+
+#include "model/dance/quality_report.h"
+#include "model/metrics/frechet.h"
+#include "model/metrics/groove.h"
+#include "model/metrics/linear.h"
+#include "model/metrics/motion_features.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
+namespace {
+
+// Both begin with kFramesBefore frames of the history, so that a jolt at the start counts in
+// accelerations and skating; all else counts from there on.
+WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vector<Pose>& danced,
+                            const std::vector<Pose>& real) {
+  WindowFigures figures;
+  const QualityReport quality = MeasureMotion(skeleton, {.fps = fps, .frames = danced});
+  figures.skate_ratio = quality.skate_ratio;
+  figures.p95_acceleration = quality.p95_acceleration;
+  figures.max_acceleration = quality.max_acceleration;
+  const std::span<const Pose> ours = std::span(danced).subspan(kFramesBefore);
+  const std::span<const Pose> theirs = std::span(real).subspan(kFramesBefore);
+  const JointTrack track = TrackJoints(skeleton, ours), truth = TrackJoints(skeleton, theirs);
+  figures.l2p = L2P(track, truth);
+  figures.raw_key_distance = figures.key_distance = KeyPoseDistance(track.back(), truth.back());
+  const PoseError error = ComparePoses(skeleton, ours.back(), theirs.back());
+  figures.raw_key_m = figures.final_key_m = error.position_m;
+  figures.final_key_deg = error.angle_deg;
+  const Eigen::MatrixXd turns = GlobalQuaternions(skeleton, ours);
+  const Eigen::MatrixXd real_turns = GlobalQuaternions(skeleton, theirs);
+  figures.l2q = L2Q(turns, real_turns);
+  figures.npss = MeasureNpss(turns, real_turns);
+  figures.pfc = PhysicalFootContact(skeleton, track);
+  figures.pace.Add(track, fps);
+  if (track.size() >= 3) figures.kinetic = KineticFeatures(track, fps);
+  if (track.size() >= 2 && HasGeometricFeatures(skeleton))
+    figures.geometric = GeometricFeatures(skeleton, track, fps);
+  return figures;
+}
+
+}  // namespace
+
+RealFeatures GatherRealFeatures(const ClipSet& set, int frames) {
+  std::vector<Eigen::VectorXd> kinetic, geometric;
+  const auto length = static_cast<size_t>(frames);
+  for (const PreparedClip& clip : set.clips) {
+    const JointTrack track = TrackJoints(clip.skeleton, clip.motion.frames);
+    for (size_t start = 0; start + length <= track.size();
+         start += std::max<size_t>(1, length / 2)) {
+      const auto first = track.begin() + start;
+      const JointTrack part(first, first + frames);
+      if (frames >= 3) kinetic.push_back(KineticFeatures(part, clip.motion.fps));
+      if (frames >= 2 && HasGeometricFeatures(clip.skeleton))
+        geometric.push_back(GeometricFeatures(clip.skeleton, part, clip.motion.fps));
+    }
+  }
+  return {SideBySide(kinetic), SideBySide(geometric)};
+}
+
+FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Eigen::MatrixXd& others) {
+  if (others.cols() < 2 || real.cols() < 2) return {};
+  const FeatureScale scale = FeatureScale::Of(real);
+  const Eigen::MatrixXd scaled = scale.Apply(others);
+  return {FrechetDistance(scaled, scale.Apply(real)), MeanPairDistance(scaled)};
+}
+
+FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Figures& windows,
+                               Eigen::VectorXd WindowFigures::*features) {
+  std::vector<Eigen::VectorXd> columns;
+  for (const WindowFigures& window : windows) columns.push_back(window.*features);
+  return CompareFeatures(real, SideBySide(columns));
+}
 
 TransitionJudge::TransitionJudge(const Evaluation& evaluation, const ModelInfo& model, int frames)
     : evaluation_(evaluation),
@@ -14,7 +83,7 @@ TransitionJudge::TransitionJudge(const Evaluation& evaluation, const ModelInfo& 
                              evaluation.options.windows_per_clip)) {}
 
 Figures TransitionJudge::Run(const Method& method, float temperature, uint32_t candidate) const {
-  std::vector<std::vector<Pose>> dances;
+  Dances dances;
   if (method.kind == Method::Kind::kEngine) dances = Dance(method, temperature, candidate);
   Figures figures;
   for (size_t i = 0; i < windows_.size(); ++i) {
@@ -47,8 +116,7 @@ void TransitionJudge::AddRawKeys(Method method, float temperature, Figures* figu
   }
 }
 
-std::vector<std::vector<Pose>> TransitionJudge::Dance(const Method& method, float temperature,
-                                                      uint32_t candidate) const {
+Dances TransitionJudge::Dance(const Method& method, float temperature, uint32_t candidate) const {
   std::vector<TransitionInput> inputs;
   for (size_t i = 0; i < windows_.size(); ++i) {
     inputs.push_back(InputOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));

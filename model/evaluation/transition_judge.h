@@ -1,14 +1,48 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/window_figures.h"
+#include "model/metrics/joint_track.h"
+#include "model/metrics/pose_distance.h"
 
 namespace choreo {
 
+inline constexpr int kFramesBefore = 2;  ///< of the history, in front of what is measured
+
+/// What one transition of one method is worth.
+struct WindowFigures {
+  size_t clip = 0;
+  double l2p = 0;  ///< m
+  double l2q = 0;
+  Npss npss;
+  double pfc = 0;
+  double skate_ratio = 0, p95_acceleration = 0, max_acceleration = 0;  ///< quality_report.h
+  double key_distance = 0;                     ///< KPD at the last frame, m^2
+  double final_key_m = 0, final_key_deg = 0;   ///< ComparePoses there: the worst joint
+  double raw_key_distance = 0, raw_key_m = 0;  ///< the same without arrival, foot lock
+  Pace pace;
+  Eigen::VectorXd kinetic, geometric;  ///< geometric: empty where the skeleton has none
+};
 using Figures = std::vector<WindowFigures>;  ///< one a window, in their order
+
+/// Real motion in feature space: windows of `frames` frames, half of them apart, over all clips.
+struct RealFeatures {
+  Eigen::MatrixXd kinetic, geometric;  ///< [features, windows]
+};
+RealFeatures GatherRealFeatures(const ClipSet& set, int frames);
+
+/// Frechet distance to real motion and mean distance of pairs, both in units of the real features'
+/// spread (Li et al. 2021); NaN where there are fewer than two windows or no features.
+struct FeatureFigures {
+  double distance = NAN, diversity = NAN;
+};
+FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Eigen::MatrixXd& others);
+FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Figures& windows,
+                               Eigen::VectorXd WindowFigures::*features);
 
 /// Lets methods dance the windows of a set at one length, and measures them. What it is made of
 /// must outlive it.
@@ -16,7 +50,6 @@ class TransitionJudge {
  public:
   TransitionJudge(const Evaluation& evaluation, const ModelInfo& model, int frames);
 
-  int frames() const { return frames_; }
   const std::vector<EvalWindow>& windows() const { return windows_; }
 
   /// `candidate` numbers the samples of an engine.
@@ -28,8 +61,7 @@ class TransitionJudge {
   void AddRawKeys(Method method, float temperature, Figures* figures) const;
 
  private:
-  std::vector<std::vector<Pose>> Dance(const Method& method, float temperature,
-                                       uint32_t candidate) const;
+  Dances Dance(const Method& method, float temperature, uint32_t candidate) const;
 
   const Evaluation& evaluation_;
   const ModelInfo& model_;

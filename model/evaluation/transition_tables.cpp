@@ -1,18 +1,13 @@
 #include <algorithm>
-#include <map>
 
 #include "model/evaluation/transition_judge.h"
 
 namespace choreo {
 namespace {
 
-// All that was measured at one length.
-struct LengthFigures {
-  int frames = 0;
-  std::vector<EvalWindow> windows;
-  std::map<std::string, Figures> methods;
-  Figures line;  // interpolation, whether or not it has a row
-};
+double Largest(const Figures& figures, double WindowFigures::*figure) {
+  return (*std::ranges::max_element(figures, {}, figure)).*figure;
+}
 
 Cell RatioToLine(const Figures& figures, const Figures& line) {
   return Ratio(FiguresOf(figures, &WindowFigures::l2p), FiguresOf(line, &WindowFigures::l2p));
@@ -26,20 +21,17 @@ void AddPoint(Plot* plot, const std::string& label, double x, double y) {
   series->y.push_back(y);
 }
 
-void AddMethod(const std::string& method, const LengthFigures& length, const RealFeatures& real,
-               Table* table) {
-  const Figures& figures = length.methods.at(method);
+void AddCells(const Figures& figures, const Figures& line, const RealFeatures& real, Table* table) {
   Pace pace;
   for (const WindowFigures& window : figures) pace.Add(window.pace);
-  const Cell npss = Ratio(FiguresOf(figures, &WindowFigures::npss_sum),
-                          FiguresOf(figures, &WindowFigures::npss_weight));
+  const Cell npss = Ratio(FiguresOf(figures, [](const auto& one) { return one.npss.sum; }),
+                          FiguresOf(figures, [](const auto& one) { return one.npss.weight; }));
   const FeatureFigures kinetic = CompareFeatures(real.kinetic, figures, &WindowFigures::kinetic);
   const FeatureFigures geometric =
       CompareFeatures(real.geometric, figures, &WindowFigures::geometric);
   const auto mean = [&](double WindowFigures::*figure) { return Mean(figures, figure).value; };
-  table->Begin({std::to_string(length.frames), method});
   table->Put("L2P cm", 2, Mean(figures, &WindowFigures::l2p, 100));
-  table->Put("L2P / interpolation's", 2, RatioToLine(figures, length.line));
+  table->Put("L2P / interpolation's", 2, RatioToLine(figures, line));
   table->Put("L2Q", 3, mean(&WindowFigures::l2q));
   table->Put("NPSS", 3, npss.value);
   table->Put("FID_k", 1, kinetic.distance);
@@ -54,65 +46,17 @@ void AddMethod(const std::string& method, const LengthFigures& length, const Rea
   table->Put("speed median m/s", 2, pace.median_speed());
 }
 
-Table TransitionTable(const Evaluation& evaluation, const std::vector<LengthFigures>& lengths) {
-  const ClipSet& set = evaluation.set;
-  Table table =
-      evaluation.NewTable("transitions", "Transitions between real poses", {"frames", "method"});
-  table.note = std::to_string(set.clips.size()) + " clips;";
-  Plot plot{.title = "L2P over interpolation's, " + set.name,
-            .x_label = "frames",
-            .y_label = "L2P / interpolation's",
-            .series = {},
-            .from_zero = true};
-  for (const LengthFigures& length : lengths) {
-    table.note += " " + std::to_string(length.windows.size()) + " windows of " +
-                  std::to_string(length.frames) + " frames;";
-    if (length.windows.empty()) continue;
-    const RealFeatures real = GatherRealFeatures(set, length.frames);
-    for (const Method& method : evaluation.methods) {
-      AddMethod(method.name, length, real, &table);
-      // Without keys all are far away, and would press the others together.
-      if (method.kind != Method::Kind::kReal && method.keys)
-        AddPoint(&plot, method.name, length.frames, table.rows.back().cells[1].value);
-    }
-  }
-  table.note.back() = '.';
-  table.plot = plot;
-  return table;
-}
-
-Table KeyTable(const Evaluation& evaluation, const std::vector<LengthFigures>& lengths) {
-  Table table = evaluation.NewTable("keys", "How keys are met", {"frames", "method"});
-  table.note =
-      "Raw: without arrival and foot lock; error: of the worst joint. Keys are real motion's own "
-      "poses; who is told of no key misses it.";
-  std::string hardest;
-  double worst = 0;
-  for (const LengthFigures& length : lengths) {
-    for (const Method& method : evaluation.methods) {
-      if (length.windows.empty()) continue;
-      const Figures& figures = length.methods.at(method.name);
-      std::vector<float> raw;
-      for (size_t i = 0; i < figures.size(); ++i) {
-        raw.push_back(static_cast<float>(100 * figures[i].raw_key_m));
-        if (&method != &evaluation.judged() || figures[i].raw_key_m <= worst) continue;
-        worst = figures[i].raw_key_m;
-        hardest = " The judged model's worst raw key: " +
-                  evaluation.set.clips[length.windows[i].clip].name + ", frame " +
-                  std::to_string(length.windows[i].start) + " on.";
-      }
-      table.Begin({std::to_string(length.frames), method.name});
-      table.Put("raw KPD cm²", 3, Mean(figures, &WindowFigures::raw_key_distance, 1e4));
-      table.Put("raw error mean cm", 2, Mean(figures, &WindowFigures::raw_key_m, 100));
-      table.Put("median cm", 2, Percentile(raw, 0.5));
-      table.Put("worst cm", 2, Percentile(raw, 1));
-      table.Put("final KPD cm²", 5, Mean(figures, &WindowFigures::key_distance, 1e4).value);
-      table.Put("final error worst mm", 4, 1000 * Largest(figures, &WindowFigures::final_key_m));
-      table.Put("worst degrees", 5, Largest(figures, &WindowFigures::final_key_deg));
-    }
-  }
-  table.note += hardest;
-  return table;
+void AddKeyCells(const Figures& figures, Table* table) {
+  std::vector<float> raw;
+  for (const WindowFigures& window : figures)
+    raw.push_back(static_cast<float>(100 * window.raw_key_m));
+  table->Put("raw KPD cm²", 3, Mean(figures, &WindowFigures::raw_key_distance, 1e4));
+  table->Put("raw error mean cm", 2, Mean(figures, &WindowFigures::raw_key_m, 100));
+  table->Put("median cm", 2, Percentile(raw, 0.5));
+  table->Put("worst cm", 2, Percentile(raw, 1));
+  table->Put("final KPD cm²", 5, Mean(figures, &WindowFigures::key_distance, 1e4).value);
+  table->Put("final error worst mm", 4, 1000 * Largest(figures, &WindowFigures::final_key_m));
+  table->Put("worst degrees", 5, Largest(figures, &WindowFigures::final_key_deg));
 }
 
 Table NearnessTable(const Evaluation& evaluation, const Method& method) {
@@ -145,19 +89,52 @@ Table NearnessTable(const Evaluation& evaluation, const Method& method) {
 }  // namespace
 
 std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
-  std::vector<LengthFigures> lengths;
+  const ClipSet& set = evaluation.set;
+  const float temperature = evaluation.options.temperature;
+  Table table =
+      evaluation.NewTable("transitions", "Transitions between real poses", {"frames", "method"});
+  table.note = std::to_string(set.clips.size()) + " clips;";
+  Plot plot{.title = "L2P over interpolation's, " + set.name,
+            .x_label = "frames",
+            .y_label = "L2P / interpolation's",
+            .series = {},
+            .from_zero = true};
+  Table keys = evaluation.NewTable("keys", "How keys are met", {"frames", "method"});
+  std::string hardest;
+  double worst = 0;
   for (const int frames : evaluation.options.lengths) {
     const TransitionJudge judge(evaluation, evaluation.model(), frames);
-    LengthFigures length{frames, judge.windows(), {}, judge.Interpolation()};
+    const std::vector<EvalWindow>& windows = judge.windows();
+    table.note +=
+        " " + std::to_string(windows.size()) + " windows of " + std::to_string(frames) + " frames;";
+    if (windows.empty()) continue;
+    const Figures line = judge.Interpolation();  // whether or not it has a row
+    const RealFeatures real = GatherRealFeatures(set, frames);
     for (const Method& method : evaluation.methods) {
-      Figures figures = judge.Run(method, evaluation.options.temperature);
-      if (method.kind == Method::Kind::kEngine)
-        judge.AddRawKeys(method, evaluation.options.temperature, &figures);
-      length.methods[method.name] = std::move(figures);
+      Figures figures = judge.Run(method, temperature);
+      if (method.kind == Method::Kind::kEngine) judge.AddRawKeys(method, temperature, &figures);
+      table.Begin({std::to_string(frames), method.name});
+      AddCells(figures, line, real, &table);
+      keys.Begin({std::to_string(frames), method.name});
+      AddKeyCells(figures, &keys);
+      // Without keys all are far away, and would press the others together.
+      if (method.kind != Method::Kind::kReal && method.keys)
+        AddPoint(&plot, method.name, frames, table.rows.back().cells[1].value);
+      const double raw = Largest(figures, &WindowFigures::raw_key_m);
+      if (&method != &evaluation.judged() || raw <= worst) continue;
+      worst = raw;
+      const auto at = std::ranges::find(figures, raw, &WindowFigures::raw_key_m) - figures.begin();
+      hardest = " The judged model's worst raw key: " + set.clips[windows[at].clip].name +
+                ", frame " + std::to_string(windows[at].start) + " on.";
     }
-    lengths.push_back(std::move(length));
   }
-  return {TransitionTable(evaluation, lengths), KeyTable(evaluation, lengths)};
+  table.note.back() = '.';
+  table.plot = plot;
+  keys.note =
+      "Raw: without arrival and foot lock; error: of the worst joint. Keys are real motion's own "
+      "poses; who is told of no key misses it." +
+      hardest;
+  return {table, keys};
 }
 
 std::vector<Table> EvaluateNearness(const Evaluation& evaluation) {

@@ -4,11 +4,6 @@
 #include <cstdint>
 
 namespace choreo {
-namespace {
-
-constexpr int kBeatMargin = 60;  // frames around a transition, whose timing looks to both sides
-
-}  // namespace
 
 std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames) {
   std::vector<double> within;
@@ -16,10 +11,6 @@ std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, in
     if (beat >= start && beat < start + frames) within.push_back(beat - start);
   }
   return within;
-}
-
-bool ClipSet::HasMusic() const {
-  return std::ranges::any_of(clips, [](const auto& clip) { return clip.audio.cols() > 0; });
 }
 
 std::vector<double> ClipSet::BeatsBetween(size_t clip, int start, int frames) const {
@@ -43,21 +34,23 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
 
 TransitionInput InputOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
                         int frames, float temperature, size_t number) {
+  constexpr int kBeatMargin = 60;  // frames around a transition, whose timing looks to both sides
   const PreparedClip& clip = set.clips[window.clip];
   const auto first = clip.motion.frames.begin() + window.start;
+  const int history = model.history_frames;
   TransitionInput input;
-  input.request.frames = frames;
-  input.request.history.assign(first - model.history_frames, first);
-  input.request.target = Target{first[frames - 1], {}};
-  input.request.temperature = temperature;
-  input.request.seed = number;
-  input.request.beats =
+  TransitionRequest& request = input.request;
+  request.frames = frames;
+  request.history.assign(first - history, first);
+  request.target = Target{first[frames - 1], {}};
+  request.temperature = temperature;
+  request.seed = number;
+  request.beats =
       set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
-  for (double& beat : input.request.beats) beat -= kBeatMargin;
+  for (double& beat : request.beats) beat -= kBeatMargin;
   if (clip.audio.cols() > 0 && model.audio_features > 0) {
-    input.request.has_audio = true;
-    input.request.audio_history =
-        clip.audio.middleCols(window.start - model.history_frames, model.history_frames);
+    request.has_audio = true;
+    request.audio_history = clip.audio.middleCols(window.start - history, history);
     input.audio_rows = clip.audio.middleCols(window.start, frames);
   }
   return input;

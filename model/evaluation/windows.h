@@ -16,7 +16,6 @@ struct ClipSet {
   /// clips: unknown of the others.
   std::vector<std::vector<double>> beats = {};
 
-  bool HasMusic() const;  ///< any clip
   /// choreo::BeatsBetween of the beats of `clip`, none where they are unknown.
   std::vector<double> BeatsBetween(size_t clip, int start, int frames) const;
 };

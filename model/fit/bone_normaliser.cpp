@@ -16,6 +16,9 @@ BoneNormaliser::BoneNormaliser(const Skeleton& skeleton, const SourceMapping& ma
   for (size_t i = 0; i < mapping.landmarks.size(); ++i) {
     const Landmark& landmark = mapping.landmarks[i];
     Mark mark;
+    mark.parent = landmark.parent;
+    mark.rigid = landmark.rigid;
+    mark.leg = landmark.name.ends_with("_knee") || landmark.name.ends_with("_ankle");
     for (const auto& [name, weight] : landmark.source) {
       const int joint = IndexOf(joint_names, name);
       if (joint < 0) {
@@ -25,13 +28,7 @@ BoneNormaliser::BoneNormaliser(const Skeleton& skeleton, const SourceMapping& ma
       }
       mark.source.emplace_back(joint, weight);
     }
-    mark.parent = landmark.parent;
-    mark.rigid = landmark.rigid;
-    mark.leg = landmark.name.ends_with("_knee") || landmark.name.ends_with("_ankle");
-    mark.rest_length =
-        landmark.parent < 0
-            ? 0
-            : (rest.col(static_cast<Eigen::Index>(i)) - rest.col(landmark.parent)).norm();
+    if (mark.parent >= 0) mark.rest_length = (rest.col(i) - rest.col(mark.parent)).norm();
     marks_.push_back(std::move(mark));
   }
 }
@@ -42,8 +39,11 @@ Eigen::Vector3d BoneNormaliser::SourcePoint(const Mark& mark, const Eigen::Matri
   return point;
 }
 
+Eigen::Vector3d BoneNormaliser::SourceBone(const Mark& mark, const Eigen::Matrix3Xd& source) const {
+  return SourcePoint(mark, source) - SourcePoint(marks_[mark.parent], source);
+}
+
 SourceSize BoneNormaliser::Measure(const PositionClip& clip) const {
-  ValidateClip(clip);
   SourceSize size;
   double our_legs = 0, their_legs = 0, our_bones = 0, their_bones = 0;
   std::vector<double> distances(clip.frames.size());
@@ -52,11 +52,9 @@ SourceSize BoneNormaliser::Measure(const PositionClip& clip) const {
       size.lengths.push_back(0);
       continue;
     }
-    for (size_t frame = 0; frame < clip.frames.size(); ++frame) {
-      distances[frame] = (SourcePoint(mark, clip.frames[frame]) -
-                          SourcePoint(marks_[mark.parent], clip.frames[frame]))
-                             .norm();
-    }
+    std::ranges::transform(clip.frames, distances.begin(), [&](const Eigen::Matrix3Xd& frame) {
+      return SourceBone(mark, frame).norm();
+    });
     size.lengths.push_back(Median(distances));
     (mark.leg ? our_legs : our_bones) += mark.rest_length;
     (mark.leg ? their_legs : their_bones) += size.lengths.back();
@@ -65,39 +63,37 @@ SourceSize BoneNormaliser::Measure(const PositionClip& clip) const {
   const double theirs = their_legs > 0 ? their_legs : their_bones;
   if (!(theirs > 1e-6)) throw InvalidArgument("clip", "all landmarks stand in one place");
   size.scale = ours / theirs;
-  size.height_scale = size.scale;
   return size;
 }
 
 double BoneNormaliser::HeightScale(const Eigen::Matrix3Xd& source) const {
   double ours = 0, theirs = 0;
-  const bool legs =
-      std::any_of(marks_.begin(), marks_.end(), [](const Mark& mark) { return mark.leg; });
+  const bool legs = std::ranges::any_of(marks_, &Mark::leg);
   for (const Mark& mark : marks_) {
     if (mark.parent < 0 || mark.leg != legs) continue;
     ours += mark.rest_length;
-    theirs += (SourcePoint(mark, source) - SourcePoint(marks_[mark.parent], source)).norm();
+    theirs += SourceBone(mark, source).norm();
   }
   return theirs > 1e-6 ? ours / theirs : 1.0;
 }
 
-void BoneNormaliser::Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
-                           Eigen::Matrix3Xd& targets) const {
-  targets.resize(3, landmarks());
-  for (int i = 0; i < landmarks(); ++i) {
+Eigen::Matrix3Xd BoneNormaliser::Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
+                                       double height_scale) const {
+  Eigen::Matrix3Xd targets(3, std::ssize(marks_));
+  for (Eigen::Index i = 0; i < targets.cols(); ++i) {
     const Mark& mark = marks_[i];
-    const Eigen::Vector3d point = SourcePoint(mark, source);
     if (mark.parent < 0) {
-      targets.col(i) =
-          point.cwiseProduct(Eigen::Vector3d(size.scale, size.height_scale, size.scale));
+      targets.col(i) = SourcePoint(mark, source)
+                           .cwiseProduct(Eigen::Vector3d(size.scale, height_scale, size.scale));
       continue;
     }
-    const Eigen::Vector3d bone = point - SourcePoint(marks_[mark.parent], source);
+    const Eigen::Vector3d bone = SourceBone(mark, source);
     const double length = mark.rigid ? bone.norm() : size.lengths[i];
     // A bone without length has no direction: the landmark then stands at its parent's place.
     const double factor = length > 1e-9 ? mark.rest_length / length : 0;
     targets.col(i) = targets.col(mark.parent) + factor * bone;
   }
+  return targets;
 }
 
 }  // namespace choreo

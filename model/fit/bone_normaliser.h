@@ -14,7 +14,6 @@ namespace choreo {
 /// The source's size, measured once per subject.
 struct SourceSize {
   double scale = 1;             ///< our leg length over the source's: multiplies the root's travel
-  double height_scale = 1;      ///< the same at one moment: multiplies the root's height
   std::vector<double> lengths;  ///< [landmarks] source metres from the parent landmark (median)
 };
 
@@ -34,22 +33,22 @@ class BoneNormaliser {
   /// one clip): the root's height then needs a scale that changes in time.
   double HeightScale(const Eigen::Matrix3Xd& source) const;
 
-  /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. Does not
-  /// allocate where `targets` has that size.
-  void Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
-             Eigen::Matrix3Xd& targets) const;
-
-  int landmarks() const { return static_cast<int>(marks_.size()); }
+  /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. `height_scale`,
+  /// HeightScale of about this moment, multiplies the root's height.
+  Eigen::Matrix3Xd Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
+                         double height_scale) const;
 
  private:
   struct Mark {
     std::vector<std::pair<int, double>> source;  ///< joint, weight
     int parent;
     bool rigid;
-    bool leg;            ///< counts for the scale
-    double rest_length;  ///< ours, from the parent
+    bool leg;                ///< counts for the scale
+    double rest_length = 0;  ///< ours, from the parent
   };
   static Eigen::Vector3d SourcePoint(const Mark& mark, const Eigen::Matrix3Xd& source);
+  /// From the parent, of a mark that has one.
+  Eigen::Vector3d SourceBone(const Mark& mark, const Eigen::Matrix3Xd& source) const;
 
   std::vector<Mark> marks_;
 };

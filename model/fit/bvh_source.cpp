@@ -1,12 +1,10 @@
-#include "model/fit/bvh_source.h"
-
 #include <cmath>
 #include <optional>
 
 #include "model/core/error.h"
-#include "model/core/quantile.h"
 #include "model/fit/human_bones.h"
 #include "model/fit/mapping_builder.h"
+#include "model/fit/sources.h"
 #include "model/motion/mirror.h"
 
 namespace choreo {
@@ -21,36 +19,19 @@ class ClipBones {
   std::optional<std::string> Any(const std::string& bone) const {
     const int index = found_.Find(bone);
     if (index < 0) return std::nullopt;
-    return names_[static_cast<size_t>(index)];
+    return names_[index];
   }
   std::string Need(const std::string& bone) const {
     if (const auto name = Any(bone)) return *name;
     throw InvalidArgument("joint_names", "no joint named '" + NameInRig(found_.rig, bone) +
                                              "' or one of its usual other names (" + bone + ")");
   }
-  std::vector<std::string> Spine() const {
-    std::vector<std::string> spine;
-    for (const int index : found_.Spine()) spine.push_back(names_[static_cast<size_t>(index)]);
-    return spine;
-  }
+  std::vector<std::string> Spine() const { return found_.Spine(); }
 
  private:
   const std::vector<std::string>& names_;
   HumanBones found_;
 };
-
-double MedianDistance(const PositionClip& clip, const JointBlend& a, const JointBlend& b) {
-  const auto point = [&clip](const JointBlend& blend, const Eigen::Matrix3Xd& frame) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const auto& [name, weight] : blend) sum += weight * frame.col(FindJoint(clip, name));
-    return sum;
-  };
-  std::vector<double> distances;
-  for (const Eigen::Matrix3Xd& frame : clip.frames) {
-    distances.push_back((point(a, frame) - point(b, frame)).norm());
-  }
-  return Median(std::move(distances));
-}
 
 JointBlend Scaled(JointBlend blend, double factor) {
   for (auto& [name, weight] : blend) weight *= factor;
@@ -75,7 +56,7 @@ class SpineChain {
       heights_.push_back(heights_.back() + step);
       points_.push_back(point);
     };
-    for (const std::string& joint : bones.Spine()) append({{joint, 1.0}});
+    for (const std::string& bone : bones.Spine()) append({{bones.Need(bone), 1.0}});
     append({{neck, 1.0}});
   }
 
@@ -132,11 +113,8 @@ void AddCollar(const PositionClip& clip, const SpineChain& spine, const ClipBone
 void AddTrunk(const PositionClip& clip, const ClipBones& bones, MappingBuilder& builder) {
   const std::string neck = bones.Need("neck");
   const std::string left_hip = bones.Need("left_hip"), right_hip = bones.Need("right_hip");
-  const JointBlend hips = {{left_hip, 0.5}, {right_hip, 0.5}};
-  const SpineChain spine(clip, bones, hips, neck);
-  builder.Add("hips", "", hips, MappingBuilder::Between("left_hip", "right_hip"));
-  builder.AddJoint("left_hip", "hips", left_hip);
-  builder.AddJoint("right_hip", "hips", right_hip);
+  const SpineChain spine(clip, bones, {{left_hip, 0.5}, {right_hip, 0.5}}, neck);
+  builder.AddHips(left_hip, right_hip);
   if (spine.has_joints()) {
     // The first spine joint is fixed to the pelvis and stands straight above the hips.
     builder.Add("lumbar", "hips", spine.first_joint(),

@@ -41,11 +41,11 @@ class BodyBuilder {
 
   // What turns the rig upright, facing +Z.
   void Upright() {
-    const auto middle = [&](const char* joint) -> Eigen::Vector3d {
-      return (Place(std::string("left_") + joint) + Place(std::string("right_") + joint)) / 2;
+    const auto middle = [&](const std::string& joint) -> Eigen::Vector3d {
+      return (Place("left_" + joint) + Place("right_" + joint)) / 2;
     };
-    const auto across = [&](const char* joint) -> Eigen::Vector3d {
-      return Place(std::string("left_") + joint) - Place(std::string("right_") + joint);
+    const auto across = [&](const std::string& joint) -> Eigen::Vector3d {
+      return Place("left_" + joint) - Place("right_" + joint);
     };
     const Eigen::Vector3d trunk = middle("shoulder") - middle("hip");
     Eigen::Index axis = 0;
@@ -87,23 +87,16 @@ class BodyBuilder {
     const int node = bones_.Find(bone);
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     if (parent >= 0) {
-      const auto above = static_cast<size_t>(parent);
-      offset = body_.turns[above] * (places_.col(node) - places_.col(body_.nodes[above]));
+      offset = body_.turns[parent] * (places_.col(node) - places_.col(body_.nodes[parent]));
     }
     return Add(bone, node, parent, offset, turn);
   }
 
   void AddTrunk() {
     chest_ = AddBone("pelvis", -1, upright_);
-    const auto chain = [&](const char* first, size_t count, int parent) {
-      for (size_t i = 1; i <= count; ++i) {
-        const bool bare = i == 1 && std::string(first) == "neck";
-        parent = AddBone(bare ? first : first + std::to_string(i), parent, upright_);
-      }
-      return parent;
-    };
-    chest_ = chain("spine", bones_.Spine().size(), chest_);
-    const int neck = chain("neck", bones_.Neck().size(), chest_);
+    for (const std::string& bone : bones_.Spine()) chest_ = AddBone(bone, chest_, upright_);
+    int neck = chest_;
+    for (const std::string& bone : bones_.Neck()) neck = AddBone(bone, neck, upright_);
     if (bones_.Find("head") >= 0) AddBone("head", neck, upright_);
   }
 
@@ -208,16 +201,15 @@ std::string MissingBone(const HumanBones& bones) {
 CharacterBody MakeCharacterBody(const HumanBones& bones, const Eigen::Matrix3Xd& places) {
   if (const std::string missing = MissingBone(bones); !missing.empty())
     throw InvalidArgument("bones", "none of them is the " + missing);
-  const auto numbered = [&](const char* name, size_t count) {
+  for (const auto& [name, chain] :
+       {std::pair("spine", bones.Spine()), std::pair("neck", bones.Neck())}) {
     const auto has = std::ranges::count_if(
-        bones.bones, [&](const auto& bone) { return bone.first.starts_with(name); });
-    if (static_cast<size_t>(has) != count) {
+        bones.bones, [prefix = name](const auto& bone) { return bone.first.starts_with(prefix); });
+    if (has != std::ssize(chain)) {
       throw InvalidArgument("bones", std::string("those of the ") + name +
                                          " are not numbered one after the other, from below");
     }
-  };
-  numbered("spine", bones.Spine().size());
-  numbered("neck", bones.Neck().size());
+  }
   std::map<int, std::string> taken;
   for (const auto& [bone, node] : bones.bones) {
     const auto [other, is_new] = taken.try_emplace(node, bone);

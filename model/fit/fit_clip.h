@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "model/fit/position_clip.h"
 #include "model/fit/position_fitter.h"
 #include "model/fit/sources.h"
@@ -14,16 +11,12 @@
 /// puts our landmarks there, started from the frame before.
 namespace choreo {
 
-struct FitReport {
+struct FitResult {
+  Motion motion;            ///< at the clip's fps
   double mean_error_m = 0;  ///< over frames and landmarks, against the bone-normalised source
   double p95_error_m = 0;
   double scale = 1;           ///< SourceSize::scale
   double ground_shift_m = 0;  ///< what was added to the heights, on average
-};
-
-struct FitResult {
-  Motion motion;  ///< at the clip's fps
-  FitReport report;
 };
 
 /// Brings the body down to the floor at least every few seconds. What is taken off changes slowly,

@@ -1,5 +1,6 @@
 #include "model/fit/fit_problem.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +9,22 @@
 namespace choreo {
 namespace {
 
-constexpr double kHingePlane = 0.2;  // radians of a hinge's axis from the plane of a bent limb
 // Damping grows with each step that is refused; beyond the most, steps are too short to matter.
 constexpr double kFirstDamping = 1e-4;
 constexpr double kMostDamping = 1e2;
+
+// What the parent's rotation weighs beside landmarks, square metres.
+constexpr double kStays = 1e-4, kTrunkStays = 0.02;
+
+// The rotation that best turns what made the right factors of a correlation matrix onto what made
+// its left factors (Kabsch).
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& correlation) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d u = svd.matrixU();
+  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
+  return u * svd.matrixV().transpose();
+}
 
 }  // namespace
 
@@ -20,23 +33,20 @@ FitProblem::FitProblem(const Skeleton& skeleton, const SourceMapping& mapping,
     : skeleton_(skeleton),
       marks_(skeleton, mapping),
       landmark_term_(skeleton_, marks_, mapping.accuracy_m),
-      hinge_term_(skeleton_, marks_, kHingePlane),
-      joint_term_(skeleton_, options, fps),
-      start_(skeleton_, marks_, hinge_term_.planes()) {
+      hinge_term_(skeleton_, marks_),
+      joint_term_(skeleton_, options, fps) {
   const int unknowns = 3 + 3 * skeleton_.joints();
   const int rows = 3 * marks_.size() + hinge_term_.rows();
   rows_.jacobian.setZero(rows, unknowns);
   rows_.residual.resize(rows);
   normal_.resize(unknowns, unknowns);
-  damped_.resize(unknowns, unknowns);
-  gradient_.resize(unknowns);
-  step_.resize(unknowns);
-  cholesky_ = Eigen::LLT<Eigen::MatrixXd>(unknowns);
+  Place(RestPose(skeleton_));
+  rest_ = places_;
 }
 
 void FitProblem::Place(const Pose& pose) {
   ForwardKinematics(skeleton_, pose, places_.joints);
-  marks_.Positions(places_.joints, places_.marks);
+  places_.marks = marks_.Positions(places_.joints);
 }
 
 double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
@@ -108,6 +118,75 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const FitNeighbours& n
     weights += marks_[i].weight;
   }
   return std::sqrt(squares / weights);
+}
+
+bool FitProblem::InTrunk(int joint) const {
+  return joint > 0 && IsBelow(skeleton_.left_shoulder, joint, skeleton_.parents) &&
+         IsBelow(skeleton_.right_shoulder, joint, skeleton_.parents);
+}
+
+double FitProblem::TrunkTurn(const Pose& pose) const {
+  double turn = 0;
+  for (int joint = 1; joint < skeleton_.joints(); ++joint) {
+    if (InTrunk(joint)) turn += pose.rotations.col(joint).norm();
+  }
+  return turn;
+}
+
+Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
+  const int joints = skeleton_.joints();
+  Pose pose;
+  pose.rotations.setZero(3, joints);
+  Eigen::Matrix3Xd places(3, joints);
+  std::vector<Eigen::Matrix3d> turns(joints, Eigen::Matrix3d::Identity());
+  std::vector<char> below(marks_.size());
+  for (int joint = 0; joint < joints; ++joint) {
+    const int parent = skeleton_.parents[joint];
+    // The root turns about the root landmark, whose place is known; every other joint about itself.
+    Eigen::Vector3d pivot_target = targets.col(0), pivot_rest = rest_.marks.col(0);
+    if (parent >= 0) {
+      places.col(joint) = places.col(parent) + turns[parent] * skeleton_.offsets.col(joint);
+      pivot_target = places.col(joint);
+      pivot_rest = rest_.joints.positions.col(joint);
+    }
+    for (int i = 0; i < marks_.size(); ++i) {
+      below[i] = (parent >= 0 || i > 0) &&
+                 std::ranges::all_of(marks_[i].points, [&](const LandmarkSet::Point& point) {
+                   return IsBelow(point.joint, joint, skeleton_.parents) &&
+                          (point.joint != joint || !point.offset.isZero());
+                 });
+    }
+    // Where nothing tells, the parent's rotation goes on. The trunk's landmarks stand nearly on one
+    // line and tell nothing of its twist: left to their noise, a start would be wound up by a whole
+    // turn, and stay so, with hips and shoulders in their places.
+    const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];
+    Eigen::Matrix3d correlation = (InTrunk(joint) ? kTrunkStays : kStays) * carried;
+    bool told = false;
+    for (int i = 0; i < marks_.size(); ++i) {
+      if (!below[i] || (marks_[i].parent >= 0 && below[marks_[i].parent])) continue;
+      told = true;
+      correlation += marks_[i].weight * (targets.col(i) - pivot_target) *
+                     (rest_.marks.col(i) - pivot_rest).transpose();
+    }
+    for (const HingePlane& hinge : hinge_term_.planes()) {
+      if (hinge.upper_joint != joint) continue;
+      const Eigen::Vector3d upper = (targets.col(hinge.hinge_mark) - pivot_target).normalized();
+      const Eigen::Vector3d lower =
+          (targets.col(hinge.end_mark) - targets.col(hinge.hinge_mark)).normalized();
+      const Eigen::Vector3d plane = upper.cross(lower);
+      // A nearly straight limb whose plane says that it bends backwards is noise.
+      const bool plausible = plane.norm() > kSineOfSureBend || plane.dot(carried * hinge.axis) > 0;
+      if (plausible) correlation += 0.05 * plane * hinge.axis.transpose();
+    }
+    turns[joint] = told ? NearestRotation(correlation) : carried;
+    if (parent < 0) {
+      places.col(0) =
+          targets.col(0) - turns[0] * (rest_.marks.col(0) - rest_.joints.positions.col(0));
+      pose.root_position = places.col(0);
+    }
+    pose.rotations.col(joint) = LogMap(carried.transpose() * turns[joint]);
+  }
+  return pose;
 }
 
 }  // namespace choreo

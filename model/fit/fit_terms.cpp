@@ -8,6 +8,7 @@
 namespace choreo {
 namespace {
 
+constexpr double kHingePlane = 0.2;  // radians of a hinge's axis from the plane of a bent limb
 constexpr double kLeastBend = 0.03;  // radians, of knees and elbows
 // Radians that no hinge is bent backwards.
 constexpr double kMostShortWay = 2;
@@ -77,8 +78,8 @@ void LandmarkTerm::Linearise(const FitPlaces& places, const Eigen::Matrix3Xd& ta
   }
 }
 
-HingePlaneTerm::HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& marks, double plane_rad)
-    : skeleton_(skeleton), plane_rad_(plane_rad) {
+HingePlaneTerm::HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& marks)
+    : skeleton_(skeleton) {
   for (const Hinge& hinge : Hinges(skeleton)) {
     if (hinge.upper < 0) continue;
     const int upper_mark = marks.AtJoint(hinge.upper);
@@ -89,9 +90,7 @@ HingePlaneTerm::HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& mark
                          .upper_mark = upper_mark,
                          .hinge_mark = hinge_mark,
                          .end_mark = end,
-                         .axis = hinge.axis,
-                         .normal = Eigen::Vector3d::Zero(),
-                         .weight = 0});
+                         .axis = hinge.axis});
       break;
     }
   }
@@ -106,7 +105,7 @@ void HingePlaneTerm::Aim(const Eigen::Matrix3Xd& targets) {
     // In a limb bent by less than the threshold the plane is noise, and may be that of a limb bent
     // backwards.
     const double sureness = std::max(0.0, sine - kSineOfSureBend) / (1.0 - kSineOfSureBend);
-    plane.weight = sureness / plane_rad_;
+    plane.weight = sureness / kHingePlane;
     if (sureness > 0) plane.normal = normal.normalized();
   }
 }
@@ -169,26 +168,24 @@ double JointTerm::Prior::Beyond(const Eigen::Vector3d& turn) const {
 }
 
 void JointTerm::AddCost(const Pose& pose, const FitNeighbours& neighbours, double* cost) const {
-  for (size_t joint = 0; joint < priors_.size(); ++joint) {
-    const auto column = static_cast<Eigen::Index>(joint);
+  for (int joint = 0; joint < std::ssize(priors_); ++joint) {
     const Prior& prior = priors_[joint];
-    const Eigen::Vector3d w = prior.Turn(pose.rotations.col(column));
+    const Eigen::Vector3d w = prior.Turn(pose.rotations.col(joint));
     *cost += w.dot(prior.information * w);
     *cost += Square(prior.Beyond(w) / limit_rad_);
     for (const Pose* other : {neighbours.before, neighbours.after}) {
       if (other == nullptr) continue;
       *cost +=
-          change_information_ * RotationDifference(other->rotations.col(column), w).squaredNorm();
+          change_information_ * RotationDifference(other->rotations.col(joint), w).squaredNorm();
     }
   }
 }
 
 void JointTerm::Linearise(const Pose& pose, const FitNeighbours& neighbours,
                           Eigen::MatrixXd* normal, Eigen::VectorXd* gradient) const {
-  for (size_t joint = 0; joint < priors_.size(); ++joint) {
-    const auto column = static_cast<Eigen::Index>(joint);
+  for (int joint = 0; joint < std::ssize(priors_); ++joint) {
     const Prior& prior = priors_[joint];
-    const Eigen::Vector3d w = prior.Turn(pose.rotations.col(column));
+    const Eigen::Vector3d w = prior.Turn(pose.rotations.col(joint));
     const Eigen::Matrix3d slope = LogJacobian(w);
     Eigen::Matrix3d information = prior.information;
     Eigen::Vector3d pull = prior.information * w;
@@ -197,15 +194,15 @@ void JointTerm::Linearise(const Pose& pose, const FitNeighbours& neighbours,
       information += hard * prior.hinge_axis * prior.hinge_axis.transpose();
       pull += hard * beyond * prior.hinge_axis;
     }
-    auto own_normal = normal->block<3, 3>(3 + 3 * column, 3 + 3 * column);
-    auto own_gradient = gradient->segment<3>(3 + 3 * column);
+    auto own_normal = normal->block<3, 3>(3 + 3 * joint, 3 + 3 * joint);
+    auto own_gradient = gradient->segment<3>(3 + 3 * joint);
     own_normal += slope.transpose() * information * slope;
     own_gradient += slope.transpose() * pull;
     for (const Pose* other : {neighbours.before, neighbours.after}) {
       if (other == nullptr) continue;
       // log(R R_other^T), in the parent's frame as delta is; its own Jacobian is near identity.
       const Eigen::Vector3d change = ExpFromQuaternion(
-          QuaternionFromExp(w) * QuaternionFromExp(other->rotations.col(column)).conjugate());
+          QuaternionFromExp(w) * QuaternionFromExp(other->rotations.col(joint)).conjugate());
       own_normal.diagonal().array() += change_information_;
       own_gradient += change_information_ * change;
     }

@@ -4,13 +4,27 @@
 #include <vector>
 
 #include "model/fit/landmarks.h"
-#include "model/fit/position_fitter.h"
 #include "model/motion/kinematics.h"
 
 /// The terms of one frame's least-squares problem: each has its residual, what that costs, and how
 /// it changes, in one place. Unknown are the root's position and a turn of each joint in its
 /// parent's frame: 3 + 3 joints.
 namespace choreo {
+
+/// How hard what pulls: standard deviations of the least-squares terms, beside
+/// SourceMapping::accuracy_m.
+struct FitOptions {
+  double rest_rad = 1.2;           ///< every joint towards its rest rotation
+  double stiff_rad = 0.5;          ///< the same of spine, collars, neck, head, wrists and feet
+  double twist_rad = 0.7;          ///< of hips and shoulders about the bone below
+  double foot_turn_rad = 0.35;     ///< of ankles about the shin
+  double hinge_side_rad = 0.35;    ///< knees and elbows off their hinge axis
+  double hinge_limit_rad = 0.006;  ///< knees and elbows beyond straight
+  double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
+  int iterations = 3;              ///< per warm-started frame
+  bool recover = true;             ///< begin anew where the fit is lost, even if that jumps
+  bool ground = true;              ///< FitClip alone: bring the body down to the floor
+};
 
 /// What a frame is tied to in time; either may be null.
 struct FitNeighbours {
@@ -57,15 +71,15 @@ inline constexpr double kSineOfSureBend = 0.3;  ///< of a limb that is bent, wha
 struct HingePlane {
   int upper_joint;
   int upper_mark, hinge_mark, end_mark;
-  Eigen::Vector3d axis;    ///< in the upper joint's frame
-  Eigen::Vector3d normal;  ///< of this frame's targets, unit length
-  double weight;           ///< of this frame: 0 for a straight limb
+  Eigen::Vector3d axis;                              ///< in the upper joint's frame
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of this frame's targets, unit length
+  double weight = 0;                                 ///< of this frame: 0 for a straight limb
 };
 
 /// Hinge axes across the planes of bent limbs. Skeleton and marks outlive it.
 class HingePlaneTerm {
  public:
-  HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& marks, double plane_rad);
+  HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& marks);
 
   const std::vector<HingePlane>& planes() const { return planes_; }
   int rows() const { return 3 * static_cast<int>(planes_.size()); }
@@ -82,7 +96,6 @@ class HingePlaneTerm {
   }
 
   const Skeleton& skeleton_;
-  double plane_rad_;
   std::vector<HingePlane> planes_;
 };
 

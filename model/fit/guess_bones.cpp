@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 
@@ -15,8 +14,8 @@ namespace {
 // Of the body's height.
 constexpr double kBeside = 0.02;      // what stands so far beside the middle belongs to a side
 constexpr double kAboveToes = 0.035;  // ankles are higher
-constexpr size_t kFewest = 10, kMost = 5000;  // nodes of a body: a hostile file has any number
-constexpr size_t kFingers = 3;                // a hand carries so many
+constexpr size_t kFewestNodes = 10, kMostNodes = 5000;  // a hostile file has any number
+constexpr size_t kFingers = 3;                          // a hand carries so many
 
 class BodyGuess {
  public:
@@ -24,15 +23,15 @@ class BodyGuess {
             const std::vector<bool>& joints)
       : parents_(parents), places_(places), children_(parents.size()) {
     for (int node = 0; node < std::ssize(parents); ++node) {
-      if (!joints[static_cast<size_t>(node)]) continue;
+      if (!joints[node]) continue;
       nodes_.push_back(node);
-      const int parent = parents[static_cast<size_t>(node)];
-      if (parent >= 0) children_[static_cast<size_t>(parent)].push_back(node);
+      const int parent = parents[node];
+      if (parent >= 0) children_[parent].push_back(node);
     }
   }
 
   HumanBones Guess() {
-    if (nodes_.size() < kFewest || parents_.size() > kMost) return {};
+    if (nodes_.size() < kFewestNodes || parents_.size() > kMostNodes) return {};
     Measure();
     const int feet[2] = {Extreme([&](int n) { return Beside(n, 1) ? -Y(n) : kNever; }),
                          Extreme([&](int n) { return Beside(n, -1) ? -Y(n) : kNever; })};
@@ -67,32 +66,24 @@ class BodyGuess {
   double Length(int a, int b) const { return (places_.col(a) - places_.col(b)).norm(); }
 
   void Measure() {
-    double low = Y(nodes_[0]), high = low, left = places_(0, nodes_[0]), right = left;
-    for (const int node : nodes_) {
-      low = std::min(low, Y(node)), high = std::max(high, Y(node));
-      left = std::max(left, places_(0, node)), right = std::min(right, places_(0, node));
-    }
-    height_ = high - low;
-    floor_ = low;
-    middle_ = (left + right) / 2;
+    const Eigen::Matrix3Xd body = places_(Eigen::all, nodes_);
+    floor_ = body.row(1).minCoeff();
+    height_ = body.row(1).maxCoeff() - floor_;
+    middle_ = (body.row(0).maxCoeff() + body.row(0).minCoeff()) / 2;
   }
 
-  int Extreme(const std::function<double(int)>& value) const {
-    return *std::ranges::max_element(nodes_, {}, value);
-  }
+  int Extreme(const auto& value) const { return *std::ranges::max_element(nodes_, {}, value); }
 
   // The lowest node from which both hang.
   int Common(int a, int b) const {
-    int node = parents_[static_cast<size_t>(b)];
-    while (node >= 0 && (node == a || !IsBelow(a, node, parents_)))
-      node = parents_[static_cast<size_t>(node)];
+    int node = parents_[b];
+    while (node >= 0 && (node == a || !IsBelow(a, node, parents_))) node = parents_[node];
     return node;
   }
   // From below `ancestor` to `node`.
   std::vector<int> Path(int ancestor, int node) const {
     std::vector<int> path;
-    for (; node >= 0 && node != ancestor; node = parents_[static_cast<size_t>(node)])
-      path.push_back(node);
+    for (; node >= 0 && node != ancestor; node = parents_[node]) path.push_back(node);
     std::ranges::reverse(path);
     return path;
   }
@@ -108,11 +99,10 @@ class BodyGuess {
       while (ankle + 1 < path.size() && Y(path[ankle + 1]) - floor_ > kAboveToes * height_) ++ankle;
     }
     const double half = (Y(path[0]) + Y(path[ankle])) / 2;
-    const auto* knee = &*std::min_element(
-        path.begin() + 1, path.begin() + static_cast<std::ptrdiff_t>(ankle),
-        [&](int a, int b) { return std::abs(Y(a) - half) < std::abs(Y(b) - half); });
+    const int knee = *std::ranges::min_element(path.begin() + 1, path.begin() + ankle, {},
+                                               [&](int node) { return std::abs(Y(node) - half); });
     Set(name + "hip", path[0]);
-    Set(name + "knee", *knee);
+    Set(name + "knee", knee);
     Set(name + "ankle", path[ankle]);
     if (ankle + 1 < path.size()) Set(name + "foot", path[ankle + 1]);
   }
@@ -120,9 +110,9 @@ class BodyGuess {
   void Arm(const std::vector<int>& path, int side) {
     const std::string name = side > 0 ? "left_" : "right_";
     if (path.size() < 3) return;
-    const auto hand = std::ranges::find_if(
-        path, [&](int node) { return children_[static_cast<size_t>(node)].size() >= kFingers; });
-    size_t wrist = static_cast<size_t>(hand - path.begin());
+    const auto hand =
+        std::ranges::find_if(path, [&](int node) { return children_[node].size() >= kFingers; });
+    size_t wrist = hand - path.begin();
     if (hand == path.end()) wrist = std::min<size_t>(path.size() - 1, 3);
     if (wrist < 2) return;
     // Upper arm and forearm are long, and as long as each other.

@@ -36,44 +36,30 @@ std::string OnSide(std::string_view name, const Rig& rig, bool left) {
   return out;
 }
 
-std::string Numbered(const char* name, int number, bool first_bare) {
-  return first_bare && number == 1 ? name : name + std::to_string(number);
-}
+std::string SpineName(int number) { return "spine" + std::to_string(number); }
+std::string NeckName(int number) { return number == 1 ? "neck" : "neck" + std::to_string(number); }
 
-/// Indices of names, the first of each.
-class Names {
- public:
-  explicit Names(const std::vector<std::string>& names) {
-    for (size_t i = 0; i < names.size(); ++i) index_.try_emplace(names[i], static_cast<int>(i));
-  }
-  int Find(const std::string& name) const {
-    const auto found = index_.find(name);
-    return found == index_.end() ? -1 : found->second;
-  }
+using NameIndex = std::unordered_map<std::string_view, int>;
 
- private:
-  std::unordered_map<std::string_view, int> index_;
-};
-
-HumanBones FindIn(const Rig& rig, const std::string& prefix, const Names& names) {
+HumanBones FindIn(const Rig& rig, const std::string& prefix, const NameIndex& names) {
   HumanBones found{.rig = rig.name, .bones = {}};
   const auto any = [&](const std::string& bone, std::string_view candidates, bool left) {
     for (const std::string_view candidate : Split(candidates)) {
-      const int index = names.Find(prefix + OnSide(candidate, rig, left));
-      if (index >= 0 && found.bones.try_emplace(bone, index).second) return;
+      const auto name = names.find(prefix + OnSide(candidate, rig, left));
+      if (name != names.end() && found.bones.try_emplace(bone, name->second).second) return;
     }
   };
-  const auto all = [&](const char* bone, std::string_view candidates, bool first_bare) {
+  const auto all = [&](std::string (*bone)(int), std::string_view candidates) {
     int number = 0;
     for (const std::string_view candidate : Split(candidates)) {
-      const int index = names.Find(prefix + std::string(candidate));
-      if (index >= 0) found.bones[Numbered(bone, ++number, first_bare)] = index;
+      const auto name = names.find(prefix + std::string(candidate));
+      if (name != names.end()) found.bones[bone(++number)] = name->second;
     }
   };
   any("pelvis", rig.trunk.pelvis, true);
   any("head", rig.trunk.head, true);
-  all("spine", rig.trunk.spine, false);
-  all("neck", rig.trunk.neck, true);
+  all(SpineName, rig.trunk.spine);
+  all(NeckName, rig.trunk.neck);
   for (const bool left : {true, false}) {
     for (size_t i = 0; i < std::size(kLimbBones); ++i)
       any((left ? "left_" : "right_") + std::string(kLimbBones[i]), rig.limbs[i], left);
@@ -113,13 +99,10 @@ std::pair<int, size_t> Score(const HumanBones& found) {
   return {needed, found.bones.size()};
 }
 
-std::vector<int> Chain(const HumanBones& found, const char* name, bool first_bare) {
-  std::vector<int> chain;
-  for (int number = 1;; ++number) {
-    const int bone = found.Find(Numbered(name, number, first_bare));
-    if (bone < 0) return chain;
-    chain.push_back(bone);
-  }
+std::vector<std::string> Chain(const HumanBones& found, std::string (*bone)(int)) {
+  std::vector<std::string> chain;
+  for (int number = 1; found.Find(bone(number)) >= 0; ++number) chain.push_back(bone(number));
+  return chain;
 }
 
 }  // namespace
@@ -129,11 +112,12 @@ int HumanBones::Find(const std::string& bone) const {
   return found == bones.end() ? -1 : found->second;
 }
 
-std::vector<int> HumanBones::Spine() const { return Chain(*this, "spine", false); }
-std::vector<int> HumanBones::Neck() const { return Chain(*this, "neck", true); }
+std::vector<std::string> HumanBones::Spine() const { return Chain(*this, SpineName); }
+std::vector<std::string> HumanBones::Neck() const { return Chain(*this, NeckName); }
 
 HumanBones FindHumanBones(const std::vector<std::string>& names) {
-  const Names index(names);
+  NameIndex index;  // the first of each
+  for (size_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], static_cast<int>(i));
   HumanBones best{.rig = kHumanIkRig, .bones = {}};
   for (const Rig& rig : kRigs) {
     for (const std::string& prefix : PrefixesOf(rig, names)) {
@@ -147,10 +131,8 @@ HumanBones FindHumanBones(const std::vector<std::string>& names) {
 const std::vector<std::string>& AllHumanBones() {
   static const std::vector<std::string> bones = [] {
     std::vector<std::string> all = {"pelvis"};
-    for (int number = 1; number <= kMostSpines; ++number)
-      all.push_back(Numbered("spine", number, false));
-    for (int number = 1; number <= kMostNecks; ++number)
-      all.push_back(Numbered("neck", number, true));
+    for (int number = 1; number <= kMostSpines; ++number) all.push_back(SpineName(number));
+    for (int number = 1; number <= kMostNecks; ++number) all.push_back(NeckName(number));
     all.emplace_back("head");
     for (const char* side : {"left_", "right_"}) {
       for (const std::string_view bone : kLimbBones) all.push_back(side + std::string(bone));
@@ -162,21 +144,20 @@ const std::vector<std::string>& AllHumanBones() {
 
 std::string NameInRig(std::string_view rig_name, const std::string& bone) {
   const Rig& rig = *std::ranges::find(kRigs, rig_name, &Rig::name);
-  const auto nth = [](std::string_view names, size_t number) {
+  const auto nth = [](std::string_view names, int number) {
     const std::vector<std::string_view> split = Split(names);
-    return number < split.size() ? std::string(split[number]) : std::string();
+    return number > std::ssize(split) ? std::string() : std::string(split[number - 1]);
   };
   for (int number = 1; number <= kMostSpines; ++number) {
-    const auto index = static_cast<size_t>(number) - 1;
-    if (bone == Numbered("spine", number, false)) return nth(rig.trunk.spine, index);
-    if (bone == Numbered("neck", number, true)) return nth(rig.trunk.neck, index);
+    if (bone == SpineName(number)) return nth(rig.trunk.spine, number);
+    if (bone == NeckName(number)) return nth(rig.trunk.neck, number);
   }
-  if (bone == "pelvis") return nth(rig.trunk.pelvis, 0);
-  if (bone == "head") return nth(rig.trunk.head, 0);
+  if (bone == "pelvis") return nth(rig.trunk.pelvis, 1);
+  if (bone == "head") return nth(rig.trunk.head, 1);
   const bool left = bone.starts_with("left_");
   for (size_t i = 0; i < std::size(kLimbBones); ++i) {
     if (bone == (left ? "left_" : "right_") + std::string(kLimbBones[i]))
-      return OnSide(nth(rig.limbs[i], 0), rig, left);
+      return OnSide(nth(rig.limbs[i], 1), rig, left);
   }
   return "";
 }

@@ -18,9 +18,9 @@ struct HumanBones {
 
   /// Its index, or -1.
   int Find(const std::string& bone) const;
-  /// spine1, spine2, ... or neck, neck2, ...: from below.
-  std::vector<int> Spine() const;
-  std::vector<int> Neck() const;
+  /// Of spine1, spine2, ... and neck, neck2, ... those it has, from below.
+  std::vector<std::string> Spine() const;
+  std::vector<std::string> Neck() const;
 };
 
 /// The rig of whose names most are there, with any prefix that all of them share

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <map>
 
-#include "model/core/error.h"
 #include "model/fit/fit_problem.h"
 #include "model/motion/kinematics.h"
 
@@ -26,16 +25,12 @@ struct Pin {
 };
 
 // Only the pose itself says what is near: being far from rest costs next to nothing.
-FitOptions Options() {
-  FitOptions options;
-  options.rest_rad = 6;
-  options.stiff_rad = 3;
-  options.twist_rad = 3;
-  options.foot_turn_rad = 1;
-  options.hinge_side_rad = 0.08;
-  options.change_rad = 0.3;
-  return options;
-}
+constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
+                                      .stiff_rad = 3,
+                                      .twist_rad = 3,
+                                      .foot_turn_rad = 1,
+                                      .hinge_side_rad = 0.08,
+                                      .change_rad = 0.3};
 
 // By joint: the targets, and what stays.
 std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
@@ -51,11 +46,11 @@ std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
   }
   for (const JointTarget& target : targets) {
     const Eigen::Vector3d way = target.position - now.col(target.joint);
-    const auto parent = [&](int of) { return skeleton.parents[static_cast<size_t>(of)]; };
     // What hangs on a target, or a target on it, goes along.
     for (auto pin = pins.begin(); pin != pins.end();) {
       const int joint = pin->first;
-      const bool along = parent(joint) == target.joint || parent(target.joint) == joint;
+      const bool along =
+          skeleton.parents[joint] == target.joint || skeleton.parents[target.joint] == joint;
       if (along) pin->second = {now.col(joint) + way, kAlong};
       const bool foot = std::ranges::find(feet, joint) != feet.end();
       pin = along && !foot ? pins.erase(pin) : std::next(pin);
@@ -68,7 +63,7 @@ std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
 SourceMapping Landmarks(const Skeleton& skeleton, const std::map<int, Pin>& pins) {
   SourceMapping mapping{.name = "pins", .landmarks = {}, .accuracy_m = kPinAccuracy, .feet = {}};
   for (const auto& [joint, pin] : pins) {
-    const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];
+    const std::string& name = skeleton.joint_names[joint];
     mapping.landmarks.push_back({.name = name,
                                  .source = {{name, 1}},
                                  .ours = {{.joint = name}},
@@ -78,37 +73,18 @@ SourceMapping Landmarks(const Skeleton& skeleton, const std::map<int, Pin>& pins
   return mapping;
 }
 
-void Check(const Skeleton& skeleton, std::span<const JointTarget> targets) {
-  for (size_t i = 0; i < targets.size(); ++i) {
-    const std::string field = "targets[" + std::to_string(i) + "]";
-    const int joint = targets[i].joint;
-    if (joint < 0 || joint >= skeleton.joints()) {
-      throw InvalidArgument(field + ".joint", std::to_string(joint) + ", must be 0 to " +
-                                                  std::to_string(skeleton.joints() - 1));
-    }
-    if (!targets[i].position.allFinite())
-      throw InvalidArgument(field + ".position", "is not finite");
-    for (size_t before = 0; before < i; ++before) {
-      if (targets[before].joint != joint) continue;
-      throw InvalidArgument(field + ".joint", skeleton.joint_names[static_cast<size_t>(joint)] +
-                                                  " has a target already");
-    }
-  }
-}
-
 }  // namespace
 
 DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
                      std::span<const JointTarget> targets) {
-  Check(skeleton, targets);
   const Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
   DrawnPose drawn{pose, {}};
   if (targets.empty()) return drawn;
   const std::map<int, Pin> pins = PinsOf(skeleton, now, targets);
-  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(pins.size()));
+  Eigen::Matrix3Xd places(3, std::ssize(pins));
   Eigen::Index mark = 0;
   for (const auto& [joint, pin] : pins) places.col(mark++) = pin.position;
-  FitProblem problem(skeleton, Landmarks(skeleton, pins), Options(), 30);
+  FitProblem problem(skeleton, Landmarks(skeleton, pins), kDrawnOptions, 30);
   problem.Solve(places, {.before = &pose}, kIterations, drawn.pose);
   MakeContinuous(drawn.pose, pose);
   const Eigen::Matrix3Xd ended = JointPositions(skeleton, drawn.pose);

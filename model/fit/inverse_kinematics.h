@@ -25,8 +25,8 @@ struct DrawnPose {
 /// and chest stay about there, so that an arm reaches first and the trunk leans where the arm is
 /// too short. Knees and elbows bend as they can, the other joints turn as little as need be. A
 /// least squares fit (fit/fit_problem.h): a target within reach is met to a millimetre or two,
-/// another one is neared. About a millisecond. Pure; throws Error(kInvalidArgument) for a joint
-/// that the skeleton lacks, two targets of one joint, and a pose of another joint count.
+/// another one is neared. About a millisecond. `targets` are finite, of different joints of the
+/// skeleton. Pure; throws Error(kInvalidArgument) for a pose of another joint count.
 DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
                      std::span<const JointTarget> targets);
 

@@ -1,5 +1,6 @@
 #include "model/fit/landmarks.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/core/error.h"
@@ -16,7 +17,7 @@ LandmarkSet::LandmarkSet(const Skeleton& skeleton, const SourceMapping& mapping)
                                                    ", must be -1 for the first landmark and an "
                                                    "earlier landmark's index for the others");
     }
-    Mark mark{.points = {}, .parent = landmark.parent, .weight = landmark.weight, .joint = -1};
+    Mark mark{.points = {}, .parent = landmark.parent, .weight = landmark.weight};
     double sum = 0;
     for (const OurPoint& point : landmark.ours) {
       const int joint = skeleton.Find(point.joint);
@@ -31,32 +32,26 @@ LandmarkSet::LandmarkSet(const Skeleton& skeleton, const SourceMapping& mapping)
       throw InvalidArgument(field + ".ours",
                             "weights sum to " + std::to_string(sum) + ", must be 1");
     }
-    if (mark.points.size() == 1 && mark.points[0].offset.isZero())
-      mark.joint = mark.points[0].joint;
     marks_.push_back(std::move(mark));
   }
 }
 
-void LandmarkSet::Positions(const JointPlacement& placement, Eigen::Matrix3Xd& positions) const {
-  positions.resize(3, size());
+Eigen::Matrix3Xd LandmarkSet::Positions(const JointPlacement& placement) const {
+  Eigen::Matrix3Xd positions(3, size());
   for (int i = 0; i < size(); ++i) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Point& point : marks_[i].points) sum += point.weight * Position(point, placement);
     positions.col(i) = sum;
   }
-}
-
-Eigen::Matrix3Xd LandmarkSet::Positions(const JointPlacement& placement) const {
-  Eigen::Matrix3Xd positions;
-  Positions(placement, positions);
   return positions;
 }
 
 int LandmarkSet::AtJoint(int joint) const {
-  for (int i = 0; i < size(); ++i) {
-    if (marks_[i].joint == joint) return i;
-  }
-  return -1;
+  const auto at = std::ranges::find_if(marks_, [joint](const Mark& mark) {
+    const Point& point = mark.points[0];
+    return mark.points.size() == 1 && point.joint == joint && point.offset.isZero();
+  });
+  return at == marks_.end() ? -1 : static_cast<int>(at - marks_.begin());
 }
 
 }  // namespace choreo

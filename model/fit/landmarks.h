@@ -22,7 +22,6 @@ class LandmarkSet {
     std::vector<Point> points;
     int parent;
     double weight;
-    int joint;  ///< the joint in whose place it stands, -1 where it stands in none
   };
 
   /// Throws Error(kInvalidArgument) for a joint that the skeleton lacks, a parent that does not
@@ -36,7 +35,6 @@ class LandmarkSet {
     return placement.positions.col(point.joint) + placement.rotations[point.joint] * point.offset;
   }
   /// [3, landmarks]
-  void Positions(const JointPlacement& placement, Eigen::Matrix3Xd& positions) const;
   Eigen::Matrix3Xd Positions(const JointPlacement& placement) const;
 
   /// The landmark that stands in a joint's place, or -1.

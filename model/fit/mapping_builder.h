@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,14 +20,12 @@ class MappingBuilder {
   /// `parent` is a landmark's name, empty for the first one.
   void Add(const std::string& name, const std::string& parent, JointBlend source,
            std::vector<OurPoint> ours, double weight = 1, bool rigid = true) {
-    int index = -1;
-    for (size_t i = 0; i < mapping_.landmarks.size(); ++i) {
-      if (mapping_.landmarks[i].name == parent) index = static_cast<int>(i);
-    }
+    const auto above = std::ranges::find(mapping_.landmarks, parent, &Landmark::name);
+    const auto index = static_cast<int>(above - mapping_.landmarks.begin());
     mapping_.landmarks.push_back({.name = name,
                                   .source = std::move(source),
                                   .ours = std::move(ours),
-                                  .parent = index,
+                                  .parent = parent.empty() ? -1 : index,
                                   .rigid = rigid,
                                   .weight = weight});
   }
@@ -35,6 +34,13 @@ class MappingBuilder {
   void AddJoint(const std::string& ours, const std::string& parent, const std::string& source,
                 double weight = 1) {
     Add(ours, parent, {{source, 1.0}}, {{.joint = ours}}, weight);
+  }
+
+  /// The middle of the hips, from which all hangs, and both of them.
+  void AddHips(const std::string& left, const std::string& right) {
+    Add("hips", "", {{left, 0.5}, {right, 0.5}}, Between("left_hip", "right_hip"));
+    AddJoint("left_hip", "hips", left);
+    AddJoint("right_hip", "hips", right);
   }
 
   void AddFoot(const std::string& source_joint) { mapping_.feet.push_back(source_joint); }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "model/core/error.h"
 #include "model/fit/fit_clip.h"
 #include "model/fit/mapping_builder.h"
 
@@ -12,25 +11,11 @@ namespace {
 constexpr double kPhotoAccuracy = 0.03;  // metres: how far landmarks of photos are off
 constexpr double kLeastWeight = 0.001;
 
-}  // namespace
-
-const std::vector<std::string>& MediaPipeJointNames() {
-  static const std::vector<std::string> kNames = {
-      "nose",        "left_eye_inner",  "left_eye",        "left_eye_outer", "right_eye_inner",
-      "right_eye",   "right_eye_outer", "left_ear",        "right_ear",      "mouth_left",
-      "mouth_right", "left_shoulder",   "right_shoulder",  "left_elbow",     "right_elbow",
-      "left_wrist",  "right_wrist",     "left_pinky",      "right_pinky",    "left_index",
-      "right_index", "left_thumb",      "right_thumb",     "left_hip",       "right_hip",
-      "left_knee",   "right_knee",      "left_ankle",      "right_ankle",    "left_heel",
-      "right_heel",  "left_foot_index", "right_foot_index"};
-  return kNames;
-}
-
+// How they tell where our joints are.
 SourceMapping MediaPipeSource(std::span<const double> visibilities) {
-  const std::vector<std::string>& names = MediaPipeJointNames();
   const auto seen = [&](const std::string& name) {
-    const auto at = static_cast<size_t>(std::ranges::find(names, name) - names.begin());
-    return std::clamp(visibilities[at] * visibilities[at], kLeastWeight, 1.0);
+    const double visibility = visibilities[IndexOf(MediaPipeJointNames(), name)];
+    return std::clamp(visibility * visibility, kLeastWeight, 1.0);
   };
   using B = MappingBuilder;
   B builder("mediapipe", kPhotoAccuracy);
@@ -66,14 +51,22 @@ SourceMapping MediaPipeSource(std::span<const double> visibilities) {
   return builder.Take();
 }
 
+}  // namespace
+
+const std::vector<std::string>& MediaPipeJointNames() {
+  static const std::vector<std::string> kNames = {
+      "nose",        "left_eye_inner",  "left_eye",        "left_eye_outer", "right_eye_inner",
+      "right_eye",   "right_eye_outer", "left_ear",        "right_ear",      "mouth_left",
+      "mouth_right", "left_shoulder",   "right_shoulder",  "left_elbow",     "right_elbow",
+      "left_wrist",  "right_wrist",     "left_pinky",      "right_pinky",    "left_index",
+      "right_index", "left_thumb",      "right_thumb",     "left_hip",       "right_hip",
+      "left_knee",   "right_knee",      "left_ankle",      "right_ankle",    "left_heel",
+      "right_heel",  "left_foot_index", "right_foot_index"};
+  return kNames;
+}
+
 Pose FitMediaPipe(const Eigen::Matrix3Xd& landmarks, std::span<const double> visibilities,
                   const Skeleton& skeleton) {
-  const auto count = static_cast<Eigen::Index>(MediaPipeJointNames().size());
-  if (landmarks.cols() != count || std::ssize(visibilities) != count) {
-    throw InvalidArgument("landmarks", std::to_string(landmarks.cols()) + " landmarks and " +
-                                           std::to_string(visibilities.size()) +
-                                           " visibilities, must be " + std::to_string(count));
-  }
   PositionClip clip{.fps = 30, .joint_names = MediaPipeJointNames(), .frames = {}};
   clip.frames.push_back(Eigen::Vector3d(1, -1, -1).asDiagonal() * landmarks);
   Pose pose = FitClip(clip, MediaPipeSource(visibilities), skeleton).motion.frames.front();

@@ -5,23 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/sources.h"
 #include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 
 /// MediaPipe Pose's 33 landmarks in its order: "nose", "left_eye_inner", ... "right_foot_index".
 const std::vector<std::string>& MediaPipeJointNames();
 
-/// How they tell where our joints are. `visibilities` [33], 0 to 1, are their weights; what is
-/// hardly seen says hardly anything, and the body's habits fill it in.
-SourceMapping MediaPipeSource(std::span<const double> visibilities);
-
 /// A pose from the landmarks of one picture: `landmarks` [3, 33] are MediaPipe's world landmarks,
 /// metres around the middle of the hips, x to the picture's right, y down, z away from the camera.
-/// Our bones, their directions. It stands around the origin with a foot on the floor, and who looks
-/// into the camera faces +Z. Pure; throws Error(kInvalidArgument) for other numbers than 33 and
-/// those that are not finite.
+/// `visibilities` [33], 0 to 1, are their weights; what is hardly seen says hardly anything, and
+/// the body's habits fill it in. Our bones, their directions. It stands around the origin with a
+/// foot on the floor, and who looks into the camera faces +Z. Pure; throws Error(kInvalidArgument)
+/// for numbers that are not finite.
 Pose FitMediaPipe(const Eigen::Matrix3Xd& landmarks, std::span<const double> visibilities,
                   const Skeleton& skeleton);
 

@@ -6,7 +6,6 @@
 
 #include "model/core/error.h"
 #include "model/motion/resample.h"
-#include "model/motion/skeleton.h"
 
 namespace choreo {
 namespace {
@@ -16,7 +15,6 @@ struct Biquad {
   double b0, b1, b2, a1, a2;
 
   void Run(std::vector<Eigen::Matrix3Xd>& samples) const {
-    if (samples.empty()) return;
     // Start in the steady state of the first sample, so that a constant passes unchanged.
     Eigen::Matrix3Xd x1 = samples[0], x2 = samples[0], y1 = samples[0], y2 = samples[0];
     for (Eigen::Matrix3Xd& sample : samples) {
@@ -54,15 +52,7 @@ void ValidateClip(const PositionClip& clip) {
   }
 }
 
-int FindJoint(const PositionClip& clip, const std::string& joint_name) {
-  return IndexOf(clip.joint_names, joint_name);
-}
-
 PositionClip LowPass(const PositionClip& clip, double cutoff_hz) {
-  ValidateClip(clip);
-  if (!(cutoff_hz > 0)) {
-    throw InvalidArgument("cutoff_hz", std::to_string(cutoff_hz) + ", must be above 0");
-  }
   const auto count = static_cast<int>(clip.frames.size());
   // Two passes halve the power twice at a pass's own cutoff: move it up so that both together have
   // it at cutoff_hz.
@@ -70,7 +60,6 @@ PositionClip LowPass(const PositionClip& clip, double cutoff_hz) {
   if (pass_cutoff >= 0.49 * clip.fps || count < 3) return clip;
   const int margin = std::min(count - 1, static_cast<int>(std::ceil(2 * clip.fps / cutoff_hz)));
   std::vector<Eigen::Matrix3Xd> samples;
-  samples.reserve(count + 2 * margin);
   for (int i = margin; i >= 1; --i) samples.emplace_back(2 * clip.frames[0] - clip.frames[i]);
   samples.insert(samples.end(), clip.frames.begin(), clip.frames.end());
   for (int i = 1; i <= margin; ++i) {
@@ -78,27 +67,19 @@ PositionClip LowPass(const PositionClip& clip, double cutoff_hz) {
   }
   const Biquad filter = ButterworthLowPass(pass_cutoff, clip.fps);
   filter.Run(samples);
-  std::reverse(samples.begin(), samples.end());
+  std::ranges::reverse(samples);
   filter.Run(samples);
-  std::reverse(samples.begin(), samples.end());
-  PositionClip result = clip;
-  std::copy_n(samples.begin() + margin, count, result.frames.begin());
-  return result;
+  return {clip.fps, clip.joint_names, {samples.rbegin() + margin, samples.rend() - margin}};
 }
 
 PositionClip ResamplePositions(const PositionClip& clip, double fps, double time_scale) {
-  ValidateClip(clip);
-  if (!(fps > 0)) throw InvalidArgument("fps", std::to_string(fps) + ", must be above 0");
   if (!(time_scale > 0)) {
     throw InvalidArgument("time_scale", std::to_string(time_scale) + ", must be above 0");
   }
   const auto last = static_cast<int>(clip.frames.size()) - 1;
   const double duration = last / clip.fps * time_scale;
   const auto count = static_cast<int>(std::floor(duration * fps + kOnFrame)) + 1;
-  PositionClip result;
-  result.fps = fps;
-  result.joint_names = clip.joint_names;
-  result.frames.reserve(count);
+  PositionClip result{.fps = fps, .joint_names = clip.joint_names, .frames = {}};
   for (int i = 0; i < count; ++i) {
     const double position =
         std::clamp(i / fps / time_scale * clip.fps, 0.0, static_cast<double>(last));
@@ -115,36 +96,32 @@ PositionClip ResamplePositions(const PositionClip& clip, double fps, double time
   return result;
 }
 
-PositionClip RemoveSpikes(const PositionClip& clip, double speed_limit, int max_frames,
-                          int* replaced) {
-  ValidateClip(clip);
-  PositionClip result = clip;
+int RemoveSpikes(double speed_limit, int max_frames, PositionClip& clip) {
   const auto count = static_cast<int>(clip.frames.size());
   const double step_limit = speed_limit / clip.fps;
-  int samples = 0;
+  int replaced = 0;
   for (Eigen::Index joint = 0; joint < clip.frames[0].cols(); ++joint) {
     for (int frame = 1; frame < count; ++frame) {
-      const Eigen::Vector3d before = result.frames[frame - 1].col(joint);
-      if ((result.frames[frame].col(joint) - before).norm() <= step_limit) continue;
+      const Eigen::Vector3d before = clip.frames[frame - 1].col(joint);
+      if ((clip.frames[frame].col(joint) - before).norm() <= step_limit) continue;
       // The first frame from which the joint could have come here at a plausible speed ends the
       // spike; without one it is a jump.
       int good = frame + 1;
       const int end = std::min(count, frame + max_frames + 1);
       while (good < end &&
-             (result.frames[good].col(joint) - before).norm() > step_limit * (good - frame + 1)) {
+             (clip.frames[good].col(joint) - before).norm() > step_limit * (good - frame + 1)) {
         ++good;
       }
       if (good >= end) continue;
-      const Eigen::Vector3d after = result.frames[good].col(joint);
+      const Eigen::Vector3d after = clip.frames[good].col(joint);
       for (int i = frame; i < good; ++i) {
         const double t = static_cast<double>(i - frame + 1) / (good - frame + 1);
-        result.frames[i].col(joint) = before + t * (after - before);
-        ++samples;
+        clip.frames[i].col(joint) = before + t * (after - before);
+        ++replaced;
       }
     }
   }
-  if (replaced != nullptr) *replaced = samples;
-  return result;
+  return replaced;
 }
 
 }  // namespace choreo

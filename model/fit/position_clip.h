@@ -5,8 +5,8 @@
 #include <vector>
 
 /// Joint positions of a recorded dancer over time, and the corrections that raw recordings need
-/// before rotations are fitted to them. Right-handed, Y up, metres, seconds. All functions are
-/// pure; a clip without frames is refused with Error(kInvalidArgument).
+/// before rotations are fitted to them. Right-handed, Y up, metres, seconds. Corrections expect
+/// what ValidateClip lets pass.
 namespace choreo {
 
 struct PositionClip {
@@ -15,16 +15,13 @@ struct PositionClip {
   std::vector<Eigen::Matrix3Xd> frames;  ///< each [3, K]
 };
 
-/// Throws Error(kInvalidArgument) naming the first frame that has another number of joints or a
-/// value that is not finite.
+/// Throws Error(kInvalidArgument) for a clip without frames or rate, and naming the first frame
+/// that has another number of joints or a value that is not finite.
 void ValidateClip(const PositionClip& clip);
 
-/// Clip index of a joint name, or -1.
-int FindJoint(const PositionClip& clip, const std::string& joint_name);
-
 /// Low-pass of second order run forwards and backwards (zero phase, fourth order in all,
-/// Butterworth poles), each coordinate by itself, the ends extended by odd reflection. A cutoff at
-/// or above 0.49 fps leaves the clip as it is.
+/// Butterworth poles), each coordinate by itself, the ends extended by odd reflection. `cutoff_hz`
+/// is above 0; at or above 0.49 fps it leaves the clip as it is.
 PositionClip LowPass(const PositionClip& clip, double cutoff_hz);
 
 /// Positions at another frame rate by Catmull-Rom interpolation. `time_scale` stretches time first:
@@ -34,8 +31,7 @@ PositionClip ResamplePositions(const PositionClip& clip, double fps, double time
 
 /// Replaces isolated outliers: where a joint moves faster than `speed_limit` (m/s) for at most
 /// `max_frames` frames, its positions are interpolated between the good frames around. Returns the
-/// number of joint samples replaced in `replaced` if it is given.
-PositionClip RemoveSpikes(const PositionClip& clip, double speed_limit = 14.0, int max_frames = 6,
-                          int* replaced = nullptr);
+/// number of joint samples replaced.
+int RemoveSpikes(double speed_limit, int max_frames, PositionClip& clip);
 
 }  // namespace choreo

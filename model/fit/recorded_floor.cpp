@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/core/error.h"
 #include "model/core/quantile.h"
 
 namespace choreo {
@@ -18,19 +17,11 @@ constexpr double kDriftWindowSeconds = 8;
 
 // The lowest foot of every frame: [3, frames].
 Eigen::Matrix3Xd LowestFeet(const PositionClip& clip, const std::vector<int>& foot_joints) {
-  if (foot_joints.empty()) throw InvalidArgument("foot_joints", "0 joints, at least 1 is needed");
   Eigen::Matrix3Xd lowest(3, clip.frames.size());
   for (size_t frame = 0; frame < clip.frames.size(); ++frame) {
     const Eigen::Matrix3Xd& positions = clip.frames[frame];
-    for (size_t i = 0; i < foot_joints.size(); ++i) {
-      if (foot_joints[i] < 0 || foot_joints[i] >= positions.cols()) {
-        throw InvalidArgument("foot_joints", "joint " + std::to_string(foot_joints[i]) +
-                                                 ", must be 0 to " +
-                                                 std::to_string(positions.cols() - 1));
-      }
-      const Eigen::Vector3d foot = positions.col(foot_joints[i]);
-      if (i == 0 || foot.y() < lowest(1, frame)) lowest.col(frame) = foot;
-    }
+    lowest.col(frame) = positions.col(
+        *std::ranges::min_element(foot_joints, {}, [&](int joint) { return positions(1, joint); }));
   }
   return lowest;
 }
@@ -45,11 +36,10 @@ double Extent(const Eigen::RowVectorXd& row) {
 FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_joints) {
   ValidateClip(clip);
   const Eigen::Matrix3Xd feet = LowestFeet(clip, foot_joints);
-  const bool tilts = Extent(feet.row(0)) >= kLeastExtent && Extent(feet.row(2)) >= kLeastExtent;
   const std::vector<double> heights(feet.row(1).begin(), feet.row(1).end());
   FloorPlane plane;
   plane.height = Quantile(heights, kFloorQuantile);
-  if (!tilts) return plane;
+  if (Extent(feet.row(0)) < kLeastExtent || Extent(feet.row(2)) < kLeastExtent) return plane;
   // Quantile regression by iteratively reweighted least squares. The height may drift in time,
   // piecewise linearly between knots: a dancer who crosses a drifting floor once would otherwise
   // seem to climb a slope.
@@ -93,7 +83,6 @@ FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_
 }
 
 PositionClip LevelFloor(const PositionClip& clip, const FloorPlane& plane) {
-  ValidateClip(clip);
   const Eigen::Vector3d normal = Eigen::Vector3d(-plane.slope_x, 1, -plane.slope_z).normalized();
   const Eigen::Matrix3d turn =
       Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitY()).toRotationMatrix();

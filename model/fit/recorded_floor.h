@@ -4,8 +4,9 @@
 
 #include "model/fit/position_clip.h"
 
-/// The floor under a recording: fit, level, and take out drift. Pure; a clip without frames is
-/// refused with Error(kInvalidArgument).
+/// The floor under a recording: fit, level, and take out drift. Pure. `foot_joints` are at least
+/// one of the clip's joints. Where they are asked for, Error(kInvalidArgument) refuses a clip that
+/// is not valid.
 namespace choreo {
 
 /// A floor that may tilt: y = height + slope_x x + slope_z z.

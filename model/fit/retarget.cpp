@@ -39,7 +39,7 @@ class CommonMapping {
 
  private:
   static const std::string& Name(const Skeleton& skeleton, int joint) {
-    return skeleton.joint_names[static_cast<size_t>(joint)];
+    return skeleton.joint_names[joint];
   }
   static JointBlend Middle(const Skeleton& skeleton, int a, int b) {
     return {{Name(skeleton, a), 0.5}, {Name(skeleton, b), 0.5}};

@@ -1,5 +1,6 @@
 #include "model/fit/sources.h"
 
+#include "model/core/quantile.h"
 #include "model/fit/mapping_builder.h"
 
 namespace choreo {
@@ -15,17 +16,14 @@ bool IsBelowWrist(const Skeleton& skeleton, int joint) {
   return parent >= 0;
 }
 
-double Out(const std::string& side) { return side == "left" ? 1.0 : -1.0; }
+double Out(const std::string& side) { return side == "left_" ? 1.0 : -1.0; }
 
 OurPoint Temple(const std::string& side) {
   return MappingBuilder::At("head", Out(side) * 0.055, 0.06, -0.02);
 }
 
 void AddTangTrunk(MappingBuilder& builder) {
-  builder.Add("hips", "", {{"left_hip", 0.5}, {"right_hip", 0.5}},
-              MappingBuilder::Between("left_hip", "right_hip"));
-  builder.AddJoint("left_hip", "hips", "left_hip");
-  builder.AddJoint("right_hip", "hips", "right_hip");
+  builder.AddHips("left_hip", "right_hip");
   // The waist is a point on the belly, 19 degrees in front of the hips' vertical in every genre.
   builder.Add("waist", "hips", {{"waist", 1.0}}, {MappingBuilder::At("pelvis", 0, 0.037, 0.027)},
               0.5);
@@ -35,26 +33,37 @@ void AddTangTrunk(MappingBuilder& builder) {
 
 void AddTangLimbs(MappingBuilder& builder, const std::string& side, const JointBlend& heel) {
   const double out = Out(side);
-  const auto named = [&side](const char* part) { return side + "_" + part; };
-  builder.AddJoint(named("shoulder"), "shoulders", named("shoulder"));
-  builder.AddJoint(named("elbow"), named("shoulder"), named("elbow"));
-  builder.AddJoint(named("wrist"), named("elbow"), named("wrist"));
-  builder.AddJoint(named("hand"), named("wrist"), named("hand"), 0.7);
-  builder.AddJoint(named("knee"), named("hip"), named("knee"));
+  builder.AddJoint(side + "shoulder", "shoulders", side + "shoulder");
+  builder.AddJoint(side + "elbow", side + "shoulder", side + "elbow");
+  builder.AddJoint(side + "wrist", side + "elbow", side + "wrist");
+  builder.AddJoint(side + "hand", side + "wrist", side + "hand", 0.7);
+  builder.AddJoint(side + "knee", side + "hip", side + "knee");
   // The source's ankle is the outer ankle bone, which is why its heel seems to stand inwards.
-  builder.Add(named("ankle"), named("knee"), {{named("ankle"), 1.0}},
-              {MappingBuilder::At(named("ankle"), out * 0.03, 0, 0)});
-  builder.Add(named("heel"), named("ankle"), heel,
-              {MappingBuilder::At(named("ankle"), -out * 0.005, -0.05, -0.055)}, 0.5);
-  builder.Add(named("toes"), named("ankle"), {{named("toes"), 1.0}}, {{.joint = named("foot")}});
+  builder.Add(side + "ankle", side + "knee", {{side + "ankle", 1.0}},
+              {MappingBuilder::At(side + "ankle", out * 0.03, 0, 0)});
+  builder.Add(side + "heel", side + "ankle", heel,
+              {MappingBuilder::At(side + "ankle", -out * 0.005, -0.05, -0.055)}, 0.5);
+  builder.Add(side + "toes", side + "ankle", {{side + "toes", 1.0}}, {{.joint = side + "foot"}});
 }
 
 }  // namespace
 
+double MedianDistance(const PositionClip& clip, const JointBlend& a, const JointBlend& b) {
+  const auto point = [&clip](const JointBlend& blend, const Eigen::Matrix3Xd& frame) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& [name, weight] : blend)
+      sum += weight * frame.col(IndexOf(clip.joint_names, name));
+    return sum;
+  };
+  std::vector<double> distances;
+  for (const Eigen::Matrix3Xd& frame : clip.frames) {
+    distances.push_back((point(a, frame) - point(b, frame)).norm());
+  }
+  return Median(std::move(distances));
+}
+
 SourceMapping IdentitySource(const Skeleton& skeleton, double hands) {
-  SourceMapping mapping;
-  mapping.name = skeleton.name;
-  mapping.accuracy_m = 0.002;
+  SourceMapping mapping{.name = skeleton.name, .landmarks = {}, .accuracy_m = 0.002, .feet = {}};
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     const std::string& name = skeleton.joint_names[joint];
     mapping.landmarks.push_back({.name = name,
@@ -92,11 +101,11 @@ SourceMapping Tang2018Source() {
   AddTangTrunk(builder);
   builder.Add("head", "shoulders", {{"left_temple", 0.5}, {"right_temple", 0.5}},
               {MappingBuilder::At("head", 0, 0.06, -0.02)});
-  for (const std::string side : {"left", "right"}) {
-    builder.Add(side + "_temple", "head", {{side + "_temple", 1.0}}, {Temple(side)}, 0.5);
-    AddTangLimbs(builder, side, {{side + "_heel", 1.0}});
-    builder.AddFoot(side + "_toes");
-    builder.AddFoot(side + "_heel");
+  for (const std::string side : {"left_", "right_"}) {
+    builder.Add(side + "temple", "head", {{side + "temple", 1.0}}, {Temple(side)}, 0.5);
+    AddTangLimbs(builder, side, {{side + "heel", 1.0}});
+    builder.AddFoot(side + "toes");
+    builder.AddFoot(side + "heel");
   }
   return builder.Take();
 }
@@ -104,11 +113,11 @@ SourceMapping Tang2018Source() {
 SourceMapping Tang61Source() {
   MappingBuilder builder("tang61", kTangAccuracy);
   AddTangTrunk(builder);
-  builder.Add("left_temple", "shoulders", {{"left_temple", 1.0}}, {Temple("left")});
-  for (const std::string side : {"left", "right"}) {
-    AddTangLimbs(builder, side, {{side + "_sole", 2.0}, {side + "_toes", -1.0}});
-    builder.AddFoot(side + "_toes");
-    builder.AddFoot(side + "_sole");
+  builder.Add("left_temple", "shoulders", {{"left_temple", 1.0}}, {Temple("left_")});
+  for (const std::string side : {"left_", "right_"}) {
+    AddTangLimbs(builder, side, {{side + "sole", 2.0}, {side + "toes", -1.0}});
+    builder.AddFoot(side + "toes");
+    builder.AddFoot(side + "sole");
   }
   return builder.Take();
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/fit/position_clip.h"
 #include "model/motion/skeleton.h"
 
 /// How the joints of source skeletons tell where ours are.
@@ -12,6 +13,9 @@ namespace choreo {
 
 /// A weighted sum of named joints; the weights sum to 1.
 using JointBlend = std::vector<std::pair<std::string, double>>;
+
+/// Of two points of a recorded dancer, over the clip's frames.
+double MedianDistance(const PositionClip& clip, const JointBlend& a, const JointBlend& b);
 
 /// A point that moves with a joint of ours.
 struct OurPoint {
@@ -51,6 +55,12 @@ struct SourceMapping {
 /// Our own skeleton, every joint given: what a model that predicts positions uses. `hands` is the
 /// weight of joints below the wrists.
 SourceMapping IdentitySource(const Skeleton& skeleton, double hands = 1);
+
+/// A recording of a BVH hierarchy, by its joint names (human_bones.h). End sites are named after
+/// their parent + "_end". The spine's proportions are measured on the clip. Throws
+/// Error(kInvalidArgument) naming the first joint of those needed that is missing: hips, knees,
+/// ankles, shoulders, elbows, wrists, neck.
+SourceMapping BvhSource(const PositionClip& clip);
 
 inline constexpr double kTangAccuracy = 0.015;  ///< of tang2018's points, metres
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/core/quantile.h"
 #include "model/fit/mapping_builder.h"
 
 namespace choreo {
@@ -15,37 +14,29 @@ namespace {
 
 constexpr double kWaistLean = 19 * std::numbers::pi / 180;
 
-/// Mean over clips of the median distance of two points, each the middle of some joints.
+/// Mean over clips of the median distance of two points.
 class Lengths {
  public:
   explicit Lengths(std::span<const PositionClip> clips) : clips_(clips) {
     if (clips.empty()) throw InvalidArgument("clips", "0 recordings, at least 1 is needed");
     for (const PositionClip& clip : clips) {
-      ValidateClip(clip);
-      if (clip.joint_names != Tang2018JointNames()) {
+      if (clip.joint_names != Tang2018JointNames())
         throw InvalidArgument("clips", "the joints are not those of tang2018");
-      }
     }
   }
 
-  double Between(const std::vector<std::string>& a, const std::vector<std::string>& b) const {
+  double Between(const JointBlend& a, const JointBlend& b) const {
     double sum = 0;
-    for (const PositionClip& clip : clips_) {
-      std::vector<double> distances;
-      for (const Eigen::Matrix3Xd& frame : clip.frames) {
-        distances.push_back((Middle(clip, frame, a) - Middle(clip, frame, b)).norm());
-      }
-      sum += Median(std::move(distances));
-    }
+    for (const PositionClip& clip : clips_) sum += MedianDistance(clip, a, b);
     const double length = sum / static_cast<double>(clips_.size());
     if (!(length > 0.005 && length < 1)) {
-      throw InvalidArgument("clips", "from " + a[0] + " to " + b[0] + " it is " +
+      throw InvalidArgument("clips", "from " + a[0].first + " to " + b[0].first + " it is " +
                                          std::to_string(length) + " m, no length of a body");
     }
     return length;
   }
   double Between(const std::string& a, const std::string& b) const {
-    return Between(std::vector{a}, std::vector{b});
+    return Between(JointBlend{{a, 1.0}}, JointBlend{{b, 1.0}});
   }
   /// Of a bone that both sides have.
   double OfBothSides(const std::string& a, const std::string& b) const {
@@ -53,13 +44,6 @@ class Lengths {
   }
 
  private:
-  static Eigen::Vector3d Middle(const PositionClip& clip, const Eigen::Matrix3Xd& frame,
-                                const std::vector<std::string>& names) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const std::string& name : names) sum += frame.col(FindJoint(clip, name));
-    return sum / static_cast<double>(names.size());
-  }
-
   std::span<const PositionClip> clips_;
 };
 
@@ -74,62 +58,47 @@ Tip TipOver(double base, double from_first, double from_second) {
   return {along, std::sqrt(std::max(0.0, from_first * from_first - along * along))};
 }
 
-class SkeletonBuilder {
- public:
-  SkeletonBuilder() { skeleton_.name = "tang2018"; }
-
-  void Add(const std::string& name, const std::string& parent, const Eigen::Vector3d& offset) {
-    skeleton_.AddJoint(name, skeleton_.Find(parent), offset);
-  }
-
-  Skeleton Take() {
-    skeleton_.AssignRoles();
-    skeleton_.StandOnFloor();
-    skeleton_.Validate();
-    skeleton_.RequireRoles();
-    return std::move(skeleton_);
-  }
-
- private:
-  Skeleton skeleton_;
-};
+void AddBone(const std::string& name, const std::string& parent, const Eigen::Vector3d& offset,
+             Skeleton& skeleton) {
+  skeleton.AddJoint(name, skeleton.Find(parent), offset);
+}
 
 void AddLeg(const Lengths& lengths, const std::string& side, const Eigen::Vector3d& hip,
-            SkeletonBuilder& builder) {
-  builder.Add(side + "hip", "waist", hip);
-  builder.Add(side + "knee", side + "hip", {0, -lengths.OfBothSides("hip", "knee"), 0});
-  builder.Add(side + "ankle", side + "knee", {0, -lengths.OfBothSides("knee", "ankle"), 0});
+            Skeleton& skeleton) {
+  AddBone(side + "hip", "waist", hip, skeleton);
+  AddBone(side + "knee", side + "hip", {0, -lengths.OfBothSides("hip", "knee"), 0}, skeleton);
+  AddBone(side + "ankle", side + "knee", {0, -lengths.OfBothSides("knee", "ankle"), 0}, skeleton);
   // The ankle above a flat sole.
   const double sole = lengths.OfBothSides("heel", "toes");
   const Tip ankle =
       TipOver(sole, lengths.OfBothSides("heel", "ankle"), lengths.OfBothSides("toes", "ankle"));
-  builder.Add(side + "heel", side + "ankle", {0, -ankle.off, -ankle.along});
-  builder.Add(side + "toes", side + "ankle", {0, -ankle.off, sole - ankle.along});
+  AddBone(side + "heel", side + "ankle", {0, -ankle.off, -ankle.along}, skeleton);
+  AddBone(side + "toes", side + "ankle", {0, -ankle.off, sole - ankle.along}, skeleton);
 }
 
 void AddArm(const Lengths& lengths, const std::string& side, double out,
-            const Eigen::Vector3d& shoulder, SkeletonBuilder& builder) {
+            const Eigen::Vector3d& shoulder, Skeleton& skeleton) {
   const auto between = [&](const char* a, const char* b) {
     return lengths.Between(side + a, side + b);
   };
-  builder.Add(side + "shoulder", "chest", shoulder);
-  builder.Add(side + "elbow", side + "shoulder",
-              {out * lengths.OfBothSides("shoulder", "elbow"), 0, 0});
+  AddBone(side + "shoulder", "chest", shoulder, skeleton);
+  AddBone(side + "elbow", side + "shoulder", {out * lengths.OfBothSides("shoulder", "elbow"), 0, 0},
+          skeleton);
   const double wrist = between("elbow", "wrist");
-  builder.Add(side + "wrist", side + "elbow", {out * wrist, 0, 0});
-  builder.Add(side + "hand", side + "wrist", {out * between("wrist", "hand"), 0, 0});
+  AddBone(side + "wrist", side + "elbow", {out * wrist, 0, 0}, skeleton);
+  AddBone(side + "hand", side + "wrist", {out * between("wrist", "hand"), 0, 0}, skeleton);
   // Palms look down, so that thumbs point forward.
   const Tip thumb = TipOver(wrist, between("elbow", "thumb"), between("wrist", "thumb"));
-  builder.Add(side + "thumb", side + "wrist", {out * (thumb.along - wrist), 0, thumb.off});
+  AddBone(side + "thumb", side + "wrist", {out * (thumb.along - wrist), 0, thumb.off}, skeleton);
 }
 
 }  // namespace
 
 NativeTang2018 MeasureTang2018(std::span<const PositionClip> clips) {
   const Lengths lengths(clips);
-  const std::vector<std::string> waist = {"waist"}, hips = {"left_hip", "right_hip"},
-                                 shoulders = {"left_shoulder", "right_shoulder"},
-                                 temples = {"left_temple", "right_temple"};
+  const JointBlend waist = {{"waist", 1.0}}, hips = {{"left_hip", 0.5}, {"right_hip", 0.5}},
+                   shoulders = {{"left_shoulder", 0.5}, {"right_shoulder", 0.5}},
+                   temples = {{"left_temple", 0.5}, {"right_temple", 0.5}};
   const double belly = lengths.Between(waist, hips);
   const double half_hips = 0.5 * lengths.Between("left_hip", "right_hip");
   const double half_shoulders = 0.5 * lengths.Between("left_shoulder", "right_shoulder");
@@ -142,29 +111,27 @@ NativeTang2018 MeasureTang2018(std::span<const PositionClip> clips) {
   const double trunk = std::sqrt(std::max(0.0, reach * reach - depth * depth));
 
   NativeTang2018 native;
-  SkeletonBuilder builder;
-  builder.Add("waist", "", Eigen::Vector3d::Zero());
+  Skeleton& skeleton = native.skeleton;
+  skeleton.name = "tang2018";
+  AddBone("waist", "", Eigen::Vector3d::Zero(), skeleton);
   for (const double out : {1.0, -1.0}) {
     AddLeg(lengths, out > 0 ? "left_" : "right_",
-           {out * half_hips, -belly * std::cos(kWaistLean), -depth}, builder);
+           {out * half_hips, -belly * std::cos(kWaistLean), -depth}, skeleton);
   }
-  builder.Add("chest", "waist", {0, 0, -depth});
-  builder.Add("head", "chest", {0, trunk + half_neck, 0});
+  AddBone("chest", "waist", {0, 0, -depth}, skeleton);
+  AddBone("head", "chest", {0, trunk + half_neck, 0}, skeleton);
   for (const double out : {1.0, -1.0}) {
-    AddArm(lengths, out > 0 ? "left_" : "right_", out, {out * half_shoulders, trunk, 0}, builder);
+    AddArm(lengths, out > 0 ? "left_" : "right_", out, {out * half_shoulders, trunk, 0}, skeleton);
   }
-  native.skeleton = builder.Take();
+  skeleton.AssignRoles();
+  skeleton.StandOnFloor();
 
   MappingBuilder mapping("tang2018", kTangAccuracy);
-  mapping.Add("hips", "", {{"left_hip", 0.5}, {"right_hip", 0.5}},
-              MappingBuilder::Between("left_hip", "right_hip"));
-  mapping.AddJoint("left_hip", "hips", "left_hip");
-  mapping.AddJoint("right_hip", "hips", "right_hip");
+  mapping.AddHips("left_hip", "right_hip");
   mapping.AddJoint("waist", "hips", "waist");
-  mapping.Add("shoulders", "waist", {{"left_shoulder", 0.5}, {"right_shoulder", 0.5}},
+  mapping.Add("shoulders", "waist", shoulders,
               MappingBuilder::Between("left_shoulder", "right_shoulder"), 1, false);
-  mapping.Add("temples", "shoulders", {{"left_temple", 0.5}, {"right_temple", 0.5}},
-              {MappingBuilder::At("head", 0, half_neck, 0)});
+  mapping.Add("temples", "shoulders", temples, {MappingBuilder::At("head", 0, half_neck, 0)});
   for (const double out : {1.0, -1.0}) {
     const std::string side = out > 0 ? "left_" : "right_";
     mapping.Add(side + "temple", "temples", {{side + "temple", 1.0}},

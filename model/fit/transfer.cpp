@@ -64,7 +64,7 @@ class Takes {
     }
   }
 
-  Eigen::Matrix3d Of(size_t joint, const JointPlacement& smpl) const {
+  Eigen::Matrix3d Of(int joint, const JointPlacement& smpl) const {
     const Take& take = takes_[joint];
     return take.share == 0
                ? smpl.rotations[take.from]
@@ -98,8 +98,7 @@ std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
   for (int frame = 0; frame < frames; ++frame) {
     smooth.push_back(GaussianMean<HandWays>(
         std::max(0, frame - reach), std::min(frames - 1, frame + reach), frame,
-        std::max(sigma, 1e-9), HandWays::Zero(),
-        [&](int64_t at) -> const HandWays& { return ways[static_cast<size_t>(at)]; }));
+        std::max(sigma, 1e-9), HandWays::Zero(), [&](int64_t at) { return ways[at]; }));
   }
   return smooth;
 }
@@ -107,17 +106,15 @@ std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
 /// Moves hands to where SMPL's are, seen from what they touch.
 class Hands {
  public:
-  Hands(const Skeleton& character, double size) : character_(character), size_(size) {
+  Hands(const Skeleton& character, double size)
+      : character_(character),
+        size_(size),
+        arms_{{character.left_shoulder, character.left_elbow, character.Find("left_wrist")},
+              {character.right_shoulder, character.right_elbow, character.Find("right_wrist")}} {
     for (const Hinge& hinge : Hinges(character)) {
       for (size_t side = 0; side < 2; ++side) {
-        const int elbow = side == 0 ? character.left_elbow : character.right_elbow;
-        if (hinge.joint == elbow) hinges_[side] = hinge.axis;
+        if (hinge.joint == arms_[side].middle) hinges_[side] = hinge.axis;
       }
-    }
-    for (size_t side = 0; side < 2; ++side) {
-      const std::string wrist = side == 0 ? "left_wrist" : "right_wrist";
-      ours_[side] = Smpl().Find(wrist);
-      theirs_[side] = character.Find(wrist);
     }
     for (const char* anchor : {"head", "left_hip", "right_hip", "left_knee", "right_knee"}) {
       if (character.Find(anchor) >= 0)
@@ -132,15 +129,13 @@ class Hands {
 
   void Move(const HandWays& ways, const JointPlacement& placement, Pose* pose) const {
     for (size_t side = 0; side < 2; ++side) {
-      const int elbow = side == 0 ? character_.left_elbow : character_.right_elbow;
-      const int shoulder = side == 0 ? character_.left_shoulder : character_.right_shoulder;
-      const Eigen::Vector3d way = ways.col(static_cast<Eigen::Index>(side));
+      const Limb& arm = arms_[side];
+      const Eigen::Vector3d way = ways.col(side);
       if (way.norm() < kNoWay * size_) continue;
-      const Eigen::Vector3d hinge =
-          placement.rotations[static_cast<size_t>(shoulder)] * hinges_[side];
+      const Eigen::Vector3d hinge = placement.rotations[arm.upper] * hinges_[side];
       const Eigen::Vector3d goal =
-          Col(placement.positions, theirs_[side]) + way - Col(placement.positions, shoulder);
-      PlaceEnd({shoulder, elbow, theirs_[side]}, hinge, character_, placement, goal, pose);
+          Col(placement.positions, arm.end) + way - Col(placement.positions, arm.upper);
+      PlaceEnd(arm, hinge, character_, placement, goal, pose);
     }
   }
 
@@ -156,7 +151,7 @@ class Hands {
 
   Eigen::Vector3d Way(size_t side, const Eigen::Matrix3Xd& smpl,
                       const Eigen::Matrix3Xd& now) const {
-    const Eigen::Vector3d our_hand = Col(smpl, ours_[side]), hand = Col(now, theirs_[side]);
+    const Eigen::Vector3d our_hand = Col(smpl, ours_[side]), hand = Col(now, arms_[side].end);
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
     double weights = 0;
     const auto draw = [&](const Eigen::Vector3d& goal, double weight) {
@@ -165,7 +160,7 @@ class Hands {
     };
     // The other hand gives way as far.
     const Eigen::Vector3d apart = our_hand - Col(smpl, ours_[1 - side]);
-    const Eigen::Vector3d middle = (hand + Col(now, theirs_[1 - side])) / 2;
+    const Eigen::Vector3d middle = (hand + Col(now, arms_[1 - side].end)) / 2;
     draw(middle + size_ * apart / 2, Nearness(apart.norm()));
     for (const Anchor& anchor : anchors_) {
       const Eigen::Vector3d from = our_hand - Col(smpl, anchor.ours);
@@ -177,8 +172,9 @@ class Hands {
 
   const Skeleton& character_;
   const double size_;
+  const int ours_[2] = {Smpl().Find("left_wrist"), Smpl().Find("right_wrist")};
+  const Limb arms_[2];
   Eigen::Vector3d hinges_[2];
-  int ours_[2], theirs_[2];
   std::vector<Anchor> anchors_;
 };
 
@@ -199,12 +195,10 @@ Motion CopyTurns(const Motion& smpl, const Skeleton& character) {
     copied.rotations.resize(3, character.joints());
     std::vector<Eigen::Matrix3d> turned;
     for (int joint = 0; joint < character.joints(); ++joint) {
-      turned.push_back(takes.Of(static_cast<size_t>(joint), ours));
-      const int parent = character.parents[static_cast<size_t>(joint)];
+      turned.push_back(takes.Of(joint, ours));
+      const int parent = character.parents[joint];
       copied.rotations.col(joint) = LogMap(
-          parent < 0
-              ? turned.back()
-              : Eigen::Matrix3d(turned[static_cast<size_t>(parent)].transpose() * turned.back()));
+          parent < 0 ? turned.back() : Eigen::Matrix3d(turned[parent].transpose() * turned.back()));
     }
     Eigen::Vector3d hips = size * MiddleOfHips(Smpl(), ours.positions);
     hips.y() += rest.y() - size * our_rest.y();

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "model/core/error.h"
-#include "model/core/json_numbers.h"
+#include "model/core/json_limits.h"
 #include "model/core/safetensors.h"
 #include "model/motion/skeleton.h"
 

@@ -116,18 +116,27 @@ class TorchFlowNetwork : public FlowNetwork {
       : model_(std::move(model)), device_(device) {
     model_->to(device_);
   }
+  Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
+                            std::span<const float> times) const override {
+    Eigen::MatrixXf condition(whole.size() + 1, std::ssize(times));
+    condition.topRows(whole.size()).colwise() = whole;
+    std::ranges::copy(times, condition.bottomRows<1>().begin());
+    return condition;
+  }
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                            const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
-                           const WindowFeatures& features, float t) const override {
+                           const Eigen::MatrixXf& frames,
+                           const Eigen::VectorXf& condition) const override {
     const c10::InferenceMode inference;
     auto& model = const_cast<ContinuousFlow&>(model_);
     const auto there = [this](const auto& matrix) { return TimeFirst(matrix).to(device_); };
-    const Tensor f =
-        model
-            ->forward(there(z), there(poses), there(joints), there(mean), there(features.frames),
-                      there(features.whole).squeeze(1), torch::full({1}, t, device_))
-            .cpu()
-            .contiguous();
+    const Tensor known = there(condition).squeeze(1);
+    const int64_t whole = known.size(1) - 1;
+    const Tensor f = model
+                         ->forward(there(z), there(poses), there(joints), there(mean),
+                                   there(frames), known.narrow(1, 0, whole), known.select(1, whole))
+                         .cpu()
+                         .contiguous();
     return Eigen::Map<const Eigen::MatrixXf>(f.data_ptr<float>(), z.rows(), z.cols());
   }
 

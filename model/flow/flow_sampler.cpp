@@ -64,12 +64,14 @@ struct KnownPath {
   Eigen::MatrixXd x, z;
 };
 
-// F of one window, with guidance by its labels.
+// F of one window at each step from noise to motion, with guidance by its labels.
 class Field {
  public:
   Field(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
         const FlowWindow& window)
       : model_(model), network_(network), window_(window) {
+    for (int step = 0; step < model.config.steps; ++step)
+      times_.push_back(static_cast<float>(SizeAt(step) * std::sin(Angle(step))));
     const auto tau = static_cast<Eigen::Index>(request.history.size());
     mean_.resize(model.prior.dimensions(), tau + window.frames());
     mean_ << window.history().cast<float>(), window.mean().cast<float>();
@@ -87,19 +89,21 @@ class Field {
     if (guidance != 1) Look(request, 1 - guidance);
   }
 
-  // Where the flow stands at `angle`: z = size (cos noise + sin motion), size = 1 / (cos + sin).
-  Eigen::MatrixXd At(const Eigen::MatrixXd& w, double angle) {
-    const double size = 1 / (std::cos(angle) + std::sin(angle));
-    const auto t = static_cast<float>(size * std::sin(angle));
-    const Eigen::MatrixXd z = size * w;
+  int steps() const { return model_.config.steps; }
+  double Angle(int step) const { return step * (std::numbers::pi / 2 / steps()); }
+
+  // Where the flow stands at w: z = size (cos noise + sin motion), size = 1 / (cos + sin).
+  Eigen::MatrixXd At(const Eigen::MatrixXd& w, int step) {
+    const Eigen::MatrixXd z = SizeAt(step) * w;
     const Eigen::MatrixXd x = window_.Colour(z);
     poses_.rightCols(x.cols()) = (window_.mean() + x).cast<float>();
     joints_.rightCols(x.cols()) = window_.PlaceJoints(model_.skeleton, x);
     Eigen::MatrixXd f = Eigen::MatrixXd::Zero(z.rows(), z.cols());
     for (const View& view : views_) {
-      f +=
-          view.weight * network_.Evaluate(z.cast<float>(), poses_, joints_, mean_, view.features, t)
-                            .cast<double>();
+      f += view.weight * network_
+                             .Evaluate(z.cast<float>(), poses_, joints_, mean_, view.frames,
+                                       view.conditions.col(step))
+                             .cast<double>();
     }
     return f;
   }
@@ -107,17 +111,20 @@ class Field {
  private:
   // What the network is told, and what its answer counts.
   struct View {
-    WindowFeatures features;
+    Eigen::MatrixXf frames, conditions;
     double weight;
   };
   void Look(const WindowRequest& request, double weight) {
-    views_.push_back(
-        {DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window_), weight});
+    WindowFeatures seen =
+        DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window_);
+    views_.push_back({std::move(seen.frames), network_.Condition(seen.whole, times_), weight});
   }
+  double SizeAt(int step) const { return 1 / (std::cos(Angle(step)) + std::sin(Angle(step))); }
 
   const FlowModelParts& model_;
   const FlowNetwork& network_;
   const FlowWindow& window_;
+  std::vector<float> times_;  // of each step
   Eigen::MatrixXf mean_, poses_, joints_;
   std::vector<View> views_;
 };
@@ -134,15 +141,13 @@ bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
 }
 
 // From noise to motion; what is known fades into its noise.
-Eigen::MatrixXd Solve(Field* field, const KnownPath& known, const Eigen::MatrixXd& start,
-                      int steps) {
-  const double step = std::numbers::pi / 2 / steps;
+Eigen::MatrixXd Solve(Field* field, const KnownPath& known, const Eigen::MatrixXd& start) {
   Eigen::MatrixXd w = start, before;
-  for (int k = 0; k < steps; ++k) {
-    const double angle = k * step;
+  for (int k = 0; k < field->steps(); ++k) {
+    const double angle = field->Angle(k), step = field->Angle(1);
     for (const int axis : known.axes)
       w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * known.z.row(axis);
-    const Eigen::MatrixXd f = field->At(w, angle);
+    const Eigen::MatrixXd f = field->At(w, k);
     w += step * (k == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before));
     w = w.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
     before = f;
@@ -198,7 +203,7 @@ std::vector<Pose> Sample(const FlowModelParts& model, const FlowNetwork& network
   Field field(model, network, std::move(request), window);
   Eigen::MatrixXd mean_way;
   if (temperature != 1) mean_way = field.At(still, 0);
-  Eigen::MatrixXd w = temperature > 0 ? Solve(&field, known, start, model.config.steps) : start;
+  Eigen::MatrixXd w = temperature > 0 ? Solve(&field, known, start) : start;
   if (temperature != 1) w = mean_way + temperature * (w - mean_way);
   Eigen::MatrixXd x = window.Colour(w);
   for (const int axis : known.axes) x.row(axis) = known.x.row(axis);

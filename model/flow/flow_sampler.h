@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/flow/energy_prior.h"
@@ -14,13 +15,19 @@ namespace choreo {
 class FlowNetwork {
  public:
   virtual ~FlowNetwork() = default;
-  /// F of one window at time `t` in [0, 1], [dimensions, w]. `z` [dimensions, w]: where the flow
-  /// is, white; `poses` [dimensions, tau + w]: the same as displacements from the last history
+  /// What is known of the whole window (WindowFeatures::whole) at each of `times`, in [0, 1]: as
+  /// Evaluate takes it, a column each.
+  virtual Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
+                                    std::span<const float> times) const = 0;
+  /// F of one window at the time of `condition`, [dimensions, w]. `z` [dimensions, w]: where the
+  /// flow is, white; `poses` [dimensions, tau + w]: the same as displacements from the last history
   /// pose, behind the history's; `joints` [3 joints, tau + w]: where that puts the body, metres in
-  /// the canonical frame; `mean`: the prior's mean in the shape of `poses`.
+  /// the canonical frame; `mean`: the prior's mean in the shape of `poses`; `frames`:
+  /// WindowFeatures::frames.
   virtual Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                                    const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
-                                   const WindowFeatures& features, float t) const = 0;
+                                   const Eigen::MatrixXf& frames,
+                                   const Eigen::VectorXf& condition) const = 0;
 };
 
 /// Everything that a window is sampled with besides the request.

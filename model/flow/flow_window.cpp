@@ -19,19 +19,13 @@ constexpr double kFastest = 8;
 constexpr double kTurnHorizon = 12;
 
 // The way from one pose to another, [dimensions]: of the root, and of each joint as the first's
-// tangent space has it; and there.
+// tangent space has it.
 Eigen::VectorXd Way(const Pose& from, const Pose& to) {
   Eigen::VectorXd way(3 + 3 * from.rotations.cols());
   way.head<3>() = to.root_position - from.root_position;
   for (Eigen::Index j = 0; j < from.rotations.cols(); ++j)
     way.segment<3>(3 + 3 * j) = RotationDifference(from.rotations.col(j), to.rotations.col(j));
   return way;
-}
-void Go(const Eigen::VectorXd& way, Pose* pose) {
-  pose->root_position += way.head<3>();
-  for (Eigen::Index j = 0; j < pose->rotations.cols(); ++j) {
-    pose->rotations.col(j) = RotationCompose(pose->rotations.col(j), way.segment<3>(3 + 3 * j));
-  }
 }
 
 }  // namespace
@@ -157,13 +151,23 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   if (known > 0) surprise_ = squares / known;
   SetEnergy(prior, request);
   base_.resize(static_cast<size_t>(request.frames), last);
-  base_matrices_.resize(3, 3L * joints * request.frames);
-  for (int i = 0; i < request.frames; ++i) {
-    Pose& pose = base_[static_cast<size_t>(i)];
-    Go(mean_.col(i), &pose);
-    for (int j = 0; j < joints; ++j)
-      base_matrices_.middleCols<3>(3L * (i * joints + j)) = ExpMap(pose.rotations.col(j));
+  base_turns_.resize(static_cast<size_t>(request.frames * joints));
+  for (int i = 0; i < request.frames; ++i)
+    base_[static_cast<size_t>(i)].root_position += mean_.col(i).head<3>();
+  for (int j = 0; j < joints; ++j) {
+    const Eigen::Quaterniond from = QuaternionFromExp(last.rotations.col(j));
+    for (int i = 0; i < request.frames; ++i) {
+      Eigen::Quaterniond& turn = base_turns_[static_cast<size_t>(i * joints + j)];
+      turn = from * QuaternionFromExp(mean_.col(i).segment<3>(3 + 3 * j));
+      base_[static_cast<size_t>(i)].rotations.col(j) =
+          NearestBranch(ExpFromQuaternion(turn), last.rotations.col(j));
+    }
   }
+}
+
+Eigen::Quaterniond FlowWindow::Turn(const Eigen::MatrixXd& x, int frame, int joint) const {
+  const auto at = static_cast<size_t>(frame * (x.rows() / 3 - 1) + joint);
+  return base_turns_[at] * QuaternionFromExp(x.col(frame).segment<3>(3 + 3 * joint));
 }
 
 void FlowWindow::SetEnergy(const MotionPrior& prior, const WindowRequest& request) {
@@ -187,7 +191,14 @@ std::optional<Eigen::MatrixXd> FlowWindow::Encode(std::span<const Pose> poses) c
 
 std::vector<Pose> FlowWindow::Decode(const Eigen::MatrixXd& x) const {
   std::vector<Pose> poses = base_;
-  for (int i = 0; i < frames(); ++i) Go(x.col(i), &poses[static_cast<size_t>(i)]);
+  for (int i = 0; i < frames(); ++i) {
+    Pose& pose = poses[static_cast<size_t>(i)];
+    pose.root_position += x.col(i).head<3>();
+    for (int j = 0; j < pose.rotations.cols(); ++j) {
+      pose.rotations.col(j) =
+          NearestBranch(ExpFromQuaternion(Turn(x, i, j)), pose.rotations.col(j));
+    }
+  }
   return poses;
 }
 
@@ -197,10 +208,7 @@ Eigen::MatrixXf FlowWindow::PlaceJoints(const Skeleton& skeleton, const Eigen::M
   Eigen::Matrix3Xd local(3, 3 * joints);
   JointPlacement placement;
   for (int i = 0; i < frames(); ++i) {
-    for (int j = 0; j < joints; ++j) {
-      local.middleCols<3>(3 * j).noalias() = base_matrices_.middleCols<3>(3L * (i * joints + j)) *
-                                             ExpMap(x.col(i).segment<3>(3 + 3 * j));
-    }
+    for (int j = 0; j < joints; ++j) local.middleCols<3>(3 * j) = Turn(x, i, j).toRotationMatrix();
     const Eigen::Vector3d root = base_[static_cast<size_t>(i)].root_position + x.col(i).head<3>();
     ForwardKinematics(skeleton, root, local, placement);
     places.col(i) = placement.positions.reshaped().cast<float>();
@@ -209,19 +217,20 @@ Eigen::MatrixXf FlowWindow::PlaceJoints(const Skeleton& skeleton, const Eigen::M
 }
 
 Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
-  const Eigen::MatrixXd by_time = z.transpose();
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(z.cols(), z.rows());
+  const Eigen::MatrixXf by_time = z.cast<float>().transpose();
+  Eigen::MatrixXf x = Eigen::MatrixXf::Zero(z.cols(), z.rows());
   for (int d = 0; d < z.rows(); ++d) {
     // By columns this takes half as long as Eigen's product with a triangle.
-    const Eigen::MatrixXd& spread = At(d).spread;
+    const Eigen::MatrixXf& spread = At(d).spread;
     for (Eigen::Index i = 0, left = z.cols(); i < z.cols(); ++i, --left)
       x.col(d).tail(left) += by_time(i, d) * spread.col(i).tail(left);
   }
-  return scales_.asDiagonal() * x.transpose();
+  return scales_.asDiagonal() * x.transpose().cast<double>();
 }
 
 Eigen::VectorXd FlowWindow::Whiten(int dimension, const Eigen::VectorXd& x) const {
-  return At(dimension).spread.triangularView<Eigen::Lower>().solve(x) / scales_[dimension];
+  const Eigen::MatrixXd spread = At(dimension).spread.cast<double>();
+  return spread.triangularView<Eigen::Lower>().solve(x) / scales_[dimension];
 }
 
 }  // namespace choreo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <memory>
 #include <optional>
@@ -94,6 +95,8 @@ class FlowWindow {
   Eigen::VectorXd Whiten(int dimension, const Eigen::VectorXd& x) const;
 
  private:
+  // A joint's local rotation in Decode(x)'s poses.
+  Eigen::Quaterniond Turn(const Eigen::MatrixXd& x, int frame, int joint) const;
   const MotionPrior::Bridge& At(int dimension) const {
     const auto d = static_cast<size_t>(dimension);
     return (keyed_[d] ? *to_key_ : d < 3 && stage_ ? *stage_ : *free_)[d];
@@ -105,8 +108,8 @@ class FlowWindow {
   Eigen::VectorXd displacement_;
   double surprise_ = 1;
   Eigen::VectorXd scales_;
-  std::vector<Pose> base_;          // the mean, as poses
-  Eigen::Matrix3Xd base_matrices_;  // their local rotations, frame by frame
+  std::vector<Pose> base_;                      // the mean, as poses
+  std::vector<Eigen::Quaterniond> base_turns_;  // their local rotations, frame by frame
 };
 
 }  // namespace choreo

@@ -17,7 +17,7 @@ constexpr double kStillness = 2e-4;  // a frame; slower dimensions don't move
 constexpr double kLeastScale = 0.5, kLeastAsked = 0.25;
 constexpr double kLeastEnergy = 1e-3;  // metres a frame
 constexpr int kStaged = -1;            // in place of a key's frames, among what is kept
-constexpr size_t kKept = 96;           // bridges; one of 96 frames takes 5 MB
+constexpr size_t kKept = 96;           // bridges; one of 96 frames takes 3 MB
 
 }  // namespace
 
@@ -142,7 +142,7 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key,
     own.diagonal().array() += jitter * velocity(0);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(own);
     if (cholesky.info() == Eigen::Success) {
-      bridge.spread = cholesky.matrixL();
+      bridge.spread = Eigen::MatrixXd(cholesky.matrixL()).cast<float>();
       return bridge;
     }
     if (jitter > 1) throw InvalidArgument("velocity_covariance", "is not positive definite");

@@ -67,7 +67,7 @@ class MotionPrior {
   struct Bridge {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
-    Eigen::MatrixXd spread;
+    Eigen::MatrixXf spread;
     /// Variance of what is known: the last velocities, then that displacement.
     Eigen::VectorXd expected;
   };

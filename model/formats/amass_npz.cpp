@@ -18,17 +18,14 @@ constexpr int kBetas = 16;
 // SMPL-X's neutral body has its pelvis elsewhere.
 const Eigen::Vector3d kSmplXRestPelvis(0.00312326, -0.35140747, 0.01203655);
 
-// Turns Z up into Y up.
-Eigen::Matrix3d YUpFromZUp() {
-  return (Eigen::Matrix3d() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
-}
+const Eigen::Matrix3d kYUpFromZUp{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 
 // Poses as they stand in the file: `rotations` with the 22 joints of the body or SMPL's 24.
 Motion Assemble(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, double fps,
                 const std::string& key) {
   const int joints = Skeleton::Smpl24().joints();
   const int known = rotations.rows() == 3 * joints ? joints : kBodyJoints;
-  Motion motion = MotionOfRows(positions, rotations, known, joints, fps, key);
+  Motion motion = MotionOfRows(positions, rotations.topRows(3 * known), joints, fps, key);
   CheckMotionLimits(motion);  // before turns of the world hide an absurd angle
   return motion;
 }
@@ -38,7 +35,7 @@ Motion Assemble(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotatio
 Eigen::Vector3d SmplRestPelvis() { return {-0.00179506, -0.22333382, 0.02821918}; }
 
 Pose ToAmass(const Pose& pose) {
-  const Eigen::Matrix3d z_up = YUpFromZUp().transpose();
+  const Eigen::Matrix3d z_up = kYUpFromZUp.transpose();
   Pose amass = pose;
   amass.root_position = z_up * pose.root_position - SmplRestPelvis();
   amass.rotations.col(0) = LogMap(z_up * ExpMap(pose.rotations.col(0)));
@@ -46,10 +43,9 @@ Pose ToAmass(const Pose& pose) {
 }
 
 Pose FromAmass(const Pose& amass) {
-  const Eigen::Matrix3d y_up = YUpFromZUp();
   Pose pose = amass;
-  pose.root_position = y_up * (amass.root_position + SmplRestPelvis());
-  pose.rotations.col(0) = LogMap(y_up * ExpMap(amass.rotations.col(0)));
+  pose.root_position = kYUpFromZUp * (amass.root_position + SmplRestPelvis());
+  pose.rotations.col(0) = LogMap(kYUpFromZUp * ExpMap(amass.rotations.col(0)));
   return pose;
 }
 
@@ -89,13 +85,8 @@ Motion ReadSmplMotion(const NpzArchive& npz) {
   return motion;
 }
 
-void AddSmplMotion(const Skeleton& skeleton, const Motion& motion,
-                   const std::vector<Contacts>* contacts, NpzArchive& npz) {
-  const Skeleton& smpl = Skeleton::Smpl24();
-  if (skeleton.joint_names != smpl.joint_names || skeleton.parents != smpl.parents) {
-    throw InvalidArgument("skeleton", "'" + skeleton.name + "' cannot be written as SMPL motion");
-  }
-  AddOwnArrays(smpl, motion, contacts, npz);
+void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, NpzArchive& npz) {
+  AddOwnArrays(Skeleton::Smpl24(), motion, contacts, npz);
   const auto frames = static_cast<int64_t>(motion.frames.size());
   std::vector<double> trans, poses;
   Motion amass = motion;

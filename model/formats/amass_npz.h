@@ -1,12 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "model/formats/npz.h"
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
-#include "model/motion/skeleton.h"
 
 /// SMPL motion in npz files, as AMASS, AIST++ and EDGE lay it out, and our own arrays beside them.
 ///
@@ -34,10 +32,9 @@ Pose FromAmass(const Pose& amass);
 /// naming the array and its shape, or the keys that are absent.
 Motion ReadSmplMotion(const NpzArchive& npz);
 
-/// Adds the arrays of a motion: AMASS's (poses with 52 joints, trans, mocap_framerate, gender,
-/// betas), ours, and `contacts` [F, 4] if they are given. Throws Error(kInvalidArgument) for a
-/// skeleton other than SMPL's, a motion without frames, or contacts of another length.
-void AddSmplMotion(const Skeleton& skeleton, const Motion& motion,
-                   const std::vector<Contacts>* contacts, NpzArchive& npz);
+/// Adds the arrays of a motion of SMPL's skeleton: AMASS's (poses with 52 joints, trans,
+/// mocap_framerate, gender, betas), ours, and `contacts` [F, 4] if they are given. Throws
+/// Error(kInvalidArgument) for a motion without frames, or contacts of another length.
+void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, NpzArchive& npz);
 
 }  // namespace choreo

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,7 +43,7 @@ struct BvhJoint {
 };
 
 struct BvhFile {
-  std::vector<BvhJoint> joints;
+  std::vector<BvhJoint> joints;  ///< behind each all that hangs from it
   double frame_time = 1.0 / 30;  ///< seconds
   Eigen::MatrixXd values;        ///< [channels of all joints, frames] file units and degrees
 
@@ -64,10 +63,9 @@ BvhFile ParseBvh(std::string_view text, const std::string& name);
 /// As ParseBvh; Error(kNotFound) where the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);
 
-/// Six decimals. Throws Error(kInvalidArgument) where joints are out of order or `values` does not
-/// have a row for every channel.
-void WriteBvh(std::ostream& out, const BvhFile& file);
-/// Error(kInternal) where the file cannot be written.
+/// Six decimals.
+std::string BvhText(const BvhFile& file);
+/// The same in a file. Error(kInternal) where it cannot be written.
 void WriteBvh(const std::filesystem::path& path, const BvhFile& file);
 
 /// Global positions of all joints and end sites in one frame, [3, joints], file units.
@@ -96,11 +94,8 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
 /// units large; none where a joint stands above its root.
 std::optional<Skeleton> BvhSkeleton(const BvhFile& file);
 
-/// Whether a file has exactly this skeleton in some layout: names, parents and rest offsets (1 mm).
-bool IsBvhOf(const BvhFile& file, const Skeleton& skeleton);
-
-/// The inverse of MotionToBvh, whatever the layout, for files of which IsBvhOf holds; throws
-/// Error(kInvalidArgument) for others.
-Motion BvhToMotion(const BvhFile& file, const Skeleton& skeleton);
+/// The inverse of MotionToBvh, whatever the layout; none unless the file has exactly this skeleton:
+/// names, parents and rest offsets (1 mm).
+std::optional<Motion> BvhToMotion(const BvhFile& file, const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
+#include <utility>
 
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
@@ -57,92 +57,82 @@ Eigen::Vector3d EulerZxy(const Eigen::Matrix3d& r, const Eigen::Vector3d& previo
   return (a - previous).squaredNorm() <= (b - previous).squaredNorm() ? a : b;
 }
 
-// Our joints in the order in which the file's blocks stand: [position in the file] → our index, -1
-// for an End Site.
-std::vector<int> FileOrder(const Skeleton& skeleton) {
-  std::vector<int> order;
-  const std::function<void(int)> visit = [&](int joint) {
-    order.push_back(joint);
-    bool leaf = true;
-    for (int child = joint + 1; child < skeleton.joints(); ++child) {
-      if (skeleton.parents[child] != joint) continue;
-      leaf = false;
-      visit(child);
-    }
-    if (leaf) order.push_back(-1);
-  };
-  visit(0);
-  return order;
-}
-
-std::vector<BvhJoint> MakeHierarchy(const Skeleton& skeleton, const std::vector<int>& order,
-                                    const BvhLayout& layout) {
+/// A file's blocks, and which of our joints each is, -1 for an End Site.
+struct BvhBlocks {
   std::vector<BvhJoint> joints;
-  std::vector<int> in_file(skeleton.joints(), -1);
-  for (const int index : order) {
-    BvhJoint joint;
-    if (index < 0) {  // a leaf's bone goes on for half of its length
-      const int leaf = static_cast<int>(joints.size()) - 1;
-      joint.name = joints[leaf].name + "_end";
-      joint.parent = leaf;
-      joint.offset = joints[leaf].offset / 2;
-      joint.end_site = true;
-    } else {
-      in_file[index] = static_cast<int>(joints.size());
-      joint.name = JointName(skeleton.joint_names[index], layout.names);
-      joint.offset = skeleton.offsets.col(index) * layout.units_per_metre;
-      if (index == 0) {
-        joint.offset.y() = skeleton.pelvis_height * layout.units_per_metre;
-        joint.channels = {BvhChannel::kXPosition, BvhChannel::kYPosition, BvhChannel::kZPosition};
-      } else {
-        joint.parent = in_file[skeleton.parents[index]];
-      }
-      joint.channels.insert(joint.channels.end(), std::begin(kRotations), std::end(kRotations));
-    }
-    joints.push_back(std::move(joint));
+  std::vector<int> ours;
+};
+
+/// Appends a joint of ours below the block `parent`, and all that hangs from it.
+void AppendBlocks(const Skeleton& skeleton, const BvhLayout& layout, int index, int parent,
+                  BvhBlocks& blocks) {
+  const auto block = static_cast<int>(blocks.joints.size());
+  BvhJoint joint{.name = JointName(skeleton.joint_names[index], layout.names),
+                 .parent = parent,
+                 .offset = skeleton.offsets.col(index) * layout.units_per_metre,
+                 .channels = {std::begin(kRotations), std::end(kRotations)}};
+  if (index == 0) {
+    joint.offset.y() = skeleton.pelvis_height * layout.units_per_metre;
+    joint.channels.insert(joint.channels.begin(),
+                          {BvhChannel::kXPosition, BvhChannel::kYPosition, BvhChannel::kZPosition});
   }
-  return joints;
+  blocks.joints.push_back(joint);
+  blocks.ours.push_back(index);
+  for (int child = index + 1; child < skeleton.joints(); ++child) {
+    if (skeleton.parents[child] == index) AppendBlocks(skeleton, layout, child, block, blocks);
+  }
+  if (blocks.ours.back() != index) return;
+  // A leaf's bone goes on for half of its length.
+  blocks.joints.push_back({.name = joint.name + "_end",
+                           .parent = block,
+                           .offset = joint.offset / 2,
+                           .channels = {},
+                           .end_site = true});
+  blocks.ours.push_back(-1);
 }
 
-/// Joints of ours by what they are called in this layout.
-std::map<std::string, int> Called(const Skeleton& skeleton, JointNames names) {
-  std::map<std::string, int> out;
-  for (int joint = 0; joint < skeleton.joints(); ++joint)
-    out[JointName(skeleton.joint_names[static_cast<size_t>(joint)], names)] = joint;
-  return out;
-}
-
-bool IsIn(const BvhFile& file, const Skeleton& skeleton, const BvhLayout& layout) {
-  const std::map<std::string, int> called = Called(skeleton, layout.names);
-  int found = 0;
+/// Of each joint of a file, which of ours it is in this layout, -1 for an End Site; none where the
+/// file has another skeleton.
+std::optional<std::vector<int>> FindJoints(const BvhFile& file, const Skeleton& skeleton,
+                                           const BvhLayout& layout) {
+  std::vector<std::string> names;
+  for (const std::string& joint : skeleton.joint_names)
+    names.push_back(JointName(joint, layout.names));
+  std::vector<int> found;
   for (const BvhJoint& joint : file.joints) {
+    const int index = joint.end_site ? -1 : IndexOf(names, joint.name);
+    found.push_back(index);
     if (joint.end_site) continue;
-    const auto ours = called.find(joint.name);
-    if (ours == called.end()) return false;
-    const int parent = skeleton.parents[ours->second];
-    const bool is_root = joint.parent < 0;
-    if (is_root) {
-      if (parent != -1) return false;
-    } else {
-      const auto above = called.find(file.joints[joint.parent].name);
-      if (parent < 0 || above == called.end() || above->second != parent) return false;
-      const Eigen::Vector3d offset = joint.offset / layout.units_per_metre;
-      if ((offset - skeleton.offsets.col(ours->second)).norm() > kSameOffset) return false;
-    }
-    ++found;
+    const int parent = joint.parent < 0 ? -1 : found[joint.parent];
+    if (index < 0 || skeleton.parents[index] != parent) return std::nullopt;
+    const Eigen::Vector3d offset = joint.offset / layout.units_per_metre;
+    if (parent >= 0 && (offset - skeleton.offsets.col(index)).norm() > kSameOffset)
+      return std::nullopt;
   }
-  return found == skeleton.joints();
+  if (std::ssize(found) - std::ranges::count(found, -1) != skeleton.joints()) return std::nullopt;
+  return found;
 }
 
-/// How a file has this skeleton, if it has.
-std::optional<BvhLayout> LayoutOf(const BvhFile& file, const Skeleton& skeleton) {
-  for (const JointNames names : kAllJointNames) {
-    for (const double units : {kCentimetres, kMetres}) {
-      const BvhLayout layout{names, units};
-      if (IsIn(file, skeleton, layout)) return layout;
+/// The motion of the joints that FindJoints found.
+Motion TakeJoints(const BvhFile& file, const std::vector<int>& found, int joints,
+                  double units_per_metre) {
+  Motion motion;
+  motion.fps = file.fps();
+  for (int64_t frame = 0; frame < file.frames(); ++frame) {
+    const double* values = file.values.col(frame).data();
+    Pose& pose = motion.frames.emplace_back();
+    pose.rotations.resize(3, joints);
+    for (size_t i = 0; i < file.joints.size(); ++i) {
+      const BvhJoint& joint = file.joints[i];
+      const BvhPlacement local = PlaceBvhJoint(joint, values);
+      values += joint.channels.size();
+      if (joint.end_site) continue;
+      if (joint.parent < 0) pose.root_position = local.position / units_per_metre;
+      pose.rotations.col(found[i]) = LogMap(local.rotation);
     }
   }
-  return std::nullopt;
+  MakeContinuous(motion);
+  return motion;
 }
 
 }  // namespace
@@ -191,9 +181,10 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
                                        " has names for SMPL's joints alone, the skeleton is " +
                                        skeleton.Describe());
   }
-  const std::vector<int> order = FileOrder(skeleton);
+  BvhBlocks blocks;
+  AppendBlocks(skeleton, layout, 0, -1, blocks);
   BvhFile file;
-  file.joints = MakeHierarchy(skeleton, order, layout);
+  file.joints = std::move(blocks.joints);
   file.frame_time = 1 / motion.fps;
   file.values.resize(3 + 3 * skeleton.joints(), static_cast<int64_t>(motion.frames.size()));
   Eigen::Matrix3Xd euler = Eigen::Matrix3Xd::Zero(3, skeleton.joints());  // of the frame before
@@ -202,7 +193,7 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
     auto values = file.values.col(static_cast<int64_t>(frame));
     values.head<3>() = pose.root_position * layout.units_per_metre;
     int row = 3;
-    for (const int joint : order) {
+    for (const int joint : blocks.ours) {
       if (joint < 0) continue;
       euler.col(joint) = EulerZxy(ExpMap(pose.rotations.col(joint)), euler.col(joint));
       values.segment<3>(row) = euler.col(joint) / (M_PI / 180);
@@ -215,14 +206,12 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
 std::optional<Skeleton> BvhSkeleton(const BvhFile& file) {
   std::vector<std::string> names;
   std::vector<int> parents, index;  // index: of every joint of the file, -1 for an End Site
-  Eigen::Matrix3Xd places(3, std::ssize(file.joints));
+  Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Zero(3, std::ssize(file.joints));
   for (const BvhJoint& joint : file.joints) {
     index.push_back(joint.end_site ? -1 : static_cast<int>(names.size()));
     if (joint.end_site) continue;
     const int parent = joint.parent < 0 ? -1 : index[static_cast<size_t>(joint.parent)];
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    if (parent >= 0) place = places.col(parent) + joint.offset;
-    places.col(std::ssize(names)) = place;
+    if (parent >= 0) places.col(std::ssize(names)) = places.col(parent) + joint.offset;
     names.push_back(joint.name);
     parents.push_back(parent);
   }
@@ -233,35 +222,14 @@ std::optional<Skeleton> BvhSkeleton(const BvhFile& file) {
   return skeleton && skeleton->joint_names == names ? skeleton : std::nullopt;
 }
 
-bool IsBvhOf(const BvhFile& file, const Skeleton& skeleton) {
-  return LayoutOf(file, skeleton).has_value();
-}
-
-Motion BvhToMotion(const BvhFile& file, const Skeleton& skeleton) {
-  const std::optional<BvhLayout> layout = LayoutOf(file, skeleton);
-  if (!layout) {
-    throw InvalidArgument("hierarchy", "is not the " + std::to_string(skeleton.joints()) +
-                                           " joints of " + skeleton.name +
-                                           " with their rest offsets in centimetres or metres");
-  }
-  const std::map<std::string, int> called = Called(skeleton, layout->names);
-  Motion motion;
-  motion.fps = file.fps();
-  for (int64_t frame = 0; frame < file.frames(); ++frame) {
-    const double* values = file.values.col(frame).data();
-    Pose pose;
-    pose.rotations.resize(3, skeleton.joints());
-    for (const BvhJoint& joint : file.joints) {
-      const BvhPlacement local = PlaceBvhJoint(joint, values);
-      values += joint.channels.size();
-      if (joint.end_site) continue;
-      if (joint.parent < 0) pose.root_position = local.position / layout->units_per_metre;
-      pose.rotations.col(called.at(joint.name)) = LogMap(local.rotation);
+std::optional<Motion> BvhToMotion(const BvhFile& file, const Skeleton& skeleton) {
+  for (const JointNames names : kAllJointNames) {
+    for (const double units : {kCentimetres, kMetres}) {
+      if (const auto joints = FindJoints(file, skeleton, {names, units}))
+        return TakeJoints(file, *joints, skeleton.joints(), units);
     }
-    motion.frames.push_back(std::move(pose));
   }
-  MakeContinuous(motion);
-  return motion;
+  return std::nullopt;
 }
 
 }  // namespace choreo

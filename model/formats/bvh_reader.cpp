@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -34,30 +35,20 @@ class Tokens {
     return text_.substr(begin, at_ - begin);
   }
 
-  std::string_view Peek() {
-    const size_t at = at_;
-    const int64_t line = line_;
-    const std::string_view token = AtEnd() ? std::string_view() : Next("");
-    at_ = at;
-    line_ = line;
-    return token;
-  }
-
   // The rest of this line, for joint names with spaces in them.
   std::string_view RestOfLine(const char* expected) {
     while (at_ < text_.size() && IsSpace(text_[at_]) && text_[at_] != '\n') ++at_;
-    size_t end = std::min(text_.find('\n', at_), text_.size());
     const size_t begin = at_;
     // "ROOT Hips {" puts the brace on the same line.
-    end = std::min(end, std::min(text_.find('{', begin), text_.size()));
-    at_ = end;
+    at_ = std::min(text_.find_first_of("\n{", begin), text_.size());
+    size_t end = at_;
     while (end > begin && IsSpace(text_[end - 1])) --end;
     if (end == begin) Fail(expected, "nothing");
     return text_.substr(begin, end - begin);
   }
 
-  void Expect(std::string_view word) {
-    const std::string_view token = Next(std::string(word).c_str());
+  void Expect(const char* word) {
+    const std::string_view token = Next(word);
     if (!SameWord(token, word)) Fail("'" + std::string(word) + "'", token);
   }
 
@@ -94,16 +85,12 @@ class Tokens {
   }
 
   [[noreturn]] void Fail(const std::string& expected, std::string_view found) const {
-    std::string shown(found.substr(0, 40));
     throw InvalidArgument(name_ + ":" + std::to_string(line_),
-                          "found '" + shown + "', expected " + expected);
+                          "found '" + std::string(found.substr(0, 40)) + "', expected " + expected);
   }
 
   static bool SameWord(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-      return std::tolower(static_cast<unsigned char>(x)) ==
-             std::tolower(static_cast<unsigned char>(y));
-    });
+    return boost::algorithm::iequals(a, b, std::locale::classic());
   }
 
  private:
@@ -136,17 +123,15 @@ std::vector<BvhJoint> ReadHierarchy(Tokens& tokens) {
   tokens.Expect("ROOT");
   std::vector<BvhJoint> joints;
   std::vector<int> open;  // joints whose closing brace is still to come
-  const auto begin = [&](std::string name, bool end_site) {
-    BvhJoint joint;
-    joint.name = std::move(name);
+  const auto begin = [&](const std::string& name, bool end_site) {
+    BvhJoint& joint = joints.emplace_back();
+    joint.name = name;
     joint.parent = open.empty() ? -1 : open.back();
     joint.end_site = end_site;
-    open.push_back(static_cast<int>(joints.size()));
-    joints.push_back(std::move(joint));
+    open.push_back(static_cast<int>(joints.size()) - 1);
     tokens.Expect("{");
     tokens.Expect("OFFSET");
-    for (int axis = 0; axis < 3; ++axis)
-      joints.back().offset[axis] = tokens.Number("a number", kMaxLength);
+    for (double& coordinate : joint.offset) coordinate = tokens.Number("a number", kMaxLength);
   };
   begin(std::string(tokens.RestOfLine("a joint name")), false);
   while (!open.empty()) {
@@ -179,13 +164,12 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   Tokens tokens(text, name);
   BvhFile file;
   file.joints = ReadHierarchy(tokens);
-  int64_t channels = 0;
   std::vector<bool> is_position;  // of each channel
   for (const BvhJoint& joint : file.joints) {
-    channels += static_cast<int64_t>(joint.channels.size());
     for (const BvhChannel channel : joint.channels)
       is_position.push_back(channel <= BvhChannel::kZPosition);
   }
+  const int64_t channels = std::ssize(is_position);
   if (channels == 0) tokens.Fail("a joint with channels", "a hierarchy without any");
 
   tokens.Expect("MOTION");
@@ -206,7 +190,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   if (!tokens.AtEnd()) {
     tokens.Fail("the end of the file after " + std::to_string(frames) + " frames of " +
                     std::to_string(channels) + " values",
-                tokens.Peek());
+                tokens.Next(""));
   }
   file.values = Eigen::Map<const Eigen::MatrixXd>(values.data(), channels, frames);
   return file;

@@ -1,11 +1,12 @@
 #include "model/formats/character_file.h"
 
 #include <initializer_list>
-#include <utility>
+#include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
-#include "model/core/json_depth.h"
-#include "model/formats/character_contents.h"
+#include "model/core/json_limits.h"
+#include "model/formats/glb_chunks.h"
+#include "model/formats/gltf_file.h"
 
 namespace choreo {
 namespace {
@@ -57,7 +58,7 @@ tinygltf::Model ParseNodes(const ordered_json& document) {
   copy("nodes", {"name", "children", "translation", "rotation", "scale", "matrix"});
   copy("skins", {"joints"});
   const std::string json = bare.dump();
-  return ParseGlb(std::string_view(JoinGlb({.json = json, .binary = {}, .others = {}})));
+  return ParseGlb(JoinGlb({.json = json, .binary = {}, .others = {}}));
 }
 
 std::vector<bool> JointsOf(const tinygltf::Model& model) {
@@ -83,24 +84,19 @@ void RequireOneFile(const ordered_json& document) {
 
 }  // namespace
 
-CharacterFile::CharacterFile(const std::filesystem::path& path) {
+CharacterFile::CharacterFile(const std::filesystem::path& path) : path_(path) {
   try {
-    std::string bytes = ReadGlbBytes(path);
-    const std::string_view text = SplitGlb(bytes).json;
+    bytes_ = ReadGlbBytes(path);
+    const std::string_view text = SplitGlb(bytes_).json;
     CheckJsonDepth(text, "");
-    ordered_json document = ordered_json::parse(text, nullptr, false);
+    const ordered_json document = ordered_json::parse(text, nullptr, false);
     if (!document.is_object())
       throw InvalidArgument("", "is no binary glTF: its JSON is no object");
     const tinygltf::Model model = ParseNodes(document);
     RequireOneFile(document);
-    auto contents = std::make_unique<Contents>(Contents{.path = path,
-                                                        .bytes = std::move(bytes),
-                                                        .chunks = {},
-                                                        .document = std::move(document),
-                                                        .nodes = GltfNodes(model),
-                                                        .joints = JointsOf(model)});
-    contents->chunks = SplitGlb(contents->bytes);
-    contents_ = std::move(contents);
+    nodes_ = ReadGltfNodes(model);
+    joints_ = JointsOf(model);
+    vrm_ = FindHumanBones(VrmNames(document, nodes_.names.size()));
     places();  // is checked
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kNotFound) throw;
@@ -108,25 +104,15 @@ CharacterFile::CharacterFile(const std::filesystem::path& path) {
   }
 }
 
-CharacterFile::~CharacterFile() = default;
-CharacterFile::CharacterFile(CharacterFile&&) noexcept = default;
-
-const std::vector<std::string>& CharacterFile::names() const { return contents_->nodes.names(); }
-int CharacterFile::parent(int node) const { return contents_->nodes.parents()[node]; }
-const std::vector<bool>& CharacterFile::joints() const { return contents_->joints; }
-
-Eigen::Matrix3Xd CharacterFile::places() const { return PlacesOf(contents_->nodes.PlaceAtRest()); }
-
 HumanBones CharacterFile::FindBones() const {
-  HumanBones vrm = FindHumanBones(VrmNames(contents_->document, names().size()));
-  if (MissingBone(vrm).empty()) return vrm;
+  if (MissingBone(vrm_).empty()) return vrm_;
   // A mesh is often called as the bone that it hangs on.
-  std::vector<std::string> joints = names();
+  std::vector<std::string> joints = nodes_.names;
   for (size_t node = 0; node < joints.size(); ++node) {
-    if (!contents_->joints[node]) joints[node].clear();
+    if (!joints_[node]) joints[node].clear();
   }
   HumanBones found = FindHumanBones(joints);
-  return MissingBone(found).empty() ? found : FindHumanBones(names());
+  return MissingBone(found).empty() ? found : FindHumanBones(nodes_.names);
 }
 
 }  // namespace choreo

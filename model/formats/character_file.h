@@ -1,13 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "model/fit/character_body.h"
 #include "model/fit/human_bones.h"
+#include "model/formats/gltf_nodes.h"
 #include "model/motion/motion.h"
 
 namespace choreo {
@@ -20,14 +19,12 @@ class CharacterFile {
   /// begins with the path for what is no binary glTF, keeps its data in other files, has nodes
   /// that are their own ancestors, have two parents, or stand nowhere.
   explicit CharacterFile(const std::filesystem::path& path);
-  ~CharacterFile();
-  CharacterFile(CharacterFile&&) noexcept;
 
-  const std::vector<std::string>& names() const;  ///< of its nodes; may be empty or there twice
-  int parent(int node) const;                     ///< -1: none
-  Eigen::Matrix3Xd places() const;  ///< [3, nodes] at rest in the world, in the file's unit
+  const GltfNodes& nodes() const { return nodes_; }
+  /// [3, nodes] at rest in the world, in the file's unit
+  Eigen::Matrix3Xd places() const { return PlacesOf(nodes_.PlaceAtRest()); }
   /// [nodes] Whether a skin hangs on it; all where there is no skin.
-  const std::vector<bool>& joints() const;
+  const std::vector<bool>& joints() const { return joints_; }
 
   /// What its VRM extension says, else what its nodes' names do, those of joints first. Bones may
   /// be missing.
@@ -42,8 +39,11 @@ class CharacterFile {
                   const Motion& motion) const;
 
  private:
-  struct Contents;
-  std::unique_ptr<const Contents> contents_;
+  std::filesystem::path path_;
+  std::string bytes_;
+  GltfNodes nodes_;
+  std::vector<bool> joints_;
+  HumanBones vrm_;  // as its VRM extension has them
 };
 
 }  // namespace choreo

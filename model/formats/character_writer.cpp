@@ -1,12 +1,11 @@
 #include <Eigen/Geometry>
-#include <set>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/formats/character_contents.h"
 #include "model/formats/character_file.h"
+#include "model/formats/glb_chunks.h"
 #include "model/formats/gltf_builder.h"
-#include "model/formats/gltf_nodes.h"
+#include "model/formats/gltf_file.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/kinematics.h"
 
@@ -21,59 +20,48 @@ constexpr double kFlattest = 1e-6;  // of a node's largest scale: below it is ze
 class DrivenNodes {
  public:
   DrivenNodes(const GltfNodes& nodes, const CharacterBody& body)
-      : nodes_(nodes), body_(body), local_(nodes.rest()), joint_of_(nodes.names().size(), -1) {
-    world_ = nodes.PlaceAtRest();
-    for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
-      if (body.nodes[joint] >= 0)
-        joint_of_[static_cast<size_t>(body.nodes[joint])] = static_cast<int>(joint);
-    }
+      : nodes_(nodes),
+        body_(body),
+        local_(nodes.rest),
+        rest_(nodes.PlaceAtRest()),
+        world_(rest_),
+        joint_of_(nodes.names.size(), -1) {
     // What stands below the pelvis or beside it, as far as there are bones.
-    std::set<size_t> needed;
-    for (const int node : body.nodes) {
-      for (int above = node; above >= 0; above = nodes.parents()[above]) {
-        if (!needed.insert(static_cast<size_t>(above)).second) break;
-      }
+    std::vector<bool> needed(nodes.names.size());
+    for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
+      if (body.nodes[joint] >= 0) joint_of_[body.nodes[joint]] = static_cast<int>(joint);
+      for (int node = body.nodes[joint]; node >= 0; node = nodes.parents[node]) needed[node] = true;
     }
-    for (const size_t node : nodes.order()) {
-      if (!needed.contains(node)) continue;
+    for (const size_t node : nodes.order) {
+      if (!needed[node]) continue;
       order_.push_back(node);
       if (joint_of_[node] >= 0) RequireVolume(node);
     }
-    for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
-      rest_.push_back(
-          body.nodes[joint] < 0
-              ? Eigen::Matrix3d::Identity()
-              : Eigen::Matrix3d(world_[static_cast<size_t>(body.nodes[joint])].linear()));
+    for (size_t joint = 0; joint < body.nodes.size(); ++joint)
       moves_.push_back(body.nodes[joint] >= 0 && Moves(joint));
-    }
   }
 
   size_t size() const { return order_.size(); }
   /// Whether a joint's node changes its place in its parent.
   bool moves(size_t joint) const { return moves_[joint]; }
-  const GltfPlacement& local(size_t joint) const {
-    return local_[static_cast<size_t>(body_.nodes[joint])];
-  }
+  const GltfPlacement& local(size_t joint) const { return local_[body_.nodes[joint]]; }
 
   void Pose(const choreo::Pose& pose) {
     ForwardKinematics(body_.skeleton, pose, placement_);
     for (const size_t node : order_) {
-      const int parent = nodes_.parents()[node];
-      const Eigen::Affine3d above =
-          parent < 0 ? Eigen::Affine3d::Identity() : world_[static_cast<size_t>(parent)];
+      const int parent = nodes_.parents[node];
+      const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : world_[parent];
       GltfPlacement& local = local_[node];
       if (joint_of_[node] >= 0) {
-        const auto joint = static_cast<size_t>(joint_of_[node]);
-        const Eigen::Matrix3d turned =
-            placement_.rotations[joint] * body_.turns[joint] * rest_[joint];
+        const int joint = joint_of_[node];
+        const Eigen::Matrix3d rest = rest_[node].linear();
+        const Eigen::Matrix3d turned = placement_.rotations[joint] * body_.turns[joint] * rest;
         const Eigen::Matrix3d inside =
             above.linear().inverse() * turned * local.scale.cwiseInverse().asDiagonal();
         // Under scales that differ by axis the nearest turn.
         local.rotation = Eigen::Quaterniond(Eigen::Affine3d(inside).rotation());
         if (moves_[joint])
-          local.translation =
-              above.inverse() *
-              Eigen::Vector3d(placement_.positions.col(static_cast<Eigen::Index>(joint)));
+          local.translation = above.inverse() * Eigen::Vector3d(placement_.positions.col(joint));
       }
       world_[node] = above * local.Transform();
     }
@@ -92,19 +80,19 @@ class DrivenNodes {
   bool Moves(size_t joint) const {
     const int above = body_.skeleton.parents[joint];
     if (above < 0) return true;
-    int node = nodes_.parents()[body_.nodes[joint]];
-    while (node >= 0 && joint_of_[static_cast<size_t>(node)] < 0) node = nodes_.parents()[node];
-    return node < 0 || joint_of_[static_cast<size_t>(node)] != above;
+    int node = nodes_.parents[body_.nodes[joint]];
+    while (node >= 0 && joint_of_[node] < 0) node = nodes_.parents[node];
+    return node < 0 || joint_of_[node] != above;
   }
 
   const GltfNodes& nodes_;
   const CharacterBody& body_;
   std::vector<GltfPlacement> local_;
+  const std::vector<Eigen::Affine3d> rest_;  // in the world
   std::vector<Eigen::Affine3d> world_;
-  std::vector<int> joint_of_;          // [nodes] -1: none
-  std::vector<size_t> order_;          // parents first
-  std::vector<Eigen::Matrix3d> rest_;  // [joints] of the nodes, in the world
-  std::vector<bool> moves_;            // [joints]
+  std::vector<int> joint_of_;  // [nodes] -1: none
+  std::vector<size_t> order_;  // parents first
+  std::vector<bool> moves_;    // [joints]
   JointPlacement placement_;
 };
 
@@ -126,9 +114,8 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
   RequireWritable(body.skeleton, motion);
   std::string bytes;
   try {
-    DrivenNodes driven(contents_->nodes, body);
-    const auto frames = static_cast<double>(motion.frames.size());
-    if (static_cast<double>(driven.size()) * frames > kMaxPlaces) {
+    DrivenNodes driven(nodes_, body);
+    if (static_cast<double>(driven.size() * motion.frames.size()) > kMaxPlaces) {
       throw InvalidArgument("nodes", std::to_string(driven.size()) + " above its bones in " +
                                          std::to_string(motion.frames.size()) +
                                          " frames, at most 30000000 places are written");
@@ -143,14 +130,15 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
         if (driven.moves(joint)) tracks[joint].AddPlace(driven.local(joint).translation);
       }
     }
-    GltfBuilder added(contents_->document, contents_->chunks.binary);
+    const GlbChunks chunks = SplitGlb(bytes_);
+    GltfBuilder added(ordered_json::parse(chunks.json), chunks.binary);
     for (const int node : body.nodes) {
-      if (node >= 0) StateParts(added.List("nodes")[node], contents_->nodes.rest()[node]);
+      if (node >= 0) StateParts(added.List("nodes")[node], nodes_.rest[node]);
     }
     added.AddDance(motion.fps, motion.frames.size(), tracks);
-    bytes = added.Join(contents_->chunks.others);
+    bytes = added.Join(chunks.others);
   } catch (const Error& error) {
-    throw Error(error.code(), contents_->path.string(), error.what());
+    throw Error(error.code(), path_.string(), error.what());
   }
   WriteFile(out, bytes);
 }

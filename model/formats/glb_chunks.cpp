@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -54,12 +54,7 @@ std::string ReadGlbBytes(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) throw NoGlb("no plain file");
   const uint64_t size = std::filesystem::file_size(path, error);
   if (error || size > UINT32_MAX) throw NoGlb("4 GiB or more");
-  std::string bytes(size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  bytes.resize(static_cast<size_t>(file.gcount()));
-  return bytes;
+  return ReadFile(path);
 }
 
 GlbChunks SplitGlb(std::string_view bytes) {

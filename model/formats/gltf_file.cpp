@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cstring>
 
-#include "model/core/json_depth.h"
+#include "model/core/json_limits.h"
 #include "model/formats/glb_chunks.h"
 
 namespace choreo {
 
 std::string GltfItem(const char* list, size_t index) {
   return std::string(list) + "[" + std::to_string(index) + "]";
-}
-
-tinygltf::Model ParseGlb(const std::filesystem::path& path) {
-  return ParseGlb(std::string_view(ReadGlbBytes(path)));
 }
 
 tinygltf::Model ParseGlb(std::string_view bytes) {
@@ -63,9 +59,7 @@ Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int ty
   const uint64_t available = buffer.data.size();
   const uint64_t first = uint64_t{view.byteOffset} + accessor.byteOffset;
   if (accessor.count < 1 || accessor.count > available || first > available ||
-      first + (accessor.count - 1) * static_cast<uint64_t>(stride) +
-              static_cast<uint64_t>(rows * size) >
-          available) {
+      first + (accessor.count - 1) * stride + rows * size > available) {
     throw InvalidArgument(name,
                           "reaches beyond its buffer of " + std::to_string(available) + " bytes");
   }
@@ -90,9 +84,8 @@ Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int ty
   Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(accessor.count));
   for (size_t i = 0; i < accessor.count; ++i) {
     for (int row = 0; row < rows; ++row) {
-      const size_t offset = first + i * static_cast<size_t>(stride) +
-                            static_cast<size_t>(row) * static_cast<size_t>(size);
-      values(row, static_cast<Eigen::Index>(i)) = component(buffer.data.data() + offset);
+      const size_t offset = first + i * stride + row * size;
+      values(row, i) = component(buffer.data.data() + offset);
     }
   }
   if (!values.allFinite()) throw InvalidArgument(name, "holds values that are not finite");

@@ -3,7 +3,6 @@
 #include <tiny_gltf.h>
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,10 +26,7 @@ const T& GltfAt(const std::vector<T>& list, int index, const char* name) {
   return list[static_cast<size_t>(index)];
 }
 
-/// Reads and parses a file. Opens no other file beside it and decodes no pictures. Throws
-/// Error(kNotFound) naming the path, and Error(kInvalidArgument) without it.
-tinygltf::Model ParseGlb(const std::filesystem::path& path);
-/// The same of bytes.
+/// Opens no file and decodes no pictures. Throws Error(kInvalidArgument) without a field.
 tinygltf::Model ParseGlb(std::string_view bytes);
 
 /// An accessor's elements, [components, count]; normalised integers become -1 to 1. `type` is a

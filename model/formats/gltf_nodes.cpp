@@ -3,6 +3,7 @@
 #include <sstream>
 #include <utility>
 
+#include "model/formats/gltf_file.h"
 #include "model/motion/pose_limits.h"
 
 namespace choreo {
@@ -38,35 +39,36 @@ Eigen::Matrix3Xd PlacesOf(const std::vector<Eigen::Affine3d>& world) {
   return places;
 }
 
-GltfNodes::GltfNodes(const tinygltf::Model& model) {
+GltfNodes ReadGltfNodes(const tinygltf::Model& model) {
   const size_t count = model.nodes.size();
-  parents_.assign(count, -1);
+  GltfNodes nodes;
+  nodes.parents.assign(count, -1);
   for (size_t i = 0; i < count; ++i) {
     const tinygltf::Node& node = model.nodes[i];
-    names_.push_back(node.name);
-    rest_.push_back(ReadPlacement(node, GltfItem("nodes", i)));
+    nodes.names.push_back(node.name);
+    nodes.rest.push_back(ReadPlacement(node, GltfItem("nodes", i)));
     for (const int child : node.children) {
       GltfAt(model.nodes, child, "nodes");
-      if (std::exchange(parents_[static_cast<size_t>(child)], static_cast<int>(i)) >= 0)
-        throw InvalidArgument(GltfItem("nodes", static_cast<size_t>(child)), "has two parents");
+      if (std::exchange(nodes.parents[child], static_cast<int>(i)) >= 0)
+        throw InvalidArgument(GltfItem("nodes", child), "has two parents");
     }
   }
-  // Parents first.
   for (size_t i = 0; i < count; ++i) {
-    if (parents_[i] < 0) order_.push_back(i);
+    if (nodes.parents[i] < 0) nodes.order.push_back(i);
   }
-  for (size_t i = 0; i < order_.size(); ++i) {
-    for (const int child : model.nodes[order_[i]].children)
-      order_.push_back(static_cast<size_t>(child));
+  for (size_t i = 0; i < nodes.order.size(); ++i) {
+    const std::vector<int>& children = model.nodes[nodes.order[i]].children;
+    nodes.order.insert(nodes.order.end(), children.begin(), children.end());
   }
-  if (order_.size() != count) throw InvalidArgument("nodes", "some are their own ancestors");
+  if (nodes.order.size() != count) throw InvalidArgument("nodes", "some are their own ancestors");
+  return nodes;
 }
 
 std::vector<Eigen::Affine3d> GltfNodes::Place(const std::vector<GltfPlacement>& local) const {
   std::vector<Eigen::Affine3d> world(local.size());
-  for (const size_t node : order_) {
+  for (const size_t node : order) {
     world[node] = local[node].Transform();
-    if (parents_[node] >= 0) world[node] = world[static_cast<size_t>(parents_[node])] * world[node];
+    if (parents[node] >= 0) world[node] = world[parents[node]] * world[node];
     const double distance = world[node].translation().cwiseAbs().maxCoeff();
     if (!(distance <= kMaxPosition)) {
       std::ostringstream message;

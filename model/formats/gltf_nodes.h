@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "model/formats/gltf_file.h"
+namespace tinygltf {
+class Model;
+}
 
 namespace choreo {
 
@@ -26,29 +28,21 @@ struct GltfPlacement {
 /// [3, nodes]
 Eigen::Matrix3Xd PlacesOf(const std::vector<Eigen::Affine3d>& world);
 
-/// The nodes of a glTF file, at rest. Immutable. Private to this folder.
-class GltfNodes {
- public:
-  /// Throws Error(kInvalidArgument) naming the node: two parents, its own ancestor, a placement
-  /// that is not finite.
-  explicit GltfNodes(const tinygltf::Model& model);
-
-  const std::vector<std::string>& names() const { return names_; }
-  const std::vector<int>& parents() const { return parents_; }  ///< -1: none
-  const std::vector<size_t>& order() const { return order_; }   ///< all nodes, parents first
-  const std::vector<GltfPlacement>& rest() const { return rest_; }
+/// The nodes of a glTF file.
+struct GltfNodes {
+  std::vector<std::string> names;  ///< may be empty or there twice
+  std::vector<int> parents;        ///< -1: none
+  std::vector<size_t> order;       ///< all nodes, parents first
+  std::vector<GltfPlacement> rest;
 
   /// Where all nodes are in the world. Throws Error(kInvalidArgument) for one that is further away
   /// than any motion goes.
   std::vector<Eigen::Affine3d> Place(const std::vector<GltfPlacement>& local) const;
-  /// The same at rest.
-  std::vector<Eigen::Affine3d> PlaceAtRest() const { return Place(rest_); }
-
- private:
-  std::vector<std::string> names_;
-  std::vector<int> parents_;
-  std::vector<size_t> order_;
-  std::vector<GltfPlacement> rest_;
+  std::vector<Eigen::Affine3d> PlaceAtRest() const { return Place(rest); }
 };
+
+/// Throws Error(kInvalidArgument) naming the node: two parents, its own ancestor, a placement that
+/// is not finite.
+GltfNodes ReadGltfNodes(const tinygltf::Model& model);
 
 }  // namespace choreo

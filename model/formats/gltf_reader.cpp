@@ -1,8 +1,9 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "model/fit/bvh_source.h"
+#include "model/core/error.h"
 #include "model/fit/fit_clip.h"
+#include "model/fit/sources.h"
 #include "model/formats/gltf.h"
 #include "model/formats/gltf_scene.h"
 #include "model/formats/own_skeleton.h"
@@ -18,12 +19,12 @@ std::optional<std::vector<int>> FindOurs(const GltfNodes& file, const Skeleton& 
   const Eigen::Matrix3Xd rest = PlacesOf(file.PlaceAtRest());
   std::vector<int> nodes;
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    const int node = IndexOf(file.names(), skeleton.joint_names[joint]);
+    const int node = IndexOf(file.names, skeleton.joint_names[joint]);
     if (node < 0) return std::nullopt;
     if (joint > 0) {
       const int parent = nodes[skeleton.parents[joint]];
       const Eigen::Vector3d offset = rest.col(node) - rest.col(parent);
-      if (file.parents()[node] != parent ||
+      if (file.parents[node] != parent ||
           (offset - skeleton.offsets.col(joint)).norm() > kSameRest) {
         return std::nullopt;
       }
@@ -37,10 +38,10 @@ Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Ske
   const auto turn = [](const Eigen::Affine3d& transform) -> Eigen::Matrix3d {
     return transform.linear().colwise().normalized();
   };
-  const std::vector<Eigen::Affine3d> rest = scene.nodes().PlaceAtRest();
+  const std::vector<Eigen::Affine3d> rest = scene.nodes.PlaceAtRest();
   Motion motion;
-  motion.fps = scene.fps();
-  for (int64_t frame = 0; frame < scene.frames(); ++frame) {
+  motion.fps = scene.fps;
+  for (int64_t frame = 0; frame < scene.frames; ++frame) {
     const std::vector<Eigen::Affine3d> now = scene.Frame(frame);
     Pose& pose = motion.frames.emplace_back();
     pose.root_position = now[nodes[0]].translation();
@@ -60,9 +61,9 @@ Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Ske
 
 Motion FitOthers(const GltfScene& scene, const Skeleton& skeleton) {
   PositionClip clip;
-  clip.fps = scene.fps();
-  clip.joint_names = scene.nodes().names();
-  for (int64_t frame = 0; frame < scene.frames(); ++frame)
+  clip.fps = scene.fps;
+  clip.joint_names = scene.nodes.names;
+  for (int64_t frame = 0; frame < scene.frames; ++frame)
     clip.frames.push_back(PlacesOf(scene.Frame(frame)));
   return FitClip(clip, BvhSource(clip), skeleton).motion;
 }
@@ -71,10 +72,10 @@ Motion FitOthers(const GltfScene& scene, const Skeleton& skeleton) {
 
 SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted) {
   try {
-    const GltfScene scene(ParseGlb(path));
+    const GltfScene scene = ReadGltfScene(path);
     const Skeleton& smpl = Skeleton::Smpl24();
-    const GltfNodes& nodes = scene.nodes();
-    const auto own = OwnSkeleton(nodes.names(), nodes.parents(), PlacesOf(nodes.PlaceAtRest()));
+    const GltfNodes& nodes = scene.nodes;
+    const auto own = OwnSkeleton(nodes.names, nodes.parents, PlacesOf(nodes.PlaceAtRest()));
     for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
       if (known == nullptr) continue;
       if (const auto ours = FindOurs(nodes, *known))

@@ -1,34 +1,36 @@
 #include "model/formats/motion_file.h"
 
-#include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/fit/bvh_source.h"
 #include "model/fit/fit_clip.h"
 #include "model/fit/retarget.h"
+#include "model/fit/sources.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
 #include "model/formats/gltf.h"
 #include "model/formats/npz.h"
 #include "model/motion/pose_limits.h"
+#include "model/motion/skeleton_json.h"
 
 namespace choreo {
 namespace {
 
 SkeletonMotion FromNpz(const NpzArchive& npz) {
-  if (HasSkeletonMotion(npz)) return ReadSkeletonMotion(npz);
-  return {Skeleton::Smpl24(), ReadSmplMotion(npz)};
+  if (!npz.Has("skeleton")) return {Skeleton::Smpl24(), ReadSmplMotion(npz)};
+  const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));
+  return {skeleton, ReadOwnArrays(skeleton, npz)};
 }
 
 SkeletonMotion FromBvh(const BvhFile& file, const Skeleton* wanted) {
   const Skeleton& smpl = Skeleton::Smpl24();
   if (file.frames() == 0) return {smpl, {}};
-  for (const Skeleton* known : {wanted, &smpl}) {
-    if (known != nullptr && IsBvhOf(file, *known)) return {*known, BvhToMotion(file, *known)};
+  const auto own = BvhSkeleton(file);
+  for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
+    if (known == nullptr) continue;
+    if (auto motion = BvhToMotion(file, *known)) return {*known, std::move(*motion)};
   }
-  if (const auto own = BvhSkeleton(file)) return {*own, BvhToMotion(file, *own)};
   // The fit sizes the source by its legs: the file's unit does not matter.
   const PositionClip clip = BvhToPositions(file, 0.01);
   return {smpl, FitClip(clip, BvhSource(clip), smpl).motion};
@@ -52,10 +54,7 @@ SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) t
 }  // namespace
 
 std::string SmallExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
+  return boost::algorithm::to_lower_copy(path.extension().string(), std::locale::classic());
 }
 
 bool IsMotionFile(const std::filesystem::path& path) {
@@ -96,9 +95,10 @@ void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, co
   } else if (extension == ".npz") {
     NpzArchive npz;
     if (SameBones(skeleton, Skeleton::Smpl24())) {
-      AddSmplMotion(skeleton, motion, contacts, npz);
+      AddSmplMotion(motion, contacts, npz);
     } else {
-      AddSkeletonMotion(skeleton, motion, contacts, npz);
+      AddOwnArrays(skeleton, motion, contacts, npz);
+      npz.SetText("skeleton", SkeletonToJson(skeleton));
     }
     npz.Write(path);
   } else {

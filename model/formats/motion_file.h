@@ -39,9 +39,8 @@ Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
                   OtherSkeleton other = OtherSkeleton::kRetarget);
 
 /// Writes a file, in the format of its extension; an npz is SMPL's or holds its skeleton, as above.
-/// `contacts`, one a frame, go into an npz; the
-/// other formats have no place for them. Errors as above, and Error(kInternal) where the file
-/// cannot be written.
+/// `contacts`, one a frame, go into an npz alone. Errors as above, and Error(kInternal) where the
+/// file cannot be written.
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts = nullptr);
 

@@ -14,7 +14,6 @@ namespace choreo {
 /// for: an array of a kind that we cannot read (pickled objects) does no harm unless it is wanted.
 class NpzArchive {
  public:
-  NpzArchive() = default;
   /// Throws Error(kNotFound) for a file that cannot be opened, Error(kInvalidArgument) for one that
   /// is no zip, is damaged, or holds more than 4 GiB.
   static NpzArchive Read(const std::filesystem::path& path);

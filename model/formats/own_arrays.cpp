@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/motion/skeleton_json.h"
 
 namespace choreo {
 
@@ -52,20 +51,7 @@ void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
 Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz) {
   const int joints = skeleton.joints();
   return MotionOfRows(NpzRows(npz, "root_positions", {3}), NpzRows(npz, "rotations", {3 * joints}),
-                      joints, joints, CheckRate("fps", NpzNumber(npz, "fps")), "rotations");
-}
-
-void AddSkeletonMotion(const Skeleton& skeleton, const Motion& motion,
-                       const std::vector<Contacts>* contacts, NpzArchive& npz) {
-  AddOwnArrays(skeleton, motion, contacts, npz);
-  npz.SetText("skeleton", SkeletonToJson(skeleton));
-}
-
-bool HasSkeletonMotion(const NpzArchive& npz) { return npz.Has("skeleton"); }
-
-SkeletonMotion ReadSkeletonMotion(const NpzArchive& npz) {
-  const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));
-  return {skeleton, ReadOwnArrays(skeleton, npz)};
+                      joints, CheckRate("fps", NpzNumber(npz, "fps")), "rotations");
 }
 
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
@@ -98,12 +84,13 @@ double CheckRate(const std::string& key, double fps) {
   throw InvalidArgument(key, std::to_string(fps) + ", must be 1 to 1000 frames a second");
 }
 
-Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int known,
-                    int joints, double fps, const std::string& key) {
+Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int joints,
+                    double fps, const std::string& key) {
   if (positions.cols() != rotations.cols()) {
     throw InvalidArgument(key, std::to_string(rotations.cols()) + " frames, but there are " +
                                    std::to_string(positions.cols()) + " root positions");
   }
+  const Eigen::Index known = rotations.rows() / 3;
   Motion motion{.fps = fps, .frames = {}};
   for (Eigen::Index frame = 0; frame < positions.cols(); ++frame) {
     Pose pose{positions.col(frame), Eigen::Matrix3Xd::Zero(3, joints)};

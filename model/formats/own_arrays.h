@@ -32,13 +32,6 @@ void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
 /// The inverse, without contacts. Throws Error(kInvalidArgument) naming the array.
 Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 
-/// The same arrays and `skeleton`, the text of motion/skeleton_json.h. Throws as above, and what
-/// SkeletonFromJson refuses.
-void AddSkeletonMotion(const Skeleton& skeleton, const Motion& motion,
-                       const std::vector<Contacts>* contacts, NpzArchive& npz);
-bool HasSkeletonMotion(const NpzArchive& npz);
-SkeletonMotion ReadSkeletonMotion(const NpzArchive& npz);
-
 /// An array as [columns, F], finite; the shape [F, a, b] is accepted where a x b is one of
 /// `columns`.
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
@@ -46,9 +39,8 @@ Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
 double NpzNumber(const NpzArchive& npz, const std::string& key);
 /// Throws Error(kInvalidArgument, key) unless a rate lies within 1 to 1000 frames a second.
 double CheckRate(const std::string& key, double fps);
-/// Poses of `joints` joints, of whose rotations the first `known` are those of each column; the
-/// others are zero.
-Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int known,
-                    int joints, double fps, const std::string& key);
+/// Poses of `joints` joints, whose rotations are those of each column and zero beyond.
+Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int joints,
+                    double fps, const std::string& key);
 
 }  // namespace choreo

@@ -10,11 +10,9 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
-#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/npy.h"
 
@@ -35,13 +33,9 @@ struct Object {
   Kind kind;
   std::string text = {};        // texts and bytes alike; a global's name, a dtype as in "<f8"
   std::vector<Ref> items = {};  // of a tuple
-  std::map<std::string, NpyArray> dict = {};
+  NpzArchive dict = {};
   std::optional<NpyArray> array = {};  // of a number, too
 };
-
-Ref Make(Kind kind, std::string text = {}) {
-  return std::make_shared<Object>(Object{.kind = kind, .text = std::move(text)});
-}
 
 const std::set<std::string> kKnownGlobals = {"numpy.ndarray", "numpy.dtype",
                                              "numpy.core.multiarray._reconstruct",
@@ -52,7 +46,7 @@ class Unpickler {
  public:
   Unpickler(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
 
-  std::map<std::string, NpyArray> Run() {
+  NpzArchive Run() {
     opcode_ = Byte();
     const int protocol = Byte();
     if (opcode_ != 0x80 || protocol < 2 || protocol > 5) Refuse("no pickle of protocol 2 to 5");
@@ -91,14 +85,14 @@ class Unpickler {
   }
   double BigEndianDouble() { return std::bit_cast<double>(__builtin_bswap64(Unsigned(8))); }
   Ref Line() {
-    const size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
-    Ref line = Make(kText, std::string(Take(end - at_)));
+    PushText(std::min(bytes_.find('\n', at_), bytes_.size()) - at_);
     Take(1);
-    return line;
+    return Pop();
   }
 
   // The stack; a null pointer is a mark.
   void Push(Ref object) { stack_.push_back(std::move(object)); }
+  void Push(Object object) { Push(std::make_shared<Object>(std::move(object))); }
   Ref Pop() {
     if (stack_.empty() || !stack_.back()) Refuse("there is nothing on the stack");
     Ref top = std::move(stack_.back());
@@ -127,15 +121,13 @@ class Unpickler {
     return Expect(tuple->items[index], kind);
   }
 
-  template <typename Number>
-  void PushNumber(Number value) {
-    Push(Make(kNumber));
-    stack_.back()->array = NpyArray{{}, std::vector{value}};
+  void PushNumber(NpyArray::Values value) {
+    Push(Object{.kind = kNumber, .array = NpyArray{{}, std::move(value)}});
   }
-  void PushText(uint64_t size) { Push(Make(kText, std::string(Take(size)))); }
+  void PushInteger(int64_t value) { PushNumber(std::vector{value}); }
+  void PushText(uint64_t size) { Push(Object{.kind = kText, .text = std::string(Take(size))}); }
   void PushTuple(std::vector<Ref> items) {
-    Push(Make(kTuple));
-    stack_.back()->items = std::move(items);
+    Push(Object{.kind = kTuple, .items = std::move(items)});
   }
   void Remember(uint64_t index) { Push(memo_[index] = Pop()); }
   void Recall(uint64_t index) {
@@ -146,7 +138,7 @@ class Unpickler {
     std::string name = Expect(words[0], kText)->text + "." + Expect(words[1], kText)->text;
     if (name.starts_with("numpy._core.")) name.erase(6, 1);  // since NumPy 2
     if (!kKnownGlobals.contains(name)) Refuse("it names '" + name + "'");
-    Push(Make(kGlobal, name));
+    Push(Object{.kind = kGlobal, .text = name});
   }
 
   /// What the call of a global would give.
@@ -154,16 +146,16 @@ class Unpickler {
     const Ref given = Pop(kTuple);
     const std::string callee = Pop(kGlobal)->text;
     if (callee == "numpy.dtype") {
-      Push(Make(kDtype, "<" + Item(given, 0, kText)->text));
+      Push(Object{.kind = kDtype, .text = "<" + Item(given, 0, kText)->text});
     } else if (callee == "numpy.core.multiarray._reconstruct") {
-      Push(Make(kArray));  // BUILD fills it
+      Push(Object{.kind = kArray});  // BUILD fills it
     } else if (callee == "numpy.core.numeric._frombuffer") {
-      Push(Make(kArray));
+      Push(Object{.kind = kArray});
       Fill(stack_.back(), Item(given, 2, kTuple), Item(given, 1, kDtype),
            Item(given, 3, kText)->text == "F", Item(given, 0, kText));
     } else if (callee == "_codecs.encode" && Item(given, 1, kText)->text == "latin1") {
       // Protocol 2 has no bytes; Python 3 writes them as text with the same codes.
-      Push(Make(kText, Latin1(Item(given, 0, kText)->text)));
+      Push(Object{.kind = kText, .text = Latin1(Item(given, 0, kText)->text)});
     } else {
       Refuse("a call of '" + callee + "'");
     }
@@ -193,14 +185,9 @@ class Unpickler {
     array->array = ReadNpyParts(parts, name_);
   }
   int64_t Integer(const Ref& number) const {
-    return std::visit(
-        [this](const auto& values) -> int64_t {
-          if constexpr (std::is_integral_v<std::decay_t<decltype(values[0])>>)
-            return values[0];
-          else
-            Refuse("a number that is not whole");
-        },
-        number->array->values);
+    const auto* whole = std::get_if<std::vector<int64_t>>(&number->array->values);
+    if (!whole) Refuse("a number that is not whole");
+    return whole->front();
   }
 
   std::string Latin1(std::string_view utf8) const {
@@ -219,7 +206,7 @@ class Unpickler {
     for (size_t i = 0; i + 1 < items.size(); i += 2) {
       const std::string& key = Expect(items[i], kText)->text;
       if (!items[i + 1]->array) Refuse("'" + key + "' is neither array nor number");
-      dict->dict[key] = *items[i + 1]->array;
+      dict->dict.SetArray(key, *items[i + 1]->array);
     }
     Push(dict);
   }
@@ -233,15 +220,15 @@ class Unpickler {
 };
 
 const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
-    {0x95, [](Unpickler& u) { u.Take(8); }},                                         // FRAME
-    {'(', [](Unpickler& u) { u.Push(nullptr); }},                                    // MARK
-    {'N', [](Unpickler& u) { u.Push(Make(kNone)); }},                                // NONE
-    {0x88, [](Unpickler& u) { u.PushNumber(int64_t{1}); }},                          // NEWTRUE
-    {0x89, [](Unpickler& u) { u.PushNumber(int64_t{0}); }},                          // NEWFALSE
-    {'K', [](Unpickler& u) { u.PushNumber(int64_t{u.Byte()}); }},                    // BININT1
-    {'M', [](Unpickler& u) { u.PushNumber(static_cast<int64_t>(u.Unsigned(2))); }},  // BININT2
-    {'J', [](Unpickler& u) { u.PushNumber(static_cast<int32_t>(u.Unsigned(4))); }},  // BININT
-    {'G', [](Unpickler& u) { u.PushNumber(u.BigEndianDouble()); }},                  // BINFLOAT
+    {0x95, [](Unpickler& u) { u.Take(8); }},                                          // FRAME
+    {'(', [](Unpickler& u) { u.Push(nullptr); }},                                     // MARK
+    {'N', [](Unpickler& u) { u.Push(Object{.kind = kNone}); }},                       // NONE
+    {0x88, [](Unpickler& u) { u.PushInteger(1); }},                                   // NEWTRUE
+    {0x89, [](Unpickler& u) { u.PushInteger(0); }},                                   // NEWFALSE
+    {'K', [](Unpickler& u) { u.PushInteger(u.Byte()); }},                             // BININT1
+    {'M', [](Unpickler& u) { u.PushInteger(static_cast<int64_t>(u.Unsigned(2))); }},  // BININT2
+    {'J', [](Unpickler& u) { u.PushInteger(static_cast<int32_t>(u.Unsigned(4))); }},  // BININT
+    {'G', [](Unpickler& u) { u.PushNumber(std::vector{u.BigEndianDouble()}); }},      // BINFLOAT
     {'U', [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},           // SHORT_BINSTRING
     {'C', [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},           // SHORT_BINBYTES
     {0x8c, [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},          // SHORT_BINUNICODE
@@ -255,7 +242,7 @@ const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
     {0x86, [](Unpickler& u) { u.PushTuple(u.PopSome(2)); }},          // TUPLE2
     {0x87, [](Unpickler& u) { u.PushTuple(u.PopSome(3)); }},          // TUPLE3
     {'t', [](Unpickler& u) { u.PushTuple(u.PopToMark()); }},          // TUPLE
-    {'}', [](Unpickler& u) { u.Push(Make(kDict)); }},                 // EMPTY_DICT
+    {'}', [](Unpickler& u) { u.Push(Object{.kind = kDict}); }},       // EMPTY_DICT
     {'s', [](Unpickler& u) { u.SetItems(u.PopSome(2)); }},            // SETITEM
     {'u', [](Unpickler& u) { u.SetItems(u.PopToMark()); }},           // SETITEMS
     {'q', [](Unpickler& u) { u.Remember(u.Unsigned(1)); }},           // BINPUT
@@ -272,13 +259,7 @@ const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
 }  // namespace
 
 NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name) {
-  NpzArchive arrays;
-  for (const auto& [key, array] : Unpickler(name, bytes).Run()) arrays.SetArray(key, array);
-  return arrays;
-}
-
-NpzArchive ReadPickledArrays(const std::filesystem::path& path) {
-  return ParsePickledArrays(ReadFile(path), path.string());
+  return Unpickler(name, bytes).Run();
 }
 
 }  // namespace choreo

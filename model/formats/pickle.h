@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,7 +13,5 @@ namespace choreo {
 /// build such a dict, and refuse the others. Arrays as NpyArray has them. Throws
 /// Error(kInvalidArgument), which names `name`, the opcode and its place, for everything else.
 NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name);
-/// As ParsePickledArrays; Error(kNotFound) for a file that cannot be opened.
-NpzArchive ReadPickledArrays(const std::filesystem::path& path);
 
 }  // namespace choreo

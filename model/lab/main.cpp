@@ -5,14 +5,13 @@
 #include "model/core/error.h"
 #include "model/core/programs.h"
 #include "model/core/threads.h"
-#include "model/engine/devices.h"
 #include "model/engine/engines.h"
 #include "model/evaluation/eval_command.h"
 
 #ifdef CHOREO_SERVICE
-#include "model/training/prepare_command.h"
+#include "model/training/prepare.h"
 #endif
-#include "model/training/train_command.h"
+#include "model/training/trainer.h"
 
 namespace {
 

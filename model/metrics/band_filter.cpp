@@ -7,13 +7,12 @@ namespace choreo {
 namespace {
 
 // One pass in place, begun as if the first value had always been.
-void RunForwards(double fps, double hz, Eigen::VectorXd* values) {
+void RunForwards(double fps, double hz, Eigen::VectorXd& x) {
   const double warped = std::tan(M_PI * hz / fps);
   const double scale = 1 / (1 + std::sqrt(2.0) * warped + warped * warped);
   const double b0 = warped * warped * scale;
   const double a1 = 2 * (warped * warped - 1) * scale;
   const double a2 = (1 - std::sqrt(2.0) * warped + warped * warped) * scale;
-  Eigen::VectorXd& x = *values;
   double in1 = x[0], in2 = x[0], out1 = x[0], out2 = x[0];
   for (Eigen::Index t = 0; t < x.size(); ++t) {
     const double in = x[t];
@@ -37,15 +36,11 @@ Eigen::VectorXd LowPass(const Eigen::VectorXd& values, double fps, double hz) {
     padded[pad - i] = 2 * values[0] - values[i];
     padded[pad + count - 1 + i] = 2 * values[count - 1] - values[count - 1 - i];
   }
-  RunForwards(fps, hz, &padded);
+  RunForwards(fps, hz, padded);
   padded.reverseInPlace();
-  RunForwards(fps, hz, &padded);
+  RunForwards(fps, hz, padded);
   padded.reverseInPlace();
   return padded.segment(pad, count);
-}
-
-Eigen::VectorXd HighPass(const Eigen::VectorXd& values, double fps, double hz) {
-  return values - LowPass(values, fps, hz);
 }
 
 JointTrack LowPass(const JointTrack& track, double fps, double hz) {

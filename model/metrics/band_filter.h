@@ -12,8 +12,6 @@ namespace choreo {
 
 /// What of `values`, one a frame, is slower than `hz`.
 Eigen::VectorXd LowPass(const Eigen::VectorXd& values, double fps, double hz);
-/// The rest: values less LowPass.
-Eigen::VectorXd HighPass(const Eigen::VectorXd& values, double fps, double hz);
 /// LowPass of each coordinate of each joint.
 JointTrack LowPass(const JointTrack& track, double fps, double hz);
 

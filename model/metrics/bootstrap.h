@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -13,8 +12,8 @@ struct Interval {
 
 /// The 95 % percentile bootstrap interval (Efron 1979) of sum(numerators) / sum(denominators): one
 /// entry a clip, clips drawn with replacement, since windows of one clip are not independent. A
-/// mean is the ratio of sums to counts. Counter RNG with a fixed seed: the same figures, the same
-/// interval. None for fewer than two clips. Throws Error(kInvalidArgument) for unequal sizes.
+/// mean is the ratio of sums to counts. Both are of one length. Counter RNG with a fixed seed: the
+/// same figures, the same interval. None for fewer than two clips.
 std::optional<Interval> BootstrapRatio(std::span<const double> numerators,
                                        std::span<const double> denominators);
 

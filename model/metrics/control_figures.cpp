@@ -1,33 +1,15 @@
 #include "model/metrics/control_figures.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <string>
 
 #include "model/core/error.h"
 
 namespace choreo {
-namespace {
-
-void CheckFrames(size_t danced, size_t other) {
-  if (danced == 0) throw InvalidArgument("danced", "has no frames");
-  if (danced != other) {
-    throw InvalidArgument("danced",
-                          std::to_string(danced) + " frames against " + std::to_string(other));
-  }
-}
-
-}  // namespace
 
 double RootRelativeDistance(const JointTrack& danced, const JointTrack& real) {
-  CheckFrames(danced.size(), real.size());
+  CheckSameFrames(danced.size(), real.size());
   double sum = 0;
   for (size_t i = 0; i < danced.size(); ++i) {
-    if (danced[i].cols() != real[i].cols()) {
-      throw InvalidArgument("danced", std::to_string(danced[i].cols()) + " joints against " +
-                                          std::to_string(real[i].cols()));
-    }
     // The root's column is zero in both.
     const Eigen::Matrix3Xd here = danced[i].colwise() - danced[i].col(0);
     const Eigen::Matrix3Xd there = real[i].colwise() - real[i].col(0);
@@ -36,10 +18,9 @@ double RootRelativeDistance(const JointTrack& danced, const JointTrack& real) {
   return sum / danced.size();
 }
 
-Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> TrackVelocityFactors(
-    const BodyPartWeights& weights, const JointTrack& track) {
+FactorTrack TrackVelocityFactors(const BodyPartWeights& weights, const JointTrack& track) {
   if (track.size() < 2) throw InvalidArgument("track", "has no step from frame to frame");
-  Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> factors(kBodyParts, track.size() - 1);
+  FactorTrack factors(kBodyParts, track.size() - 1);
   for (size_t i = 1; i < track.size(); ++i) {
     const auto of_step = VelocityFactors(weights, track[i - 1], track[i]);
     factors.col(i - 1) = Eigen::Map<const Eigen::Matrix<double, kBodyParts, 1>>(of_step.data());
@@ -47,18 +28,15 @@ Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> TrackVelocityFactors(
   return factors;
 }
 
-double VelocityDeviation(const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& danced,
-                         const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& asked) {
-  CheckFrames(static_cast<size_t>(danced.cols()), static_cast<size_t>(asked.cols()));
+double VelocityDeviation(const FactorTrack& danced, const FactorTrack& asked) {
+  CheckSameFrames(danced.cols(), asked.cols());
   return (danced - asked).cwiseAbs().mean();
 }
 
 double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked) {
-  CheckFrames(danced.size(), static_cast<size_t>(asked.cols()));
+  CheckSameFrames(danced.size(), asked.cols());
   double sum = 0;
-  for (size_t i = 0; i < danced.size(); ++i) {
-    sum += (danced[i].col(0) - asked.col(i)).norm();
-  }
+  for (size_t i = 0; i < danced.size(); ++i) sum += (danced[i].col(0) - asked.col(i)).norm();
   return sum / danced.size();
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
-#include <vector>
 
 #include "model/metrics/joint_track.h"
 #include "model/motion/velocity_factors.h"
@@ -19,15 +17,15 @@ namespace choreo {
 /// position, axes the world's.
 double RootRelativeDistance(const JointTrack& danced, const JointTrack& real);
 
-/// Velocity factors of each step of a track, metres a frame: [kBodyParts, frames - 1]. Begin the
-/// track with the frame before the transition.
-Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> TrackVelocityFactors(
-    const BodyPartWeights& weights, const JointTrack& track);
+/// Velocity factors, metres a frame: [kBodyParts, frames].
+using FactorTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
+
+/// Those of each step of a track, which begins with the frame before the transition.
+FactorTrack TrackVelocityFactors(const BodyPartWeights& weights, const JointTrack& track);
 
 /// g_v of one transition, Eq. 14: the absolute difference of danced and asked velocity factors,
-/// mean over frames and parts; metres a frame. Both [kBodyParts, frames].
-double VelocityDeviation(const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& danced,
-                         const Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>& asked);
+/// mean over frames and parts; metres a frame.
+double VelocityDeviation(const FactorTrack& danced, const FactorTrack& asked);
 
 /// g_r of one transition, Eq. 16: the distance of the root from where it was asked to be, mean over
 /// frames, metres. `asked` is [3, frames]. Joint 0 is the root.

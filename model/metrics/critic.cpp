@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "model/core/random.h"
 #include "model/metrics/linear.h"
@@ -73,9 +72,20 @@ Eigen::VectorXd Learn(const Eigen::MatrixXd& features, Eigen::Index real) {
   return SolveRidge(covariance, apart);
 }
 
-std::vector<double> Scores(const Eigen::VectorXd& direction, const Eigen::MatrixXd& features) {
-  const Eigen::VectorXd scores = features.transpose() * direction;
-  return {scores.begin(), scores.end()};
+// What the critic sees of a window: logarithms of SpeedSpectrum, and of each joint's least and
+// greatest speed. What is slower than kStill is still, as to the eye.
+Eigen::VectorXd CriticFeatures(const JointTrack& track, double fps) {
+  const Eigen::MatrixXd power = SpeedSpectrum(track, fps);
+  const Eigen::Index joints = track[0].cols();
+  Eigen::ArrayXXd speeds(track.size() - 1, joints);  // a step a row
+  for (size_t t = 1; t < track.size(); ++t)
+    speeds.row(t - 1) = (track[t] - track[t - 1]).colwise().norm().array() * fps;
+  Eigen::Array2Xd extremes(2, joints);
+  extremes << speeds.colwise().minCoeff(), speeds.colwise().maxCoeff();
+  Eigen::VectorXd features(power.size() + extremes.size());
+  features << (power.array() + kStill * kStill).log().reshaped(),
+      (extremes + kStill).log().reshaped();
+  return features;
 }
 
 }  // namespace
@@ -86,24 +96,6 @@ void CriticWindows::Add(const JointTrack& track, double fps, size_t clip) {
     features.push_back(CriticFeatures(JointTrack(from, from + length), fps));
     clips.push_back(clip);
   }
-}
-
-Eigen::VectorXd CriticFeatures(const JointTrack& track, double fps) {
-  const Eigen::MatrixXd power = SpeedSpectrum(track, fps);
-  const Eigen::Index joints = track[0].cols();
-  Eigen::Array2Xd extremes(2, joints);
-  extremes.row(0).setConstant(INFINITY);
-  extremes.row(1).setZero();
-  for (size_t t = 1; t < track.size(); ++t) {
-    const Eigen::ArrayXd speeds =
-        (track[t] - track[t - 1]).colwise().norm().transpose().array() * fps;
-    extremes.row(0) = extremes.row(0).min(speeds.transpose());
-    extremes.row(1) = extremes.row(1).max(speeds.transpose());
-  }
-  Eigen::VectorXd features(power.size() + extremes.size());
-  features << (power.array() + kStill * kStill).log().reshaped(),
-      (extremes + kStill).log().reshaped();
-  return features;
 }
 
 double AreaUnderCurve(const std::vector<double>& high, const std::vector<double>& low) {
@@ -135,7 +127,9 @@ double CriticArea(const CriticWindows& real, const CriticWindows& danced) {
     const Scale again(lifted);
     const Eigen::VectorXd direction = Learn(again.Apply(lifted), seen_real.cols());
     const auto scores = [&](const Eigen::MatrixXd& features) {
-      return Scores(direction, again.Apply(lift(scale.Apply(features))));
+      const Eigen::VectorXd judged =
+          again.Apply(lift(scale.Apply(features))).transpose() * direction;
+      return std::vector<double>(judged.begin(), judged.end());
     };
     const auto weight = static_cast<double>(judged_real.cols() + judged_danced.cols());
     sum += weight * AreaUnderCurve(scores(judged_danced), scores(judged_real));

@@ -12,16 +12,12 @@ namespace choreo {
 
 /// Windows of one kind of motion, as the critic sees them.
 struct CriticWindows {
-  std::vector<Eigen::VectorXd> features;  ///< CriticFeatures of each
+  std::vector<Eigen::VectorXd> features;  ///< of each: how joints move in it
   std::vector<size_t> clips;              ///< which clip each is of: folds never part a clip
 
   /// Cuts a motion into windows of one second, side by side from its first frame on.
   void Add(const JointTrack& track, double fps, size_t clip);
 };
-
-/// What the critic sees of a window: logarithms of SpeedSpectrum, and of each joint's least and
-/// greatest speed. What is slower than 5 mm/s is still, as to the eye.
-Eigen::VectorXd CriticFeatures(const JointTrack& track, double fps);
 
 /// Area under the ROC curve: how often a random one of `high` is above a random one of `low`, ties
 /// counting half; 0.5 tells nothing, 1 all. NaN where either is empty.

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "model/core/error.h"
@@ -13,15 +12,14 @@
 namespace choreo {
 namespace {
 
-std::array<Eigen::Index, 4> LimbEnds(const Skeleton& skeleton) {
-  std::array<Eigen::Index, 4> ends;
-  const std::array<int, 4> bends = {skeleton.left_knee, skeleton.right_knee, skeleton.left_elbow,
-                                    skeleton.right_elbow};
-  for (size_t limb = 0; limb < bends.size(); ++limb) {
-    const auto child = std::ranges::find(skeleton.parents, bends[limb]);
-    if (bends[limb] < 0 || child == skeleton.parents.end())
+std::vector<Eigen::Index> LimbEnds(const Skeleton& skeleton) {
+  std::vector<Eigen::Index> ends;
+  for (const int bend :
+       {skeleton.left_knee, skeleton.right_knee, skeleton.left_elbow, skeleton.right_elbow}) {
+    const auto child = std::ranges::find(skeleton.parents, bend);
+    if (bend < 0 || child == skeleton.parents.end())
       throw InvalidArgument("skeleton", skeleton.Describe() + " lacks knees, elbows or their ends");
-    ends[limb] = child - skeleton.parents.begin();
+    ends.push_back(child - skeleton.parents.begin());
   }
   return ends;
 }
@@ -57,8 +55,8 @@ double PelvisBounce(const JointTrack& track, double fps) {
   Eigen::VectorXd heights(static_cast<Eigen::Index>(track.size()));
   for (Eigen::Index t = 0; t < heights.size(); ++t) heights[t] = track[t](1, 0);
   if (heights.size() == 0) return 0;
-  return std::sqrt(HighPass(heights, fps, kBounceHz).squaredNorm() /
-                   static_cast<double>(heights.size()));
+  const Eigen::VectorXd quick = heights - LowPass(heights, fps, kBounceHz);
+  return std::sqrt(quick.squaredNorm() / static_cast<double>(heights.size()));
 }
 
 double SmoothJerk(const JointTrack& track, double fps) {
@@ -86,6 +84,27 @@ Snaps CountSnaps(const Skeleton& skeleton, double fps, const JointTrack& track) 
     }
   }
   return snaps;
+}
+
+double PhysicalFootContact(const Skeleton& skeleton, const JointTrack& track) {
+  if (std::ranges::min(skeleton.feet) < 0)
+    throw InvalidArgument("skeleton", "lacks a foot joint, which PFC needs");
+  double sum = 0, largest = 0;
+  int64_t frames = 0;
+  for (size_t t = 1; t + 1 < track.size(); ++t, ++frames) {
+    // Per frame squared: the rate cancels in |a| / max|a|.
+    Eigen::Vector3d acceleration = track[t + 1].col(0) - 2 * track[t].col(0) + track[t - 1].col(0);
+    acceleration.y() = std::max(acceleration.y(), 0.0);
+    const auto way = [&](int joint) {
+      const Eigen::Vector3d step = track[t + 1].col(joint) - track[t].col(joint);
+      return std::hypot(step.x(), step.z());
+    };
+    const double left = std::min(way(skeleton.feet[0]), way(skeleton.feet[1]));
+    const double right = std::min(way(skeleton.feet[2]), way(skeleton.feet[3]));
+    largest = std::max(largest, acceleration.norm());
+    sum += acceleration.norm() * left * right;
+  }
+  return largest > 0 ? 1e4 * sum / (largest * frames) : 0;
 }
 
 }  // namespace choreo

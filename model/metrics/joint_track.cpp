@@ -1,12 +1,19 @@
 #include "model/metrics/joint_track.h"
 
-#include <algorithm>
-#include <cmath>
+#include <string>
 
+#include "model/core/error.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity.h"
 
 namespace choreo {
+
+void CheckSameFrames(Eigen::Index danced, Eigen::Index other) {
+  if (danced != other || danced == 0) {
+    throw InvalidArgument("danced",
+                          std::to_string(danced) + " frames against " + std::to_string(other));
+  }
+}
 
 JointTrack TrackJoints(const Skeleton& skeleton, std::span<const Pose> poses) {
   JointTrack track;
@@ -38,8 +45,5 @@ void Pace::Add(const Pace& other) {
   speeds.insert(speeds.end(), other.speeds.begin(), other.speeds.end());
   jerks.insert(jerks.end(), other.jerks.begin(), other.jerks.end());
 }
-
-double Pace::median_speed() const { return Percentile(speeds, 0.5); }
-double Pace::median_jerk() const { return Percentile(jerks, 0.5); }
 
 }  // namespace choreo

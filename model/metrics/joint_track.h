@@ -14,6 +14,9 @@ namespace choreo {
 /// no more.
 using JointTrack = std::vector<Eigen::Matrix3Xd>;
 
+/// Throws Error(kInvalidArgument) where a dance has no frames, or not as many as the other one.
+void CheckSameFrames(Eigen::Index danced, Eigen::Index other);
+
 JointTrack TrackJoints(const Skeleton& skeleton, std::span<const Pose> poses);
 
 /// Mean joint speed of each step (frame i to i + 1), m/s: one shorter than the track. Paper F's
@@ -29,8 +32,8 @@ struct Pace {
 
   void Add(const JointTrack& track, double fps);
   void Add(const Pace& other);
-  double median_speed() const;
-  double median_jerk() const;
+  double median_speed() const { return Percentile(speeds, 0.5); }
+  double median_jerk() const { return Percentile(jerks, 0.5); }
 };
 
 }  // namespace choreo

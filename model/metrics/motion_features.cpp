@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-
-#include "model/core/error.h"
 
 namespace choreo {
 namespace {
 
 constexpr int64_t kReach = 2;  // frames to either side
+constexpr int kGeometricFeatures = 32;
 
 // Means over a sliding window, shorter at the ends.
 JointTrack Smooth(const JointTrack& track) {
@@ -43,23 +41,14 @@ struct Body {
   double upper_arm, shoulders, hips;  // metres at rest
 
   explicit Body(const Skeleton& skeleton) {
-    const auto find = [&](const char* name) {
-      const int joint = skeleton.Find(name);
-      if (joint < 0) throw InvalidArgument("skeleton", std::string("lacks ") + name);
-      return joint;
-    };
-    chest = find("spine3"), neck = find("neck"), belly = find("spine1");
+    chest = skeleton.Find("spine3"), neck = skeleton.Find("neck"), belly = skeleton.Find("spine1");
     left_shoulder = skeleton.left_shoulder, right_shoulder = skeleton.right_shoulder;
     left_elbow = skeleton.left_elbow, right_elbow = skeleton.right_elbow;
-    left_wrist = find("left_wrist"), right_wrist = find("right_wrist");
+    left_wrist = skeleton.Find("left_wrist"), right_wrist = skeleton.Find("right_wrist");
     left_hip = skeleton.left_hip, right_hip = skeleton.right_hip;
     left_knee = skeleton.left_knee, right_knee = skeleton.right_knee;
     left_ankle = skeleton.feet[0], right_ankle = skeleton.feet[2];
     left_toes = skeleton.feet[1], right_toes = skeleton.feet[3];
-    if (std::min({left_shoulder, right_shoulder, left_elbow, right_elbow, left_hip, right_hip,
-                  left_knee, right_knee, left_ankle, right_ankle, left_toes, right_toes}) < 0) {
-      throw InvalidArgument("skeleton", "lacks a shoulder, elbow, hip, knee, ankle or toe");
-    }
     const auto rest = [&](int joint) {
       Vector3d at = Vector3d::Zero();
       for (; joint >= 0; joint = skeleton.parents[joint]) at += skeleton.offsets.col(joint);
@@ -69,6 +58,12 @@ struct Body {
     shoulders = (rest(left_shoulder) - rest(right_shoulder)).norm();
     hips = (rest(left_hip) - rest(right_hip)).norm();
   }
+
+  bool Whole() const {
+    return std::min({chest, neck, belly, left_shoulder, right_shoulder, left_elbow, right_elbow,
+                     left_wrist, right_wrist, left_hip, right_hip, left_knee, right_knee,
+                     left_ankle, right_ankle, left_toes, right_toes}) >= 0;
+  }
 };
 
 // Two frames and what can be said of them.
@@ -77,28 +72,25 @@ class Statements {
   Statements(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now, double fps)
       : now_(now), velocity_((now - before) * fps) {}
 
-  Vector3d At(int joint) const { return now_.col(joint); }
-  double lowest() const { return now_.row(1).minCoeff(); }
+  Vector3d Way(int from, int to) const { return now_.col(to) - now_.col(from); }
+  // Above the lowest joint.
+  double Height(int joint) const { return now_(1, joint) - now_.row(1).minCoeff(); }
 
   // `joint` is further than `limit` in front of the plane through three joints.
   bool BeyondPlane(int a, int b, int c, int joint, double limit) const {
-    return Unit((At(b) - At(a)).cross(At(c) - At(a))).dot(At(joint) - At(a)) > limit;
+    return Unit(Way(a, b).cross(Way(a, c))).dot(Way(a, joint)) > limit;
   }
-  // The same of the plane through `point` with a normal from `a` to `b`.
-  static bool Beyond(const Vector3d& a, const Vector3d& b, const Vector3d& point,
-                     const Vector3d& joint, double limit) {
-    return Unit(b - a).dot(joint - point) > limit;
-  }
+  // The same of the plane through joint `point` with a normal from `a` to `b`.
   bool Beyond(int a, int b, int point, int joint, double limit) const {
-    return Beyond(At(a), At(b), At(point), At(joint), limit);
+    return Unit(Way(a, b)).dot(Way(point, joint)) > limit;
   }
   // `joint` moves faster than `limit`, relative to joint `from`, in the direction from a to b.
   bool Moves(int a, int b, int from, int joint, double limit) const {
-    return Unit(At(b) - At(a)).dot(Relative(joint, from)) > limit;
+    return Unit(Way(a, b)).dot(Relative(joint, from)) > limit;
   }
   // The same in the direction of the normal of the plane through three joints.
   bool MovesFromPlane(int a, int b, int c, int joint, double limit) const {
-    return Unit((At(b) - At(a)).cross(At(c) - At(a))).dot(Relative(joint, a)) > limit;
+    return Unit(Way(a, b).cross(Way(a, c))).dot(Relative(joint, a)) > limit;
   }
   bool Fast(int joint, double limit) const { return velocity_.col(joint).norm() > limit; }
   // The angle between two directions lies between the limits, degrees.
@@ -107,11 +99,11 @@ class Statements {
     return degrees > low && degrees < high;
   }
   bool Bent(int upper, int hinge, int lower, double high) const {
-    return Angle(At(upper) - At(hinge), At(lower) - At(hinge), 0, high);
+    return Angle(hinge, upper, hinge, lower, 0, high);
   }
   // Between the way from a to b and the way from c to d.
   bool Angle(int a, int b, int c, int d, double low, double high) const {
-    return Angle(At(b) - At(a), At(d) - At(c), low, high);
+    return Angle(Way(a, b), Way(c, d), low, high);
   }
 
  private:
@@ -129,8 +121,6 @@ class Statements {
 
 std::array<bool, kGeometricFeatures> Judge(const Body& b, const Statements& s) {
   const double arm = b.upper_arm;
-  const Vector3d zero = Vector3d::Zero(), up = Vector3d::UnitY();
-  const Vector3d floor(0, s.lowest(), 0);
   return {
       // Hands: to the front, above the neck, upwards; elbows bent; hands apart, together, to the
       // root; fast.
@@ -151,8 +141,8 @@ std::array<bool, kGeometricFeatures> Judge(const Body& b, const Statements& s) {
       // Feet: in front of the other leg, raised, apart; knees bent; fast.
       s.BeyondPlane(b.root, b.left_hip, b.left_toes, b.right_ankle, 0.38 * arm),
       s.BeyondPlane(b.root, b.right_hip, b.right_toes, b.left_ankle, 0.38 * arm),
-      Statements::Beyond(zero, up, floor, s.At(b.right_ankle), 1.2 * arm),
-      Statements::Beyond(zero, up, floor, s.At(b.left_ankle), 1.2 * arm),
+      s.Height(b.right_ankle) > 1.2 * arm,
+      s.Height(b.left_ankle) > 1.2 * arm,
       s.Beyond(b.left_hip, b.right_hip, b.left_ankle, b.right_ankle, 2.1 * b.hips),
       s.Bent(b.right_hip, b.right_knee, b.right_ankle, 110),
       s.Bent(b.left_hip, b.left_knee, b.left_ankle, 110),
@@ -165,9 +155,9 @@ std::array<bool, kGeometricFeatures> Judge(const Body& b, const Statements& s) {
       s.Angle(b.neck, b.root, b.right_hip, b.right_knee, 50, 180),
       s.Angle(b.neck, b.root, b.left_hip, b.left_knee, 50, 180),
       s.BeyondPlane(b.right_ankle, b.neck, b.left_ankle, b.root, 0.5 * arm),
-      Statements::Angle(s.At(b.root) - s.At(b.neck), up, 70, 110),
-      Statements::Beyond(zero, -up, floor, s.At(b.right_wrist), -1.2 * arm),
-      Statements::Beyond(zero, -up, floor, s.At(b.left_wrist), -1.2 * arm),
+      Statements::Angle(s.Way(b.neck, b.root), Vector3d::UnitY(), 70, 110),
+      s.Height(b.right_wrist) < 1.2 * arm,
+      s.Height(b.left_wrist) < 1.2 * arm,
       s.Fast(b.root, 2.3 * arm),
   };
 }
@@ -175,8 +165,6 @@ std::array<bool, kGeometricFeatures> Judge(const Body& b, const Statements& s) {
 }  // namespace
 
 Eigen::VectorXd KineticFeatures(const JointTrack& track, double fps) {
-  if (track.size() < 3)
-    throw InvalidArgument("track", std::to_string(track.size()) + " frames, 3 are needed");
   const JointTrack steps = Differences(track, fps);
   const JointTrack velocities = Smooth(steps), accelerations = Smooth(Differences(steps, fps));
   const Eigen::Index joints = track[0].cols();
@@ -197,18 +185,9 @@ Eigen::VectorXd KineticFeatures(const JointTrack& track, double fps) {
   return features;
 }
 
-bool HasGeometricFeatures(const Skeleton& skeleton) {
-  try {
-    Body body(skeleton);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
+bool HasGeometricFeatures(const Skeleton& skeleton) { return Body(skeleton).Whole(); }
 
 Eigen::VectorXd GeometricFeatures(const Skeleton& skeleton, const JointTrack& track, double fps) {
-  if (track.size() < 2)
-    throw InvalidArgument("track", std::to_string(track.size()) + " frames, 2 are needed");
   const Body body(skeleton);
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(kGeometricFeatures);
   for (size_t t = 1; t < track.size(); ++t) {

@@ -3,20 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "model/core/error.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
-
-void RequireSameLength(Eigen::Index danced, Eigen::Index real) {
-  if (danced != real || real == 0) {
-    throw InvalidArgument("danced", std::to_string(danced) + " frames against " +
-                                        std::to_string(real) + " real ones");
-  }
-}
 
 // [features, frequencies]
 Eigen::MatrixXd PowerSpectrum(const Eigen::MatrixXd& curves) {
@@ -35,8 +26,7 @@ Eigen::MatrixXd PowerSpectrum(const Eigen::MatrixXd& curves) {
 }  // namespace
 
 double L2P(const JointTrack& danced, const JointTrack& real) {
-  RequireSameLength(static_cast<Eigen::Index>(danced.size()),
-                    static_cast<Eigen::Index>(real.size()));
+  CheckSameFrames(danced.size(), real.size());
   double sum = 0;
   for (size_t t = 0; t < real.size(); ++t) sum += (danced[t] - real[t]).colwise().norm().mean();
   return sum / real.size();
@@ -48,22 +38,20 @@ double KeyPoseDistance(const Eigen::Matrix3Xd& danced, const Eigen::Matrix3Xd& r
 
 Eigen::MatrixXd GlobalQuaternions(const Skeleton& skeleton, std::span<const Pose> poses) {
   Eigen::MatrixXd all(4 * skeleton.joints(), static_cast<Eigen::Index>(poses.size()));
-  for (size_t t = 0; t < poses.size(); ++t) {
-    const auto column = static_cast<Eigen::Index>(t);
+  for (Eigen::Index t = 0; t < all.cols(); ++t) {
     const JointPlacement placement = ForwardKinematics(skeleton, poses[t]);
     for (int joint = 0; joint < skeleton.joints(); ++joint) {
       const Eigen::Quaterniond q(placement.rotations[joint]);
       Eigen::Vector4d value(q.w(), q.x(), q.y(), q.z());
-      const bool flip =
-          t == 0 ? value[0] < 0 : value.dot(all.block<4, 1>(4 * joint, column - 1)) < 0;
-      all.block<4, 1>(4 * joint, column) = flip ? Eigen::Vector4d(-value) : value;
+      const bool flip = t == 0 ? value[0] < 0 : value.dot(all.block<4, 1>(4 * joint, t - 1)) < 0;
+      all.block<4, 1>(4 * joint, t) = flip ? Eigen::Vector4d(-value) : value;
     }
   }
   return all;
 }
 
 double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
-  RequireSameLength(danced.cols(), real.cols());
+  CheckSameFrames(danced.cols(), real.cols());
   double sum = 0;
   for (Eigen::Index t = 0; t < real.cols(); ++t) {
     double squares = 0;
@@ -77,12 +65,7 @@ double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
 }
 
 Npss MeasureNpss(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
-  if (danced.rows() != real.rows() || danced.cols() != real.cols()) {
-    throw InvalidArgument("danced", std::to_string(danced.rows()) + " x " +
-                                        std::to_string(danced.cols()) + " against " +
-                                        std::to_string(real.rows()) + " x " +
-                                        std::to_string(real.cols()));
-  }
+  CheckSameFrames(danced.cols(), real.cols());
   Npss npss;
   const Eigen::MatrixXd ours = PowerSpectrum(danced), theirs = PowerSpectrum(real);
   for (Eigen::Index feature = 0; feature < real.rows(); ++feature) {

@@ -52,11 +52,9 @@ Repetition MeasureRepetition(const Skeleton& skeleton, std::span<const Pose> pos
       ++frozen;
       continue;
     }
-    for (int before = 0; before <= begin - lag; ++before) {
-      if (!are_alike(begin, before)) continue;
-      ++repeated;
-      break;
-    }
+    int before = 0;
+    while (before <= begin - lag && !are_alike(begin, before)) ++before;
+    repeated += before <= begin - lag;
   }
   const double count = windows - from;
   return {frozen / count, repeated / count};

@@ -14,8 +14,7 @@ Eigen::MatrixXd WindowedVelocities(const JointTrack& track, double fps) {
   const auto steps = static_cast<Eigen::Index>(track.size()) - 1;
   Eigen::MatrixXd velocities(steps, track[0].size());
   for (Eigen::Index t = 0; t < steps; ++t) {
-    const Eigen::Matrix3Xd& from = track[t];
-    Eigen::Matrix3Xd step = (track[t + 1] - from) * fps;
+    Eigen::Matrix3Xd step = (track[t + 1] - track[t]) * fps;
     step.rightCols(step.cols() - 1).colwise() -= step.col(0).eval();
     const double window = 0.5 - 0.5 * std::cos(2 * M_PI * (static_cast<double>(t) + 0.5) /
                                                static_cast<double>(steps));

@@ -1,7 +1,5 @@
 #include "model/metrics/style_classifier.h"
 
-#include <cmath>
-
 #include "model/core/error.h"
 #include "model/metrics/linear.h"
 

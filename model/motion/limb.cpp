@@ -14,6 +14,8 @@ namespace {
 constexpr double kSoftShare = 0.04;
 // Sine of the bend below which the knee's own hinge, not the bend, tells the plane.
 constexpr double kHingeWeight = 0.02;
+constexpr double kStraightTurn = 200 / kDegrees;  // radians a second of a straight limb at most,
+constexpr double kFreedom = 30;                   // 1/s: and so much more by what it is bent beyond
 
 /// A knee or elbow that turns about one axis: bones of lengths `a` and `b`, of the lower of which
 /// the share `in_plane` turns.
@@ -64,6 +66,13 @@ Eigen::Vector3d HingeOf(const Leg& leg, const JointPlacement& placement) {
 }
 
 }  // namespace
+
+BendRange NextBend(double bend, double seconds) {
+  const double room = kStraightTurn * seconds, more = kFreedom * seconds;
+  const double beyond = bend - kStraightBend;
+  return {beyond > room ? kStraightBend + (beyond - room) / (1 + more) : bend - room,
+          bend + room + more * std::max(0.0, beyond)};
+}
 
 double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
                 const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose,

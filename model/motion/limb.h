@@ -6,12 +6,13 @@
 
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
+#include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
 
 /// Radians of bend: a limb below it is straight.
-inline constexpr double kStraightBend = 5 * M_PI / 180;
+inline constexpr double kStraightBend = 5 / kDegrees;
 
 /// Two bones and what hangs on them: hip, knee, ankle, or shoulder, elbow, wrist; by joint index, a
 /// chain.
@@ -23,6 +24,10 @@ struct Limb {
 struct BendRange {
   double least = -M_PI, most = M_PI;
 };
+
+/// What a limb that is bent by `bend` may come to in `seconds`. On a straight one a centimetre is
+/// ten degrees: what asks them of one frame would snap it.
+BendRange NextBend(double bend, double seconds);
 
 /// Two-bone inverse kinematics: turns the upper two joints so that the end comes to `goal`, seen
 /// from the upper joint, and keeps its global rotation. The limb bends in its present plane, a

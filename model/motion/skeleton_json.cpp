@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
-#include "model/core/json_numbers.h"
+#include "model/core/json_limits.h"
 
 namespace choreo {
 namespace {
@@ -16,12 +16,10 @@ Skeleton Read(const json& object) {
   object.at("joint_names").get_to(skeleton.joint_names);
   object.at("parents").get_to(skeleton.parents);
   const auto& offsets = object.at("offsets_m");
-  skeleton.offsets.resize(3, static_cast<Eigen::Index>(offsets.size()));
+  skeleton.offsets.resize(3, std::ssize(offsets));
   for (size_t joint = 0; joint < offsets.size(); ++joint) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      skeleton.offsets(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(joint)) =
-          offsets.at(joint).at(axis).get<double>();
-    }
+    for (size_t axis = 0; axis < 3; ++axis)
+      offsets.at(joint).at(axis).get_to(skeleton.offsets(axis, joint));
   }
   object.at("pelvis_height_m").get_to(skeleton.pelvis_height);
   const auto pair = [&](const char* key, int* left, int* right) {
@@ -40,10 +38,8 @@ Skeleton Read(const json& object) {
 
 std::string SkeletonToJson(const Skeleton& skeleton) {
   json offsets = json::array();
-  for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    const Eigen::Vector3d offset = skeleton.offsets.col(joint);
+  for (const auto offset : skeleton.offsets.colwise())
     offsets.push_back({offset.x(), offset.y(), offset.z()});
-  }
   return json{{"name", skeleton.name},
               {"joint_names", skeleton.joint_names},
               {"parents", skeleton.parents},

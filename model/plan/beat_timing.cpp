@@ -1,57 +1,131 @@
-#include "model/plan/beat_timing.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
-#include "model/plan/retime.h"
 
 namespace choreo {
+namespace {
 
 // How much of an accent beats have that are so many frames apart.
-double BeatTiming::Share(double period) const {
-  return period > kPauseSeconds * fps ? 0 : std::min(1.0, period / (options.fastest * fps));
+double Share(const PlanContext& plan, double period) {
+  return period > kPauseSeconds * plan.fps
+             ? 0
+             : std::min(1.0, period / (plan.options.fastest * plan.fps));
 }
 
-// The shift of time at t, of which Time takes away what the ends have.
-double BeatTiming::Shift(double t) const {
-  const auto after = std::ranges::upper_bound(beats, t);
-  if (after == beats.begin() || after == beats.end()) return 0;
+// The shift of time at t, of which BeatTime takes away what the ends have.
+double Shift(const PlanContext& plan, double t) {
+  const auto after = std::ranges::upper_bound(plan.beats, t);
+  if (after == plan.beats.begin() || after == plan.beats.end()) return 0;
   const double before = *(after - 1), period = *after - before;
-  return options.accent * Share(period) * period / (2 * M_PI) *
+  return plan.options.accent * Share(plan, period) * period / (2 * M_PI) *
          std::sin(2 * M_PI * (t - before) / period);
 }
 
 // What a key on a beat adds to that within a beat before it (`step` -1) or behind it (1).
-double BeatTiming::KeyShift(double key, int step, double t) const {
+double KeyShift(const PlanContext& plan, double key, int step, double t) {
+  const auto& beats = plan.beats;
   const auto beat =
       std::ranges::min_element(beats, {}, [key](double at) { return std::abs(at - key); });
-  if (beat == beats.end() || std::abs(*beat - key) >= options.on_beat * fps) return 0;
+  if (beat == beats.end() || std::abs(*beat - key) >= plan.options.on_beat * plan.fps) return 0;
   if (beat == (step < 0 ? beats.begin() : beats.end() - 1)) return 0;
   const double period = std::abs(*(beat + step) - *beat), away = t - key;
   if (std::abs(away) >= period) return 0;
-  return options.key_accent * Share(period) * (1 - std::abs(away) / period) * period / (2 * M_PI) *
-         std::sin(2 * M_PI * away / period);
+  return plan.options.key_accent * Share(plan, period) * (1 - std::abs(away) / period) * period /
+         (2 * M_PI) * std::sin(2 * M_PI * away / period);
 }
 
-double BeatTiming::Time(double t) const {
+// Catmull-Rom weights at `u` in [0, 1] between the second and the third of four values.
+std::array<double, 4> CubicWeights(double u) {
+  const double u2 = u * u, u3 = u2 * u;
+  return {0.5 * (-u3 + 2 * u2 - u), 0.5 * (3 * u3 - 5 * u2 + 2), 0.5 * (-3 * u3 + 4 * u2 + u),
+          0.5 * (u3 - u2)};
+}
+
+// Poses in a row as quaternions, and what leads from each to the next: each is needed by four
+// frames, and a logarithm costs more than all else.
+struct Curve {
+  using Rotations = std::vector<Eigen::Quaterniond>;  // by joint
+
+  void Append(const Eigen::Vector3d& position, Rotations rotation) {
+    positions.push_back(position);
+    rotations.push_back(std::move(rotation));
+    const size_t last = positions.size() - 1;
+    if (last == 0) return;
+    auto& step = steps.emplace_back();
+    for (size_t joint = 0; joint < rotations[last].size(); ++joint)
+      step.push_back(Between(last - 1, last, joint));
+  }
+  void Append(const Pose& pose) {
+    Rotations rotation;
+    for (const auto turn : pose.rotations.colwise()) rotation.push_back(QuaternionFromExp(turn));
+    Append(pose.root_position, std::move(rotation));
+  }
+  /// A pose as far behind the last one as that is behind the one before it.
+  void GoOn() {
+    const size_t last = positions.size() - 1;
+    Rotations rotation = rotations[last];
+    for (size_t joint = 0; joint < rotation.size(); ++joint)
+      rotation[joint] = rotation[joint] * rotations[last - 1][joint].conjugate() * rotation[joint];
+    Append(2 * positions[last] - positions[last - 1], std::move(rotation));
+  }
+  Eigen::Vector3d Between(size_t from, size_t to, size_t joint) const {
+    return ExpFromQuaternion(rotations[from][joint].conjugate() * rotations[to][joint]);
+  }
+
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Rotations> rotations;
+  std::vector<std::vector<Eigen::Vector3d>> steps;  // from each pose to the next, by joint
+};
+
+}  // namespace
+
+double BeatTime(const PlanContext& plan, int frames, double t) {
+  const PlanOptions& options = plan.options;
   const double last = frames - 1, share = (t + 1) / frames;
-  double shift = Shift(t) - (1 - share) * Shift(-1) - share * Shift(last);
-  const double room = (frames - options.no_key_accent * fps) /
-                      (options.whole_key_accent * fps - options.no_key_accent * fps);
-  if (keyed && room > 0)
-    shift += std::min(room, 1.0) * (KeyShift(-1, 1, t) + KeyShift(last, -1, t));
-  return t + std::min(1.0, frames / (options.whole_accent * fps)) * shift;
+  double shift = Shift(plan, t) - (1 - share) * Shift(plan, -1) - share * Shift(plan, last);
+  const double room = (frames - options.no_key_accent * plan.fps) /
+                      (options.whole_key_accent * plan.fps - options.no_key_accent * plan.fps);
+  if (plan.keyed && room > 0)
+    shift += std::min(room, 1.0) * (KeyShift(plan, -1, 1, t) + KeyShift(plan, last, -1, t));
+  return t + std::min(1.0, frames / (options.whole_accent * plan.fps)) * shift;
 }
 
+// Between poses a cubic (Catmull-Rom, rotations in the tangent space of the pose before) keeps what
+// is smooth smooth.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
   if (context.beats.empty() || context.has_path) return;
-  const BeatTiming timing{context.beats, static_cast<int>(plan->size()), context.keyed, context.fps,
-                          context.options};
-  std::vector<double> times(plan->size());
-  for (int frame = 0; frame < timing.frames; ++frame)
-    times[static_cast<size_t>(frame)] = timing.Time(frame);
-  *plan = Retime(context.history, *plan, times);
+  const auto& history = context.history;
+  // Two poses in front, and one behind that goes on as the last two go.
+  Curve curve;
+  curve.Append(history[history.size() > 1 ? history.size() - 2 : 0]);
+  curve.Append(history.back());
+  for (const Pose& pose : *plan) curve.Append(pose);
+  curve.GoOn();
+  const auto frames = static_cast<int>(plan->size());
+  const Pose* last = &history.back();
+  for (int frame = 0; frame < frames; ++frame) {
+    const double time = std::clamp(BeatTime(context, frames, frame), -1.0, frames - 1.0);
+    const int from = std::min(static_cast<int>(std::floor(time)), frames - 2);
+    const std::array<double, 4> weights = CubicWeights(time - from);
+    const auto at = static_cast<size_t>(from + 2);
+    Pose& pose = (*plan)[static_cast<size_t>(frame)];
+    pose.root_position.setZero();
+    for (size_t i = 0; i < 4; ++i) pose.root_position += weights[i] * curve.positions[at - 1 + i];
+    for (size_t joint = 0; joint < curve.rotations[at].size(); ++joint) {
+      // In the tangent space of the pose before; back from it leads the step before, turned round.
+      const Eigen::Vector3d turn = -weights[0] * curve.steps[at - 1][joint] +
+                                   weights[2] * curve.steps[at][joint] +
+                                   weights[3] * curve.Between(at, at + 2, joint);
+      pose.rotations.col(static_cast<Eigen::Index>(joint)) =
+          ExpFromQuaternion(curve.rotations[at][joint] * QuaternionFromExp(turn));
+    }
+    MakeContinuous(pose, *last);
+    last = &pose;
+  }
 }
 
 }  // namespace choreo

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
+#include "model/motion/limb.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo {
@@ -14,15 +16,20 @@ double SoftBend(double bend, double softness) {
 }  // namespace
 
 void LimitHinges(const PlanContext& context, std::vector<Pose>* plan) {
-  const std::vector<Hinge> hinges = Hinges(context.skeleton);
   const double softness = context.options.hinge_softness;
-  for (Pose& pose : *plan) {
-    for (const Hinge& hinge : hinges) {
-      auto rotation = pose.rotations.col(hinge.joint);
-      const double bend = hinge.axis.dot(rotation);
-      const double opened = SoftBend(bend, softness),
-                   possible = kMostHingeBend - SoftBend(kMostHingeBend - opened, softness);
-      rotation += (possible - bend) * hinge.axis;
+  for (const Hinge& hinge : Hinges(context.skeleton)) {
+    const auto bend_in = [&](const Pose& pose) {
+      return hinge.axis.dot(pose.rotations.col(hinge.joint));
+    };
+    BendRange range;
+    if (!context.history.empty())
+      range = NextBend(bend_in(context.history.back()), 1 / context.fps);
+    for (Pose& pose : *plan) {
+      const double bend = bend_in(pose), opened = SoftBend(bend, softness),
+                   possible = kMostHingeBend - SoftBend(kMostHingeBend - opened, softness),
+                   limited = std::clamp(possible, range.least, range.most);
+      pose.rotations.col(hinge.joint) += (limited - bend) * hinge.axis;
+      range = NextBend(limited, 1 / context.fps);
     }
   }
 }

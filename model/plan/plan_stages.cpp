@@ -3,7 +3,7 @@
 namespace choreo {
 
 void FinishPlan(const PlanContext& context, std::vector<Pose>* plan) {
-  for (const auto stage : {LimitHinges, ReturnToFloor, TimeToBeats}) stage(context, plan);
+  for (const auto stage : {TimeToBeats, LimitHinges, ReturnToFloor}) stage(context, plan);
 }
 
 }  // namespace choreo

@@ -11,6 +11,8 @@
 /// does better. Stages are pure functions, thread-safe. One more is listed in plan_stages.cpp.
 namespace choreo {
 
+inline constexpr double kPauseSeconds = 1.5;  ///< from beat to beat, and the music pauses
+
 /// What is known of a plan: the poses that a model proposes for a whole transition, in the
 /// transition's canonical frame.
 struct PlanContext {
@@ -24,7 +26,7 @@ struct PlanContext {
 };
 
 /// Knees and elbows bend one way, until the limb is folded: the bend of each about its hinge is led
-/// softly to a stop at both ends. One that is a tenth of a radian from both stays as it is.
+/// softly to a stop at both ends, and from frame to frame not beyond NextBend (motion/limb.h).
 void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
 
 /// Whoever dances for seconds touches the floor: by the last pose of a plan without key or path
@@ -36,7 +38,15 @@ void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan);
 /// F, Section 4.2). Where a path says when to be where, time is not the beats' to bend.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 
-/// All of them, in this order.
+/// Where on a plan of so many frames it takes the pose of frame `t` from, in frames; t in [-1,
+/// frames - 1], where -1 is the history's last pose. Between two beats time runs as t + A P / 2 pi
+/// sin(2 pi (t - beat) / P): at 1 + A on each beat, at 1 - A half way between, A being the accent.
+/// A way to a key has a larger A at either end that stands on a beat, as dancers are slow at key
+/// poses. The ends stay where they are; before the first beat, behind the last and where the music
+/// pauses time runs evenly.
+double BeatTime(const PlanContext& context, int frames, double t);
+
+/// All stages, in the order of plan_stages.cpp.
 void FinishPlan(const PlanContext& context, std::vector<Pose>* plan);
 
 }  // namespace choreo

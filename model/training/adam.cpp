@@ -12,13 +12,15 @@ namespace {
 
 constexpr double kBeta1 = 0.9, kBeta2 = 0.999, kEpsilon = 1e-8;  // paper F, Section 4.2
 
+}  // namespace
+
 double NormOf(const std::vector<torch::Tensor>& gradients) {
   double sum = 0;
-  for (const auto& gradient : gradients) sum += gradient.square().sum().item<double>();
+  for (const auto& gradient : gradients) {
+    if (gradient.defined()) sum += gradient.square().sum().item<double>();
+  }
   return std::sqrt(sum);
 }
-
-}  // namespace
 
 Adam::Adam(const torch::nn::Module& module) {
   for (const auto& item : module.named_parameters()) {
@@ -30,9 +32,7 @@ Adam::Adam(const torch::nn::Module& module) {
 void Adam::Step(double learning_rate, double max_norm) {
   torch::NoGradGuard no_grad;
   std::vector<torch::Tensor> gradients;
-  for (const Entry& entry : entries_) {
-    if (entry.parameter.grad().defined()) gradients.push_back(entry.parameter.grad());
-  }
+  for (const Entry& entry : entries_) gradients.push_back(entry.parameter.grad());
   const double norm = NormOf(gradients);
   if (!std::isfinite(norm)) return;
   const double clip = norm > max_norm ? max_norm / norm : 1.0;

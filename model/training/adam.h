@@ -4,10 +4,14 @@
 #include <torch/types.h>
 
 #include <string>
+#include <vector>
 
 #include "model/core/safetensors.h"
 
 namespace choreo {
+
+/// Euclidean norm of all of them together; those that are undefined are zero.
+double NormOf(const std::vector<torch::Tensor>& gradients);
 
 /// Adam (Kingma & Ba 2015) over named parameters. Our own because its moments go into the run's
 /// safetensors by name and come back to the bit, which torch's optimiser state (keyed by address,

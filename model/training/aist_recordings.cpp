@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/pickle.h"
@@ -18,9 +20,7 @@ const std::set<std::string> kMusicExtensions = {".wav", ".mp3", ".ogg", ".flac"}
 std::vector<std::string> ReadNames(const fs::path& path) {
   std::ifstream file(path);
   if (!file) throw Error(ErrorCode::kNotFound, path.string(), "no such file");
-  std::vector<std::string> names;
-  for (std::string name; file >> name;) names.push_back(name);
-  return names;
+  return std::vector<std::string>(std::istream_iterator<std::string>(file), {});
 }
 
 /// The motions by name, without the ignored ones.
@@ -64,7 +64,7 @@ std::string SongOf(const std::string& name) {
 }
 
 Recording ReadAistRecording(const std::string& name, const fs::path& path, const fs::path& song) {
-  const NpzArchive arrays = ReadPickledArrays(path);
+  const NpzArchive arrays = ParsePickledArrays(ReadFile(path), path.string());
   // Without its scaling the motion would pass for one of another layout.
   for (const char* key : {"smpl_poses", "smpl_trans", "smpl_scaling"}) {
     if (!arrays.Has(key)) throw InvalidArgument(path.string(), std::string("has no ") + key);
@@ -73,7 +73,6 @@ Recording ReadAistRecording(const std::string& name, const fs::path& path, const
   if (scaling.size() != 1 || !(scaling.As<double>()[0] > 0))
     throw InvalidArgument(path.string(), "smpl_scaling is not one number above 0");
   Recording recording;
-  recording.name = name;
   recording.genre = name.substr(0, name.find('_'));
   recording.motion = ReadSmplMotion(arrays);
   recording.ground = true;  // bodies differ from SMPL's neutral one
@@ -88,7 +87,7 @@ std::vector<RecordingSource> ListAistRecordings(const PrepareOptions& options) {
   const std::map<std::string, fs::path> songs = FindSongs(options.input);
   std::vector<RecordingSource> sources;
   for (const auto& [name, path] : FindMotions(options.input)) {
-    sources.push_back({name, [=] {
+    sources.push_back({name, [=, name = name, path = path] {
                          const auto song = songs.find(SongOf(name));
                          return ReadAistRecording(name, path,
                                                   song == songs.end() ? fs::path() : song->second);

@@ -21,10 +21,8 @@ double SpeedPowerAt(const PositionClip& clip, double period_s) {
   const auto steps = static_cast<Eigen::Index>(clip.frames.size()) - 1;
   if (steps < 2) throw InvalidArgument("frames", std::to_string(steps + 1) + ", must be 3 or more");
   Eigen::ArrayXd speed(steps);
-  for (Eigen::Index k = 0; k < steps; ++k) {
-    const auto f = static_cast<size_t>(k);
-    speed[k] = (clip.frames[f + 1] - clip.frames[f]).colwise().norm().mean();
-  }
+  for (Eigen::Index k = 0; k < steps; ++k)
+    speed[k] = (clip.frames[k + 1] - clip.frames[k]).colwise().norm().mean();
   // The window keeps slow changes out of the other periods.
   const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(steps, 0.5, steps - 0.5);
   const Eigen::ArrayXd window = 0.5 - 0.5 * (2 * std::numbers::pi / steps * time).cos();

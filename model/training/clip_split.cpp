@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "model/core/error.h"
@@ -67,7 +68,7 @@ std::string Quote(const std::set<std::string>& names) {
 
 std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
                                     const std::filesystem::path& splits_file,
-                                    const std::set<std::string>& wanted) {
+                                    const std::string& wanted) {
   const Groups groups = ReadGroups(splits_file);
   std::vector<PreparedClip> clips;
   std::set<std::string> there;
@@ -84,15 +85,14 @@ std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& fo
       }
       const std::string& group =
           *there.insert(GroupOf(groups, folder, clip.name, splits_file)).first;
-      if (wanted.contains(group)) clips.push_back(std::move(clip));
+      if (group == wanted) clips.push_back(std::move(clip));
     }
   }
   if (clips.empty()) {
     std::set<std::string> data;
     for (const auto& folder : folders) data.insert(folder.string());
-    throw InvalidArgument(
-        splits_file.string(),
-        "no clip of " + Quote(data) + " is in " + Quote(wanted) + "; they are in " + Quote(there));
+    throw InvalidArgument(splits_file.string(), "no clip of " + Quote(data) + " is in '" + wanted +
+                                                    "'; they are in " + Quote(there));
   }
   return clips;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,13 +14,13 @@ namespace choreo {
 inline const char* const kTrainGroup = "train";
 inline const char* const kValidationGroup = "validation";
 
-/// Reads every clip of `folders` that belongs to one of `groups`, sorted by folder and name. Where
+/// Reads every clip of `folders` of the group `wanted`, sorted by folder and name. Where
 /// two sets name clips alike, a folder holds the clips of the set that is called as it is. Throws
 /// Error where a folder or the file is missing, the file has a clip of a set in two groups, two
 /// clips of `folders` have different skeletons, or nothing is left: then it names the groups that
 /// the clips are in.
 std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
                                     const std::filesystem::path& splits_file,
-                                    const std::set<std::string>& groups);
+                                    const std::string& wanted);
 
 }  // namespace choreo

@@ -8,7 +8,6 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/motion/velocity_factors.h"
-#include "model/training/style.h"
 
 namespace choreo {
 namespace {
@@ -45,7 +44,7 @@ ClipTrack MakeTrack(const PreparedClip& clip, double tempo,
                     const std::vector<std::string>& styles) {
   const Skeleton& skeleton = clip.skeleton;
   const auto& frames = clip.motion.frames;
-  ClipTrack track{.tempo = tempo};
+  ClipTrack track;
   for (double at = 0; at + 1 < static_cast<double>(frames.size()); at += tempo) {
     const auto first = static_cast<size_t>(at);
     const double part = at - static_cast<double>(first);
@@ -62,8 +61,7 @@ ClipTrack MakeTrack(const PreparedClip& clip, double tempo,
     const Eigen::Matrix3Xd positions = JointPositions(skeleton, track.poses[i]);
     if (i > 0) {
       const auto factors = VelocityFactors(weights, before, positions);
-      energy.col(static_cast<int>(i)) =
-          Eigen::Map<const Eigen::VectorXd>(factors.data(), kBodyParts);
+      energy.col(i) = Eigen::Map<const Eigen::VectorXd>(factors.data(), kBodyParts);
       speed.push_back(static_cast<float>((positions - before).colwise().norm().mean()));
     }
     before = positions;

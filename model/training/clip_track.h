@@ -11,9 +11,8 @@
 
 namespace choreo {
 
-/// A prepared clip with what it says of itself, danced at some tempo.
+/// A prepared clip with what it says of itself.
 struct ClipTrack {
-  double tempo = 1;
   std::vector<Pose> poses = {};
   Eigen::MatrixXd energy = {};         ///< [kBodyParts, frames], smoothed, metres a frame
   std::vector<double> beats = {};      ///< frames; of the grid that its notes tell
@@ -22,7 +21,7 @@ struct ClipTrack {
   Eigen::Vector3d stage = Eigen::Vector3d::Zero();  ///< mean place of the root
 };
 
-/// `tempo` times as fast as it was danced. `styles`: ascending (training/style.h).
+/// `tempo` times as fast as it was danced. `styles`: ascending (StyleOf).
 ClipTrack MakeTrack(const PreparedClip& clip, double tempo, const std::vector<std::string>& styles);
 
 /// Beats of a song that the frames from `from` to `to` would be danced to, in frames behind `from`;

@@ -11,7 +11,6 @@
 #include "model/motion/facing_pose.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
-#include "model/motion/velocity_factors.h"
 #include "model/training/window_picker.h"
 
 namespace choreo {
@@ -65,9 +64,8 @@ ControlClips::Track ControlClips::MakeTrack(const PreparedClip& clip, double tem
     const double at = static_cast<double>(track.frames) * tempo;
     const auto first = static_cast<size_t>(at);
     if (first + 1 >= frames.size()) break;
-    Pose pose = tempo == 1 ? frames[first]
-                           : InterpolatePoses(frames[first], frames[first + 1],
-                                              at - static_cast<double>(first));
+    Pose pose =
+        tempo == 1 ? frames[first] : InterpolatePoses(frames[first], frames[first + 1], at - first);
     if (mirrored) pose = Mirror(pairs, pose);
     FacingPose facing = FacingOf(skeleton_, pose);
     if (track.frames > 0) facing.heading = NearestTurn(facing.heading, heading);
@@ -86,8 +84,7 @@ ControlClips::Track ControlClips::MakeTrack(const PreparedClip& clip, double tem
     append(&track.factors, factors);
     for (int foot = 0; foot < 4; ++foot) {
       // Contacts stand left then right; a mirrored dancer swaps them.
-      track.contacts.push_back(
-          clip.contacts(mirrored ? (foot + 2) % 4 : foot, static_cast<Eigen::Index>(first)));
+      track.contacts.push_back(clip.contacts(mirrored ? (foot + 2) % 4 : foot, first));
     }
   }
   return track;
@@ -167,29 +164,26 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
     if (random->Uniform() < variation.smooth_factors)
       control = SmoothInTime(real, std::exp(random->Uniform(std::log(5), std::log(200))));
     if (random->Uniform() < variation.scale_factors) {
-      Tensor scale = torch::empty({kBodyParts});
+      std::vector<float> scales(kBodyParts);
       const bool alike = random->Uniform() < 0.5;
-      for (int part = 0; part < kBodyParts; ++part) {
-        scale[part] =
-            alike && part > 0
-                ? scale[0]
-                : torch::tensor(static_cast<float>(random->Uniform(kLeastScale, kMostScale)));
+      for (size_t part = 0; part < scales.size(); ++part) {
+        scales[part] = alike && part > 0
+                           ? scales[0]
+                           : static_cast<float>(random->Uniform(kLeastScale, kMostScale));
       }
-      control = control * scale;
-      real = real * scale;
+      control = control * torch::tensor(scales);
+      real = real * torch::tensor(scales);
       weight[b] = kScaledWeight;
     }
     given.push_back(control);
     wanted.push_back(real);
   }
   const FrameTensors all{root, HeadingOf(heading), joints, contacts};
-  ControlBatch result;
-  result.truth = all.Narrow(history, frames);
-  result.factors = torch::stack(wanted);
-  result.weight = weight;
-  result.transition = {frames,     all.Narrow(0, history), joints.select(1, window - 1), turn,
-                       has_target, torch::stack(paths),    torch::stack(given)};
-  return result;
+  return {.transition = {frames, all.Narrow(0, history), joints.select(1, window - 1), turn,
+                         has_target, torch::stack(paths), torch::stack(given)},
+          .truth = all.Narrow(history, frames),
+          .factors = torch::stack(wanted),
+          .weight = weight};
 }
 
 }  // namespace choreo

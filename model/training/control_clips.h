@@ -44,8 +44,6 @@ class ControlClips {
   /// The median of each velocity factor over all frames, metres a frame.
   std::array<double, kBodyParts> MedianFactors() const;
 
-  const Skeleton& skeleton() const { return skeleton_; }
-
  private:
   struct Track {
     int64_t frames = 0;

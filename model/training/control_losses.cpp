@@ -2,6 +2,8 @@
 
 #include <torch/torch.h>
 
+#include <span>
+
 namespace choreo {
 namespace {
 
@@ -53,22 +55,21 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
   Tensor consistency = weighted(kDecimetresPerMetre * OfWindow(Norm(steps - real)) +
                                 kDecimetresPerMetre * OfWindow(Norm(output.velocities - steps)));
 
-  std::vector<int64_t> parents, feet;
-  Tensor lengths = torch::empty({model.skeleton().joints() - 1});
-  for (int j = 1; j < model.skeleton().joints(); ++j) {
-    parents.push_back(model.skeleton().parents[j]);
-    lengths[j - 1] = static_cast<float>(model.skeleton().offsets.col(j).norm());
-  }
-  for (const int foot : model.skeleton().feet) feet.push_back(foot);
-  const auto index = [&](const std::vector<int64_t>& values) {
-    return torch::tensor(values, frames.joints.options().dtype(torch::kLong));
+  const Skeleton& skeleton = model.skeleton();
+  Tensor lengths = torch::empty({skeleton.joints() - 1});
+  for (int j = 1; j < skeleton.joints(); ++j)
+    lengths[j - 1] = static_cast<float>(skeleton.offsets.col(j).norm());
+  const auto index = [&](std::span<const int> joints) {
+    return torch::tensor(std::vector<int64_t>(joints.begin(), joints.end()),
+                         frames.joints.options().dtype(torch::kLong));
   };
   const Tensor with_root =
       torch::cat({torch::zeros_like(frames.joints.narrow(2, 0, 1)), frames.joints}, 2);
+  const auto parents = std::span(skeleton.parents).subspan(1);
   const Tensor bones = Norm(frames.joints - with_root.index_select(2, index(parents)));
   consistency =
       consistency + kDecimetresPerMetre * (bones - lengths.to(bones.device())).abs().mean();
-  const Tensor slide = Norm(steps.index_select(2, index(feet)) + steps.narrow(2, 0, 1));
+  const Tensor slide = Norm(steps.index_select(2, index(skeleton.feet)) + steps.narrow(2, 0, 1));
   consistency = consistency + kDecimetresPerMetre * (frames.contacts * slide).mean();
 
   const Tensor root =

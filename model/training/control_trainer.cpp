@@ -15,7 +15,7 @@ namespace choreo {
 namespace {
 
 constexpr int kNormalisationWindows = 512;
-constexpr int kValidationWindows = 48;
+constexpr int kControlValidationWindows = 48;
 constexpr double kTruthDecay = 0.998;  // of scheduled sampling's probability, a step
 constexpr double kCurriculum = 0.3;    // share of a stage after which all lengths are drawn
 constexpr double kLongest = 0.25;      // share of draws among all lengths alike
@@ -23,25 +23,29 @@ constexpr double kLongest = 0.25;      // share of draws among all lengths alike
 ControllersConfig ConfigOf(const TrainOptions& options) {
   ControllersConfig config;
   if (!options.name.empty()) config.name = options.name;
-  config.two_lstms = !options.one_lstm;
-  config.transformers = !options.condition_fc;
-  config.root_decoder = !options.one_decoder;
-  config.velocity_factors = !options.no_velocity_factors;
+  config.two_lstms = !options.controllers.one_lstm;
+  config.transformers = !options.controllers.condition_fc;
+  config.root_decoder = !options.controllers.one_decoder;
+  config.velocity_factors = !options.controllers.no_velocity_factors;
   config.key_loss = !options.no_key_loss;
   return config;
 }
 
 class ControlRun : public TrainingRun {
  public:
-  ControlRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
-      : TrainingRun(options, train),
-        train_(train.clips()),
-        validation_(validation.clips()),
-        model_(ConfigOf(options), train.skeleton()) {
+  ControlRun(const TrainOptions& options, const TrainingClips& clips)
+      : TrainingRun(options, clips),
+        train_(clips.train),
+        validation_(clips.validation),
+        model_(ConfigOf(options), clips.train.front().skeleton) {
     if (options.from.empty()) {
       Normalise();
     } else {
-      TakeModel();
+      const Safetensors content = ReadSafetensors(options.from);
+      if (!HoldsControllers(content))
+        throw InvalidArgument("--from", options.from.string() + " is no controllers network");
+      StartFrom(ParseControllers(content, options.from.string()));
+      ImportTensors(content, "", model_.get());
     }
     Open(model_.get());
   }
@@ -62,7 +66,7 @@ class ControlRun : public TrainingRun {
       if (validation_.Longest() < model_->config().history_frames + frames) continue;
       Random random(20240607, static_cast<uint32_t>(frames));
       const ControlBatch batch = validation_.Draw(
-          kValidationWindows, model_->config().history_frames, frames, {}, &random);
+          kControlValidationWindows, model_->config().history_frames, frames, {}, &random);
       const FrameTensors last =
           batch.transition.history.Narrow(batch.transition.history.size() - 1, 1);
       const auto distance = [&](const torch::Tensor& joints) {
@@ -102,15 +106,6 @@ class ControlRun : public TrainingRun {
   }
 
  private:
-  void TakeModel() {
-    const Safetensors content = ReadSafetensors(options().from);
-    if (!HoldsControllers(content)) {
-      throw InvalidArgument("--from", options().from.string() + " is no controllers network");
-    }
-    StartFrom(ParseControllers(content, options().from.string()));
-    ImportTensors(content, "", model_.get());
-  }
-
   // Short windows first; the longest length rises until all are drawn. Later one draw in four is of
   // any length, the others rather short, which is cheap and common.
   ControlBatch Draw(Random* random, double progress) const {

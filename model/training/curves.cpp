@@ -22,16 +22,17 @@ std::vector<std::string> CellsOf(const std::string& line) {
 
 }  // namespace
 
-void Curves::Append(const LossRow& losses, double seconds, const NamedFigures& figures) {
+void Curves::Append(int64_t step, double seconds, const LossFigures& losses,
+                    const NamedFigures& figures) {
   names_.clear();
   std::vector<double>& row = rows_.emplace_back();
   const auto add = [&](const std::string& name, double value) {
     names_.push_back(name);
     row.push_back(value);
   };
-  add("step", static_cast<double>(losses.step));
+  add("step", static_cast<double>(step));
   add("seconds", seconds);
-  for (const auto& [name, figure] : losses.terms) {
+  for (const auto& [name, figure] : losses) {
     add(name, figure.value);
     add(name + std::string(kGradientSuffix), figure.gradient);
   }

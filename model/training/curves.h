@@ -15,11 +15,7 @@ struct LossFigure {
   double value = 0, gradient = 0;
 };
 
-/// Where a run stands: its terms by name (losses.h).
-struct LossRow {
-  int64_t step = 0;
-  std::map<std::string, LossFigure> terms;
-};
+using LossFigures = std::map<std::string, LossFigure>;  ///< by the term's name (losses.h)
 
 /// What else a run reports, in the order of its columns.
 using NamedFigures = std::vector<std::pair<std::string, double>>;
@@ -27,7 +23,7 @@ using NamedFigures = std::vector<std::pair<std::string, double>>;
 /// A run's history: one line a report, as CSV and as a plot.
 class Curves {
  public:
-  void Append(const LossRow& losses, double seconds, const NamedFigures& figures);
+  void Append(int64_t step, double seconds, const LossFigures& losses, const NamedFigures& figures);
   /// Writes curves.csv, curves.png, gradients.png and validation.png into `folder`.
   void Write(const std::filesystem::path& folder) const;
   /// The CSV text, kept inside a run's state; and back.

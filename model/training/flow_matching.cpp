@@ -17,17 +17,10 @@ constexpr double kStands = 1e-3;  // metres: what strays less stands
 // small: where they pull as hard, the pelvis makes up for what limbs can't know, and stands still.
 constexpr double kPlaces = 0.06, kSlips = 12;
 constexpr double kStandingStep = 0.01;  // metres that a standing foot goes in a frame, at most
-constexpr const char *kWhiteTerm = "white_mse", *kPlacesTerm = "places_mse",
-                     *kSlipsTerm = "slips_mse";
 
-Tensor Stack(const std::vector<MotionPrior::Bridge>& bridges) {
+Tensor SpreadsOf(const std::vector<MotionPrior::Bridge>& bridges) {
   std::vector<Tensor> spreads;
-  for (const auto& bridge : bridges) {
-    const Eigen::Matrix<float, -1, -1, Eigen::RowMajor> spread = bridge.spread.cast<float>();
-    spreads.push_back(
-        torch::from_blob(const_cast<float*>(spread.data()), {spread.rows(), spread.cols()})
-            .clone());
-  }
+  for (const auto& bridge : bridges) spreads.push_back(Columns(bridge.spread).t());
   return torch::stack(spreads);
 }
 
@@ -39,9 +32,7 @@ Tensor ReachOf(const Skeleton& skeleton) {
   for (int j = 0; j < joints; ++j) {
     double sum = 0;
     for (int k = j + 1; k < joints; ++k) {
-      int above = k;
-      while (above > j) above = skeleton.parents[static_cast<size_t>(above)];
-      if (above == j) sum += (rest.col(k) - rest.col(j)).squaredNorm();
+      if (IsBelow(k, j, skeleton.parents)) sum += (rest.col(k) - rest.col(j)).squaredNorm();
     }
     reach.narrow(0, 3 + 3 * j, 3).fill_(2.0 / 3 * sum / joints);
   }
@@ -59,24 +50,15 @@ FlowMatching::FlowMatching(const ContinuousFlow& model)
     : parts_(model->Parts()),
       device_(model->parameters().front().device()),
       body_(parts_.skeleton, device_),
-      reach_(ReachOf(parts_.skeleton).to(device_)) {
-  const Eigen::MatrixXf mixing = parts_.mixing.cast<float>();  // column-major: transposed below
-  mixing_ = torch::from_blob(const_cast<float*>(mixing.data()), {mixing.cols(), mixing.rows()})
-                .clone()
-                .to(device_);
-}
-
-const std::vector<std::string>& FlowMatching::TermNames() {
-  static const std::vector<std::string> names = {kWhiteTerm, kPlacesTerm, kSlipsTerm};
-  return names;
-}
+      mixing_(Columns(parts_.mixing).to(device_)),
+      reach_(ReachOf(parts_.skeleton).to(device_)) {}
 
 const FlowMatching::Spreads& FlowMatching::Of(int frames, int to_key) {
   const auto [place, is_new] = spreads_.try_emplace({frames, to_key});
   if (is_new) {
-    place->second = {Stack(*parts_.prior.Bridges(frames, to_key)).to(device_),
-                     Stack(*parts_.prior.Bridges(frames, 0)).to(device_),
-                     Stack(*parts_.prior.StageBridges(frames)).to(device_)};
+    place->second = {SpreadsOf(*parts_.prior.Bridges(frames, to_key)).to(device_),
+                     SpreadsOf(*parts_.prior.Bridges(frames, 0)).to(device_),
+                     SpreadsOf(*parts_.prior.StageBridges(frames)).to(device_)};
   }
   return place->second;
 }
@@ -128,9 +110,9 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   };
   const Tensor real = body_.Place(batch, scales * colour(batch.z)).reshape(moved.sizes());
   const Tensor stands = feet_steps(real).norm(2, -1) < kStandingStep;
-  return {{kWhiteTerm, 1.0, (weights.unsqueeze(1) * miss.square()).mean()},
-          {kPlacesTerm, kPlaces, squares(moved).mean()},
-          {kSlipsTerm, kSlips, (stands * squares(feet_steps(moved))).mean()}};
+  return {{"white_mse", 1.0, (weights.unsqueeze(1) * miss.square()).mean()},
+          {"places_mse", kPlaces, squares(moved).mean()},
+          {"slips_mse", kSlips, (stands * squares(feet_steps(moved))).mean()}};
 }
 
 }  // namespace choreo

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "model/flow/continuous_flow.h"
 #include "model/training/losses.h"
@@ -17,9 +15,6 @@ namespace choreo {
 class FlowMatching {
  public:
   explicit FlowMatching(const ContinuousFlow& model);
-
-  /// Of the losses, in the order of a run's curves.
-  static const std::vector<std::string>& TermNames();
 
   const FlowModelParts& parts() const { return parts_; }
 

@@ -1,7 +1,6 @@
 #include <torch/torch.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <deque>
 #include <future>
@@ -22,14 +21,14 @@ namespace choreo {
 namespace {
 
 constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48;
-constexpr int kValidationWindows = 24;
+constexpr int kMatchingValidationWindows = 24;
 constexpr double kAverage = 0.999;                                  // of the weights, a step
 constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
 constexpr double kEnergy = 0.9;  // share of windows whose energy is told, as it is when served
 // Frames of training windows: few, so that what belongs to a length is made once.
 constexpr int kLengths[] = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
 
-// Mean joint distance between two sequences of poses, metres; and of each from frame to frame.
+// Mean joint distance between two sequences of poses, metres.
 double Distance(const Skeleton& skeleton, std::span<const Pose> a, std::span<const Pose> b) {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) {
@@ -52,49 +51,37 @@ struct Liveness {
   }
 };
 
-// The nearest bfloat16, ties to even.
-float Bfloat16(float value) {
-  const auto bits = std::bit_cast<uint32_t>(value);
-  return std::bit_cast<float>((bits + 0x7FFFU + ((bits >> 16U) & 1U)) & 0xFFFF0000U);
-}
-
 // Gives another model's weights the styles of `model`: what both know by name stays, what is new
 // begins at zero.
 void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl& model,
                 Safetensors* weights) {
-  Safetensors own;
-  ExportTensors(model, "", &own);
-  weights->tensors["energy_prior"] = own.tensors.at("energy_prior");  // is measured anew
+  // Is measured anew.
+  ExportTensor("energy_prior", model.named_buffers()["energy_prior"], weights);
   const std::vector<std::string>& styles = model.config().styles;
   const std::string name = "condition_in.weight";  // its inputs end with style, then time
-  const auto& from = weights->tensors.at(name);
-  auto to = own.tensors.at(name);
-  const auto rows = static_cast<size_t>(to.shape[0]), width = static_cast<size_t>(to.shape[1]),
-             width_before = static_cast<size_t>(from.shape[1]);
-  const auto first =
-      static_cast<size_t>(WholeFeatures(model.skeleton(), model.config())) - styles.size();
-  for (size_t row = 0; row < rows; ++row) {
-    const auto in = from.data.begin() + static_cast<ptrdiff_t>(row * width_before);
-    const auto out = to.data.begin() + static_cast<ptrdiff_t>(row * width);
-    std::copy_n(in, first, out);
-    for (size_t i = 0; i < styles.size(); ++i) {
-      const auto found = std::ranges::find(before, styles[i]);
-      out[static_cast<ptrdiff_t>(first + i)] =
-          found == before.end() ? 0 : in[static_cast<ptrdiff_t>(first) + (found - before.begin())];
-    }
-    std::copy_n(in + static_cast<ptrdiff_t>(first + before.size()), width - first - styles.size(),
-                out + static_cast<ptrdiff_t>(first + styles.size()));
+  const torch::Tensor to = torch::zeros_like(model.named_parameters()[name]);
+  NamedTensor& held = weights->tensors.at(name);
+  const torch::Tensor from = torch::from_blob(held.data.data(), held.shape);
+  const int64_t first = WholeFeatures(model.skeleton(), model.config()) - std::ssize(styles);
+  const int64_t time = to.size(1) - first - std::ssize(styles);
+  to.narrow(1, 0, first).copy_(from.narrow(1, 0, first));
+  for (int64_t i = 0; i < std::ssize(styles); ++i) {
+    const auto found = std::ranges::find(before, styles[i]);
+    if (found != before.end())
+      to.select(1, first + i).copy_(from.select(1, first + (found - before.begin())));
   }
-  weights->tensors[name] = std::move(to);
+  to.narrow(1, first + std::ssize(styles), time)
+      .copy_(from.narrow(1, first + std::ssize(before), time));
+  ExportTensor(name, to, weights);
 }
 
 class FlowMatchingRun : public TrainingRun {
  public:
-  FlowMatchingRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
-      : TrainingRun(options, train),
+  FlowMatchingRun(const TrainOptions& options, const TrainingClips& clips)
+      : TrainingRun(options, clips),
         device_(options.device),
-        train_(train.clips()),
-        validation_(validation.clips()) {
+        train_(clips.train),
+        validation_(clips.validation) {
     ContinuousFlowConfig config;
     if (!options.name.empty()) config.name = options.name;
     config.styles = train_.styles();
@@ -117,7 +104,6 @@ class FlowMatchingRun : public TrainingRun {
     average_->to(device_);
     Copy(1);
     average_->eval();
-    NameLosses(FlowMatching::TermNames());
     Open(model_.get());
   }
 
@@ -139,7 +125,7 @@ class FlowMatchingRun : public TrainingRun {
     const int most = train_.Longest(model_->config().history_frames);
     const int frames = std::min(kLengths[random.Integer(0, std::size(kLengths))], most);
     WindowClips::Variation variation{.mirror = 0.5,
-                                     .tempo = options().tempo,
+                                     .tempo = options().continuous_flow.tempo,
                                      .partial_key = 0.12,
                                      .beats = 0.8,
                                      .energy = kEnergy,
@@ -164,10 +150,7 @@ class FlowMatchingRun : public TrainingRun {
                        variation, &random);
   }
 
-  void AfterStep() override {
-    Copy(1 - std::min(kAverage,
-                      (1.0 + static_cast<double>(step())) / (10.0 + static_cast<double>(step()))));
-  }
+  void AfterStep() override { Copy(1 - std::min(kAverage, (1.0 + step()) / (10.0 + step()))); }
 
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
@@ -179,7 +162,7 @@ class FlowMatchingRun : public TrainingRun {
       if (frames > validation_.Longest(parts.config.history_frames)) continue;
       Random random(20240607, static_cast<uint32_t>(frames));
       const WindowBatch batch =
-          validation_.Draw(parts, kValidationWindows, frames, frames, {}, &random);
+          validation_.Draw(parts, kMatchingValidationWindows, frames, frames, {}, &random);
       double line = 0, mean = 0, seeds = 0;
       Liveness real, danced, planned;
       for (size_t i = 0; i < batch.truth.size(); ++i) {
@@ -229,7 +212,8 @@ class FlowMatchingRun : public TrainingRun {
     for (auto& [name, tensor] : weights.tensors) {
       // Half the bytes, and dances have the same figures. The prior stays exact.
       if (name.ends_with(".weight"))
-        std::ranges::transform(tensor.data, tensor.data.begin(), Bfloat16);
+        std::ranges::transform(tensor.data, tensor.data.begin(),
+                               [](float weight) -> float { return c10::BFloat16(weight); });
     }
     return SaveContinuousFlow(path, average_, weights, card);
   }
@@ -244,10 +228,8 @@ class FlowMatchingRun : public TrainingRun {
   // The average goes `share` of the way to the weights.
   void Copy(double share) {
     const torch::NoGradGuard no_grad;
-    const auto towards = [&](const auto& from, const auto& to) {
-      for (size_t i = 0; i < from.size(); ++i) to[i].lerp_(from[i], share);
-    };
-    towards(model_->parameters(), average_->parameters());
+    const auto from = model_->parameters(), to = average_->parameters();
+    for (size_t i = 0; i < from.size(); ++i) to[i].lerp_(from[i], share);
     for (size_t i = 0; i < model_->buffers().size(); ++i)
       average_->buffers()[i].copy_(model_->buffers()[i]);
   }
@@ -259,14 +241,16 @@ class FlowMatchingRun : public TrainingRun {
     const Eigen::MatrixXd covariance =
         VelocityCovariance(train_.skeleton(), train_.tracks(), MotionPrior::kLags);
     const UsualPose usual = MeasureUsualPose(train_.skeleton(), train_.tracks());
-    model_->SetPrior(covariance, {}, Eigen::MatrixXd::Identity(dimensions, dimensions),
-                     Eigen::VectorXd::Ones(dimensions), usual);
+    const auto set = [&](const VariancePowers& powers, const WindowStatistics& windows) {
+      model_->SetPrior(covariance, powers, windows.mixing, windows.spread, usual);
+    };
+    const WindowStatistics none = {Eigen::MatrixXd::Identity(dimensions, dimensions),
+                                   Eigen::VectorXd::Ones(dimensions)};
+    set({}, none);
     const VariancePowers powers =
         MeasureVariancePowers(model_->Parts().prior, StatisticsBatches(1));
-    model_->SetPrior(covariance, powers, Eigen::MatrixXd::Identity(dimensions, dimensions),
-                     Eigen::VectorXd::Ones(dimensions), usual);
-    const WindowStatistics measured = MeasureWindows(StatisticsBatches(kEnergy));
-    model_->SetPrior(covariance, powers, measured.mixing, measured.spread, usual);
+    set(powers, none);
+    set(powers, MeasureWindows(StatisticsBatches(kEnergy)));
     std::vector<WindowRequest> of_all_lengths;
     for (const int frames : {20, 60, 90}) {
       for (WindowBatch& batch : StatisticsBatches(1, frames))

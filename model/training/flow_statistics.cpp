@@ -23,6 +23,7 @@ constexpr double kStill = 1e-3;  // metres or radians: what spreads less is not 
 struct LivelyWindow {
   EnergyPrior::Known known;
   EnergyPrior::Levels levels;
+  EnergyPrior::Inputs inputs;  // what `known` describes
 };
 
 std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
@@ -32,18 +33,18 @@ std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
     if (request.key.has_value() != keyed) continue;
     const auto told = LevelsOf(request, model.config.median_factors);
     if (!std::ranges::all_of(told, [](const auto& level) { return level.has_value(); })) continue;
-    LivelyWindow& window =
-        windows.emplace_back(KnownOfEnergy(model, request, FlowWindow(model.prior, request)));
+    LivelyWindow& window = windows.emplace_back();
+    window.known = KnownOfEnergy(model, request, FlowWindow(model.prior, request));
     std::ranges::transform(told, window.levels.begin(), [](const auto& level) { return *level; });
   }
   return windows;
 }
 
 // What training saw of each input, but for what is rare.
-void MeasureRange(const std::vector<EnergyPrior::Inputs>& inputs, EnergyPrior* measured) {
+void MeasureRange(const std::vector<LivelyWindow>& windows, EnergyPrior* measured) {
   for (int input = 0; input < EnergyPrior::kInputs; ++input) {
     std::vector<double> values;
-    for (const EnergyPrior::Inputs& one : inputs) values.push_back(one[input]);
+    for (const LivelyWindow& window : windows) values.push_back(window.inputs[input]);
     std::ranges::sort(values);
     const auto rank = static_cast<size_t>(kRare * static_cast<double>(values.size()));
     measured->least[input] = values[rank];
@@ -62,8 +63,7 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
     const Tensor squares = batch.z.square().mean(1).to(torch::kFloat64).contiguous();
     for (size_t i = 0; i < batch.surprise.size(); ++i) {
       const Eigen::Map<const Eigen::VectorXd> square(
-          squares.data_ptr<double>() + static_cast<ptrdiff_t>(i) * squares.size(1),
-          squares.size(1));
+          squares.data_ptr<double>() + i * squares.size(1), squares.size(1));
       const double surprise = std::log(batch.surprise[i]);
       whole.push_back({surprise, std::log(square.mean())});
       const auto levels = LevelsOf(batch.requests[i], measured.medians);
@@ -113,7 +113,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
   EnergyPrior measured(model.config.styles.size());
   std::vector<double> of_style(model.config.styles.size(), kUsualStyle);
   for (const bool keyed : {true, false}) {
-    const std::vector<LivelyWindow> windows = GatherLively(model, requests, keyed);
+    std::vector<LivelyWindow> windows = GatherLively(model, requests, keyed);
     if (windows.size() < kLeastEnergies) continue;
     const auto count = static_cast<double>(windows.size());
     for (const LivelyWindow& window : windows) {
@@ -121,22 +121,21 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
       measured.usual_way += *window.known.way / count;
       measured.usual_way_in_world += *window.known.way_in_world / count;
     }
-    std::vector<EnergyPrior::Inputs> inputs;
-    for (const LivelyWindow& window : windows) inputs.push_back(measured.Describe(window.known));
+    for (LivelyWindow& window : windows) window.inputs = measured.Describe(window.known);
     using Square = Eigen::Matrix<double, EnergyPrior::kInputs, EnergyPrior::kInputs>;
     Square normal = Square::Identity();  // a little towards zero
     EnergyPrior::Weights right = EnergyPrior::Weights::Zero();
-    for (size_t i = 0; i < inputs.size(); ++i) {
-      normal += inputs[i] * inputs[i].transpose();
-      right += windows[i].levels * inputs[i].transpose();
+    for (const LivelyWindow& window : windows) {
+      normal += window.inputs * window.inputs.transpose();
+      right += window.levels * window.inputs.transpose();
     }
     EnergyPrior::Weights& weights = keyed ? measured.keyed : measured.free;
     weights = normal.ldlt().solve(right.transpose()).transpose();
     Eigen::Matrix<double, kBodyParts, kBodyParts> left = 1e-6 * decltype(left)::Identity();
-    for (size_t i = 0; i < inputs.size(); ++i) {
-      const EnergyPrior::Levels off = windows[i].levels - weights * inputs[i];
+    for (const LivelyWindow& window : windows) {
+      const EnergyPrior::Levels off = window.levels - weights * window.inputs;
       left += off * off.transpose() / count;
-      const int style = windows[i].known.style;
+      const int style = window.known.style;
       if (style < 0) continue;
       measured.styles.col(style) += off;
       ++of_style[style];
@@ -146,12 +145,12 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
     // a logarithm without bound.
     const EnergyPrior::Levels spread = measured.spread.rowwise().squaredNorm();
     EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
-    for (size_t i = 0; i < inputs.size(); ++i) {
-      real.array() += windows[i].levels.array().exp();
-      said.array() += (weights * inputs[i] + 0.5 * spread).array().exp();
+    for (const LivelyWindow& window : windows) {
+      real.array() += window.levels.array().exp();
+      said.array() += (weights * window.inputs + 0.5 * spread).array().exp();
     }
     weights.col(0) += (real.array() / said.array()).log().matrix();
-    if (keyed) MeasureRange(inputs, &measured);
+    if (keyed) MeasureRange(windows, &measured);
   }
   for (size_t i = 0; i < of_style.size(); ++i) measured.styles.col(i) /= of_style[i];
   return measured;

@@ -20,23 +20,24 @@ constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor =
                  kContactFloor = 0.1;
 constexpr double kAudioVarianceFloor = 1e-4;
 
-FlowConfig ConfigOf(const TrainOptions& options, const ClipStore& clips) {
+FlowConfig ConfigOf(const TrainOptions& options, const std::vector<PreparedClip>& clips) {
   FlowConfig config = FlowConfig::Preset(options.preset);
   if (!options.name.empty()) config.name = options.name;
-  config.keys = !options.no_keys;
+  config.keys = !options.flow.no_keys;
   config.key_loss = !options.no_key_loss && config.keys;
-  config.time_embedding = !options.no_time_embedding;
-  config.forward_embedding = options.forward_embedding;
-  config.hears_music = clips.HasMusic();
+  config.time_embedding = !options.flow.no_time_embedding;
+  config.forward_embedding = options.flow.forward_embedding;
+  config.hears_music =
+      std::ranges::any_of(clips, [](const auto& clip) { return clip.audio.cols() > 0; });
   return config;
 }
 
 // Music rows of all clips.
-void NormaliseAudio(const ClipStore& clips, FlowModel* model) {
-  const int width = (*model)->config().audio_features;
+void NormaliseAudio(const std::vector<PreparedClip>& clips, FlowModel& model) {
+  const int width = model->config().audio_features;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(width), square = sum;
   double count = 0;
-  for (const auto& clip : clips.clips()) {
+  for (const auto& clip : clips) {
     sum += clip.audio.cast<double>().rowwise().sum();
     square += clip.audio.cast<double>().array().square().matrix().rowwise().sum();
     count += static_cast<double>(clip.audio.cols());
@@ -48,20 +49,12 @@ void NormaliseAudio(const ClipStore& clips, FlowModel* model) {
     mean[i] = m;
     std[i] = std::sqrt(std::max(kAudioVarianceFloor, square[i] / count - m * m));
   }
-  (*model)->SetAudioNormalisation(mean, std);
+  model->SetAudioNormalisation(mean, std);
 }
 
-// The flow's features. Spreads have floors, so that constant joints can't make the density
-// unbounded.
-void NormaliseFeatures(const std::vector<MotionBatch>& batches, FlowModel* model) {
-  torch::NoGradGuard no_grad;
-  FlowModel& flow = *model;
-  std::vector<torch::Tensor> seen;
-  for (const MotionBatch& batch : batches) {
-    seen.push_back(batch.features.narrow(1, flow->config().history_frames, batch.transition.frames)
-                       .flatten(0, 1));
-  }
-  const torch::Tensor all = torch::cat(seen).to(torch::kCPU);
+// The flow's features, of real motion [frames, width]. Spreads have floors, so that constant joints
+// can't make the density unbounded.
+void NormaliseFeatures(const torch::Tensor& all, FlowModel& flow) {
   const int64_t joints = flow->skeleton().joints(), width = flow->feature_width();
   torch::Tensor floor = torch::full({width}, kRotationFloor);
   floor.narrow(0, 0, 3).fill_(kPositionFloor);
@@ -72,22 +65,20 @@ void NormaliseFeatures(const std::vector<MotionBatch>& batches, FlowModel* model
 
 class FlowRun : public TrainingRun {
  public:
-  FlowRun(const TrainOptions& options, const ClipStore& train, const ClipStore& validation)
-      : TrainingRun(options, train),
-        train_(train),
-        validation_(validation),
-        kinematics_(train.skeleton()),
+  FlowRun(const TrainOptions& options, const TrainingClips& clips)
+      : TrainingRun(options, clips),
+        clips_(clips),
+        kinematics_(clips.train.front().skeleton),
         device_(options.device),
-        model_(ConfigOf(options, train), train.skeleton()) {
+        model_(ConfigOf(options, clips.train), clips.train.front().skeleton) {
     if (options.from.empty()) {
-      NormaliseAudio(train_, &model_);
+      NormaliseAudio(clips.train, model_);
     } else {
       const Safetensors content = ReadSafetensors(options.from);
       StartFrom(ParseCheckpoint(content, options.from.string()));
       ImportTensors(content, "", model_.get());
     }
     model_->to(device_);
-    NameLosses(LossTermNames());
     Open(model_.get());
   }
 
@@ -98,15 +89,17 @@ class FlowRun : public TrainingRun {
     torch::NoGradGuard no_grad;
     torch::manual_seed(options().seed + 13);
     model_->eval();
-    std::vector<MotionBatch> batches;
+    std::vector<torch::Tensor> seen;
+    MotionBatch batch;
     for (int i = 0; i < kNormalisationBatches; ++i) {
       Random random(options().seed + 7, static_cast<uint32_t>(i + 1));
-      batches.push_back(Draw(&random, options().rollout_frames + (i % 3) * 20));
+      batch = Draw(&random, options().flow.rollout_frames + (i % 3) * 20);
+      const int history = model_->config().history_frames;
+      seen.push_back(batch.features.narrow(1, history, batch.transition.frames).flatten(0, 1));
     }
-    NormaliseFeatures(batches, &model_);
-    const MotionBatch& last = batches.back();
-    model_->InitialiseActNorm(Dequantise(model_, last.features), last.audio, last.has_audio,
-                              model_->Begin(last.transition));
+    NormaliseFeatures(torch::cat(seen).to(torch::kCPU), model_);
+    model_->InitialiseActNorm(Dequantise(model_, batch.features), batch.audio, batch.has_audio,
+                              model_->Begin(batch.transition));
   }
 
   void TrainStep() override {
@@ -136,7 +129,7 @@ class FlowRun : public TrainingRun {
     for (const int frames : kValidationLengths) {
       Random random(20240607, static_cast<uint32_t>(frames));
       const MotionBatch batch =
-          validation_.Draw(kValidationWindows, history, frames, {}, &random).To(device_);
+          DrawMotion(clips_.validation, kValidationWindows, history, frames, {}, device_, &random);
       const torch::Tensor condition = model_->Begin(batch.transition);
       const auto distance = [&](const TrajectoryTensors& poses, const TrajectoryTensors& truth) {
         return JointDistance(kinematics_, poses, truth).mean().item<double>();
@@ -178,28 +171,27 @@ class FlowRun : public TrainingRun {
   MotionBatch Draw(Random* random, int frames) const {
     const int windows = WindowsOf(options().batch, frames);
     const bool keys = model_->config().keys;
-    const ClipStore::Variation variation{.mirror = true,
-                                         .drop_key = keys ? 0.1 : 1.0,
-                                         .drop_audio = 0.15,
-                                         .partial_key = keys ? 0.1 : 0.0,
-                                         .hold_history = 0.05};
-    return train_.Draw(windows, model_->config().history_frames, frames, variation, random)
-        .To(device_);
+    const MotionVariation variation{.mirror = true,
+                                    .drop_key = keys ? 0.1 : 1.0,
+                                    .drop_audio = 0.15,
+                                    .partial_key = keys ? 0.1 : 0.0,
+                                    .hold_history = 0.05};
+    return DrawMotion(clips_.train, windows, model_->config().history_frames, frames, variation,
+                      device_, random);
   }
 
   // Longer than gamma too: a flow that was only ever unrolled over 30 frames may drift off beyond
   // them.
   MotionBatch DrawRollout(Random* random) const {
-    const int gamma = options().rollout_frames;
+    const int gamma = options().flow.rollout_frames;
     const int frames = static_cast<int>(random->Integer(
         std::max(2, gamma / 2), std::max(gamma, std::min(3 * gamma, options().longest)) + 1));
-    return train_
-        .Draw(std::max(4, options().batch / 4 * gamma / frames), model_->config().history_frames,
-              frames, {.mirror = true, .drop_audio = 0.15}, random)
-        .To(device_);
+    return DrawMotion(clips_.train, std::max(4, options().batch / 4 * gamma / frames),
+                      model_->config().history_frames, frames, {.mirror = true, .drop_audio = 0.15},
+                      device_, random);
   }
 
-  const ClipStore &train_, &validation_;
+  const TrainingClips& clips_;
   TorchKinematics kinematics_;
   torch::Device device_;
   FlowModel model_;

@@ -24,17 +24,17 @@ using Span = std::pair<int, int>;  // first, last frame to make anew
 // branch.
 std::vector<int> LimbOfJoint(const Skeleton& skeleton) {
   std::vector<int> children(skeleton.joints(), 0);
-  for (int joint = 1; joint < skeleton.joints(); ++joint) ++children[skeleton.parents[joint]];
-  std::vector<bool> branches_below(skeleton.joints(), false);
-  for (int joint = skeleton.joints() - 1; joint > 0; --joint) {
-    if (children[joint] >= 3 || branches_below[joint])
-      branches_below[skeleton.parents[joint]] = true;
+  std::vector<bool> trunk(skeleton.joints(), false);
+  for (int joint = skeleton.joints() - 1; joint > 0; --joint) {  // children before their parents
+    const int parent = skeleton.parents[joint];
+    ++children[parent];
+    if (children[joint] >= 3) trunk[joint] = true;
+    if (trunk[joint]) trunk[parent] = true;
   }
   std::vector<int> limb(skeleton.joints(), -1);
   for (int joint = 1; joint < skeleton.joints(); ++joint) {
     const int parent = skeleton.parents[joint];
-    const bool trunk = children[joint] >= 3 || branches_below[joint];
-    if (!trunk) limb[joint] = limb[parent] >= 0 ? limb[parent] : joint;
+    if (!trunk[joint]) limb[joint] = limb[parent] >= 0 ? limb[parent] : joint;
   }
   return limb;
 }
@@ -134,7 +134,7 @@ std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion) {
       if (jolt.first - margin < 1 || jolt.second + margin >= frames) cut(jolt);
     }
   }
-  std::sort(breaks.begin(), breaks.end());
+  std::ranges::sort(breaks);
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   return breaks;
 }

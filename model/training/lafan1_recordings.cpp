@@ -36,7 +36,7 @@ std::map<std::string, Take> FindTakes(const fs::path& input) {
 void CheckJoints(const PositionClip& clip, const std::string& file) {
   const auto& known = Lafan1JointNames();
   for (const std::string& name : known) {
-    if (FindJoint(clip, name) < 0) {
+    if (IndexOf(clip.joint_names, name) < 0) {
       throw InvalidArgument(file, "has no joint " + name + ", which LAFAN1 has");
     }
   }
@@ -60,7 +60,7 @@ const std::vector<std::string>& Lafan1JointNames() {
 std::vector<RecordingSource> ListLafan1Recordings(const PrepareOptions& options) {
   std::vector<RecordingSource> sources;
   for (const auto& [name, take] : FindTakes(options.input)) {
-    sources.push_back({name, [name, take, options] {
+    sources.push_back({name, [name = name, take = take, options] {
                          Recording recording = ReadBvhRecording(take.path, name, options);
                          CheckJoints(recording.positions, take.path.string());
                          recording.genre = take.theme;

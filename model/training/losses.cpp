@@ -8,9 +8,6 @@ using torch::Tensor;
 
 namespace {
 
-constexpr const char *kLikelihood = "nll_nats_per_dim", *kKeyPose = "key_pose_dm",
-                     *kWay = "rollout_dm", *kContacts = "contact_l1";
-
 // Standard deviation of the dequantisation noise, in units of each feature's own spread.
 constexpr double kDequantisation = 0.05;
 
@@ -32,15 +29,10 @@ Tensor Dequantise(FlowModel& model, const Tensor& features) {
   return features + kDequantisation * spread * torch::randn_like(features);
 }
 
-const std::vector<std::string>& LossTermNames() {
-  static const std::vector<std::string> names = {kLikelihood, kKeyPose, kWay, kContacts};
-  return names;
-}
-
 LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
                          const Tensor& static_condition) {
-  const Tensor features = model->is_training() ? Dequantise(model, batch.features) : batch.features;
-  return {{kLikelihood, 1.0,
+  const Tensor features = Dequantise(model, batch.features);
+  return {{"nll_nats_per_dim", 1.0,
            -model->LogLikelihood(features, batch.audio, batch.has_audio, static_condition).mean() /
                model->feature_width()}};
 }
@@ -65,7 +57,7 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
           .abs()
           .mean();
   const Tensor way = kDecimetresPerMetre * JointDistance(kinematics, poses, batch.truth).mean();
-  return {{kKeyPose, 0.5, key}, {kWay, 0.5, way}, {kContacts, 0.1, feet}};
+  return {{"key_pose_dm", 0.5, key}, {"rollout_dm", 0.5, way}, {"contact_l1", 0.1, feet}};
 }
 
 TrajectoryTensors LastFrame(const TrajectoryTensors& poses) {

@@ -2,12 +2,11 @@
 
 #include <torch/types.h>
 
-#include <string>
 #include <vector>
 
 #include "model/flow/flow_model.h"
 #include "model/flow/torch_kinematics.h"
-#include "model/training/clip_store.h"
+#include "model/training/motion_batch.h"
 
 /// Training losses. Units and reductions are part of the definition: metres summed beside nats
 /// would vanish.
@@ -24,15 +23,11 @@ struct LossTerm {
 };
 using LossTerms = std::vector<LossTerm>;
 
-/// Every term's name, in the order of a run's curves.
-const std::vector<std::string>& LossTermNames();
-
 /// Features plus noise of a twentieth of their spread, so that binary contacts, derived velocities
 /// and joints that never move can't make the density unbounded.
 torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features);
 
-/// L_flows of one batch (Eq. 6), nats a dimension, mean over frames; of dequantised features while
-/// training.
+/// L_flows of one batch (Eq. 6), nats a dimension, mean over frames; of dequantised features.
 LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
                          const torch::Tensor& static_condition);
 

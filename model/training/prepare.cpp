@@ -1,11 +1,13 @@
 #include "model/training/prepare.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <memory>
 #include <thread>
+#include <utility>
 
 #include "model/audio/decode.h"
 #include "model/audio/feature_stream.h"
@@ -28,56 +30,52 @@ using nlohmann::json;
 constexpr double kModelFps = 30;
 constexpr double kTopSpeed = 15;  // m/s of any joint; faster is a defect of the recording
 constexpr int kShortestFrames = 60;
-constexpr size_t kLongestCalibration = 6;  // frames
-constexpr double kMusicSlack = 0.5;        // s by which music may be shorter than its dance
+constexpr int kLongestCalibration = 6;  // frames
+constexpr double kMusicSlack = 0.5;     // s by which music may be shorter than its dance
 
-// The longest run of frames in which no joint jumps. What lies outside is cut.
-std::pair<size_t, size_t> LongestCleanRun(const PositionClip& clip) {
-  size_t best_begin = 0, best_end = 0, begin = 0;
-  for (size_t f = 1; f <= clip.frames.size(); ++f) {
-    const bool breaks =
-        f == clip.frames.size() ||
-        (clip.frames[f] - clip.frames[f - 1]).colwise().norm().maxCoeff() * clip.fps > kTopSpeed;
-    if (!breaks) continue;
-    if (f - begin > best_end - best_begin) {
-      best_begin = begin;
-      best_end = f;
-    }
-    begin = f;
+// The frames, but for the first, to which a joint jumps from the one before.
+std::vector<int> FindJumps(const PositionClip& clip) {
+  std::vector<int> jumps;
+  for (int f = 1; f < std::ssize(clip.frames); ++f) {
+    const double step = (clip.frames[f] - clip.frames[f - 1]).colwise().norm().maxCoeff();
+    if (step * clip.fps > kTopSpeed) jumps.push_back(f);
   }
-  return {best_begin, best_end};
+  return jumps;
+}
+
+// The longest run of so many frames that are cut at `ends`: its first, and the one behind its last.
+std::pair<int, int> LongestRun(std::vector<int> ends, int frames) {
+  ends.push_back(frames);
+  std::pair<int, int> longest;
+  int begin = 0;
+  for (const int end : ends) {
+    if (end - begin > longest.second - longest.first) longest = {begin, end};
+    begin = end;
+  }
+  return longest;
 }
 
 // Many recordings begin with a calibration pose, a frame or two from which the dancer jumps into
 // the dance: the first frame that is dance.
-size_t SkipCalibration(const PositionClip& clip) {
-  size_t begin = 0;
-  for (size_t f = 1; f <= kLongestCalibration && f < clip.frames.size(); ++f) {
-    const double step = (clip.frames[f] - clip.frames[f - 1]).colwise().norm().maxCoeff();
-    if (step * clip.fps > kTopSpeed) begin = f;
+int SkipCalibration(const PositionClip& clip) {
+  int begin = 0;
+  for (const int jump : FindJumps(clip)) {
+    if (jump <= kLongestCalibration) begin = jump;
   }
   return begin;
 }
 
 // Cuts a fitted motion at the frames where the body snaps; returns how many frames that cost.
-size_t KeepLongestRun(const Skeleton& skeleton, Motion& motion, double& skipped_s, json& warnings) {
-  std::vector<int> ends = FindBreaks(skeleton, motion);
-  if (ends.empty()) return 0;
-  ends.push_back(static_cast<int>(motion.frames.size()));
-  int begin = 0, best = 0, longest = 0;
-  for (const int end : ends) {
-    if (end - begin > longest) {
-      best = begin;
-      longest = end - begin;
-    }
-    begin = end;
-  }
-  const size_t all = motion.frames.size();
-  motion.frames = {motion.frames.begin() + best, motion.frames.begin() + best + longest};
-  skipped_s += best / motion.fps;
-  warnings.push_back("the body snaps: kept frames " + std::to_string(best) + " to " +
-                     std::to_string(best + longest - 1) + " of " + std::to_string(all));
-  return all - motion.frames.size();
+int KeepLongestRun(const Skeleton& skeleton, Motion& motion, double& skipped_s, json& warnings) {
+  const std::vector<int> breaks = FindBreaks(skeleton, motion);
+  if (breaks.empty()) return 0;
+  const auto all = static_cast<int>(motion.frames.size());
+  const auto [begin, end] = LongestRun(breaks, all);
+  motion.frames = {motion.frames.begin() + begin, motion.frames.begin() + end};
+  skipped_s += begin / motion.fps;
+  warnings.push_back("the body snaps: kept frames " + std::to_string(begin) + " to " +
+                     std::to_string(end - 1) + " of " + std::to_string(all));
+  return all - (end - begin);
 }
 
 // MFCC rows of the motion's frames; the recording's first frame plays at music_start_s.
@@ -87,8 +85,7 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
   FeatureStream stream(audio.sample_rate, audio.channels);
   stream.Push(audio.interleaved);
   stream.Finish();
-  const auto first =
-      static_cast<int64_t>(std::lround((recording.music_start_s + skipped_s) * kModelFps));
+  const int64_t first = std::lround((recording.music_start_s + skipped_s) * kModelFps);
   const double missing_s =
       (static_cast<double>(first) + static_cast<double>(frames)) / kModelFps - audio.seconds();
   if (missing_s > kMusicSlack) {
@@ -102,24 +99,12 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
   return rows;
 }
 
-void NoteBeats(const BeatGrid& grid, std::map<std::string, std::string>& notes) {
-  notes["beat_period_s"] = json(grid.period_s).dump();
-  notes["beat_offset_s"] = json(grid.offset_s).dump();
-  notes["beats_per_bar"] = json(grid.per_bar).dump();
-}
-
-struct Prepared {
-  PreparedClip clip;
-  json report;
-};
-
-Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
+// The clip and what is reported of it.
+std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
+                                         const PrepareOptions& options) {
+  const Recording recording = source.read();
   const Skeleton& skeleton = recording.skeleton;
-  Prepared result;
-  json& report = result.report;
-  report["name"] = recording.name;
-  report["skeleton"] = skeleton.name;
-  report["warnings"] = json::array();
+  json report = {{"name", source.name}, {"skeleton", skeleton.name}, {"warnings", json::array()}};
   json& warnings = report["warnings"];
   double skipped_s = 0;
   Motion motion;
@@ -130,12 +115,13 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   } else {
     PositionClip clip = recording.positions;
     ValidateClip(clip);
-    const size_t calibration = SkipCalibration(clip);
+    const int calibration = SkipCalibration(clip);
     clip.frames.erase(clip.frames.begin(), clip.frames.begin() + calibration);
-    int replaced = 0;
-    clip = RemoveSpikes(clip, kTopSpeed, 6, &replaced);
-    const auto [begin, end] = LongestCleanRun(clip);
-    size_t cut = calibration + clip.frames.size() - (end - begin);
+    const int replaced = RemoveSpikes(kTopSpeed, 6, clip);
+    // What lies outside of the longest run in which no joint jumps is cut.
+    const auto all = static_cast<int>(clip.frames.size());
+    const auto [begin, end] = LongestRun(FindJumps(clip), all);
+    int cut = calibration + all - (end - begin);
     if (cut > calibration) {
       warnings.push_back("a joint jumps: kept frames " + std::to_string(calibration + begin) +
                          " to " + std::to_string(calibration + end - 1));
@@ -146,7 +132,7 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
     if (recording.tilted_floor) {
       std::vector<int> feet;
       for (const std::string& joint : recording.mapping.feet)
-        feet.push_back(FindJoint(clip, joint));
+        feet.push_back(IndexOf(clip.joint_names, joint));
       const FloorPlane plane = FitFloorPlane(clip, feet);
       report["floor_slope"] = std::hypot(plane.slope_x, plane.slope_z);
       clip = RemoveHeightDrift(LevelFloor(clip, plane), feet);
@@ -158,23 +144,23 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
     const LimbRepair limbs = RepairLimbs(skeleton, motion);
     report["limb_frames_repaired"] = limbs.frames;
     if (limbs.left > 0) warnings.push_back(std::to_string(limbs.left) + " snapping limbs left");
-    report["fit_error_m"] = fit.report.mean_error_m;
-    report["fit_p95_m"] = fit.report.p95_error_m;
-    report["scale"] = fit.report.scale;
-    report["ground_shift_m"] = fit.report.ground_shift_m;
+    report["fit_error_m"] = fit.mean_error_m;
+    report["fit_p95_m"] = fit.p95_error_m;
+    report["scale"] = fit.scale;
+    report["ground_shift_m"] = fit.ground_shift_m;
     report["spikes_repaired"] = replaced;
     report["frames_cut"] = cut;
   }
   if (motion.frames.size() < kShortestFrames) {
-    throw InvalidArgument(recording.name, std::to_string(motion.frames.size()) +
-                                              " usable frames, but at least " +
-                                              std::to_string(kShortestFrames) + " are needed");
+    throw InvalidArgument(source.name, std::to_string(motion.frames.size()) +
+                                           " usable frames, but at least " +
+                                           std::to_string(kShortestFrames) + " are needed");
   }
   report["frames"] = motion.frames.size();
   report["time_scale"] = recording.time_scale;
 
-  PreparedClip& clip = result.clip;
-  clip.name = recording.name;
+  PreparedClip clip;
+  clip.name = source.name;
   clip.source = options.layout;
   clip.skeleton = skeleton;
   const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
@@ -191,8 +177,13 @@ Prepared PrepareOne(const Recording& recording, const PrepareOptions& options) {
   clip.motion = std::move(motion);
   clip.notes = {{"terms", options.terms}, {"preparation", report.dump()}};
   if (!recording.genre.empty()) clip.notes["genre"] = recording.genre;
-  if (recording.beats) NoteBeats(Skip(*recording.beats, skipped_s), clip.notes);
-  return result;
+  if (recording.beats) {
+    const BeatGrid grid = Skip(*recording.beats, skipped_s);
+    clip.notes["beat_period_s"] = json(grid.period_s).dump();
+    clip.notes["beat_offset_s"] = json(grid.offset_s).dump();
+    clip.notes["beats_per_bar"] = json(grid.per_bar).dump();
+  }
+  return {std::move(clip), std::move(report)};
 }
 
 }  // namespace
@@ -206,26 +197,24 @@ int Prepare(const PrepareOptions& options) {
   }
   std::vector<json> reports(sources.size());
   std::atomic<size_t> next = 0;
-  {
-    ProgressBar progress("prepare " + options.layout, static_cast<int64_t>(sources.size()));
-    const auto work = [&] {
-      for (size_t i = next++; i < sources.size(); i = next++) {
-        try {
-          Prepared prepared = PrepareOne(sources[i].read(), options);
-          WritePreparedClip(options.output, prepared.clip);
-          reports[i] = std::move(prepared.report);
-        } catch (const std::exception& error) {
-          reports[i] = {{"name", sources[i].name}, {"skipped", error.what()}};
-        }
-        progress.Advance(1, sources[i].name);
+  ProgressBar progress("prepare " + options.layout, static_cast<int64_t>(sources.size()));
+  const auto work = [&] {
+    for (size_t i = next++; i < sources.size(); i = next++) {
+      try {
+        auto [clip, report] = PrepareOne(sources[i], options);
+        WritePreparedClip(options.output, clip);
+        reports[i] = std::move(report);
+      } catch (const std::exception& error) {
+        reports[i] = {{"name", sources[i].name}, {"skipped", error.what()}};
       }
-    };
-    {
-      std::vector<std::jthread> workers;
-      for (int i = 0; i < options.jobs; ++i) workers.emplace_back(work);
+      progress.Advance(1, sources[i].name);
     }
-    progress.Finish();
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int i = 0; i < options.jobs; ++i) workers.emplace_back(work);
   }
+  progress.Finish();
 
   int prepared = 0;
   double frames = 0, error = 0;
@@ -257,6 +246,33 @@ int Prepare(const PrepareOptions& options) {
   }
   WriteFile(options.output / "report.json", json(reports).dump(1) + "\n");
   return prepared;
+}
+
+void AddPrepareCommand(CLI::App& app) {
+  auto options = std::make_shared<PrepareOptions>();
+  CLI::App* command = app.add_subcommand("prepare", "Turn recordings into training clips");
+  command->add_option("layout", options->layout, "tang2018 | tang61 | bvh | amass | aist | lafan1")
+      ->required()
+      ->check(CLI::IsMember({"tang2018", "tang61", "bvh", "amass", "aist", "lafan1"}));
+  command->add_option("input", options->input, "Folder of recordings")->required();
+  command->add_option("output", options->output, "Folder for the clips")->required();
+  command->add_option(
+      "--frame-rate", options->frame_rates,
+      "PREFIX FPS: the true rate of clips whose header is wrong (cmu_dance: salsa 60)");
+  command->add_option("--time-scale", options->time_scales,
+                      "PREFIX FACTOR: stretch these clips in time");
+  command->add_flag("--native-skeleton", options->native_skeleton,
+                    "tang2018: fit a skeleton of the data's own 23 joints instead of SMPL's 24");
+  command->add_option("--terms", options->terms, "Terms of use, kept with every clip")
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Clips at once")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command->callback([options] {
+    if (Prepare(*options) == 0)
+      throw Error(ErrorCode::kInvalidArgument, options->input.string(),
+                  "no clip could be prepared");
+  });
 }
 
 }  // namespace choreo

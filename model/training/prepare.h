@@ -5,6 +5,10 @@
 #include <utility>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace choreo {
 
 /// Raw recordings → prepared clips (prepared_clip.h): the corrections that each layout needs, 30
@@ -31,5 +35,8 @@ struct PrepareOptions {
 /// named with its reason and skipped. Returns the number of prepared clips. Throws Error where the
 /// input has nothing of the layout, or a native skeleton is asked of a layout that has none.
 int Prepare(const PrepareOptions& options);
+
+/// `choreo-lab prepare`.
+void AddPrepareCommand(CLI::App& app);
 
 }  // namespace choreo

@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 
@@ -127,6 +128,29 @@ std::string HashOfClips(std::span<const PreparedClip> clips, std::string_view be
   char hex[17];
   std::snprintf(hex, sizeof(hex), "%016llx", static_cast<unsigned long long>(hash));
   return hex;
+}
+
+std::string StyleOf(const std::string& clip_name) {
+  static const std::map<std::string, std::string> kStyles = {
+      {"afraid", "afraid"},       {"angry", "angry"},     {"annoyed", "annoyed"},
+      {"bored", "bored"},         {"excited", "excited"}, {"happy", "happy"},
+      {"miserable", "miserable"}, {"active", "active"},   {"neutral", "neutral"},
+      {"pleased", "pleased"},     {"relaxed", "relaxed"}, {"sad", "sad"},
+      {"satisfied", "satisfied"}, {"tired", "tired"},     {"salsa", "salsa"},
+      {"indian", "indian"},       {"martial", "martial"}, {"w", "waltz"},
+      {"c", "cha-cha"},           {"r", "rumba"},         {"t", "tango"},
+      {"nervous", "nervous"},     {"scary", "scary"},     {"005", "modern"},
+      {"aachan", "pop"},          {"kashiyuka", "pop"},   {"nocchi", "pop"}};
+  std::string word;
+  for (const char c : clip_name + "_") {
+    if (c != '_') {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      continue;
+    }
+    if (const auto found = kStyles.find(word); found != kStyles.end()) return found->second;
+    word.clear();
+  }
+  return "";
 }
 
 }  // namespace choreo

@@ -42,4 +42,8 @@ std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path
 /// motion encoder. `before` is hashed in front: settings, or the hash of other clips.
 std::string HashOfClips(std::span<const PreparedClip> clips, std::string_view before = {});
 
+/// What a clip's name says of how it is danced, as in Sophie_Afraid_v2 (afraid) or DANCE_W_12
+/// (waltz): the mood or genre as requests name it; "" where it says nothing.
+std::string StyleOf(const std::string& clip_name);
+
 }  // namespace choreo

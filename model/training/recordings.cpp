@@ -5,7 +5,6 @@
 
 #include "model/core/error.h"
 #include "model/fit/bone_normaliser.h"
-#include "model/fit/bvh_source.h"
 #include "model/fit/tang2018_skeleton.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
@@ -14,13 +13,6 @@ namespace choreo {
 namespace {
 
 namespace fs = std::filesystem;
-
-Recording ReadAmassRecording(const fs::path& path, const std::string& name) {
-  Recording recording;
-  recording.name = name;
-  recording.motion = ReadSmplMotion(NpzArchive::Read(path));
-  return recording;
-}
 
 // Sources that are fitted to the skeleton of them all. Recordings that can't be read are left out
 // here, and named when it is their turn.
@@ -52,7 +44,6 @@ std::vector<RecordingSource> OnNativeSkeleton(const std::vector<RecordingSource>
 Recording ReadBvhRecording(const std::filesystem::path& path, const std::string& name,
                            const PrepareOptions& options) {
   Recording recording;
-  recording.name = name;
   const BvhFile bvh = ReadBvh(path);
   recording.positions = BvhToPositions(bvh, 1.0);
   recording.positions.fps = ForClip(options.frame_rates, name, bvh.fps());
@@ -69,7 +60,7 @@ Recording ReadBvhRecording(const std::filesystem::path& path, const std::string&
 double ForClip(const std::vector<std::pair<std::string, double>>& values, const std::string& name,
                double otherwise) {
   for (const auto& [prefix, value] : values) {
-    if (name.rfind(prefix, 0) == 0) return value;
+    if (name.starts_with(prefix)) return value;
   }
   return otherwise;
 }
@@ -107,18 +98,19 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
       sources.push_back({name, [=] { return ReadBvhRecording(path, name, options); }});
     } else if (options.layout == "amass" && path.extension() == ".npz") {
       const std::string name = path.parent_path().filename().string() + "_" + path.stem().string();
-      sources.push_back({name, [=] { return ReadAmassRecording(path, name); }});
+      sources.push_back({name, [=] {
+                           Recording recording;
+                           recording.motion = ReadSmplMotion(NpzArchive::Read(path));
+                           return recording;
+                         }});
     }
   }
   if (sources.empty()) {
     throw Error(ErrorCode::kNotFound, options.input.string(),
                 "nothing of layout '" + options.layout + "' here");
   }
-  std::sort(sources.begin(), sources.end(),
-            [](const auto& a, const auto& b) { return a.name < b.name; });
-  const auto twice =
-      std::adjacent_find(sources.begin(), sources.end(),
-                         [](const auto& a, const auto& b) { return a.name == b.name; });
+  std::ranges::sort(sources, {}, &RecordingSource::name);
+  const auto twice = std::ranges::adjacent_find(sources, {}, &RecordingSource::name);
   if (twice != sources.end()) {
     throw InvalidArgument(options.input.string(),
                           "two recordings would both become '" + twice->name + ".clip'");

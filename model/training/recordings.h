@@ -20,7 +20,6 @@ namespace choreo {
 /// One recording, read but not corrected. Positions for the layouts without rotations, `motion` for
 /// those with SMPL rotations.
 struct Recording {
-  std::string name;
   std::string genre;  ///< kept with the clip; empty: not stated
   PositionClip positions;
   std::optional<Motion> motion;

@@ -36,43 +36,29 @@ fs::path MusicOf(fs::path path) {
 
 bool IsWaltz(const std::string& name) { return name.starts_with("DANCE_W"); }
 
-// Joint j of frame f stands at place(f, j).
-PositionClip Positions(const std::vector<std::string>& names, int64_t frames,
-                       const std::function<Eigen::Vector3d(int64_t, int)>& place) {
-  PositionClip clip;
-  clip.fps = kFps;
-  clip.joint_names = names;
-  const auto joints = static_cast<int>(names.size());
-  for (int64_t f = 0; f < frames; ++f) {
-    Eigen::Matrix3Xd positions(3, joints);
-    for (int j = 0; j < joints; ++j) positions.col(j) = place(f, j);
-    clip.frames.push_back(positions * kMetresPerUnit);
-  }
-  return clip;
+using Frames = std::vector<Eigen::Matrix3Xd>;
+
+PositionClip InMetres(const std::vector<std::string>& names, Frames frames) {
+  for (Eigen::Matrix3Xd& frame : frames) frame *= kMetresPerUnit;
+  return {.fps = kFps, .joint_names = names, .frames = std::move(frames)};
 }
 
-// The rows of a file of shape [frames, rows, 3].
-struct Rows {
-  int64_t frames;
-  int rows;
-  std::vector<double> values;
-  Eigen::Vector3d operator()(int64_t frame, int row) const {
-    return Eigen::Vector3d(values.data() + (frame * rows + row) * 3);
-  }
-};
-
-Rows ReadRows(const fs::path& path, int rows) {
+// Of a file of shape [frames, rows, 3]: each [3, rows].
+Frames ReadRows(const fs::path& path, int rows) {
   const NpyArray array = ReadNpy(path);
   if (array.shape.size() != 3 || array.shape[1] != rows || array.shape[2] != 3) {
     throw InvalidArgument(path.string(),
                           "its shape is not [frames, " + std::to_string(rows) + ", 3]");
   }
-  return {array.shape[0], rows, array.As<double>()};
+  const std::vector<double> values = array.As<double>();
+  Frames frames;
+  for (int64_t f = 0; f < array.shape[0]; ++f)
+    frames.emplace_back(Eigen::Map<const Eigen::Matrix3Xd>(values.data() + 3 * rows * f, 3, rows));
+  return frames;
 }
 
-Recording Tang(const std::string& name, SourceMapping mapping, double time_scale) {
+Recording Tang(SourceMapping mapping, double time_scale) {
   Recording recording;
-  recording.name = name;
   recording.mapping = std::move(mapping);
   recording.tilted_floor = true;
   recording.expects_music = true;
@@ -83,18 +69,17 @@ Recording Tang(const std::string& name, SourceMapping mapping, double time_scale
 
 Recording Tang2018(const std::string& name, const PrepareOptions& options) {
   const bool locked = IsWaltz(name) || name.starts_with("DANCE_R");
-  return Tang(name, Tang2018Source(),
-              ForClip(options.time_scales, name, locked ? kTimeScale : 1.0));
+  return Tang(Tang2018Source(), ForClip(options.time_scales, name, locked ? kTimeScale : 1.0));
 }
 
 }  // namespace
 
 Recording ReadTang2018Npy(const fs::path& path, const PrepareOptions& options) {
   Recording recording = Tang2018(path.stem().string(), options);
-  const Rows rows = ReadRows(path, 1 + static_cast<int>(Tang2018JointNames().size()));
-  recording.positions =
-      Positions(Tang2018JointNames(), rows.frames,
-                [&](int64_t f, int j) -> Eigen::Vector3d { return rows(f, 0) + rows(f, j + 1); });
+  Frames frames = ReadRows(path, 1 + static_cast<int>(Tang2018JointNames().size()));
+  for (Eigen::Matrix3Xd& frame : frames)
+    frame = (frame.rightCols(frame.cols() - 1).colwise() + frame.col(0)).eval();
+  recording.positions = InMetres(Tang2018JointNames(), std::move(frames));
   recording.music = MusicOf(path);
   return recording;
 }
@@ -112,12 +97,13 @@ Recording ReadTang2018Folder(const fs::path& folder, const PrepareOptions& optio
   const auto point = [](const json& p) {
     return Eigen::Vector3d(p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>());
   };
-  recording.positions = Positions(
-      Tang2018JointNames(), static_cast<int64_t>(std::min(center.size(), joints.size())),
-      [&](int64_t f, int j) -> Eigen::Vector3d {
-        const auto frame = static_cast<size_t>(f);
-        return point(center.at(frame)) + point(joints.at(frame).at(static_cast<size_t>(j)));
-      });
+  Frames frames(std::min(center.size(), joints.size()),
+                Eigen::Matrix3Xd(3, Tang2018JointNames().size()));
+  for (size_t f = 0; f < frames.size(); ++f) {
+    for (Eigen::Index j = 0; j < frames[f].cols(); ++j)
+      frames[f].col(j) = point(center.at(f)) + point(joints.at(f).at(j));
+  }
+  recording.positions = InMetres(Tang2018JointNames(), std::move(frames));
   recording.music = MusicOf(folder / "audio");
   recording.music_start_s = load(folder / "config.json").at("start_position").get<double>() / kFps;
   return recording;
@@ -125,9 +111,9 @@ Recording ReadTang2018Folder(const fs::path& folder, const PrepareOptions& optio
 
 Recording ReadTang61(const fs::path& path, const PrepareOptions& options) {
   const std::string name = path.stem().string();
-  Recording recording = Tang(name, Tang61Source(), ForClip(options.time_scales, name, 1.0));
-  const Rows rows = ReadRows(path, static_cast<int>(Tang61JointNames().size()));
-  recording.positions = Positions(Tang61JointNames(), rows.frames, rows);
+  Recording recording = Tang(Tang61Source(), ForClip(options.time_scales, name, 1.0));
+  recording.positions =
+      InMetres(Tang61JointNames(), ReadRows(path, static_cast<int>(Tang61JointNames().size())));
   recording.music = MusicOf(path);
   const Metre& metre = IsWaltz(name) ? kWaltz : kFourFour;
   if (SpeedPowerAt(recording.positions, metre.pulse_frames / kFps) >= kLeastBeatPower) {

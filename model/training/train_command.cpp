@@ -1,10 +1,10 @@
-#include "model/training/train_command.h"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <sstream>
 #include <string_view>
+#include <type_traits>
 
 #include "model/controllers/controllers_config.h"
 #include "model/core/error.h"
@@ -13,13 +13,82 @@
 namespace choreo {
 namespace {
 
-constexpr const char* kContinuous = "default";
-constexpr std::string_view kPresets[] = {kContinuous, "paper", "ablation",
+constexpr std::string_view kPresets[] = {"default", "paper", "ablation",
                                          ControllersConfig::kPreset};
+
+// Calls `visit(option, value, is_used, what)` of each option, --preset and --from aside, that a
+// run must keep; `is_used`: the preset's network has a use for it.
+void VisitFixed(auto& options, const auto& visit) {
+  const bool controllers = options.IsControllers(), continuous = options.IsContinuousFlow();
+  const bool flow = !controllers && !continuous;
+  visit("--steps", options.steps, true, "Steps of the run");
+  visit("--batch", options.batch, true, "Windows a step");
+  visit("--rate", options.rate, true, "Peak learning rate");
+  visit("--shortest", options.shortest, !continuous, "Shortest training transition, frames");
+  visit("--longest", options.longest, !continuous, "Longest training transition, frames");
+  visit("--rollout-frames", options.flow.rollout_frames, flow,
+        "Frames of the roll-out that a flow's key loss samples");
+  visit("--tempo", options.continuous_flow.tempo, continuous,
+        "Share of the windows that are danced faster or slower (preset default)");
+  visit("--seed", options.seed, true, "Same seed, data and machine: same checkpoint");
+  visit("--no-keys", options.flow.no_keys, flow, "Ablation: music alone");
+  visit("--no-key-loss", options.no_key_loss, !continuous, "Ablation: no key pose loss");
+  visit("--no-time-embedding", options.flow.no_time_embedding, flow, "Ablation: no time embedding");
+  visit("--forward-embedding", options.flow.forward_embedding, flow,
+        "Ablation: count frames from the start, not frames left");
+  visit("--one-lstm", options.controllers.one_lstm, controllers, "Ablation of controllers");
+  visit("--condition-fc", options.controllers.condition_fc, controllers,
+        "Ablation of controllers: fully connected instead of transformers");
+  visit("--one-decoder", options.controllers.one_decoder, controllers, "Ablation of controllers");
+  visit("--no-velocity-factors", options.controllers.no_velocity_factors, controllers,
+        "Ablation of controllers");
+}
 
 }  // namespace
 
-void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
+std::string TrainOptions::Command() const {
+  std::ostringstream command;
+  command << "choreo-lab train";
+  for (const auto& folder : data) command << " --data " << folder.filename().string();
+  command << " --splits " << splits.filename().string() << ' ' << Fixed();
+  if (!name.empty()) command << " --name " << name;
+  return command.str();
+}
+
+std::string TrainOptions::Fixed() const {
+  std::ostringstream text;
+  text << "--preset " << preset;
+  VisitFixed(*this, [&](const char* option, const auto& value, bool, const char*) {
+    if constexpr (!std::is_same_v<decltype(value), const bool&>) {
+      text << ' ' << option << ' ' << value;
+    } else if (value) {
+      text << ' ' << option;
+    }
+  });
+  if (!from.empty()) text << " --from " << from.filename().string();
+  return text.str();
+}
+
+void TrainOptions::Validate() const {
+  const auto require = [](bool good, const char* option, const std::string& value,
+                          const char* limit) {
+    if (!good) throw InvalidArgument(option, value + ", but it must be " + limit);
+  };
+  require(name.size() <= 64, "--name", name, "at most 64 bytes");
+  require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
+  require(steps >= 1, "--steps", std::to_string(steps), "at least 1");
+  require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");
+  require(shortest >= 2 && shortest <= longest && longest <= 600, "--longest",
+          std::to_string(longest), "from --shortest (at least 2) to 600");
+  require(flow.rollout_frames >= 2 && flow.rollout_frames <= 300, "--rollout-frames",
+          std::to_string(flow.rollout_frames), "2 to 300");
+  require(continuous_flow.tempo >= 0 && continuous_flow.tempo <= 1, "--tempo",
+          std::to_string(continuous_flow.tempo), "0 to 1");
+  require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
+}
+
+void AddTrainCommand(CLI::App& app,
+                     const std::function<std::string(const std::string&)>& read_device) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
   command
@@ -44,42 +113,35 @@ void AddTrainCommand(CLI::App& app, const DeviceReader& read_device) {
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
       ->required();
   command->option_defaults()->always_capture_default();
-  const auto add = [&](const char* name, auto& value, const char* what) {
-    return command->add_option(name, value, what);
-  };
-  add("--device", options->device, "auto | cpu | cuda:N; controllers train on the CPU");
-  add("--steps", options->steps, "Steps of the run");
-  add("--batch", options->batch, "Windows a step");
-  add("--rate", options->rate, "Peak learning rate");
-  add("--shortest", options->shortest, "Shortest training transition, frames");
-  add("--longest", options->longest, "Longest training transition, frames");
-  add("--rollout-frames", options->rollout_frames,
-      "Frames of the roll-out that a flow's key loss samples");
-  add("--tempo", options->tempo,
-      "Share of the windows that are danced faster or slower (preset default)");
-  add("--report-every", options->report_every, "Steps between reports");
-  add("--stop-after", options->stop_after,
-      "Leave after this many steps of the run, to be resumed; 0: to the end");
-  add("--seed", options->seed, "Same seed, data and machine: same checkpoint")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--device", options->device,
+                      "auto | cpu | cuda:N; controllers train on the CPU");
+  command->add_option("--report-every", options->report_every, "Steps between reports");
+  command->add_option("--stop-after", options->stop_after,
+                      "Leave after this many steps of the run, to be resumed; 0: to the end");
   command->add_flag("--resume", options->resume, "Go on from the run's saved state");
-  command->add_flag("--with-validation", options->with_validation,
-                    "Train on the validation clips too, once everything is chosen");
-  for (const Ablation& ablation : kAblations)
-    command->add_flag(ablation.option, (*options).*ablation.on, ablation.what);
-  command->callback([options, read_device] {
-    const bool controllers = options->preset == ControllersConfig::kPreset;
-    for (const Ablation& ablation : kAblations) {
-      if ((*options).*ablation.on && !(controllers ? ablation.of_controllers : ablation.of_flows))
-        throw InvalidArgument(ablation.option, "is no ablation of the preset " + options->preset);
+  VisitFixed(*options, [&](const char* option, auto& value, bool, const char* what) {
+    if constexpr (std::is_same_v<decltype(value), bool&>) {
+      command->add_flag(option, value, what);
+    } else {
+      command->add_option(option, value, what);
     }
+  });
+  command->get_option("--seed")->check(CLI::NonNegativeNumber);
+  command->callback([command, options, read_device] {
+    VisitFixed(*options, [&](const char* option, const auto& value, bool is_used, const char*) {
+      if (is_used || command->count(option) == 0) return;
+      const bool flag = std::is_same_v<decltype(value), const bool&>;
+      throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
+                                        " of the preset " + options->preset);
+    });
+    const bool controllers = options->IsControllers();
     if (controllers && options->device == "auto") options->device = "cpu";
     options->device = read_device(options->device);
     if (controllers) {
       if (options->device != "cpu")
         throw InvalidArgument("--device", options->device + ", but controllers train on the CPU");
       TrainControllers(*options);
-    } else if (options->preset == kContinuous) {
+    } else if (options->IsContinuousFlow()) {
       TrainContinuousFlow(*options);
     } else {
       TrainFlow(*options);

@@ -1,17 +1,81 @@
 #pragma once
 
-#include "model/training/train_options.h"
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
-/// Trains a network, showing a progress bar. Writes run/state.safetensors (resumable to the bit
-/// after a kill at any time), curves.csv, plots of it, and checkpoint.safetensors with its card, at
-/// each report and at the end. Throws Error(kInvalidArgument) naming the option that can't be used.
+#include "model/controllers/controllers_config.h"
+
+namespace CLI {
+class App;
+}
+
 namespace choreo {
 
-/// Paper F's flow: the presets `paper` and `ablation`.
+/// Of paper F's flows, the presets `paper` and `ablation`.
+struct FlowOptions {
+  int rollout_frames = 30;                                                     ///< gamma
+  bool no_keys = false, no_time_embedding = false, forward_embedding = false;  ///< Table 1
+};
+
+/// Of paper C's network, the preset `controllers-paper`: what is left out (Tables 2-4).
+struct ControllersOptions {
+  bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
+};
+
+/// Of the continuous flow, the preset `default`.
+struct ContinuousFlowOptions {
+  double tempo = 0.5;  ///< share of the windows danced faster or slower
+};
+
+/// One training run. Everything that makes it is here or in the data: the same options give the
+/// same checkpoint on one machine.
+struct TrainOptions {
+  std::string preset = "default";
+  std::string name;                         ///< as servers list the model; empty: the preset's
+  std::vector<std::filesystem::path> data;  ///< folders of prepared clips
+  std::filesystem::path splits;             ///< JSON, see LoadClips
+  std::filesystem::path from;  ///< checkpoint whose network it starts from; empty: from scratch
+  std::filesystem::path run;   ///< folder for state, curves and the finished checkpoint
+  std::string device = "cpu";  ///< "cpu" or "cuda:N"
+  bool resume = false;         ///< go on from the run's state if there is one
+  int64_t report_every = 250;  ///< steps between validation, curves and saved state
+  int64_t stop_after = 0;      ///< leave after this many steps of the run, resumable; 0: to the end
+  int64_t steps = 14000;
+  int batch = 64;      ///< windows a step; longer windows get fewer, at equal frames
+  double rate = 1e-3;  ///< peak learning rate; warm-up, then cosine to a twentieth
+  uint64_t seed = 1;
+  int shortest = 5, longest = 100;  ///< N of the windows, frames; of both papers' networks
+  bool no_key_loss = false;         ///< of both, too
+  FlowOptions flow;
+  ControllersOptions controllers;
+  ContinuousFlowOptions continuous_flow;
+
+  bool IsControllers() const { return preset == ControllersConfig::kPreset; }
+  bool IsContinuousFlow() const { return preset == "default"; }
+  /// What a stranger types to train the same: folders by their names alone.
+  std::string Command() const;
+  /// What must not change when a run is resumed: all of Command() but names and places.
+  std::string Fixed() const;
+  /// Throws Error(kInvalidArgument) naming the option.
+  void Validate() const;
+};
+
+/// Trains paper F's flow (`paper`, `ablation`), showing a progress bar. Writes
+/// run/state.safetensors (resumable to the bit after a kill at any time), curves.csv, plots of it,
+/// and checkpoint.safetensors with its card, at each report and at the end. Throws
+/// Error(kInvalidArgument) naming the option that can't be used.
 void TrainFlow(const TrainOptions& options);
-/// Paper C's network, on a curriculum of lengths.
+/// The same of paper C's network, on a curriculum of lengths.
 void TrainControllers(const TrainOptions& options);
-/// The continuous flow. Its checkpoint has the moving average of the weights.
+/// The same of the continuous flow. Its checkpoint has the moving average of the weights.
 void TrainContinuousFlow(const TrainOptions& options);
+
+/// `choreo-lab train`. `read_device`: the device ("cpu", "cuda:N") that the text of --device stands
+/// for; throws Error for one that is not there.
+void AddTrainCommand(CLI::App& app,
+                     const std::function<std::string(const std::string&)>& read_device);
 
 }  // namespace choreo

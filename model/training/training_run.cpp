@@ -6,11 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <utility>
 
-#include "model/core/error.h"
 #include "model/flow/checkpoint.h"
-#include "model/training/model_card.h"
 
 namespace choreo {
 namespace {
@@ -20,16 +19,6 @@ constexpr double kLastRate = 0.05;  // share of the peak learning rate at the en
 constexpr double kMaxGradientNorm = 1.0;
 constexpr int kTypicalFrames = 60;
 constexpr double kForget = 0.02;  // of a loss's running mean, a step
-
-double GradientNorm(const torch::Tensor& loss, const std::vector<torch::Tensor>& parameters) {
-  double square = 0;
-  for (const auto& gradient :
-       torch::autograd::grad({loss}, parameters, /*grad_outputs=*/{}, /*retain_graph=*/true,
-                             /*create_graph=*/false, /*allow_unused=*/true)) {
-    if (gradient.defined()) square += gradient.square().sum().item<double>();
-  }
-  return std::sqrt(square);
-}
 
 // Warm-up, then a cosine to a twentieth of the peak.
 double RateAt(double peak, int64_t step, int64_t steps) {
@@ -44,8 +33,8 @@ int WindowsOf(int batch, int frames) {
   return std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
 }
 
-TrainingRun::TrainingRun(const TrainOptions& options, const ClipStore& train)
-    : options_(options), train_(train), data_hash_(HashOfClips(train.clips())) {
+TrainingRun::TrainingRun(const TrainOptions& options, const TrainingClips& clips)
+    : options_(options), train_(clips.train), data_hash_(HashOfClips(clips.train)) {
   torch::manual_seed(options.seed);
 }
 
@@ -61,15 +50,6 @@ void TrainingRun::Open(torch::nn::Module* network) {
   Load();
 }
 
-void TrainingRun::StartFrom(const Skeleton& skeleton, const std::string& hash,
-                            const std::string& card) {
-  if (!(skeleton == train_.skeleton())) {
-    throw InvalidArgument("--from",
-                          options_.from.string() + " has another skeleton than these clips");
-  }
-  base_ = {{"hash", hash}, {"card", nlohmann::json::parse(card)}};
-}
-
 void TrainingRun::Export(Safetensors* state) const {
   ExportTensors(*network_, "model.", state);
   adam_->Export(state);
@@ -80,10 +60,6 @@ void TrainingRun::Import(const Safetensors& state) {
   adam_->Import(state);
 }
 
-void TrainingRun::NameLosses(const std::vector<std::string>& names) {
-  for (const std::string& name : names) losses_.terms[name];
-}
-
 void TrainingRun::Go() {
   const int64_t total = options_.steps;
   ProgressBar progress("train " + options_.preset, total - step_);
@@ -91,7 +67,6 @@ void TrainingRun::Go() {
   const double seconds_before = seconds_;
   if (step_ == 0) Prepare();
   for (; step_ < total; ++step_) {
-    losses_.step = step_ + 1;
     torch::manual_seed(options_.seed + static_cast<uint64_t>(step_) * 1000003);
     adam_->ZeroGrad();
     TrainStep();
@@ -118,11 +93,15 @@ void TrainingRun::Descend(const LossTerms& terms) {
   const bool report = (step_ + 1) % options_.report_every == 0;
   torch::Tensor sum;
   for (const LossTerm& term : terms) {
-    LossFigure& figure = losses_.terms[term.name];
+    LossFigure& figure = losses_[term.name];
     const double value = term.value.item<double>();
     figure.value = figure.value == 0 ? value : (1 - kForget) * figure.value + kForget * value;
     const torch::Tensor weighted = term.weight * term.value;
-    if (report) figure.gradient = GradientNorm(weighted, network_->parameters());
+    if (report) {
+      figure.gradient = NormOf(torch::autograd::grad(
+          {weighted}, network_->parameters(), /*grad_outputs=*/{}, /*retain_graph=*/true,
+          /*create_graph=*/false, /*allow_unused=*/true));
+    }
     sum = sum.defined() ? sum + weighted : weighted;
   }
   sum.backward();
@@ -130,22 +109,60 @@ void TrainingRun::Descend(const LossTerms& terms) {
 
 void TrainingRun::Report(ProgressBar* progress) {
   figures_ = Validate();
-  std::string line = "step " + std::to_string(losses_.step);
+  std::string line = "step " + std::to_string(step_ + 1);
   for (const auto& [name, value] : figures_) {
     char text[64];
     std::snprintf(text, sizeof(text), " %s %.3f", name.c_str(), value);
     line += text;
   }
   progress->Print(line);
-  curves_.Append(losses_, seconds_, figures_);
+  curves_.Append(step_ + 1, seconds_, losses_, figures_);
   curves_.Write(options_.run);
   WriteCheckpoint();
   Save();
 }
 
+nlohmann::json TrainingRun::Card() const {
+  std::map<std::string, int> sources, terms;
+  int64_t frames = 0;
+  for (const PreparedClip& clip : train_) {
+    frames += std::ssize(clip.motion.frames);
+    ++sources[clip.source];
+    const auto stated = clip.notes.find("terms");
+    ++terms[stated == clip.notes.end() ? "not stated" : stated->second];
+  }
+  // What a model went on from binds it, too.
+  std::map<std::string, int> all_terms = terms;
+  for (nlohmann::json base = base_; base.is_object() && base.contains("card");
+       base = base.at("card").value("from", nlohmann::json())) {
+    const auto data = base.at("card").value("data", nlohmann::json::object());
+    const auto bound = data.value("clips_by_terms", nlohmann::json::object());
+    for (const auto& [of, count] : bound.items())
+      all_terms[of] = std::max(all_terms[of], count.get<int>());
+  }
+  std::string licence = "as the recordings that it was trained on allow:";
+  for (const auto& [of, count] : all_terms)
+    licence += " [" + std::to_string(count) + " clips] " + of + ";";
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto& folder : options_.data) names.push_back(folder.filename().string());
+  licence.back() = '.';
+  nlohmann::json card = {{"preset", options_.preset},
+                         {"data",
+                          {{"names", names},
+                           {"clips_by_layout", sources},
+                           {"clips_by_terms", terms},
+                           {"frames", frames},
+                           {"hash", data_hash_}}},
+                         {"licence", licence},
+                         {"command", options_.Command()},
+                         {"validation", std::map(figures_.begin(), figures_.end())},
+                         {"limits", Limits()}};
+  if (!base_.is_null()) card["from"] = base_;
+  return card;
+}
+
 std::string TrainingRun::WriteCheckpoint() {
-  return SaveModel(options_.run / "checkpoint.safetensors",
-                   ModelCard(options_, train_.clips(), data_hash_, figures_, Limits(), base_));
+  return SaveModel(options_.run / "checkpoint.safetensors", Card());
 }
 
 void TrainingRun::Save() {
@@ -157,7 +174,7 @@ void TrainingRun::Save() {
   state.metadata["options"] = options_.Fixed();
   state.metadata["curves"] = curves_.Serialise();
   nlohmann::json losses;
-  for (const auto& [name, figure] : losses_.terms) losses[name] = {figure.value, figure.gradient};
+  for (const auto& [name, figure] : losses_) losses[name] = {figure.value, figure.gradient};
   state.metadata["losses"] = losses.dump();
   WriteSafetensors(StatePath(), state);
 }
@@ -178,9 +195,7 @@ void TrainingRun::Load() {
   seconds_ = std::stod(state.metadata.at("seconds"));
   curves_.Restore(state.metadata.at("curves"));
   const auto losses = nlohmann::json::parse(state.metadata.at("losses"));
-  for (const auto& [name, figure] : losses.items()) {
-    losses_.terms[name] = {figure.at(0), figure.at(1)};
-  }
+  for (const auto& [name, figure] : losses.items()) losses_[name] = {figure.at(0), figure.at(1)};
 }
 
 }  // namespace choreo

@@ -5,20 +5,25 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "model/core/error.h"
 #include "model/core/progress.h"
 #include "model/core/random.h"
 #include "model/core/safetensors.h"
 #include "model/training/adam.h"
-#include "model/training/clip_store.h"
+#include "model/training/clip_split.h"
 #include "model/training/curves.h"
 #include "model/training/losses.h"
-#include "model/training/train_options.h"
+#include "model/training/trainer.h"
 
 namespace choreo {
+
+/// At least one of each, all of one skeleton.
+struct TrainingClips {
+  std::vector<PreparedClip> train, validation;
+};
 
 /// What every training run does, whatever it trains: steps one after another, reports, saves its
 /// state and goes on from it exactly as if it had not been left. For that, each step draws from
@@ -30,8 +35,8 @@ class TrainingRun {
   void Go();
 
  protected:
-  /// `train`, the clips that train, outlive the run.
-  TrainingRun(const TrainOptions& options, const ClipStore& train);
+  /// The clips outlive the run.
+  TrainingRun(const TrainOptions& options, const TrainingClips& clips);
   /// Has `network` trained, which is complete and outlives the run. Makes the run's folder and
   /// takes up what it holds. Throws Error(kFailedPrecondition) for a run that was started on other
   /// data or otherwise, or that is not to be resumed.
@@ -40,7 +45,11 @@ class TrainingRun {
   /// that of the clips.
   template <typename Checkpoint>
   void StartFrom(const Checkpoint& base) {
-    StartFrom(base.model->skeleton(), base.hash, base.card);
+    if (!(base.model->skeleton() == train_.front().skeleton)) {
+      throw InvalidArgument("--from",
+                            options_.from.string() + " has another skeleton than these clips");
+    }
+    base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
   }
 
   /// Before the first step of all.
@@ -59,8 +68,6 @@ class TrainingRun {
   /// What its card says that it can't do.
   virtual std::string Limits() const = 0;
 
-  /// Terms that come later, so that a run's curves have their columns from the start.
-  void NameLosses(const std::vector<std::string>& names);
   /// Adds the gradient of the weighted sum; before a report, also each term's own, so that one that
   /// vanishes or takes over is seen.
   void Descend(const LossTerms& terms);
@@ -73,36 +80,35 @@ class TrainingRun {
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
-  void StartFrom(const Skeleton& skeleton, const std::string& hash, const std::string& card);
   /// With a checkpoint, so that a run can be judged and used before it ends.
   void Report(ProgressBar* progress);
+  /// What a checkpoint says of itself: data and their terms, the command, figures on validation
+  /// clips, limits, and what it went on from, whose terms bind it, too.
+  nlohmann::json Card() const;
   std::string WriteCheckpoint();
   void Save();
   void Load();
 
   TrainOptions options_;
-  const ClipStore& train_;
+  const std::vector<PreparedClip>& train_;
   std::string data_hash_;
   nlohmann::json base_;  // what the run went on from: its hash and card
   torch::nn::Module* network_ = nullptr;
   std::unique_ptr<Adam> adam_;
   int64_t step_ = 0;
   double seconds_ = 0;
-  LossRow losses_;
+  LossFigures losses_;
   NamedFigures figures_;  // of the last report
   Curves curves_;
 };
 
-/// A run of the class `Run`, which is made of options, the clips that train and those that
-/// validate.
+/// A run of the class `Run`, which is made of options and clips.
 template <typename Run>
 void TrainBy(const TrainOptions& options) {
   options.Validate();
-  std::set<std::string> groups = {kTrainGroup};
-  if (options.with_validation) groups.insert(kValidationGroup);
-  const ClipStore train(options.data, options.splits, groups);
-  const ClipStore validation(options.data, options.splits, {kValidationGroup});
-  Run(options, train, validation).Go();
+  const TrainingClips clips = {LoadClips(options.data, options.splits, kTrainGroup),
+                               LoadClips(options.data, options.splits, kValidationGroup)};
+  Run(options, clips).Go();
 }
 
 /// How many windows of so many frames make up a step: `batch` of 60 frames or as many frames of

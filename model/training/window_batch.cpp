@@ -10,25 +10,11 @@
 namespace choreo {
 namespace {
 
-template <typename Matrix>
-torch::Tensor Columns(const Matrix& matrix) {  // [rows, columns] → [columns, rows]
-  const Eigen::MatrixXf floats = matrix.template cast<float>();
-  return torch::from_blob(const_cast<float*>(floats.data()), {floats.cols(), floats.rows()})
-      .clone();
-}
-
-Eigen::MatrixXd PlacesOf(const Skeleton& skeleton, std::span<const Pose> poses) {
-  Eigen::MatrixXd places(3 * skeleton.joints(), static_cast<int>(poses.size()));
-  for (size_t i = 0; i < poses.size(); ++i)
-    places.col(static_cast<int>(i)) = JointPositions(skeleton, poses[i]).reshaped();
-  return places;
-}
-
-Eigen::MatrixXd RootsOf(std::span<const Pose> poses) {
-  Eigen::MatrixXd roots(3, static_cast<int>(poses.size()));
-  for (size_t i = 0; i < poses.size(); ++i) roots.col(static_cast<int>(i)) = poses[i].root_position;
-  return roots;
-}
+constexpr torch::Tensor WindowBatch::*kTensors[] = {
+    &WindowBatch::z,          &WindowBatch::scales,         &WindowBatch::keyed,
+    &WindowBatch::staged,     &WindowBatch::mean,           &WindowBatch::features,
+    &WindowBatch::whole,      &WindowBatch::history_joints, &WindowBatch::base_root,
+    &WindowBatch::base_turns, &WindowBatch::axes,           &WindowBatch::bones};
 
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  // as torch has matrices
 
@@ -38,8 +24,8 @@ Eigen::MatrixXd TurnsOf(std::span<const Pose> poses) {
   Eigen::MatrixXd turns(9 * joints, static_cast<int>(poses.size()));
   for (size_t i = 0; i < poses.size(); ++i) {
     for (Eigen::Index j = 0; j < joints; ++j) {
-      const RowMajor3d turn = ExpMap(poses[i].rotations.col(j));
-      turns.col(static_cast<int>(i)).segment<9>(9 * j) = turn.reshaped<Eigen::RowMajor>();
+      const Eigen::Matrix3d turn = ExpMap(poses[i].rotations.col(j));
+      turns.col(i).segment<9>(9 * j) = turn.reshaped<Eigen::RowMajor>();
     }
   }
   return turns;
@@ -73,32 +59,18 @@ struct Lever {
 }  // namespace
 
 WindowBatch WindowBatch::To(torch::Device device) const {
-  return {.frames = frames,
-          .to_key = to_key,
-          .z = z.to(device),
-          .scales = scales.to(device),
-          .surprise = surprise,
-          .keyed = keyed.to(device),
-          .staged = staged.to(device),
-          .mean = mean.to(device),
-          .features = features.to(device),
-          .whole = whole.to(device),
-          .history_joints = history_joints.to(device),
-          .base_root = base_root.to(device),
-          .base_turns = base_turns.to(device),
-          .axes = axes.to(device),
-          .bones = bones.to(device)};
+  WindowBatch there{.frames = frames, .to_key = to_key, .surprise = surprise};
+  for (const auto tensor : kTensors) there.*tensor = (this->*tensor).to(device);
+  return there;
 }
 
-WindowBatchBuilder::WindowBatchBuilder(const FlowModelParts& model, int frames, int to_key)
-    : model_(model), batch_{.frames = frames, .to_key = to_key} {}
-
-bool WindowBatchBuilder::Add(WindowRequest request, std::span<const Pose> truth) {
-  const int tau = static_cast<int>(request.history.size()), joints = model_.skeleton.joints();
-  const int frames = batch_.frames;
-  const FlowWindow window(model_.prior, request);
+std::optional<WindowBatch> MakeWindow(const FlowModelParts& model, WindowRequest request,
+                                      std::span<const Pose> truth) {
+  const int tau = static_cast<int>(request.history.size()), joints = model.skeleton.joints();
+  const int frames = request.frames;
+  const FlowWindow window(model.prior, request);
   const auto x = window.Encode(truth);
-  if (!x) return false;
+  if (!x) return std::nullopt;
   Eigen::MatrixXd white(x->rows(), x->cols());
   for (int d = 0; d < white.rows(); ++d)
     white.row(d) = window.Whiten(d, x->row(d).transpose()).transpose();
@@ -106,43 +78,48 @@ bool WindowBatchBuilder::Add(WindowRequest request, std::span<const Pose> truth)
   Eigen::MatrixXd lines(x->rows(), tau + frames);
   lines << window.history(), window.mean();
   const WindowFeatures described =
-      DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window);
+      DescribeWindow(model.skeleton, model.config, model.prior, request, window);
   Eigen::VectorXd fixed(white.rows());
   for (int d = 0; d < fixed.size(); ++d) fixed[d] = window.keyed()[d] ? 1 : 0;
-  z_.push_back(Columns(white));
-  mean_.push_back(Columns(lines));
-  staged_.push_back(window.staged() ? 1 : 0);
-  batch_.surprise.push_back(window.surprise());
-  scales_.push_back(Columns(window.scales()).squeeze(0));
-  keyed_.push_back(Columns(fixed).squeeze(0));
-  features_.push_back(Columns(described.frames));
-  whole_.push_back(Columns(described.whole).squeeze(0));
-  history_joints_.push_back(Columns(PlacesOf(model_.skeleton, request.history)));
+  Eigen::MatrixXd places(3 * joints, tau), roots(3, frames);
+  for (int i = 0; i < tau; ++i)
+    places.col(i) = JointPositions(model.skeleton, request.history[i]).reshaped();
   const std::vector<Pose> base = window.Decode(Eigen::MatrixXd::Zero(x->rows(), frames));
-  base_root_.push_back(Columns(RootsOf(base)));
-  base_turns_.push_back(Columns(TurnsOf(base)).view({frames, joints, 3, 3}));
-  const Lever lever(model_.skeleton, truth, *x);
-  axes_.push_back(Columns(lever.axes).view({frames, joints, 3, 3}));
-  bones_.push_back(Columns(lever.bones).view({frames, joints, 3}));
-  batch_.truth.emplace_back(truth.begin(), truth.end());
-  batch_.requests.push_back(std::move(request));
-  return true;
+  for (int i = 0; i < frames; ++i) roots.col(i) = base[i].root_position;
+  const Lever lever(model.skeleton, truth, *x);
+  WindowBatch batch{.frames = frames,
+                    .to_key = request.to_key,
+                    .z = Columns(white),
+                    .scales = Columns(window.scales()).squeeze(0),
+                    .surprise = {window.surprise()},
+                    .keyed = Columns(fixed).squeeze(0),
+                    .staged = torch::tensor(window.staged() ? 1.0F : 0.0F),
+                    .mean = Columns(lines),
+                    .features = Columns(described.frames),
+                    .whole = Columns(described.whole).squeeze(0),
+                    .history_joints = Columns(places),
+                    .base_root = Columns(roots),
+                    .base_turns = Columns(TurnsOf(base)).view({frames, joints, 3, 3}),
+                    .axes = Columns(lever.axes).view({frames, joints, 3, 3}),
+                    .bones = Columns(lever.bones).view({frames, joints, 3})};
+  batch.truth.emplace_back(truth.begin(), truth.end());
+  batch.requests.push_back(std::move(request));
+  return batch;
 }
 
-WindowBatch WindowBatchBuilder::Build() {
-  batch_.z = torch::stack(z_);
-  batch_.mean = torch::stack(mean_);
-  batch_.scales = torch::stack(scales_);
-  batch_.keyed = torch::stack(keyed_);
-  batch_.staged = torch::tensor(staged_);
-  batch_.features = torch::stack(features_);
-  batch_.whole = torch::stack(whole_);
-  batch_.history_joints = torch::stack(history_joints_);
-  batch_.base_root = torch::stack(base_root_);
-  batch_.base_turns = torch::stack(base_turns_);
-  batch_.axes = torch::stack(axes_);
-  batch_.bones = torch::stack(bones_);
-  return std::move(batch_);
+WindowBatch Stack(std::vector<WindowBatch> windows) {
+  WindowBatch batch{.frames = windows.front().frames, .to_key = windows.front().to_key};
+  for (const auto tensor : kTensors) {
+    std::vector<torch::Tensor> rows;
+    for (const WindowBatch& window : windows) rows.push_back(window.*tensor);
+    batch.*tensor = torch::stack(rows);
+  }
+  for (WindowBatch& window : windows) {
+    batch.surprise.push_back(window.surprise.front());
+    batch.requests.push_back(std::move(window.requests.front()));
+    batch.truth.push_back(std::move(window.truth.front()));
+  }
+  return batch;
 }
 
 }  // namespace choreo

@@ -2,8 +2,8 @@
 
 #include <torch/types.h>
 
+#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "model/flow/flow_sampler.h"
@@ -34,23 +34,19 @@ struct WindowBatch {
   WindowBatch To(torch::Device device) const;
 };
 
-/// Fills a batch, window by window.
-class WindowBatchBuilder {
- public:
-  WindowBatchBuilder(const FlowModelParts& model, int frames, int to_key);
+/// [rows, columns] → [columns, rows], float32.
+template <typename Matrix>
+torch::Tensor Columns(const Matrix& matrix) {
+  const Eigen::MatrixXf floats = matrix.template cast<float>();
+  return torch::from_blob(const_cast<float*>(floats.data()), {floats.cols(), floats.rows()})
+      .clone();
+}
 
-  /// `truth` [frames]: what was danced there, in the request's frame. False, and nothing is added,
-  /// where it strays from any line to the key.
-  bool Add(WindowRequest request, std::span<const Pose> truth);
-  int size() const { return static_cast<int>(z_.size()); }
-  WindowBatch Build();
-
- private:
-  const FlowModelParts& model_;
-  WindowBatch batch_;
-  std::vector<float> staged_;
-  std::vector<torch::Tensor> z_, scales_, keyed_, mean_, features_, whole_, history_joints_,
-      base_root_, base_turns_, axes_, bones_;
-};
+/// A batch of one window whose tensors lack the dimension [batch]. `truth` [frames]: what was
+/// danced there, in the request's frame. None where it strays from any line to the key.
+std::optional<WindowBatch> MakeWindow(const FlowModelParts& model, WindowRequest request,
+                                      std::span<const Pose> truth);
+/// Of such windows, at least one, all of one shape.
+WindowBatch Stack(std::vector<WindowBatch> windows);
 
 }  // namespace choreo

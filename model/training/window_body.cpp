@@ -12,10 +12,8 @@ Tensor Carriers(const Skeleton& skeleton) {
   const int joints = skeleton.joints();
   const Tensor carriers = torch::zeros({joints, joints});
   for (int j = 0; j < joints; ++j) {
-    for (int above = j;; above = skeleton.parents[static_cast<size_t>(above)]) {
-      carriers[j][above] = 1;
-      if (above == 0) break;
-    }
+    for (int above = 0; above <= j; ++above)
+      if (IsBelow(j, above, skeleton.parents)) carriers[j][above] = 1;
   }
   return carriers;
 }

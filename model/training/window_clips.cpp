@@ -10,7 +10,6 @@
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
-#include "model/training/style.h"
 #include "model/training/window_picker.h"
 
 namespace choreo {
@@ -49,9 +48,9 @@ void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
   if (other.style < 0 || other.style == style || room <= 0) return;
   const auto begin = other.poses.begin() + random->Integer(0, room);
   const GroundFrame theirs = GroundFrame::Of(begin[tau - 1]),
-                    ours = GroundFrame::Of((*poses)[static_cast<size_t>(tau - 1)]);
+                    ours = GroundFrame::Of((*poses)[tau - 1]);
   for (int64_t i = 0; i < tau + turn; ++i) {
-    Pose& pose = (*poses)[static_cast<size_t>(i)];
+    Pose& pose = (*poses)[i];
     const double way = static_cast<double>(i - tau + 1) / static_cast<double>(turn + 1);
     pose = InterpolatePoses(ours.ToWorld(theirs.ToLocal(begin[i])), pose,
                             SmoothStep(std::clamp(way, 0.0, 1.0)));
@@ -102,7 +101,7 @@ WindowClips::WindowClips(const std::vector<PreparedClip>& clips)
     if (const std::string style = StyleOf(clip.name); !style.empty()) styles_.push_back(style);
   }
   std::ranges::sort(styles_);
-  styles_.erase(std::ranges::unique(styles_).begin(), styles_.end());
+  styles_.erase(std::unique(styles_.begin(), styles_.end()), styles_.end());
   for (const double tempo : kTempi) {
     for (const PreparedClip& clip : clips) tracks_.push_back(MakeTrack(clip, tempo, styles_));
   }
@@ -113,24 +112,25 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
   const int tau = model.config.history_frames;
   const std::vector<int> pairs = MirrorPairs(skeleton_);
   const int64_t needed = tau + to_key;
-  const auto offered = [&](size_t track) {
-    return std::max<int64_t>(0, static_cast<int64_t>(tracks_[track].poses.size()) - needed);
-  };
-  const WindowPicker of_all = PickerOf(std::nullopt, needed);
+  const auto offered = [&](size_t track) { return std::ssize(tracks_[track].poses) - needed; };
+  std::vector<int64_t> of_clips;
+  for (const ClipTrack& track : tracks()) of_clips.push_back(std::ssize(track.poses));
+  const WindowPicker of_all(of_clips, needed);
   std::vector<WindowPicker> of_style;
   for (int style = 0; style < std::ssize(styles_) && variation.even_styles > 0; ++style) {
-    if (Longest(0, style) >= needed) of_style.push_back(PickerOf(style, needed));
+    std::vector<int64_t> own = of_clips;
+    for (size_t i = 0; i < clips_; ++i)
+      if (tracks_[i].style != style) own[i] = 0;
+    if (std::ranges::max(own) > needed) of_style.emplace_back(own, needed);
   }
-  WindowBatchBuilder result(model, frames, to_key);
-  while (result.size() < batch) {
+  std::vector<WindowBatch> windows;
+  while (std::ssize(windows) < batch) {
     const bool even = !of_style.empty() && random->Uniform() < variation.even_styles;
-    const WindowPicker& picker =
-        even ? of_style[static_cast<size_t>(random->Integer(0, std::ssize(of_style)))] : of_all;
+    const WindowPicker& picker = even ? of_style[random->Integer(0, std::ssize(of_style))] : of_all;
     const size_t clip = picker.Draw(random).clip;
     size_t index = clip;
     if (random->Uniform() < variation.tempo) {
-      const size_t other =
-          clip + clips_ * static_cast<size_t>(random->Integer(1, std::size(kTempi)));
+      const size_t other = clip + clips_ * random->Integer(1, std::size(kTempi));
       if (offered(other) > 0) index = other;
     }
     const ClipTrack& track = tracks_[index];
@@ -139,13 +139,13 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     std::vector<Pose> poses(track.poses.begin() + from, track.poses.begin() + from + needed);
     const bool styled = random->Uniform() < variation.style;
     if (styled && random->Uniform() < variation.other_style) {
-      const auto other = static_cast<size_t>(random->Integer(0, std::ssize(tracks_)));
-      BeginOtherwise(tracks_[other], track.style, tau, random, &poses);
+      const ClipTrack& other = tracks_[random->Integer(0, std::ssize(tracks_))];
+      BeginOtherwise(other, track.style, tau, random, &poses);
     }
     if (random->Uniform() < variation.astray)
       LeadAstray(model.prior.covariance().col(0).cwiseSqrt(), tau, random, &poses);
     Eigen::Vector3d turning = Eigen::Vector3d::Zero();
-    for (size_t i = static_cast<size_t>(tau); i < poses.size(); ++i)
+    for (size_t i = tau; i < poses.size(); ++i)
       turning += RotationDifference(poses[i - 1].rotations.col(0), poses[i].rotations.col(0));
     if (random->Uniform() < variation.hold_history) {
       const int64_t known = random->Integer(1, tau);
@@ -153,33 +153,24 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     }
     const GroundFrame ground = GroundFrame::Of(poses[tau - 1]);
     for (Pose& pose : poses) pose = ground.ToLocal(pose);
-    const auto way = std::span<const Pose>(poses).subspan(static_cast<size_t>(tau));
-    WindowRequest request =
-        Ask(std::span(poses).first(static_cast<size_t>(tau)), way, ground.ToLocal(track.stage),
-            track, from + tau, variation, frames, random);
+    const auto way = std::span<const Pose>(poses).subspan(tau);
+    WindowRequest request = Ask(std::span(poses).first(tau), way, ground.ToLocal(track.stage),
+                                track, from + tau, variation, frames, random);
     request.turning = turning;
     if (styled) request.style = track.style;
     if (mirrored) {
       request = Mirror(pairs, request);
       for (Pose& pose : poses) pose = Mirror(pairs, pose);
     }
-    result.Add(std::move(request), way.first(static_cast<size_t>(frames)));
+    if (auto window = MakeWindow(model, std::move(request), way.first(frames)))
+      windows.push_back(std::move(*window));
   }
-  return result.Build();
+  return Stack(std::move(windows));
 }
 
-WindowPicker WindowClips::PickerOf(std::optional<int> style, int64_t needed) const {
-  std::vector<int64_t> clips;
-  for (const ClipTrack& track : tracks())
-    clips.push_back(style.value_or(track.style) == track.style ? std::ssize(track.poses) : 0);
-  return {clips, needed};
-}
-
-int WindowClips::Longest(int history, std::optional<int> style) const {
+int WindowClips::Longest(int history) const {
   size_t longest = 0;
-  for (const ClipTrack& track : tracks()) {
-    if (style.value_or(track.style) == track.style) longest = std::max(longest, track.poses.size());
-  }
+  for (const ClipTrack& track : tracks()) longest = std::max(longest, track.poses.size());
   return static_cast<int>(longest) - history - 1;
 }
 

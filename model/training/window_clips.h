@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,7 +7,6 @@
 #include "model/core/random.h"
 #include "model/training/clip_track.h"
 #include "model/training/window_batch.h"
-#include "model/training/window_picker.h"
 
 namespace choreo {
 
@@ -35,16 +33,14 @@ class WindowClips {
   WindowBatch Draw(const FlowModelParts& model, int batch, int frames, int to_key,
                    const Variation& variation, Random* random) const;
 
-  /// The longest way to a key behind `history` frames that some clip has, of all or of a style.
-  int Longest(int history, std::optional<int> style = {}) const;
+  /// The longest way to a key behind `history` frames that some clip has.
+  int Longest(int history) const;
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<std::string>& styles() const { return styles_; }
   /// Of the clips as they were danced.
   std::span<const ClipTrack> tracks() const { return {tracks_.data(), clips_}; }
 
  private:
-  WindowPicker PickerOf(std::optional<int> style, int64_t needed) const;
-
   Skeleton skeleton_;
   std::vector<std::string> styles_;
   std::vector<ClipTrack> tracks_;  // by tempo, the clips' own first

@@ -100,7 +100,6 @@ TEST_P(ResamplerRateTest, ChunksDoNotChangeABit) {
       at += size;
     }
     resampler.Finish();
-    resampler.Finish();
     resampler.Pull(mono);
     EXPECT_EQ(mono, whole) << longest;
   }

@@ -80,5 +80,21 @@ TEST(Doll, MovesRigidlyWithItsJoints) {
   }
 }
 
+TEST(DollAboveFloor, IsMeasuredFromWhatTouchesFirst) {
+  Pose pose = RestPose(kSmpl);
+  EXPECT_NEAR(DollAboveFloor(kSmpl, pose), 0, 1e-9);
+  pose.root_position.y() += 0.3;
+  EXPECT_NEAR(DollAboveFloor(kSmpl, pose), 0.3, 1e-6);
+  // Sitting, legs ahead: the seat is thicker than the joints in it are high.
+  for (const int hip : {kSmpl.left_hip, kSmpl.right_hip}) pose.rotations(0, hip) = -M_PI / 2;
+  pose.root_position.y() = 0.2;
+  EXPECT_NEAR(DollAboveFloor(kSmpl, pose), 0, 0.02);
+  EXPECT_GT(JointPositions(kSmpl, pose).row(1).minCoeff(), 0.06);
+  // Upside down, a head is below its joint.
+  pose = RestPose(kSmpl);
+  pose.rotations(2, 0) = M_PI;
+  EXPECT_LT(DollAboveFloor(kSmpl, pose), JointPositions(kSmpl, pose).row(1).minCoeff() - 0.1);
+}
+
 }  // namespace
 }  // namespace choreo

@@ -9,7 +9,7 @@
 #include "client/cli/pose_library.h"
 #include "client/cli/pose_recipe.h"
 #include "client/cli/pose_source.h"
-#include "model/body/ground.h"
+#include "model/body/doll.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/run_choreo.h"
 #include "tests/support/expect_error.h"

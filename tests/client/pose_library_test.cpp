@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "client/cli/pose_source.h"
-#include "model/body/ground.h"
+#include "model/body/doll.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/joint_angles.h"
 #include "model/motion/kinematics.h"

@@ -12,6 +12,7 @@ namespace choreo {
 namespace {
 
 constexpr double kFps = 30;
+constexpr int kWindow = 12;
 
 /// A stand-in for a model: goes on from the last pose with a damped, shaken velocity towards a goal
 /// that misses the key.
@@ -42,9 +43,9 @@ class Wanderer {
 };
 
 std::vector<Pose> Walk(const std::vector<Pose>& before, const Target& target, int frames,
-                       Wanderer& model, Arrival::Options options = {},
+                       Wanderer& model, int window = kWindow,
                        std::optional<Pose> after = std::nullopt) {
-  Arrival arrival(options, frames, target, before, after);
+  Arrival arrival(window, frames, target, before, after);
   std::vector<Pose> poses = before;
   for (int frame = 0; frame < frames; ++frame) {
     poses.push_back(arrival.Apply(model.Next(poses.back(), frames - frame)));
@@ -84,7 +85,7 @@ TEST(Arrival, LeavesUntouchedWhatTheKeyDoesNotAskFor) {
     target.mask.joints.resize(24);
     for (size_t joint = 0; joint < 24; ++joint) target.mask.joints[joint] = random() % 2 == 0;
     Wanderer model(RandomPose(random), 0.02, random());
-    Arrival arrival({}, 20, target, before);
+    Arrival arrival(kWindow, 20, target, before);
     Pose previous = before.back();
     for (int frame = 0; frame < 20; ++frame) {
       const Pose raw = model.Next(previous, 20 - frame);
@@ -110,7 +111,7 @@ TEST(Arrival, MeetsTheHeightOfAKeyThatLeavesItsPlaceOpen) {
     Target target{RandomPose(random), {}, 0.7};
     target.mask.root_position = false;
     Wanderer model(RandomPose(random), 0.02, random());
-    Arrival arrival({}, 30, target, before);
+    Arrival arrival(kWindow, 30, target, before);
     Pose previous = before.back();
     for (int frame = 0; frame < 30; ++frame) {
       const Pose raw = model.Next(previous, 30 - frame);
@@ -127,8 +128,8 @@ TEST(Arrival, TouchesNothingBeforeItsWindowAndNothingWhenOff) {
   const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
   const Target target{RandomPose(random), {}};
   Wanderer model(RandomPose(random), 0.02, 5);
-  Arrival on({.frames = 12}, 40, target, before);
-  Arrival off({.frames = 0}, 40, target, before);
+  Arrival on(kWindow, 40, target, before);
+  Arrival off(0, 40, target, before);
   Pose previous = before.back();
   for (int frame = 0; frame < 40; ++frame) {
     const Pose raw = model.Next(previous, 40 - frame);
@@ -143,7 +144,7 @@ TEST(Arrival, TouchesNothingBeforeItsWindowAndNothingWhenOff) {
 TEST(Arrival, AddsNothingToAnEvenWayOntoTheKey) {
   std::mt19937 random(4);
   const std::vector<Pose> way = MotionTo(RandomPose(random), 42, random, 0.02);
-  Arrival arrival({.frames = 12}, 40, {way.back(), {}}, {way[0], way[1]});
+  Arrival arrival(kWindow, 40, {way.back(), {}}, {way[0], way[1]});
   for (size_t i = 2; i < way.size(); ++i) {
     EXPECT_LT(ComparePoses(Skeleton::Smpl24(), arrival.Apply(way[i]), way[i]).position_m, 1e-9);
   }
@@ -160,7 +161,7 @@ TEST(Arrival, MeetsTheMotionThatFollows) {
     const Pose goal = RandomPose(random);
     const uint32_t seed = random();
     Wanderer model(goal, 0.005, seed);
-    const std::vector<Pose> poses = Walk(before, target, frames, model, {}, key_and_after[1]);
+    const std::vector<Pose> poses = Walk(before, target, frames, model, kWindow, key_and_after[1]);
     EXPECT_LT(ComparePoses(Skeleton::Smpl24(), poses.back(), target.pose).position_m, 1e-6);
     // The last step is nearly the one that follows.
     const size_t n = poses.size();
@@ -191,7 +192,7 @@ TEST(Arrival, HasNoAccelerationSpike) {
     Wanderer model(goal, 0, random());
     std::vector<Pose> poses = Walk(before, target, frames, model);
     Wanderer free(goal, 0, random());
-    const std::vector<Pose> raw = Walk(before, target, frames, free, {.frames = 0});
+    const std::vector<Pose> raw = Walk(before, target, frames, free, /*window=*/0);
     // After the key the motion goes on: two frames at the velocity of the arrival.
     const Pose& last = poses.back();
     const Pose& earlier = poses[poses.size() - 2];

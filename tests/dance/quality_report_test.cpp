@@ -86,12 +86,12 @@ TEST(QualityReport, BeatHitRateCountsKinematicBeatsNearMusicBeats) {
   QualityMeter meter(Skeleton::Smpl24(), motion.fps, 0);
   for (const Pose& pose : motion.frames) meter.Add({pose, {}, 0});
   std::vector<double> beats;
-  for (int i = 1; i < 8; ++i) beats.push_back(15.0 * i);
+  for (int i = 1; i < 8; ++i) beats.push_back(0.5 * i);
   const QualityReport on = meter.Report(beats);
   ASSERT_TRUE(on.beat_hit_rate);
   EXPECT_DOUBLE_EQ(*on.beat_hit_rate, 1);
   EXPECT_NEAR(*on.beat_coverage, 1, 0.15);
-  for (double& beat : beats) beat += 7;
+  for (double& beat : beats) beat += 7.0 / 30;
   EXPECT_DOUBLE_EQ(*meter.Report(beats).beat_hit_rate, 0);
   EXPECT_FALSE(meter.Report().beat_hit_rate);
   const std::vector<double> elsewhere = {-50, 500};

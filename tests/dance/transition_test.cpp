@@ -82,7 +82,7 @@ TEST(Transition, FramesAreFloatsAndHitTheKey) {
 TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   FakeEngine engine;
   TransitionRequest request = RandomRequest(4);
-  request.arrival.frames = 0;
+  request.arrival_frames = 0;
   request.temperature = 1;
   const TransitionInput input{request, {}};
   const auto [frames, arrival, stage] = DanceTransitions(engine, {&input, 1}).front();
@@ -137,7 +137,6 @@ TEST(Transition, RefusesRequestsOfTheWrongShape) {
   EXPECT_EQ(field([&](TransitionRequest& r) { r.history[3] = other; }), "history[3].rotations");
   EXPECT_EQ(field([&](TransitionRequest& r) { r.target->pose = other; }), "target.rotations");
   EXPECT_EQ(field([&](TransitionRequest& r) { r.after = other; }), "after.rotations");
-  EXPECT_EQ(field([](TransitionRequest& r) { r.has_audio = true; }), "audio_history");
   EXPECT_EQ(field([](TransitionRequest& r) {
               r.after = r.target->pose;
               r.target.reset();

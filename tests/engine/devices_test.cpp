@@ -1,4 +1,4 @@
-#include "model/engine/devices.h"
+#include "model/engine/engine_choice.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

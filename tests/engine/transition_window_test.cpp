@@ -1,4 +1,4 @@
-#include "model/engine/transition_window.h"
+#include "model/engine/flow_engine.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,8 +34,10 @@ std::vector<float> Heard(const ModelInfo& model) {
   const std::vector<float> row(static_cast<size_t>(model.audio_features), 7);
   const StepInput input{.audio_row = row};
   window.Advance(input);
-  EXPECT_EQ(window.has_audio(), model.hears_music);
-  return {window.audio().begin(), window.audio().end()};
+  FlowRow row_of_frame;
+  window.FillRow(&row_of_frame);
+  EXPECT_EQ(row_of_frame.has_audio, model.hears_music);
+  return {row_of_frame.audio.begin(), row_of_frame.audio.end()};
 }
 
 TEST(TransitionWindowTest, GivesTheNetworkTheMusicOfHistoryAndFrame) {

@@ -1,4 +1,4 @@
-#include "model/engine/warm_up.h"
+#include "model/engine/engine_cost.h"
 
 #include <gtest/gtest.h>
 

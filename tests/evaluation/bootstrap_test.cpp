@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "model/evaluation/table.h"
-#include "tests/support/expect_error.h"
 
 namespace choreo {
 namespace {
@@ -36,8 +35,6 @@ TEST(Bootstrap, TheIntervalOfAMeanIsNearTheNormalOne) {
 TEST(Bootstrap, OneClipHasNoInterval) {
   const std::vector<double> one = {1};
   EXPECT_FALSE(BootstrapRatio(one, one));
-  ExpectError(ErrorCode::kInvalidArgument, "denominators: 0 for 1 numerators",
-              [&] { BootstrapRatio(one, {}); });
 }
 
 TEST(Bootstrap, GroupsWeighAlikeInAMeanOfMeans) {

@@ -94,7 +94,7 @@ TEST(ControlFigures, RefuseWhatCannotBeCompared) {
   };
   refused("3 frames against 4", [&] { RootRelativeDistance(three, four); });
   refused("3 frames against 4", [&] { RootDeviation(three, Eigen::Matrix3Xd::Zero(3, 4)); });
-  refused("has no frames", [] { RootRelativeDistance({}, {}); });
+  refused("0 frames against 0", [] { RootRelativeDistance({}, {}); });
   refused("no step", [&] { TrackVelocityFactors(WeighBodyParts(Body()), Standing(1)); });
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "model/metrics/foot_contact_score.h"
+#include "model/metrics/groove.h"
 #include "model/metrics/joint_track.h"
 #include "model/metrics/pose_distance.h"
 #include "model/motion/kinematics.h"
@@ -25,7 +25,7 @@ TEST(PoseDistance, L2PIsTheMeanWayOfAJoint) {
   EXPECT_NEAR(L2P(TrackJoints(Body(), moved), TrackJoints(Body(), real)), 0.5, 1e-12);
   moved[0] = moved[1] = real[0];
   EXPECT_NEAR(L2P(TrackJoints(Body(), moved), TrackJoints(Body(), real)), 0.25, 1e-12);
-  ExpectError(ErrorCode::kInvalidArgument, "danced: 4 frames against 3 real ones",
+  ExpectError(ErrorCode::kInvalidArgument, "danced: 4 frames against 3",
               [&] { L2P(TrackJoints(Body(), moved), TrackJoints(Body(), Standing(3))); });
 }
 

@@ -62,7 +62,7 @@ TEST(InterpolationEngine, WalksTheLineOntoTheKey) {
   const ClipSet set = TwoClips();
   InterpolationEngine engine(FakeEngine(1).model(), 2);
   TransitionInput input = InputOf(engine.model(), set, {0, 40}, 20, 0.5F, 0);
-  input.request.arrival.frames = 0;
+  input.request.arrival_frames = 0;
   input.request.foot_lock = false;
   const auto result = DanceTransitions(engine, {&input, 1}).front();
   const Pose half = InterpolatePoses(input.request.history.back(), input.request.target->pose, 0.5);

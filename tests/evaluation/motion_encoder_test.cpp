@@ -24,7 +24,7 @@ ClipSet Clips(int frames) {
 
 TEST(MotionEncoder, ItsCodesAreUncorrelatedAndOfUnitVarianceInTraining) {
   const ClipSet set = Clips(600);
-  const MotionEncoder encoder = MotionEncoder::Train({set});
+  const MotionEncoder encoder({set});
   Eigen::MatrixXd codes(0, 0);
   for (const PreparedClip& clip : set.clips) {
     const Eigen::MatrixXd some = encoder.Encode(clip.skeleton, clip.motion.frames);
@@ -41,7 +41,7 @@ TEST(MotionEncoder, ItsCodesAreUncorrelatedAndOfUnitVarianceInTraining) {
 
 TEST(MotionEncoder, DoesNotSeeWhereTheDancerStandsOrFaces) {
   const ClipSet set = Clips(300);
-  const MotionEncoder encoder = MotionEncoder::Train({set});
+  const MotionEncoder encoder({set});
   std::vector<Pose> moved = set.clips[0].motion.frames;
   const GroundFrame elsewhere{{2, 0, -1}, 0.8};
   for (Pose& pose : moved) pose = elsewhere.ToWorld(pose);
@@ -53,14 +53,14 @@ TEST(MotionEncoder, DoesNotSeeWhereTheDancerStandsOrFaces) {
 }
 
 TEST(MotionEncoder, NamesItsDataAndNeedsSome) {
-  const std::string version = MotionEncoder::Train({Clips(300)}).version();
+  const std::string version = MotionEncoder({Clips(300)}).version();
   EXPECT_THAT(version, testing::MatchesRegex("linear-1/[0-9a-f]{16}"));
-  EXPECT_EQ(MotionEncoder::Train({Clips(300)}).version(), version);
-  EXPECT_NE(MotionEncoder::Train({Clips(310)}).version(), version);
+  EXPECT_EQ(MotionEncoder({Clips(300)}).version(), version);
+  EXPECT_NE(MotionEncoder({Clips(310)}).version(), version);
   ClipSet touched = Clips(300);  // one joint of one frame
   touched.clips[1].motion.frames[77].rotations(0, 3) += 1e-3;
-  EXPECT_NE(MotionEncoder::Train({touched}).version(), version);
-  ExpectError(ErrorCode::kInvalidArgument, "0 windows", [] { MotionEncoder::Train({Clips(20)}); });
+  EXPECT_NE(MotionEncoder({touched}).version(), version);
+  ExpectError(ErrorCode::kInvalidArgument, "0 windows", [] { MotionEncoder({Clips(20)}); });
 }
 
 TEST(MeanApart, OfDancesThatAreKnown) {
@@ -76,7 +76,7 @@ TEST(MeanApart, OfDancesThatAreKnown) {
 
 TEST(EvaluateEncoded, RealMotionIsNearestAndSeedsVaryOnlyWithNoise) {
   const ClipSet set = Clips(600);
-  const MotionEncoder encoder = MotionEncoder::Train({set});
+  const MotionEncoder encoder({set});
   FakeEngine engine(16);
   const std::vector<Method> methods = {{"real", Method::Kind::kReal},
                                        {"free", Method::Kind::kEngine, &engine, false},

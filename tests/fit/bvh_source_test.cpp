@@ -1,12 +1,12 @@
-#include "model/fit/bvh_source.h"
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 
 #include "model/core/error.h"
 #include "model/fit/fit_clip.h"
+#include "model/fit/sources.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/fit/fit_fixtures.h"
@@ -102,7 +102,8 @@ double BoneError(const FitResult& fit, const PositionClip& source, const char* o
     const Eigen::Matrix3Xd ours = JointPositions(Smpl(), fit.motion.frames[frame]);
     const Eigen::Matrix3Xd& theirs = source.frames[frame];
     sum += AngleBetween(ours.col(Smpl().Find(our_to)) - ours.col(Smpl().Find(our_from)),
-                        theirs.col(FindJoint(source, to)) - theirs.col(FindJoint(source, from)));
+                        theirs.col(IndexOf(source.joint_names, to)) -
+                            theirs.col(IndexOf(source.joint_names, from)));
   }
   return sum / static_cast<double>(source.frames.size());
 }
@@ -111,8 +112,8 @@ TEST(BvhSource, FollowsASkeletonOfAnotherBuild) {
   const Motion dance = Dance(240);
   const PositionClip source = Perform(MocapJoints(), dance);
   const FitResult fit = FitClip(source, BvhSource(source), Smpl());
-  EXPECT_LT(fit.report.mean_error_m, 0.02);
-  EXPECT_NEAR(fit.report.scale, 0.01, 0.001);
+  EXPECT_LT(fit.mean_error_m, 0.02);
+  EXPECT_NEAR(fit.scale, 0.01, 0.001);
   EXPECT_LT(BoneError(fit, source, "left_hip", "left_knee", "LeftUpLeg", "LeftLeg"), 4);
   EXPECT_LT(BoneError(fit, source, "right_knee", "right_ankle", "RightLeg", "RightFoot"), 4);
   EXPECT_LT(BoneError(fit, source, "left_shoulder", "left_elbow", "LeftArm", "LeftForeArm"), 4);
@@ -183,18 +184,18 @@ TEST(BvhSource, KnowsPrefixesAndOtherNames) {
   for (const auto& names : {poser, biped, iclone}) {
     const PositionClip renamed = Renamed(source, names);
     const FitResult fit = FitClip(renamed, BvhSource(renamed), Smpl());
-    EXPECT_LT(fit.report.mean_error_m, 0.02);
+    EXPECT_LT(fit.mean_error_m, 0.02);
     // Collarbones and shoulders are told apart.
     const auto from = names.at("LeftArm"), to = names.at("LeftForeArm");
     EXPECT_LT(BoneError(fit, renamed, "left_shoulder", "left_elbow", from.c_str(), to.c_str()), 6);
   }
   const PositionClip prefixed = Perform(MocapJoints(), Dance(5), "mixamorig:");
-  EXPECT_LT(FitClip(prefixed, BvhSource(prefixed), Smpl()).report.mean_error_m, 0.02);
+  EXPECT_LT(FitClip(prefixed, BvhSource(prefixed), Smpl()).mean_error_m, 0.02);
 }
 
 TEST(BvhSource, NamesTheJointThatIsMissing) {
   PositionClip source = Perform(MocapJoints(), Dance(2));
-  source.joint_names[static_cast<size_t>(FindJoint(source, "RightLeg"))] = "x";
+  *std::ranges::find(source.joint_names, "RightLeg") = "x";
   try {
     BvhSource(source);
     FAIL();

@@ -31,7 +31,7 @@ TEST(Fit, StandsTheDancerOnTheFloor) {
   motion.frames.assign(30, RestPose(Smpl()));
   for (Pose& pose : motion.frames) pose.root_position.y() += 0.4;
   const FitResult result = FitClip(Positions(Smpl(), motion), IdentitySource(Smpl()), Smpl());
-  EXPECT_NEAR(result.report.ground_shift_m, -0.4, 0.002);
+  EXPECT_NEAR(result.ground_shift_m, -0.4, 0.002);
   EXPECT_NEAR(result.motion.frames[7].root_position.y(), Smpl().pelvis_height, 0.002);
 }
 
@@ -53,10 +53,10 @@ TEST(Fit, GroundsDriftButNotJumps) {
 
 TEST(Fit, ReportsWhatItDid) {
   const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 14, 20));
-  const FitReport report = FitClip(clip, IdentitySource(Smpl()), Smpl()).report;
-  EXPECT_GT(report.mean_error_m, 0);
-  EXPECT_LE(report.mean_error_m, report.p95_error_m);
-  EXPECT_LT(report.p95_error_m, 0.02);
+  const FitResult result = FitClip(clip, IdentitySource(Smpl()), Smpl());
+  EXPECT_GT(result.mean_error_m, 0);
+  EXPECT_LE(result.mean_error_m, result.p95_error_m);
+  EXPECT_LT(result.p95_error_m, 0.02);
 }
 
 TEST(Fit, NamesWhatIsMissing) {

@@ -4,7 +4,6 @@
 
 #include "model/motion/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
-#include "tests/support/expect_error.h"
 
 namespace choreo {
 namespace {
@@ -98,16 +97,6 @@ TEST(DrawJoints, MeetsSeveralAtOnce) {
                   Target("pelvis", {0, 0.75, -0.1})});
   for (const double missed : drawn.missed_m) EXPECT_LT(missed, 0.01);
   ExpectSoundLimbs(drawn.pose);
-}
-
-TEST(DrawJoints, RefusesWhatCannotBe) {
-  const auto refused = [](const std::vector<JointTarget>& targets, const std::string& part) {
-    ExpectError(ErrorCode::kInvalidArgument, part,
-                [&] { DrawJoints(Body(), Standing(), targets); });
-  };
-  refused({{-1, {0, 0, 0}}}, "targets[0].joint: -1, must be 0 to 23");
-  refused({{1, {0, 0, 0}}, {1, {0, 0, 0}}}, "targets[1].joint: left_hip has a target already");
-  refused({{1, {0, NAN, 0}}}, "targets[0].position: is not finite");
 }
 
 }  // namespace

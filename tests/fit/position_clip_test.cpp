@@ -58,7 +58,6 @@ TEST(LowPass, KeepsConstantsAndSlopesUpToTheEnds) {
     EXPECT_LT((filtered.frames[frame] - clip.frames[frame]).norm(), 1e-3) << frame;
   }
   EXPECT_EQ(LowPass(clip, 100.0).frames[17], clip.frames[17]);
-  EXPECT_THROW(LowPass(clip, 0), Error);
 }
 
 TEST(ResamplePositions, FollowsASmoothCurveAndStretchesTime) {
@@ -146,12 +145,10 @@ TEST(Spikes, AreInterpolatedAndJumpsAreNot) {
   clip.frames[40](1, 0) += 3;
   clip.frames[41](1, 0) += 4;
   for (int frame = 70; frame < 100; ++frame) clip.frames[frame](2, 0) += 5;
-  int replaced = 0;
-  const PositionClip result = RemoveSpikes(clip, 14, 6, &replaced);
-  EXPECT_EQ(replaced, 2);
-  EXPECT_LT((result.frames[40] - clean.frames[40]).norm(), 1e-9);
-  EXPECT_LT((result.frames[41] - clean.frames[41]).norm(), 1e-9);
-  EXPECT_NEAR(result.frames[75](2, 0), 7, 1e-9);
+  EXPECT_EQ(RemoveSpikes(14, 6, clip), 2);
+  EXPECT_LT((clip.frames[40] - clean.frames[40]).norm(), 1e-9);
+  EXPECT_LT((clip.frames[41] - clean.frames[41]).norm(), 1e-9);
+  EXPECT_NEAR(clip.frames[75](2, 0), 7, 1e-9);
 }
 
 TEST(Clip, RefusesRaggedAndNonFiniteFrames) {

@@ -66,8 +66,8 @@ TEST_P(FitRoundTrip, FindsRotationsThatPutEveryJointWithinAMillimetre) {
   const FitResult result =
       FitClip(Positions(Smpl(), motion), IdentitySource(Smpl()), Smpl(), kAsRecorded);
   ASSERT_EQ(result.motion.frames.size(), motion.frames.size());
-  EXPECT_LT(result.report.mean_error_m, 0.001);
-  EXPECT_NEAR(result.report.scale, 1, 1e-9);
+  EXPECT_LT(result.mean_error_m, 0.001);
+  EXPECT_NEAR(result.scale, 1, 1e-9);
   EXPECT_LT(MeanJointError(result.motion, motion), 0.001);
   EXPECT_LT(LargestStep(result.motion), 2 * LargestStep(motion));
   EXPECT_GT(LeastBend(result.motion), -0.05);
@@ -175,7 +175,7 @@ TEST(Fit, AcceptsASubjectOfAnotherSize) {
   PositionClip clip = Positions(Smpl(), motion);
   for (Eigen::Matrix3Xd& frame : clip.frames) frame *= 100;  // centimetres
   const FitResult result = FitClip(clip, IdentitySource(Smpl()), Smpl(), kAsRecorded);
-  EXPECT_NEAR(result.report.scale, 0.01, 1e-9);
+  EXPECT_NEAR(result.scale, 0.01, 1e-9);
   EXPECT_LT(MeanJointError(result.motion, motion), 0.001);
 }
 
@@ -198,7 +198,7 @@ TEST(Fit, KneesAndElbowsNeverBendBackwards) {
   mapping.accuracy_m = 0.01;
   const FitResult result = FitClip(Positions(Smpl(), motion), mapping, Smpl());
   EXPECT_GT(LeastBend(result.motion), -0.05);
-  EXPECT_LT(result.report.mean_error_m, 0.02);
+  EXPECT_LT(result.mean_error_m, 0.02);
 }
 
 TEST(Fit, StartsFromAnyPose) {

@@ -55,7 +55,7 @@ TEST(Tang2018Skeleton, ADanceOnItIsFoundAgainFromWhatIsRecorded) {
   const auto& [skeleton, mapping] = Native();
   const Motion motion = fixtures::SmoothMotion(skeleton, 31, 60);
   const FitResult fit = FitClip(RecordNative(motion), mapping, skeleton, {.ground = false});
-  EXPECT_LT(fit.report.mean_error_m, 0.015);
+  EXPECT_LT(fit.mean_error_m, 0.015);
   double sum = 0;
   for (size_t frame = 0; frame < motion.frames.size(); ++frame) {
     sum += (JointPositions(skeleton, fit.motion.frames[frame]) -

@@ -65,7 +65,7 @@ TEST(MotionPrior, SamplesAreAsSmoothAsTheMotionThatTheyAreOf) {
   const MotionPrior prior(SmoothCovariance());
   const auto& bridge = prior.Bridges(60, 60)->front();
   // Variance of second differences in the middle: that of a velocity's step, 2 (r(0) - r(1)).
-  const Eigen::RowVectorXd second =
+  const Eigen::RowVectorXf second =
       bridge.spread.row(31) - 2 * bridge.spread.row(30) + bridge.spread.row(29);
   const double expected = 2e-4 * (1 - std::exp(-0.5 / 25));
   EXPECT_NEAR(second.squaredNorm() / expected, 1, 0.25);

@@ -89,7 +89,7 @@ double Difference(const Motion& a, const Motion& b) {
 TEST(AmassNpz, BothLayoutsOfOneFileAreTheSameMotion) {
   const Motion motion = fixtures::SmoothMotion(kSmpl, 3, 40, 60);
   NpzArchive npz;
-  AddSmplMotion(kSmpl, motion, nullptr, npz);
+  AddSmplMotion(motion, nullptr, npz);
   const Motion ours = ReadSmplMotion(npz);
   EXPECT_EQ(ours.fps, 60);
   EXPECT_LT(Difference(ours, motion), 1e-12);
@@ -177,7 +177,7 @@ TEST(AmassNpz, KeepsContacts) {
   const Motion motion = fixtures::SmoothMotion(kSmpl, 5, 2);
   const std::vector<Contacts> contacts = {{1, 0, 1, 0}, {0, 1, 0.5f, 1}};
   NpzArchive npz;
-  AddSmplMotion(kSmpl, motion, &contacts, npz);
+  AddSmplMotion(motion, &contacts, npz);
   EXPECT_EQ(npz.Array("contacts").shape, (std::vector<int64_t>{2, 4}));
   EXPECT_EQ(npz.Array("contacts").As<float>(), (std::vector<float>{1, 0, 1, 0, 0, 1, 0.5f, 1}));
 }
@@ -186,7 +186,7 @@ TEST(AmassNpz, NumpyFindsThePelvisWhereWeSaidItIs) {
   if (!HaveNumpy()) GTEST_SKIP() << "no python3 with numpy here";
   const TemporaryFolder folder;
   NpzArchive npz;
-  AddSmplMotion(kSmpl, fixtures::SmoothMotion(kSmpl, 7, 25), nullptr, npz);
+  AddSmplMotion(fixtures::SmoothMotion(kSmpl, 7, 25), nullptr, npz);
   npz.Write(folder / "dance.npz");
   EXPECT_EQ(RunNumpy(folder / "dance.npz",
                      "d = np.load(path)\n"
@@ -229,18 +229,14 @@ TEST(AmassNpz, RefusesWhatItCannotUse) {
   expect("has no array", empty);
 
   NpzArchive out;
-  const auto refuse = [&](const std::string& part, const Skeleton& skeleton, const Motion& motion,
+  const auto refuse = [&](const std::string& part, const Motion& motion,
                           const std::vector<Contacts>* contacts) {
-    ExpectError(ErrorCode::kInvalidArgument, part,
-                [&] { AddSmplMotion(skeleton, motion, contacts, out); });
+    ExpectError(ErrorCode::kInvalidArgument, part, [&] { AddSmplMotion(motion, contacts, out); });
   };
   const Motion motion = fixtures::SmoothMotion(kSmpl, 5, 2);
   const std::vector<Contacts> one(1);
-  refuse("contacts: 1 frames", kSmpl, motion, &one);
-  refuse("0 frames", kSmpl, Motion{}, nullptr);
-  Skeleton other = kSmpl;
-  other.joint_names[3] = "belly";
-  refuse("skeleton", other, motion, nullptr);
+  refuse("contacts: 1 frames", motion, &one);
+  refuse("0 frames", Motion{}, nullptr);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
@@ -76,11 +75,8 @@ TEST(Bvh, FrameTimesAreRoundingsOfRates) {
 
 TEST(Bvh, OursComesBackAndStandsWhereForwardKinematicsPutsIt) {
   const Motion motion = fixtures::SmoothMotion(kSmpl, 11, 50, 60);
-  std::stringstream text;
-  WriteBvh(text, MotionToBvh(kSmpl, motion));
-  const BvhFile file = ParseBvh(text.str(), "ours");
-  ASSERT_TRUE(IsBvhOf(file, kSmpl));
-  const Motion back = BvhToMotion(file, kSmpl);
+  const BvhFile file = ParseBvh(BvhText(MotionToBvh(kSmpl, motion)), "ours");
+  const Motion back = BvhToMotion(file, kSmpl).value();
   EXPECT_EQ(back.fps, 60);
   ASSERT_EQ(back.frames.size(), motion.frames.size());
   for (size_t i = 0; i < motion.frames.size(); ++i) {
@@ -105,15 +101,12 @@ TEST(Bvh, ComesBackFromEveryLayout) {
         std::pair(JointNames::kHumanIk, "LeftFoot"), std::pair(JointNames::kUnreal, "foot_l")}) {
     for (const double units : {kCentimetres, kMetres}) {
       SCOPED_TRACE(foot);
-      std::stringstream text;
-      WriteBvh(text, MotionToBvh(kSmpl, motion, {names, units}));
-      const BvhFile file = ParseBvh(text.str(), "ours");
+      const BvhFile file = ParseBvh(BvhText(MotionToBvh(kSmpl, motion, {names, units})), "ours");
       const std::vector<std::string> called = file.JointNames();
       EXPECT_EQ(std::ranges::count(called, foot), 1);
       // At rest the hips are as high as they are.
       EXPECT_LT((file.joints[0].offset - units * Vector3d(0, kSmpl.pelvis_height, 0)).norm(), 1e-6);
-      ASSERT_TRUE(IsBvhOf(file, kSmpl));
-      const Motion back = BvhToMotion(file, kSmpl);
+      const Motion back = BvhToMotion(file, kSmpl).value();
       ASSERT_EQ(back.frames.size(), motion.frames.size());
       for (size_t i = 0; i < motion.frames.size(); ++i) {
         const PoseError error = ComparePoses(kSmpl, motion.frames[i], back.frames[i]);
@@ -161,7 +154,7 @@ TEST(Bvh, EulerAnglesGoThroughTheLockWithoutJumps) {
                        (file.values.col(frame) - file.values.col(frame - 1)).cwiseAbs().maxCoeff());
   }
   EXPECT_NEAR(largest, 9, 1e-6);
-  const Motion back = BvhToMotion(file, kSmpl);
+  const Motion back = BvhToMotion(file, kSmpl).value();
   for (size_t i = 0; i < motion.frames.size(); ++i) {
     EXPECT_LT(ComparePoses(kSmpl, motion.frames[i], back.frames[i]).angle_deg, 1e-6);
   }
@@ -169,15 +162,14 @@ TEST(Bvh, EulerAnglesGoThroughTheLockWithoutJumps) {
 
 TEST(Bvh, KnowsOurSkeletonFromOthers) {
   BvhFile file = MotionToBvh(kSmpl, fixtures::SmoothMotion(kSmpl, 1, 1));
-  EXPECT_TRUE(IsBvhOf(file, kSmpl));
+  EXPECT_TRUE(BvhToMotion(file, kSmpl));
   BvhFile longer = file;
   longer.joints[2].offset.y() += 0.2;
-  EXPECT_FALSE(IsBvhOf(longer, kSmpl));
+  EXPECT_FALSE(BvhToMotion(longer, kSmpl));
   BvhFile renamed = file;
   renamed.joints[1].name = "LeftUpLeg";
-  EXPECT_FALSE(IsBvhOf(renamed, kSmpl));
-  ExpectError(ErrorCode::kInvalidArgument, "hierarchy", [&] { BvhToMotion(renamed, kSmpl); });
-  EXPECT_FALSE(IsBvhOf(ParseBvh(kArm, "arm"), kSmpl));
+  EXPECT_FALSE(BvhToMotion(renamed, kSmpl));
+  EXPECT_FALSE(BvhToMotion(ParseBvh(kArm, "arm"), kSmpl));
 }
 
 TEST(Bvh, NamesLineTokenAndExpectation) {

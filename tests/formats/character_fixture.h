@@ -40,12 +40,12 @@ class CharacterTest : public testing::Test {
   // The largest angle, degrees, between a limb's bone in out.glb and in the dance; of the trunk,
   // between the ways across the hips and the shoulders.
   double WorstDirection() const {
-    const GltfScene scene(ParseGlb(folder_ / "out.glb"));
-    const HumanBones bones = FindHumanBones(scene.nodes().names());
-    EXPECT_EQ(scene.frames(), std::ssize(smpl_.frames));
-    EXPECT_EQ(scene.fps(), smpl_.fps);
+    const GltfScene scene = ReadGltfScene(folder_ / "out.glb");
+    const HumanBones bones = FindHumanBones(scene.nodes.names);
+    EXPECT_EQ(scene.frames, std::ssize(smpl_.frames));
+    EXPECT_EQ(scene.fps, smpl_.fps);
     double worst = 0;
-    for (int64_t frame = 0; frame < scene.frames(); ++frame) {
+    for (int64_t frame = 0; frame < scene.frames; ++frame) {
       const std::vector<Eigen::Affine3d> now = scene.Frame(frame);
       const Eigen::Matrix3Xd ours =
           JointPositions(Skeleton::Smpl24(), smpl_.frames[static_cast<size_t>(frame)]);

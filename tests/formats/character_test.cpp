@@ -173,9 +173,9 @@ TEST_F(CharacterTest, BonesThatHangElsewhereAreMovedAlong) {
     }
   });
   EXPECT_LT(WorstDirection(), 2);
-  const GltfScene scene(ParseGlb(folder_ / "out.glb"));
+  const GltfScene scene = ReadGltfScene(folder_ / "out.glb");
   const Motion danced = TransferToCharacter(smpl_, body.skeleton);
-  const std::vector<Eigen::Affine3d> last = scene.Frame(scene.frames() - 1);
+  const std::vector<Eigen::Affine3d> last = scene.Frame(scene.frames - 1);
   const Eigen::Matrix3Xd places = JointPositions(body.skeleton, danced.frames.back());
   for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
     EXPECT_LT((last[static_cast<size_t>(body.nodes[joint])].translation() -
@@ -214,7 +214,7 @@ TEST_F(CharacterTest, KhronosAndThreeJsAgreeWithUs) {
     const Eigen::Matrix3Xd places = JointPositions(body.skeleton, danced.frames[frame]);
     for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
       const Eigen::Vector3d at = places.col(static_cast<Eigen::Index>(joint));
-      joints[file.names()[static_cast<size_t>(body.nodes[joint])]] = {at.x(), at.y(), at.z()};
+      joints[file.nodes().names[static_cast<size_t>(body.nodes[joint])]] = {at.x(), at.y(), at.z()};
     }
     expected["frames"].push_back({{"time", static_cast<double>(frame) / 30}, {"joints", joints}});
   }

@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   int pieces = 0;
   try {
     fuzz::MayRefuse([&] {
-      DecodeMono(AudioReader::OpenMemory(std::as_bytes(std::span(data, size))), [&] {
+      DecodeMono(std::as_bytes(std::span(data, size)), [&] {
         if (++pieces > 2) throw Enough();
       });
     });

@@ -12,12 +12,8 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const CharacterFile file(input.Holding(fuzz::Text(data, size)));
     const Eigen::Matrix3Xd places = file.places();
     HumanBones bones = file.FindBones();
-    if (!MissingBone(bones).empty()) {
-      std::vector<int> parents;
-      for (int node = 0; node < std::ssize(file.names()); ++node)
-        parents.push_back(file.parent(node));
-      bones = GuessBones(parents, places, file.joints());
-    }
+    if (!MissingBone(bones).empty())
+      bones = GuessBones(file.nodes().parents, places, file.joints());
     const CharacterBody body = MakeCharacterBody(bones, places);
     const Skeleton& smpl = Skeleton::Smpl24();
     const Motion dance{.fps = 30, .frames = {RestPose(smpl), RestPose(smpl)}};
@@ -25,7 +21,8 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     file.WriteDance(written, body, TransferToCharacter(dance, body.skeleton));
     // What we write is a character, too.
     try {
-      if (CharacterFile(written).names() != file.names()) fuzz::Fail("other nodes came out");
+      if (CharacterFile(written).nodes().names != file.nodes().names)
+        fuzz::Fail("other nodes came out");
     } catch (const Error& error) {
       fuzz::Fail(error.what());
     }

@@ -8,11 +8,11 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const fuzz::InputFile input(".glb");
   fuzz::MayRefuse([&] {
     const auto& path = input.Holding(fuzz::Text(data, size));
-    const GltfScene scene(ParseGlb(path));
+    const GltfScene scene = ReadGltfScene(path);
     scene.Frame(0);
-    scene.Frame(scene.frames() - 1);
+    scene.Frame(scene.frames - 1);
     // Longer ones take as long as they are.
-    if (scene.frames() < 5) ReadGlb(path);
+    if (scene.frames < 5) ReadGlb(path);
   });
   return 0;
 }

@@ -101,8 +101,8 @@ class LabEval : public testing::Test {
 
   void TrainOneStep(const std::string& preset) {
     const Outcome outcome = Lab("train --preset " + preset + kData + " --run " + preset +
-                                    " --steps 1 --batch 4 --shortest 5 "
-                                    "--longest 20 --rollout-frames 4",
+                                    " --steps 1 --batch 4 --shortest 5 --longest 20" +
+                                    (preset == "ablation" ? " --rollout-frames 4" : ""),
                                 folder_.path());
     ASSERT_EQ(outcome.code, 0) << outcome.said;
   }
@@ -174,6 +174,8 @@ TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
 TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
   for (const auto& [options, why] : std::vector<std::pair<std::string, std::string>>{
            {"ablation --one-lstm", "--one-lstm: is no ablation of the preset ablation"},
+           {"ablation --tempo 0.3", "--tempo: is no option of the preset ablation"},
+           {"default --longest 20", "--longest: is no option of the preset default"},
            {"controllers-paper --no-keys",
             "--no-keys: is no ablation of the preset controllers-paper"}}) {
     const Outcome outcome = Lab("train --run refused --preset " + options + kData, folder_.path());

@@ -1,5 +1,3 @@
-#include "model/plan/beat_timing.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,12 +27,18 @@ std::vector<double> EveryFifteen(double first, double last) {
   return beats;
 }
 
+double Time(std::span<const double> beats, int frames, bool keyed, double t) {
+  return BeatTime(
+      {.skeleton = Skeleton::Smpl24(), .history = {}, .beats = beats, .keyed = keyed, .fps = 30},
+      frames, t);
+}
+
 TEST(BeatTiming, KeepsTheEndsAndNeverRunsBackwards) {
   for (const int frames : {2, 7, 30, 32, 45, 60, 75, 90}) {
     for (const double first : {-11.0, -16.0}) {  // the second: on all keys of whole seconds' ways
       for (const bool keyed : {false, true}) {
         const std::vector<double> beats = EveryFifteen(first, frames + 15);
-        const auto time = [&](double t) { return BeatTiming{beats, frames, keyed, 30}.Time(t); };
+        const auto time = [&](double t) { return Time(beats, frames, keyed, t); };
         EXPECT_NEAR(time(-1), -1, 1e-12);
         EXPECT_NEAR(time(frames - 1), frames - 1, 1e-12);
         for (double t = -1; t < frames - 1; t += 0.1) {
@@ -47,16 +51,14 @@ TEST(BeatTiming, KeepsTheEndsAndNeverRunsBackwards) {
 }
 
 TEST(BeatTiming, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ((BeatTiming{{}, 31, true, 30}.Time(t)), t);
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(Time({}, 31, true, t), t);
   const std::vector<double> pause = {-100, 200};
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ((BeatTiming{pause, 31, true, 30}.Time(t)), t);
+  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(Time(pause, 31, true, t), t);
 }
 
 TEST(BeatTiming, RunsFastestAtKeysThatStandOnBeats) {
   const auto pace = [](std::span<const double> beats, int frames, bool keyed, double t) {
-    return (BeatTiming{beats, frames, keyed, 30}.Time(t + 0.05) -
-            BeatTiming{beats, frames, keyed, 30}.Time(t)) /
-           0.05;
+    return (Time(beats, frames, keyed, t + 0.05) - Time(beats, frames, keyed, t)) / 0.05;
   };
   const std::vector<double> on = EveryFifteen(-16, 100), off = EveryFifteen(-9, 100);
   // 60 frames from key to key, both on a beat: 1 + 0.25 + 0.75 at each.

@@ -273,7 +273,7 @@ void ServerTest::ExpectIdle() {
 }
 
 void ExpectEventually(const std::function<bool()>& condition, const std::string& what) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) {
       ADD_FAILURE() << "never came about: " << what;

@@ -2,7 +2,7 @@
 #include <mutex>
 #include <thread>
 
-#include "model/engine/warm_up.h"
+#include "model/engine/engine_cost.h"
 #include "tests/server/fixture.h"
 #include "tests/server/real_time.h"
 #include "tests/support/setting.h"

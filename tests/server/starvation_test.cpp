@@ -5,7 +5,7 @@
 #include <iostream>
 #include <thread>
 
-#include "model/engine/warm_up.h"
+#include "model/engine/engine_cost.h"
 #include "server/call_registry.h"
 #include "tests/server/fixture.h"
 

@@ -30,7 +30,7 @@ inline PositionClip RecordNative(const Motion& motion) {
       if (landmark.source.size() != 1) continue;  // not recorded, but between recorded points
       const OurPoint& point = landmark.ours.front();
       const int joint = skeleton.Find(point.joint);
-      points.col(FindJoint(clip, landmark.source.front().first)) =
+      points.col(IndexOf(clip.joint_names, landmark.source.front().first)) =
           placement.positions.col(joint) +
           placement.rotations[static_cast<size_t>(joint)] * point.offset;
     }

@@ -59,7 +59,7 @@ inline PositionClip Tang61Markers(const Motion& motion) {
   clip.joint_names = Tang61JointNames();
   for (const Eigen::Matrix3Xd& frame : markers.frames) {
     const auto place = [&](const std::string& name) -> Eigen::Vector3d {
-      return frame.col(FindJoint(markers, name));
+      return frame.col(IndexOf(markers.joint_names, name));
     };
     Eigen::Matrix3Xd positions(3, clip.joint_names.size());
     for (size_t i = 0; i < clip.joint_names.size(); ++i) {

@@ -118,7 +118,7 @@ TEST_F(AistTest, ListsBecomeSplitsAndTheRestIsSeenByNoRun) {
   const auto names = [&](const std::string& group) {
     std::vector<std::string> read;
     for (const PreparedClip& clip :
-         LoadClips({folder_ / "out"}, folder_ / "out" / "splits.json", {group}))
+         LoadClips({folder_ / "out"}, folder_ / "out" / "splits.json", group))
       read.push_back(clip.name);
     return read;
   };

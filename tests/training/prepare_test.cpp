@@ -28,7 +28,7 @@ TEST_F(AmassTest, ComesThroughAndABrokenFileIsNamedAndSkipped) {
   options_.terms = "ours";
   const PreparedClip clip = SyntheticClip("walk", 90, 0.2, false);
   NpzArchive npz;
-  AddSmplMotion(Skeleton::Smpl24(), clip.motion, nullptr, npz);
+  AddSmplMotion(clip.motion, nullptr, npz);
   std::filesystem::create_directories(In() / "subject");
   npz.Write(In() / "subject" / "walk.npz");
   std::ofstream(In() / "subject" / "broken.npz") << "no zip";

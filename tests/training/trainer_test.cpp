@@ -9,6 +9,7 @@
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
 #include "model/training/adam.h"
+#include "model/training/clip_split.h"
 #include "model/training/losses.h"
 #include "tests/support/load_checkpoint.h"
 #include "tests/support/synthetic_clips.h"
@@ -33,7 +34,7 @@ class TrainerTest : public testing::Test {
     options.steps = steps;
     options.batch = 8;
     options.longest = 12;
-    options.rollout_frames = 4;
+    options.flow.rollout_frames = 4;
     options.report_every = 2;
     return options;
   }
@@ -137,7 +138,7 @@ TEST_F(TrainerTest, ControllersResumeAsIfUndisturbed) {
     options.resume = true;
   }
   EXPECT_EQ(hash(options), whole);
-  options.one_lstm = true;
+  options.controllers.one_lstm = true;
   EXPECT_THAT([&] { TrainControllers(options); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("--one-lstm")));
 }
@@ -162,7 +163,7 @@ TEST_F(TrainerTest, ControllersGoOnFromAnotherNetwork) {
   EXPECT_THAT(ours.metadata.at("config"), testing::HasSubstr("\"name\":\"further\""));
 
   further.run = folder_.path() / "one LSTM";
-  further.one_lstm = true;
+  further.controllers.one_lstm = true;
   EXPECT_THAT([&] { TrainControllers(further); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("its shape does not fit")));
 }
@@ -216,9 +217,9 @@ TEST_F(TrainerTest, UnusableOptionsAreNamed) {
 }
 
 TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
-  const ClipStore store({folder_.path()}, folder_.path() / "splits.json", {kTrainGroup});
+  const auto clips = LoadClips({folder_.path()}, folder_.path() / "splits.json", kTrainGroup);
   Random random(5);
-  const MotionBatch batch = store.Draw(6, 10, 20, {}, &random);
+  const MotionBatch batch = DrawMotion(clips, 6, 10, 20, {}, torch::kCPU, &random);
   EXPECT_EQ(batch.transition.frames, 20);
   EXPECT_EQ(batch.features.sizes(), (std::vector<int64_t>{6, 30, 82}));
   // The last history frame stands over the origin, facing +Z; the key is the last frame.
@@ -227,13 +228,13 @@ TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
   EXPECT_LT(last.select(1, 2).abs().max().item<double>(), 1e-6);
   EXPECT_TRUE(torch::equal(batch.transition.target_position, batch.truth.position.select(1, 19)));
   // Two of five clips have music; who has none hears zeros.
-  const MotionBatch many = store.Draw(60, 10, 20, {}, &random);
+  const MotionBatch many = DrawMotion(clips, 60, 10, 20, {}, torch::kCPU, &random);
   const auto heard = static_cast<int>(many.has_audio.sum().item<double>());
   EXPECT_GT(heard, 0);
   EXPECT_LT(heard, 60);
   EXPECT_TRUE(torch::equal(many.audio.abs().amax({1, 2}) > 0, many.has_audio.squeeze(1) > 0));
   // Truth has no distance from itself, interpolation does.
-  const TorchKinematics kinematics(store.skeleton());
+  const TorchKinematics kinematics(clips.front().skeleton);
   EXPECT_LT(JointDistance(kinematics, batch.truth, batch.truth).max().item<double>(), 1e-4);
   EXPECT_GT(
       JointDistance(kinematics, Interpolate(batch.transition), batch.truth).min().item<double>(),

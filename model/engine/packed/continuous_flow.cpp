@@ -12,11 +12,11 @@ namespace {
 
 long RoundUp(long count, long unit) { return (count + unit - 1) / unit * unit; }
 
-// Of one row.
-Eigen::VectorXf Run(const PackedLinear& linear, const Eigen::VectorXf& x) {
-  Eigen::VectorXf y(linear.padded());
-  linear.Run(x.data(), x.size(), y.data(), y.size(), 1);
-  return y;
+// A column in, a column out.
+Eigen::MatrixXf Run(const PackedLinear& linear, const Eigen::MatrixXf& x) {
+  Eigen::MatrixXf y(linear.padded(), x.cols());
+  linear.Run(x.data(), x.rows(), y.data(), y.rows(), x.cols());
+  return y.topRows(linear.columns());
 }
 
 }  // namespace
@@ -73,17 +73,30 @@ PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const Continuou
   }
 }
 
-Eigen::VectorXf PackedFlowNetwork::Condition(const Eigen::VectorXf& whole, float t) const {
-  Eigen::VectorXf known(whole.size() + kFlowTimeWidth);
-  known.head(whole.size()) = whole;
-  EmbedFlowTime(t, {known.data() + whole.size(), size_t{kFlowTimeWidth}});
-  Eigen::VectorXf hidden = Run(condition_in_, known);
+// Of each time, one after another: the blocks' modulations, the head's, what embedded tokens get.
+// All times together, as weights are read once for all.
+Eigen::MatrixXf PackedFlowNetwork::Condition(const Eigen::VectorXf& whole,
+                                             std::span<const float> times) const {
+  Eigen::MatrixXf known(whole.size() + kFlowTimeWidth, std::ssize(times));
+  known.topRows(whole.size()).colwise() = whole;
+  for (size_t i = 0; i < times.size(); ++i) {
+    float* column = known.col(static_cast<Eigen::Index>(i)).data();
+    EmbedFlowTime(times[i], {column + whole.size(), size_t{kFlowTimeWidth}});
+  }
+  Eigen::MatrixXf hidden = Run(condition_in_, known);
   kernels_.silu(hidden.data(), hidden.size());
-  hidden.conservativeResize(width_);
-  Eigen::VectorXf condition = Run(condition_out_, hidden);
+  Eigen::MatrixXf condition = Run(condition_out_, hidden);
   kernels_.silu(condition.data(), condition.size());
-  condition.conservativeResize(condition_out_.columns());
-  return condition;
+  Eigen::MatrixXf all((6 * std::ssize(blocks_) + 3) * width_, std::ssize(times));
+  Eigen::Index row = 0;
+  const auto add = [&](const PackedLinear& linear) {
+    all.middleRows(row, linear.columns()) = Run(linear, condition);
+    row += linear.columns();
+  };
+  for (const Block& block : blocks_) add(block.modulation);
+  add(head_modulation_);
+  add(inject_);
+  return all;
 }
 
 void PackedFlowNetwork::Normalise(const RowBuffer& x, const float* shift, const float* scale,
@@ -140,10 +153,9 @@ void PackedFlowNetwork::Attend(const Block& block, long tokens, Workspace* work)
   }
 }
 
-void PackedFlowNetwork::Transform(const Block& block, const Eigen::VectorXf& condition, long tokens,
+void PackedFlowNetwork::Transform(const Block& block, const float* modulation, long tokens,
                                   Workspace* work) const {
-  const Eigen::VectorXf modulation = Run(block.modulation, condition);
-  const auto part = [&](int i) { return modulation.data() + i * width_; };
+  const auto part = [&](int i) { return modulation + i * width_; };
   const auto add = [&](const float* weight) {
     const Eigen::Map<const Eigen::RowVectorXf> by(weight, width_);
     for (long i = 0; i < tokens; ++i)
@@ -164,25 +176,25 @@ void PackedFlowNetwork::Transform(const Block& block, const Eigen::VectorXf& con
 Eigen::MatrixXf PackedFlowNetwork::Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                                             const Eigen::MatrixXf& joints,
                                             const Eigen::MatrixXf& mean,
-                                            const WindowFeatures& features, float t) const {
+                                            const Eigen::MatrixXf& frames,
+                                            const Eigen::VectorXf& condition) const {
   thread_local Workspace work;
-  const Eigen::MatrixXf frames =
-      FlowTokens(z, poses, joints, mean, features.frames, spread_, velocity_);
-  const long tokens = frames.cols() / kFramesAToken, token = kFramesAToken * frames.rows();
+  const Eigen::MatrixXf seen = FlowTokens(z, poses, joints, mean, frames, spread_, velocity_);
+  const long tokens = seen.cols() / kFramesAToken, token = kFramesAToken * seen.rows();
   const long panel = kernels_.panel, padded = RoundUp(width_, panel);
   for (RowBuffer* buffer : {&work.x, &work.normal, &work.added}) buffer->Resize(tokens, padded);
   work.qkv.Resize(tokens, RoundUp(3 * width_, panel));
   work.wide.Resize(tokens, RoundUp(kMlpRatio * width_, panel));
   work.mixed.Resize(tokens, width_ + panel);
 
-  const Eigen::VectorXf condition = Condition(features.whole, t);
-  embed_.Run(frames.data(), token, work.x.Row(0), work.x.stride(), tokens);
-  const Eigen::VectorXf injected = Run(inject_, condition);
-  for (long i = 0; i < tokens; ++i) work.x.Head(i, width_) += injected.head(width_).transpose();
-  for (const Block& block : blocks_) Transform(block, condition, tokens, &work);
-
-  const Eigen::VectorXf modulation = Run(head_modulation_, condition);
-  Normalise(work.x, modulation.data() + width_, modulation.data(), tokens, &work.normal);
+  embed_.Run(seen.data(), token, work.x.Row(0), work.x.stride(), tokens);
+  for (long i = 0; i < tokens; ++i) work.x.Head(i, width_) += condition.tail(width_).transpose();
+  const float* modulation = condition.data();
+  for (const Block& block : blocks_) {
+    Transform(block, modulation, tokens, &work);
+    modulation += 6 * width_;
+  }
+  Normalise(work.x, modulation + width_, modulation, tokens, &work.normal);
   Eigen::MatrixXf out(head_.padded(), tokens);
   head_.Run(work.normal.Row(0), work.normal.stride(), out.data(), out.rows(), tokens);
   // Of a token two frames, of a frame what stands alone and what z is multiplied with.

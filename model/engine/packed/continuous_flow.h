@@ -22,9 +22,12 @@ class PackedFlowNetwork : public FlowNetwork {
                     const Skeleton& skeleton, const PackedKernels& kernels,
                     const PackedKernels& products);
 
+  Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
+                            std::span<const float> times) const override;
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                            const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
-                           const WindowFeatures& features, float t) const override;
+                           const Eigen::MatrixXf& frames,
+                           const Eigen::VectorXf& condition) const override;
 
  private:
   struct Block {
@@ -34,13 +37,10 @@ class PackedFlowNetwork : public FlowNetwork {
   };
   struct Workspace;
 
-  /// What is known of the whole window, embedded: [condition].
-  Eigen::VectorXf Condition(const Eigen::VectorXf& whole, float t) const;
   /// Attention over time, from `qkv` to `mixed`.
   void Attend(const Block& block, long tokens, Workspace* work) const;
-  /// One block: x += attention, x += perceptron, each weighed by the condition.
-  void Transform(const Block& block, const Eigen::VectorXf& condition, long tokens,
-                 Workspace* work) const;
+  /// One block: x += attention, x += perceptron, each weighed by `modulation`, the block's own.
+  void Transform(const Block& block, const float* modulation, long tokens, Workspace* work) const;
   /// out = normalised x times (1 + scale) + shift, row by row; both [width].
   void Normalise(const RowBuffer& x, const float* shift, const float* scale, long tokens,
                  RowBuffer* out) const;

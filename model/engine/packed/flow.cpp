@@ -2,7 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "model/flow/key_condition.h"
 #include "model/motion/pose_codec.h"
@@ -12,16 +15,11 @@ namespace {
 
 using Matrix = RowMajorMatrix;
 
-// Rows of what comes in and of its own hidden state on top of each other, biases summed: one
-// product.
-PackedLinear SecondLayer(const PackedKernels& kernels, const PackedTensors& tensors,
-                         const std::string& lstm, long hidden) {
-  Matrix weight(2 * hidden, 4 * hidden);
-  weight << tensors.Get(lstm + "weight_ih_l1", 4 * hidden, hidden).transpose(),
-      tensors.Get(lstm + "weight_hh_l1", 4 * hidden, hidden).transpose();
-  return {
-      kernels, weight,
-      tensors.Get(lstm + "bias_ih_l1", 4 * hidden) + tensors.Get(lstm + "bias_hh_l1", 4 * hidden)};
+// One product of what two maps of LibTorch's, [out, in], make of inputs that lie side by side.
+Matrix Stacked(const Eigen::Map<const Matrix>& left, const Eigen::Map<const Matrix>& right) {
+  Matrix weight(left.cols() + right.cols(), left.rows());
+  weight << left.transpose(), right.transpose();
+  return weight;
 }
 
 // Inverse of y = (x + bias) exp(log_scale) W^T.
@@ -42,72 +40,60 @@ PackedLinear Unmix(const PackedKernels& kernels, const PackedTensors& tensors,
           -tensors.Get(name + "norm_bias", width)};
 }
 
-// The condition's columns come behind z_lo in checkpoints, the static ones last. Here the live ones
-// come first and the static ones leave.
-struct FirstLayer {
-  Matrix live_and_low;  // [live + low, out]
-  Matrix fixed;         // [static, out]
-};
-FirstLayer Split(const Eigen::Map<const Matrix>& weight, long low, long live) {
-  const long fixed = weight.cols() - low - live;
-  FirstLayer parts{Matrix(live + low, weight.rows()), weight.rightCols(fixed).transpose()};
-  parts.live_and_low << weight.middleCols(low, live).transpose(), weight.leftCols(low).transpose();
-  return parts;
-}
-
 }  // namespace
 
-PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config,
+PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config,
                        const Skeleton& skeleton, const PackedKernels& with,
                        const PackedKernels& products)
     : kernels(with),
+      config(flow_config),
       width(PoseCodec(skeleton).width()),
-      tau(config.history_frames),
-      audio_features(config.audio_features),
-      flow_steps(config.flow_steps),
-      hidden(config.hidden),
       encoded(config.condition_width > 0),
-      live(tau * width + config.HeardWidth() + 1),
+      live(config.history_frames * width + config.HeardWidth() + 1),
       condition(encoded ? config.condition_width : live),
-      key_width(KeyConditionWidth(skeleton.joints(), width)) {
+      key_width(KeyConditionWidth(skeleton.joints(), width)),
+      static_width(encoded ? condition : key_width) {
   const PackedTensors tensors(content);
   feature_mean = tensors.Get("feature_mean", width);
   feature_std = tensors.Get("feature_std", width);
   feature_scale = feature_std.cwiseInverse();
-  audio_mean = tensors.Get("audio_mean", audio_features);
-  audio_scale = tensors.Get("audio_std", audio_features).cwiseInverse();
+  audio_mean = tensors.Get("audio_mean", config.audio_features);
+  audio_scale = tensors.Get("audio_std", config.audio_features).cwiseInverse();
 
   if (encoded) {
-    static_width = condition;
     encode_static = tensors.Linear(kernels, "encode_static", key_width, condition);
-    const long past = tau * width, audio = live - past;
-    Matrix weight(live, condition);
-    weight << tensors.Get("encode_past.weight", condition, past).transpose(),
-        tensors.Get("encode_audio.weight", condition, audio).transpose();
+    const long past = config.history_frames * width;
     encode_live = PackedLinear(
-        products, weight,
+        products,
+        Stacked(tensors.Get("encode_past.weight", condition, past),
+                tensors.Get("encode_audio.weight", condition, live - past)),
         tensors.Get("encode_past.bias", condition) + tensors.Get("encode_audio.bias", condition));
     encode = tensors.Linear(products, "encode", condition, condition);
-  } else {
-    static_width = key_width;
   }
 
+  const int hidden = config.hidden, gates = 4 * hidden;  // of one LSTM layer
   double log_det_sum = 0;
-  for (int k = 0; k < flow_steps; ++k) {
+  for (int k = 0; k < config.flow_steps; ++k) {
     const std::string name = "flow.steps." + std::to_string(k) + ".";
-    const std::string network = name + "network.lstm.";
-    const int seen = low() + condition + (encoded ? 0 : static_width);
-    const FirstLayer parts =
-        Split(tensors.Get(network + "weight_ih_l0", gates(), seen), low(), condition);
+    const std::string lstm = name + "network.lstm.";
+    const auto bias_of = [&](const std::string& layer) -> Eigen::VectorXf {
+      return tensors.Get(lstm + "bias_ih_" + layer, gates) +
+             tensors.Get(lstm + "bias_hh_" + layer, gates);
+    };
     Coupling& coupling = couplings.emplace_back();
-    Matrix weight(input_width(), gates());
-    weight << parts.live_and_low,
-        tensors.Get(network + "weight_hh_l0", gates(), hidden).transpose();
-    const Eigen::VectorXf bias =
-        tensors.Get(network + "bias_ih_l0", gates()) + tensors.Get(network + "bias_hh_l0", gates());
-    coupling.first = PackedLinear(products, weight, bias);
-    coupling.second = SecondLayer(products, tensors, network, hidden);
-    if (!encoded) hoisted_.emplace_back(products, parts.fixed, bias);
+    // In checkpoints z_lo comes first, then what of the condition is live, then what is static.
+    const int fixed = encoded ? 0 : static_width;
+    const auto seen = tensors.Get(lstm + "weight_ih_l0", gates, low() + condition + fixed);
+    Matrix weight(input_width(), gates);
+    weight << seen.middleCols(low(), condition).transpose(), seen.leftCols(low()).transpose(),
+        tensors.Get(lstm + "weight_hh_l0", gates, hidden).transpose();
+    coupling.first = PackedLinear(products, weight, bias_of("l0"));
+    if (!encoded)
+      coupling.hoisted = PackedLinear(products, seen.rightCols(fixed).transpose(), bias_of("l0"));
+    coupling.second = PackedLinear(products,
+                                   Stacked(tensors.Get(lstm + "weight_ih_l1", gates, hidden),
+                                           tensors.Get(lstm + "weight_hh_l1", gates, hidden)),
+                                   bias_of("l1"));
     coupling.last = tensors.Linear(products, name + "network.last", hidden, 2 * high());
     coupling.unmix = Unmix(kernels, tensors, name, width);
     log_det_sum += tensors.Get(name + "norm_log_scale", width).cast<double>().sum() +
@@ -116,11 +102,161 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& config,
   log_det = static_cast<float>(log_det_sum);
 }
 
-void PackedFlow::Hoist(const float* static_condition, long rows, float* hoisted) const {
-  const long stride = hoisted_width();
-  for (const PackedLinear& fixed : hoisted_) {
-    fixed.Run(static_condition, static_width, hoisted, stride, rows);
-    hoisted += fixed.padded();
+PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
+    : flow_(std::move(flow)), slots_(static_cast<size_t>(slots)) {
+  const PackedFlow::Coupling& coupling = flow_->couplings.front();
+  live_.Resize(kRows, std::max<long>(flow_->live, flow_->encode.padded()));
+  encoding_.Resize(kRows, flow_->encode.padded());
+  input_.Resize(kRows, flow_->input_width());
+  wide_.Resize(kRows, coupling.first.padded());
+  hidden_.Resize(kRows, 2 * flow_->config.hidden);
+  ab_.Resize(kRows, coupling.last.padded());
+  z_.Resize(kRows, coupling.unmix.padded());
+  mixed_.Resize(kRows, coupling.unmix.padded());
+}
+
+void PackedTile::Begin(int slot_index, Eigen::MatrixXf conditions) {
+  Slot& slot = slots_[static_cast<size_t>(slot_index)];
+  const PackedFlow& flow = *flow_;
+  if (flow.encoded) {
+    Eigen::MatrixXf encoded(flow.encode_static.padded(), conditions.cols());
+    flow.encode_static.Run(conditions.data(), conditions.rows(), encoded.data(), encoded.rows(),
+                           conditions.cols());
+    conditions = encoded.topRows(flow.static_width);
+  }
+  slot.static_condition.assign(conditions.data(), conditions.data() + conditions.size());
+  slot.state.assign(static_cast<size_t>(flow.state_width()), 0.0F);
+  if (!flow.encoded) Hoist(&slot, 0);
+}
+
+void PackedTile::Hoist(Slot* slot, long frame) {
+  const long static_width = flow_->static_width, hoisted_width = flow_->hoisted_width();
+  const long frames = static_cast<long>(slot->static_condition.size()) / static_width;
+  const long ahead = std::min(kAhead, frames - frame);
+  slot->hoisted_from = frame;
+  slot->hoisted.resize(static_cast<size_t>(ahead * hoisted_width));
+  float* out = slot->hoisted.data();
+  for (const PackedFlow::Coupling& coupling : flow_->couplings) {
+    coupling.hoisted.Run(slot->static_condition.data() + frame * static_width, static_width, out,
+                         hoisted_width, ahead);
+    out += coupling.hoisted.padded();
+  }
+}
+
+// Writes `input_`'s condition columns. `z_` holds the noise.
+void PackedTile::Condition(std::span<const FlowRow> rows) {
+  const PackedFlow& flow = *flow_;
+  const auto count = static_cast<long>(rows.size());
+  const long past = flow.config.history_frames * flow.width;
+  for (long i = 0; i < count; ++i) {
+    const FlowRow& row = rows[static_cast<size_t>(i)];
+    Slot& slot = slots_[static_cast<size_t>(row.slot)];
+    if (!flow.encoded && row.frame >= slot.hoisted_from + kAhead) Hoist(&slot, row.frame);
+    float* live = flow.encoded ? live_.Row(i) : input_.Row(i);
+    flow.kernels.standardise(row.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
+                             flow.width, flow.config.history_frames, kFeatureClamp, live);
+    if (row.has_audio) {
+      flow.kernels.standardise(row.audio.data(), flow.audio_mean.data(), flow.audio_scale.data(),
+                               flow.config.audio_features, flow.config.history_frames + 1,
+                               kFeatureClamp, live + past);
+    } else {
+      std::fill(live + past, live + flow.live, 0.0F);
+    }
+    live[flow.live - 1] = row.has_audio ? 1.0F : 0.0F;
+  }
+  if (!flow.encoded) return;
+  flow.encode_live.Run(live_, &encoding_, count);
+  for (long i = 0; i < count; ++i) {
+    const FlowRow& row = rows[static_cast<size_t>(i)];
+    const Slot& slot = slots_[static_cast<size_t>(row.slot)];
+    Eigen::Map<Eigen::VectorXf>(encoding_.Row(i), flow.condition) +=
+        Eigen::Map<const Eigen::VectorXf>(
+            slot.static_condition.data() + row.frame * flow.static_width, flow.static_width);
+  }
+  flow.kernels.silu(encoding_.Row(0), count * encoding_.stride());
+  // live_ has done its part, and is wider.
+  flow.encode.Run(encoding_, &live_, count);
+  for (long i = 0; i < count; ++i) {
+    flow.kernels.silu(live_.Row(i), flow.condition);
+    std::copy_n(live_.Row(i), flow.condition, input_.Row(i));
+  }
+}
+
+// From `input_` to `hidden_`, what the last layer sees.
+void PackedTile::Hidden(std::span<const FlowRow> rows, int step) {
+  const PackedFlow& flow = *flow_;
+  const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];
+  const auto count = static_cast<long>(rows.size());
+  const long hidden = flow.config.hidden;
+  const auto state = [&](long i) {
+    return slots_[static_cast<size_t>(rows[static_cast<size_t>(i)].slot)].state.data() +
+           step * 4 * hidden;
+  };
+  for (long i = 0; i < count; ++i)
+    std::copy_n(state(i), hidden, input_.Row(i) + flow.condition + flow.low());
+  if (flow.encoded) {
+    coupling.first.Run(input_, &wide_, count);
+  } else {
+    for (long i = 0; i < count; ++i) {
+      const FlowRow& row = rows[static_cast<size_t>(i)];
+      const Slot& slot = slots_[static_cast<size_t>(row.slot)];
+      std::copy_n(slot.hoisted.data() + (row.frame - slot.hoisted_from) * flow.hoisted_width() +
+                      step * wide_.stride(),
+                  wide_.stride(), wide_.Row(i));
+    }
+    coupling.first.Add(input_.Row(0), input_.stride(), wide_.Row(0), wide_.stride(), count);
+  }
+  for (long i = 0; i < count; ++i) {
+    float* h = state(i);
+    flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
+    std::copy_n(h, 2 * hidden, hidden_.Row(i));
+  }
+  coupling.second.Run(hidden_, &wide_, count);
+  for (long i = 0; i < count; ++i) {
+    float* h = state(i) + hidden;
+    flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
+    std::copy_n(h, hidden, hidden_.Row(i));
+  }
+}
+
+// The inverse of one step, z_ -> z_.
+void PackedTile::Couple(std::span<FlowRow> rows, int step) {
+  const PackedFlow& flow = *flow_;
+  const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];
+  const auto count = static_cast<long>(rows.size());
+  for (long i = 0; i < count; ++i) {
+    std::copy_n(z_.Row(i), flow.low(), input_.Row(i) + flow.condition);
+  }
+  Hidden(rows, step);
+  coupling.last.Run(hidden_, &ab_, count);
+  for (long i = 0; i < count; ++i) {
+    const double deltas = flow.kernels.coupling({.ab = ab_.Row(i),
+                                                 .high = z_.Row(i) + flow.low(),
+                                                 .width = flow.high(),
+                                                 .delta_bias = kDeltaBias,
+                                                 .delta_floor = kDeltaFloor});
+    rows[static_cast<size_t>(i)].log_likelihood += static_cast<float>(std::log(deltas));
+  }
+  coupling.unmix.Run(z_, &mixed_, count);
+  std::swap(z_, mixed_);
+}
+
+void PackedTile::Run(std::span<FlowRow> rows) {
+  const PackedFlow& flow = *flow_;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    FlowRow& row = rows[i];
+    const std::span<float> noise(z_.Row(static_cast<long>(i)), static_cast<size_t>(flow.width));
+    row.noise.Fill(noise);
+    double squares = 0;
+    for (const float value : noise) squares += static_cast<double>(value) * value;
+    const double base = squares + std::log(2 * std::numbers::pi) * flow.width;
+    row.log_likelihood = static_cast<float>(-0.5 * base) + flow.log_det;
+  }
+  Condition(rows);
+  for (int step = flow.config.flow_steps - 1; step >= 0; --step) Couple(rows, step);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    flow.kernels.bend(z_.Row(static_cast<long>(i)), flow.feature_mean.data(),
+                      flow.feature_std.data(), flow.width, kSampleBound, rows[i].features.data());
   }
 }
 

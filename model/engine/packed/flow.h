@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "model/core/safetensors.h"
+#include "model/engine/flow_tile.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 #include "model/flow/flow_config.h"
@@ -15,53 +18,86 @@ namespace choreo {
 /// only; the engines of a process share them.
 ///
 /// Every coupling's network sees [condition of the frame | z_lo | own hidden state], a row of
-/// `input_width` floats; what of the condition is known at admission has left the columns and comes
-/// in as the hoisted row.
+/// `input_width` floats. What of a raw condition is known at admission has left the columns: what
+/// `hoisted` makes of it the first product starts from.
 struct PackedFlow {
   /// One step of the flow, as its inverse runs it.
   struct Coupling {
-    PackedLinear first;   ///< [input_width] -> gates of the first LSTM layer
-    PackedLinear second;  ///< [hidden | own hidden state] -> gates of the second
-    PackedLinear last;    ///< [hidden] -> [a, b]
-    PackedLinear unmix;   ///< inverse of ActNorm and invertible linear map, folded in double
+    PackedLinear first;    ///< [input_width] -> gates of the first LSTM layer
+    PackedLinear hoisted;  ///< [static_width] -> the same, bias included; encoded: none
+    PackedLinear second;   ///< [hidden | own hidden state] -> gates of the second
+    PackedLinear last;     ///< [hidden] -> [a, b]
+    PackedLinear unmix;    ///< inverse of ActNorm and invertible linear map, folded in double
   };
 
   /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
-  /// configuration. `products`: for the networks' products, `kernels` or
-  /// less exact ones of the same panel; what leads straight from noise to features is `kernels`'.
+  /// configuration. `products`: for the networks' products, `kernels` or less exact ones of the
+  /// same panel; what leads straight from noise to features is `kernels`'.
   PackedFlow(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
              const PackedKernels& kernels, const PackedKernels& products);
 
   int low() const { return width / 2; }
   int high() const { return width - low(); }
   /// Floats of one slot's recurrent state: for each step h and c of both layers.
-  int state_width() const { return flow_steps * 4 * hidden; }
-  /// Gates of one LSTM layer.
-  int gates() const { return 4 * hidden; }
-  /// Width of Hoist's rows: every coupling's first layer.
-  long hoisted_width() const { return flow_steps * couplings.front().first.padded(); }
-  int input_width() const { return condition + low() + hidden; }
-
-  /// static_condition [rows, static_width] -> hoisted [rows, hoisted_width()]: what every frame's
-  /// first products start from, biases included. Not where the condition is encoded: there it is
-  /// what is added to `encode_live`. Allocates nothing.
-  void Hoist(const float* static_condition, long rows, float* hoisted) const;
+  int state_width() const { return config.flow_steps * 4 * config.hidden; }
+  /// Of a frame: what every coupling's first product starts from.
+  long hoisted_width() const { return config.flow_steps * couplings.front().first.padded(); }
+  int input_width() const { return condition + low() + config.hidden; }
 
   const PackedKernels& kernels;
-  int width, tau, audio_features, flow_steps, hidden;
+  const FlowConfig config;
+  int width;         ///< of a frame's features
   bool encoded;      ///< one shared condition encoding, else the raw condition
   int live;          ///< floats of past and music that a frame's condition is made of
   int condition;     ///< columns of the condition that couplings see: the encoding's, or `live`
   int key_width;     ///< of a frame's key condition
-  int static_width;  ///< of it behind encode_static; the same where nothing is encoded
+  int static_width;  ///< of it behind `encode_static`; the same where nothing is encoded
   Eigen::VectorXf feature_mean, feature_std, feature_scale;  ///< scale = 1 / std
   Eigen::VectorXf audio_mean, audio_scale;
   float log_det = 0;  ///< the part that is the same in every frame
   PackedLinear encode_static, encode_live, encode;
   std::vector<Coupling> couplings;
+};
+
+/// The flow on the CPU that calls it, on one thread. Any number of rows costs what it is: nothing
+/// is padded. A step allocates nothing.
+///
+/// What is known before the loop is computed ahead, in one product over kAhead frames: when a
+/// transition starts, and again each time that many frames have been made, so that long transitions
+/// neither take long to start nor much memory.
+class PackedTile : public FlowTile {
+ public:
+  PackedTile(std::shared_ptr<const PackedFlow> flow, int slots);
+
+  int rows() const override { return kRows; }
+  void Begin(int slot, Eigen::MatrixXf conditions) override;
+  void Run(std::span<FlowRow> rows) override;
 
  private:
-  std::vector<PackedLinear> hoisted_;  // raw: each coupling's static columns
+  static constexpr int kRows = 64;
+  static constexpr long kAhead = 16;
+
+  struct Slot {
+    std::vector<float> static_condition;  // [N, static_width]
+    std::vector<float> hoisted;           // [kAhead, hoisted_width]; encoded: none
+    long hoisted_from = 0;                // frame of its first row
+    std::vector<float> state;             // [flow_steps, h0 h1 c0 c1, hidden]
+  };
+
+  void Hoist(Slot* slot, long frame);
+  void Condition(std::span<const FlowRow> rows);
+  void Couple(std::span<FlowRow> rows, int step);
+  void Hidden(std::span<const FlowRow> rows, int step);
+
+  std::shared_ptr<const PackedFlow> flow_;
+  std::vector<Slot> slots_;
+  RowBuffer live_;      // past and music, standardised
+  RowBuffer encoding_;  // behind the encoding's first layer
+  RowBuffer input_;     // of a coupling: condition, z_lo, own hidden state
+  RowBuffer wide_;      // gates
+  RowBuffer hidden_;    // of the last layer; [h0 | h1] before
+  RowBuffer ab_;
+  RowBuffer z_, mixed_;
 };
 
 }  // namespace choreo

@@ -24,8 +24,6 @@ LargePages::LargePages(size_t count) {
   std::memset(data_.get(), 0, rounded);
 }
 
-void LargePages::Free::operator()(float* data) const noexcept { std::free(data); }
-
 PackedLinear::PackedLinear(const PackedKernels& kernels, const RowMajorMatrix& weight,
                            const Eigen::VectorXf& bias)
     : kernels_(&kernels),

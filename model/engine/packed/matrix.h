@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,7 +25,7 @@ class LargePages {
 
  private:
   struct Free {
-    void operator()(float* data) const noexcept;
+    void operator()(float* data) const noexcept { std::free(data); }
   };
   std::unique_ptr<float, Free> data_;
 };
@@ -60,7 +61,6 @@ class PackedLinear {
   PackedLinear(const PackedKernels& kernels, const RowMajorMatrix& weight,
                const Eigen::VectorXf& bias);
 
-  long depth() const { return depth_; }
   long columns() const { return columns_; }
   /// Columns that are written: `columns()`, filled up to whole panels.
   long padded() const { return panels_ == 0 ? 0 : panels_ * kernels_->panel; }

@@ -22,26 +22,16 @@ constexpr int kTurnFrames = 30;  // a second
 // How much of its last turn a joint is expected to go on with. Expected to rest, it lags behind
 // what the network draws; to go on with most of it, elbows swing too far.
 constexpr double kCarry = 0.3;
-Tensor PointsOf(const Eigen::Matrix3Xd& points) {  // [1, 1, columns, 3]
-  const Eigen::Matrix3Xf values = points.cast<float>();
-  return torch::from_blob(const_cast<float*>(values.data()), {1, 1, values.cols(), 3}).clone();
+
+Tensor RowsOf(Eigen::MatrixXf columns) {  // [features, N] -> [1, N, features]
+  return torch::from_blob(columns.data(), {1, columns.cols(), columns.rows()}).clone();
 }
 
 FrameTensors ToTensors(const FacingPose& pose, const Contacts& contacts) {
-  return {PointsOf(pose.root).select(2, 0),
-          HeadingOf(torch::full({1, 1}, pose.heading, torch::kFloat32)), PointsOf(pose.joints),
-          torch::from_blob(const_cast<float*>(contacts.data()), {1, 1, 4}).clone()};
-}
-
-Tensor RowsOf(const Eigen::MatrixXf& columns) {  // [features, N] -> [1, N, features]
-  return torch::from_blob(const_cast<float*>(columns.data()), {1, columns.cols(), columns.rows()})
-      .clone();
-}
-
-Eigen::Matrix3Xd ToPoints(const Tensor& points) {  // [1, 1, columns, 3]
-  const Tensor dense = points.contiguous();
-  return Eigen::Map<const Eigen::Matrix3Xf>(dense.data_ptr<float>(), 3, dense.size(2))
-      .cast<double>();
+  return {RowsOf(pose.root.cast<float>()),
+          HeadingOf(torch::full({1, 1}, pose.heading, torch::kFloat32)),
+          RowsOf(pose.joints.cast<float>()).unsqueeze(1),
+          RowsOf(Eigen::Map<const Eigen::Vector4f>(contacts.data()))};
 }
 
 // Hands hardly move on the wrists of those who are recorded, and what a network draws of so short a
@@ -85,7 +75,7 @@ WalkedTransition ControllersEngine::Begin(const TransitionSpec& spec, int /*slot
                     last);
   }
   const FacingPose facing = FacingOf(skeleton, target);
-  transition.target_joints = PointsOf(facing.joints).select(1, 0);
+  transition.target_joints = RowsOf(facing.joints.cast<float>());
   transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
   transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
   const Controls dense = DenseControls(spec, model());
@@ -113,8 +103,10 @@ void ControllersEngine::StepOne(WalkedTransition* transition, const Pose* previo
   const FrameTensors frame =
       network_->Walk(walk.given.Narrow(walk.frame, 1), walk.walked, &walk.state).frames;
   walk.contacts = frame.contacts;
-  const Tensor relative = RelativePositions(frame);
-  Eigen::Matrix3Xd positions = ToPoints(relative);
+  const Tensor relative = RelativePositions(frame).contiguous();  // [1, 1, joints, 3]
+  Eigen::Matrix3Xd positions =
+      Eigen::Map<const Eigen::Matrix3Xf>(relative.data_ptr<float>(), 3, relative.size(2))
+          .cast<double>();
   positions.rightCols(positions.cols() - 1).colwise() += positions.col(0).eval();
   // Bones that the network draws too long or too short are the fit's to mend: setting each to its
   // length first would move hands and feet.

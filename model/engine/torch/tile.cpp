@@ -42,10 +42,6 @@ Tensor TorchTile::Input(Part part) const {
   return input_.narrow(1, begin_[part], begin_[part + 1] - begin_[part]);
 }
 
-std::span<int64_t> TorchTile::SlotOfRows() {
-  return {host_slots_.data_ptr<int64_t>(), static_cast<size_t>(padded_)};
-}
-
 void TorchTile::Begin(int slot, Eigen::MatrixXf conditions) {
   const c10::InferenceMode inference;
   const Tensor raw = torch::from_blob(conditions.data(), {conditions.cols(), conditions.rows()});
@@ -56,6 +52,7 @@ void TorchTile::Begin(int slot, Eigen::MatrixXf conditions) {
 }
 
 void TorchTile::Run(std::span<FlowRow> rows) {
+  auto* slots = host_slots_.data_ptr<int64_t>();
   for (size_t i = 0; i < rows.size(); ++i) {
     const FlowRow& row = rows[i];
     std::ranges::copy(row.past, Row(kPast, i).begin());
@@ -67,10 +64,10 @@ void TorchTile::Run(std::span<FlowRow> rows) {
                 condition.size(), condition.begin());
     Row(kUnderWay, i)[0] = row.frame > 0 ? 1.0F : 0.0F;
     row.noise.Fill(Row(kNoise, i));
-    SlotOfRows()[i] = row.slot;
+    slots[i] = row.slot;
   }
   // Rows beyond these are padding: they hold what was there, and are dropped.
-  std::ranges::fill(SlotOfRows().subspan(rows.size()), spare_);
+  std::fill(slots + rows.size(), slots + padded_, spare_);
   Compute();
   const int64_t width = host_output_.size(1) - 1;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -108,7 +105,7 @@ bool TorchTile::RowsAreIndependent() {
     random.FillNormal({tensor.data_ptr<float>(), static_cast<size_t>(tensor.numel())});
     return tensor;
   };
-  for (int row = 0; row < rows_; ++row) SlotOfRows()[static_cast<size_t>(row)] = row;
+  host_slots_.narrow(0, 0, rows_).copy_(torch::arange(rows_));
   for (int probe = 0; probe < 2; ++probe) {
     const Tensor crowd = normal(padded_, begin_[kParts]), input = normal(1, begin_[kParts]);
     const Tensor states = normal(rows_, states_.size(1)), state = normal(1, states_.size(1));

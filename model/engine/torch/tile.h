@@ -36,7 +36,6 @@ class TorchTile : public FlowTile {
   enum Part { kPast, kAudio, kHasAudio, kCondition, kNoise, kUnderWay, kParts };
   std::span<float> Row(Part part, size_t row);
   torch::Tensor Input(Part part) const;
-  std::span<int64_t> SlotOfRows();
   /// Everything that the device does in a step.
   void Compute();
   bool RowsAreIndependent();

@@ -1,4 +1,4 @@
-#include "model/engine/devices.h"
+#include "model/engine/engine_choice.h"
 
 #include <algorithm>
 #include <charconv>
@@ -14,16 +14,6 @@ std::string Describe(const AvailableDevices& available) {
   for (int i = 0; i < available.cuda_devices; ++i) list += ", cuda:" + std::to_string(i);
   return (available.cuda_devices == 0 ? "no CUDA device answers, there is only: " : "there are: ") +
          list;
-}
-
-int ParseIndex(std::string_view text, std::string_view whole, const std::string& field) {
-  int index = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc() || end != text.data() + text.size() || index < 0) {
-    throw InvalidArgument(field,
-                          "'" + std::string(whole) + "' is not one of auto, cpu, cuda:N[,M...]");
-  }
-  return index;
 }
 
 }  // namespace
@@ -43,19 +33,41 @@ std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& 
   constexpr std::string_view kPrefix = "cuda:";
   std::string_view rest = text.starts_with(kPrefix) ? text.substr(kPrefix.size()) : "";
   for (;;) {
-    const size_t comma = rest.find(',');
-    const Device device{Device::Kind::kCuda, ParseIndex(rest.substr(0, comma), text, field)};
-    if (std::find(devices.begin(), devices.end(), device) != devices.end()) {
-      throw InvalidArgument(field, device.name() + " is named twice");
+    Device device{Device::Kind::kCuda, -1};
+    const char* begin = rest.data();
+    const auto [end, error] = std::from_chars(begin, begin + rest.size(), device.index);
+    rest.remove_prefix(static_cast<size_t>(end - begin));
+    if (error != std::errc() || device.index < 0 || (!rest.empty() && rest.front() != ',')) {
+      throw InvalidArgument(field,
+                            "'" + std::string(text) + "' is not one of auto, cpu, cuda:N[,M...]");
     }
+    if (std::ranges::count(devices, device) > 0)
+      throw InvalidArgument(field, device.name() + " is named twice");
     if (!available.cuda_build || device.index >= available.cuda_devices) {
       throw Error(ErrorCode::kNotFound, field,
                   device.name() + " was asked for, but " + Describe(available));
     }
     devices.push_back(device);
-    if (comma == std::string_view::npos) return devices;
-    rest.remove_prefix(comma + 1);
+    if (rest.empty()) return devices;
+    rest.remove_prefix(1);
   }
+}
+
+std::string EngineKindNames() {
+  std::string names;
+  for (const std::string_view name : kEngineKindNames) {
+    if (!names.empty()) names += ", ";
+    names += name;
+  }
+  return names;
+}
+
+EngineKind ParseEngineKind(std::string_view text, const std::string& field) {
+  const auto name = std::ranges::find(kEngineKindNames, text);
+  if (name == kEngineKindNames.end()) {
+    throw InvalidArgument(field, "\"" + std::string(text) + "\" is none of " + EngineKindNames());
+  }
+  return static_cast<EngineKind>(name - kEngineKindNames.begin());
 }
 
 }  // namespace choreo

@@ -4,6 +4,8 @@
 
 namespace choreo {
 
+class StepEngine;
+
 /// What an engine needs, as its warm-up measured it; seconds.
 struct EngineCost {
   double admission = 0;  ///< of a transition, for each of its frames
@@ -11,6 +13,11 @@ struct EngineCost {
   double together = 0;   ///< a step of `slots` of them
   int slots = 1;         ///< at least 1
 };
+
+/// Dances short transitions in free slots of `engine`, alone and together, and forgets them:
+/// whatever is set up when it is first used is there when the first client comes, and the engine's
+/// cost() is known. Throws what the engine throws.
+void WarmUp(StepEngine& engine);
 
 /// What frames cost one engine: what its warm-up measured, corrected by what has been measured
 /// since. A step of two slots is no two steps, so the cost of a frame follows from how many there

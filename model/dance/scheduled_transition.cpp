@@ -1,4 +1,6 @@
-#include "model/dance/ask_transition.h"
+#include "model/dance/scheduled_transition.h"
+
+#include <utility>
 
 namespace choreo {
 
@@ -9,7 +11,10 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
   TransitionRequest& request = asked.request;
   request.frames = static_cast<int>(segment.to - segment.from);
   request.first_frame = segment.from;
-  if (segment.key) request.target = Target{segment.key->pose, segment.key->mask};
+  if (segment.key) {
+    request.target = Target{segment.key->pose, segment.key->mask};
+    asked.key_id = segment.key->id;
+  }
   Pose stance;
   if (before.empty()) {
     stance = controls.Stance(segment.from, request.frames == 1 ? request.target : std::nullopt);
@@ -23,8 +28,24 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
   request.seed = start.seed;
   request.style = start.style;
   request.temperature = start.temperature.value_or(static_cast<float>(model.default_temperature));
-  controls.Ask(segment.key ? segment.key->id : "", &request, &asked.warnings);
+  controls.Ask(asked.key_id, &request, &asked.warnings);
   return asked;
+}
+
+ScheduledTransition::ScheduledTransition(const ModelInfo& model, AskedTransition asked,
+                                         const AudioFeed* audio, double start_time)
+    : model_(model),
+      request_(std::move(asked.request)),
+      warnings_(std::move(asked.warnings)),
+      audio_(audio),
+      start_time_(start_time),
+      run_(std::in_place, model_, request_),
+      row_(static_cast<size_t>(model_.audio_features)) {
+  const std::optional<RequiredSpeed> speed = run_->required_speed();
+  if (speed && speed->TooFast()) {
+    warnings_.push_back(IntervalTooShort(model_.skeleton, asked.key_id, request_.first_frame,
+                                         request_.frames, *speed));
+  }
 }
 
 }  // namespace choreo

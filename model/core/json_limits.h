@@ -1,0 +1,52 @@
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "model/core/error.h"
+
+/// What JSON of others may hold. Both throw Error(kInvalidArgument) whose field is `name`, naming
+/// the limit.
+namespace choreo {
+
+/// Refuses JSON that is nested deeper than any file of ours or glTF's: what reads, copies or prints
+/// it calls itself once a level, and would run out of stack. Other faults are the parser's to find.
+inline void CheckJsonDepth(std::string_view json, const std::string& name) {
+  constexpr int kLimit = 64;
+  int depth = 0;
+  bool in_text = false;
+  for (size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '"') {
+      in_text = !in_text;
+    } else if (in_text) {
+      if (c == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kLimit) {
+        throw InvalidArgument(name, "is JSON of more than " + std::to_string(kLimit) +
+                                        " levels, from character " + std::to_string(i));
+      }
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+/// Refuses numbers beyond those of an int: read as one they would be another, or undefined. For
+/// what holds no larger ones and at most so many levels, such as skeletons and the configurations
+/// of networks.
+inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name, int levels = 16) {
+  constexpr double kLimit = std::numeric_limits<int>::max();
+  if (json.is_number()) {
+    const auto number = json.get<double>();
+    if (number >= -kLimit && number <= kLimit) return;
+    throw InvalidArgument(name, "the number " + json.dump() + " is beyond 2147483647");
+  }
+  if (!json.is_structured()) return;
+  if (levels == 0) throw InvalidArgument(name, "is JSON of more than 16 levels");
+  for (const auto& value : json) CheckJsonNumbers(value, name, levels - 1);
+}
+
+}  // namespace choreo
