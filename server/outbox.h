@@ -21,9 +21,9 @@ namespace choreo {
 /// again after Finish; workers keep this object alive, not the reactor.
 ///
 /// The queue of answers is bounded by back-pressure: beyond `max_bytes` the dance is paused, below
-/// half of it set going again. Frames that wait are joined into larger messages. Beyond kMostWaiting
-/// times `max_bytes` no more of a client's messages are read until it has taken answers.
-/// Thread-safe.
+/// half of it set going again. Frames that wait are joined into larger messages. Beyond
+/// kMostWaiting times `max_bytes` no more of a client's messages are read until it has taken
+/// answers. Thread-safe.
 template <class Response>
 class Outbox {
  public:

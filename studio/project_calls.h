@@ -9,11 +9,11 @@
 
 namespace choreo::studio {
 
-/// What other programs ask over plain HTTP, in JSON (docs/programs.md): GET /model is the model, POST
-/// /dance a project (client/cli/project_file.h) in and its dance out, /dance?as=bvh as a BVH file.
-/// Metres, axis-angle. A project's song comes with it, `song_data` in base64; without one the dance
-/// is silent, `seconds` long. What cannot be answered is {"error": "..."}, which names field, value
-/// and limit.
+/// What other programs ask over plain HTTP, in JSON (docs/programs.md): GET /model is the model,
+/// POST /dance a project (client/cli/project_file.h) in and its dance out, /dance?as=bvh as a BVH
+/// file. Metres, axis-angle. A project's song comes with it, `song_data` in base64; without one the
+/// dance is silent, `seconds` long. What cannot be answered is {"error": "..."}, which names field,
+/// value and limit.
 class ProjectCalls {
  public:
   struct Reply {
