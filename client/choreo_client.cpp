@@ -134,7 +134,8 @@ RemoteDance::~RemoteDance() = default;
 
 void RemoteDance::SendSamples(std::span<const float> interleaved) {
   const int bytes = impl_->bytes_per_sample();
-  if (impl_->audio_kind() != AudioKind::kPcmFloat || interleaved.size_bytes() % bytes != 0) {
+  if (impl_->audio_kind() != AudioKind::kPcmFloat || bytes == 0 ||
+      interleaved.size_bytes() % bytes != 0) {
     throw InvalidArgument("samples",
                           std::to_string(interleaved.size()) +
                               " values are no whole samples of this dance's audio format");

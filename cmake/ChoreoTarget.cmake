@@ -17,6 +17,11 @@ function(choreo_library name)
   target_include_directories(choreo_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
+# For what waits for people, files or LibTorch: it is compiled in three quarters of the time.
+function(choreo_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # Each file is compiled alone: tests and benchmarks call their helpers by the same short names.
 function(choreo_executable name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")
@@ -36,6 +41,7 @@ add_custom_target(choreo_tests)
 function(choreo_test name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")
   choreo_executable(${name} SOURCES ${ARG_SOURCES} LINK ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  choreo_compile_quickly(${name})
   add_dependencies(choreo_tests ${name})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

@@ -22,19 +22,18 @@ struct Serving {
   Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, const CallLimits& limits,
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
           int64_t file_music_bytes, int io_threads)
-      : models(std::move(schedulers)),
-        calls(limits),
+      : calls(limits),
         frames(shares),
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
+        models(std::move(schedulers)),
         decoding(io_threads),
         tasks(io_threads) {}
 
   /// A seed for those who name none.
   static uint64_t FreshSeed();
 
-  Models models;
   CallRegistry calls;
   FrameBudget frames;
   Tokens tokens;
@@ -42,6 +41,7 @@ struct Serving {
   const size_t outbox_bytes;
   MusicBudget file_music;
   // Last: their threads use all of the above.
+  Models models;
   TaskPool decoding;  ///< music files, which take long: nobody else waits for them
   TaskPool tasks;     ///< what is too long for gRPC's threads, yet takes no more than seconds
 };

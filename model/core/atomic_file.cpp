@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 #include "model/core/error.h"
 
@@ -14,7 +14,9 @@ std::string ReadFile(const std::filesystem::path& path) {
   if (!file || std::filesystem::is_directory(path)) {
     throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
   }
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::ostringstream text;
+  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  return std::move(text).str();
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& path)

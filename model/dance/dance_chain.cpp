@@ -23,7 +23,8 @@ class DanceChain::Job : public ScheduledTransition {
     std::lock_guard lock(chain_->mutex_);
     if (chain_->paused_) return false;
     const int64_t frame = NextFrame();
-    return frame < chain_->timeline_.Current()->stop && chain_->timeline_.Certain(frame) &&
+    const Segment* current = chain_->timeline_.Current();  // null: this one is done
+    return current != nullptr && frame < current->stop && chain_->timeline_.Certain(frame) &&
            (!chain_->audio_ || chain_->audio_->ready() > frame);
   }
 

@@ -15,7 +15,7 @@
 namespace choreo {
 
 /// Limits of the API that the timeline enforces.
-inline constexpr int kMaxKeys = 1000;  ///< accepted in one stream, removed ones included
+inline constexpr int kMaxKeys = 1000;                ///< of one stream at a time
 inline constexpr int kMaxTransitionFrames = 1800;    ///< one transition; one minute at 30 fps
 inline constexpr int64_t kMaxDanceFrames = 108'000;  ///< absolute; one hour at 30 fps
 inline constexpr int kMinKeyDistance = 2;            ///< frames between two keys

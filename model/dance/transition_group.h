@@ -41,7 +41,7 @@ void RankCandidates(std::vector<CandidateReport>& candidates);
 
 /// GenerateTransition: runs the candidates of one transition through the scheduler, which steps
 /// them together as slots allow. Candidate 0 is what DanceStream dances for the same interval.
-/// Destruction cancels. Thread-safe.
+/// Destruction cancels. Thread-safe. The scheduler must outlive it.
 class TransitionGroup {
  public:
   /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if not all candidates

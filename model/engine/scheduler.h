@@ -28,8 +28,8 @@ class StepJob {
   /// the input points to must live until OnFrame or OnDone.
   virtual bool NextInput(StepInput* input) = 0;
 
-  /// Whether NextInput would give an input now. May be called from any worker thread at any time
-  /// before OnDone, so it must be thread-safe.
+  /// Whether NextInput would give an input now. May be called from any worker thread at any time,
+  /// so it must be thread-safe; after OnDone the answer counts no more.
   virtual bool Ready() const = 0;
 
   /// The slot went to another job while this one slept. Now it has one again and begins anew: frame

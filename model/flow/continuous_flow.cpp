@@ -288,7 +288,7 @@ bool HoldsContinuousFlow(const Safetensors& content) {
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
   auto checkpoint =
       TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat), content);
-  checkpoint.model->config().plan.Validate(name + ": config.plan");
+  checkpoint.model->config().Validate(name + ": config");
   return checkpoint;
 }
 

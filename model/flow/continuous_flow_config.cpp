@@ -17,6 +17,14 @@ void PlanOptions::Validate(const std::string& field) const {
   if (hinge_softness <= 0) throw InvalidArgument(field + ".hinge_softness", "is not above 0");
 }
 
+void ContinuousFlowConfig::Validate(const std::string& field) const {
+  constexpr int kMostSteps = 64;
+  if (steps < 1 || steps > kMostSteps)
+    throw InvalidArgument(field + ".steps", std::to_string(steps) + " is not in [1, " +
+                                                std::to_string(kMostSteps) + "]");
+  plan.Validate(field + ".plan");
+}
+
 CHOREO_JSON_FIELDS(PlanOptions, accent, key_accent, whole_accent, fastest, on_beat, no_key_accent,
                    whole_key_accent, hinge_softness)
 CHOREO_JSON_FIELDS(ContinuousFlowConfig, name, history_frames, window_frames, max_transition_frames,

@@ -30,6 +30,9 @@ struct ContinuousFlowConfig {
   /// Medians of the velocity factors of the training clips, metres a frame.
   std::array<double, kBodyParts> median_factors = {};
   PlanOptions plan = {};
+
+  /// Throws Error(kInvalidArgument) below `field` for steps out of range, and as plan does.
+  void Validate(const std::string& field) const;
 };
 
 void to_json(nlohmann::json& json, const ContinuousFlowConfig& config);

@@ -121,7 +121,7 @@ Motion TakeJoints(const BvhFile& file, const std::vector<int>& found, int joints
   for (int64_t frame = 0; frame < file.frames(); ++frame) {
     const double* values = file.values.col(frame).data();
     Pose& pose = motion.frames.emplace_back();
-    pose.rotations.resize(3, joints);
+    pose.rotations.setZero(3, joints);
     for (size_t i = 0; i < file.joints.size(); ++i) {
       const BvhJoint& joint = file.joints[i];
       const BvhPlacement local = PlaceBvhJoint(joint, values);

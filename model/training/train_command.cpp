@@ -58,15 +58,16 @@ std::string TrainOptions::Command() const {
 std::string TrainOptions::Fixed() const {
   std::ostringstream text;
   text << "--preset " << preset;
+  std::string flags;
   VisitFixed(*this, [&](const char* option, const auto& value, bool, const char*) {
     if constexpr (!std::is_same_v<decltype(value), const bool&>) {
       text << ' ' << option << ' ' << value;
     } else if (value) {
-      text << ' ' << option;
+      flags += std::string(" ") + option;
     }
   });
   if (!from.empty()) text << " --from " << from.filename().string();
-  return text.str();
+  return text.str() + flags;
 }
 
 void TrainOptions::Validate() const {
@@ -85,6 +86,8 @@ void TrainOptions::Validate() const {
   require(continuous_flow.tempo >= 0 && continuous_flow.tempo <= 1, "--tempo",
           std::to_string(continuous_flow.tempo), "0 to 1");
   require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
+  require(stop_after >= 0, "--stop-after", std::to_string(stop_after), "at least 0");
+  require(rate >= 0 && rate <= 1, "--rate", std::to_string(rate), "0 to 1");
 }
 
 void AddTrainCommand(CLI::App& app,
@@ -129,7 +132,9 @@ void AddTrainCommand(CLI::App& app,
   command->get_option("--seed")->check(CLI::NonNegativeNumber);
   command->callback([command, options, read_device] {
     VisitFixed(*options, [&](const char* option, const auto& value, bool is_used, const char*) {
-      if (is_used || command->count(option) == 0) return;
+      const CLI::Option& given = *command->get_option(option);
+      // A card names all options, those that are not used at their defaults: it can be typed.
+      if (is_used || given.empty() || given.results().front() == given.get_default_str()) return;
       const bool flag = std::is_same_v<decltype(value), const bool&>;
       throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
                                         " of the preset " + options->preset);

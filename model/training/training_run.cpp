@@ -62,11 +62,12 @@ void TrainingRun::Import(const Safetensors& state) {
 
 void TrainingRun::Go() {
   const int64_t total = options_.steps;
-  ProgressBar progress("train " + options_.preset, total - step_);
+  const int64_t last = options_.stop_after > 0 ? std::min(options_.stop_after, total) : total;
+  ProgressBar progress("train " + options_.preset, std::max<int64_t>(last - step_, 0));
   const auto start = std::chrono::steady_clock::now();
   const double seconds_before = seconds_;
   if (step_ == 0) Prepare();
-  for (; step_ < total; ++step_) {
+  for (; step_ < last; ++step_) {
     torch::manual_seed(options_.seed + static_cast<uint64_t>(step_) * 1000003);
     adam_->ZeroGrad();
     TrainStep();
@@ -75,14 +76,13 @@ void TrainingRun::Go() {
     seconds_ = seconds_before +
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.Advance();
-    const bool stop = step_ + 1 == options_.stop_after;
     if ((step_ + 1) % options_.report_every == 0 || step_ + 1 == total) {
       Report(&progress);
-    } else if (stop) {
+    } else if (step_ + 1 == last) {
       Save();
     }
-    if (stop) return;
   }
+  if (last < total) return;
   if (figures_.empty()) figures_ = Validate();  // all steps were done before
   const std::string hash = WriteCheckpoint();
   std::printf("checkpoint %s, content hash %s\n",

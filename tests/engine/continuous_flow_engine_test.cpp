@@ -82,6 +82,11 @@ TEST_F(ContinuousFlowEngineTest, IsRefusedUnderANameThatNobodyCanPrintAndBeyondA
   backwards.plan.accent = 0.5;
   WriteRandomContinuousFlow(path_, backwards, Skeleton::Smpl24(), 3);
   refused("config.plan.accent");
+  for (const int steps : {0, 65}) {
+    WriteRandomContinuousFlow(path_, {.width = 24, .layers = 1, .heads = 2, .steps = steps},
+                              Skeleton::Smpl24(), 3);
+    refused("config.steps: " + std::to_string(steps) + " is not in [1, 64]");
+  }
   WriteRandomContinuousFlow(path_, {.width = 24, .layers = 1, .heads = 2}, Skeleton::Smpl24(), 3);
   Safetensors content = ReadSafetensors(path_);
   content.tensors.at("velocity_covariance").data.front() = NAN;

@@ -182,6 +182,11 @@ TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
     EXPECT_EQ(outcome.code, 1) << options;
     EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: " + why)) << options;
   }
+  // A card's command has all options: those that are not used may stand there at their defaults.
+  const Outcome typed = Lab("train --run typed --preset ablation --tempo 0.5 --steps 1 --batch 4" +
+                                kData + " --shortest 5 --longest 20 --rollout-frames 4",
+                            folder_.path());
+  EXPECT_EQ(typed.code, 0) << typed.said;
 }
 
 TEST_F(LabEval, WarnsOfLengthsWithoutWindows) {

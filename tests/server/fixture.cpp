@@ -272,8 +272,9 @@ void ServerTest::ExpectIdle() {
                    "calls and slots return");
 }
 
-void ExpectEventually(const std::function<bool()>& condition, const std::string& what) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+void ExpectEventually(const std::function<bool()>& condition, const std::string& what,
+                      std::chrono::seconds limit) {
+  const auto end = std::chrono::steady_clock::now() + limit;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) {
       ADD_FAILURE() << "never came about: " << what;

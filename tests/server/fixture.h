@@ -137,7 +137,8 @@ class ServerTest : public ::testing::Test {
 };
 
 /// Polls, for things that other threads bring about; fails after ten seconds.
-void ExpectEventually(const std::function<bool()>& condition, const std::string& what);
+void ExpectEventually(const std::function<bool()>& condition, const std::string& what,
+                      std::chrono::seconds limit = std::chrono::seconds(10));
 
 /// Details of a status, as clients read them.
 struct Details {

@@ -115,7 +115,7 @@ TEST_F(MemoryTest, MessagesThatNeverEnd) {
                            networks, [](const auto& network) { return network->upward_done(); }) >=
                kClients;
       },
-      "everybody has sent all, or was sent away");
+      "everybody has sent all, or was sent away", std::chrono::minutes(1));
   ExpectPeak("80 messages of 16 MiB that never end", 640);
   for (grpc::ClientContext& context : contexts) context.TryCancel();
   clients.clear();
