@@ -33,7 +33,7 @@ std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& 
 
 /// What computes the flows' networks. Paper C's model LibTorch runs, whatever is asked.
 enum class EngineKind {
-  kAuto,        ///< the faster one: packed on the CPU, else torch
+  kAuto,        ///< the fastest: packed on the CPU, in bfloat16 where it can be, else torch
   kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to
   kPacked,      ///< own kernels on packed weights, on the CPU alone, float32
   kPackedBf16,  ///< the same with products of bfloat16, where the CPU has instructions for them

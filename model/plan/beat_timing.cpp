@@ -10,32 +10,33 @@ namespace choreo {
 namespace {
 
 // How much of an accent beats have that are so many frames apart.
-double Share(const PlanContext& plan, double period) {
-  return period > kPauseSeconds * plan.fps
+double Share(const PlanContext& context, double period) {
+  return period > kPauseSeconds * context.fps
              ? 0
-             : std::min(1.0, period / (plan.options.fastest * plan.fps));
+             : std::min(1.0, period / (context.options.fastest * context.fps));
 }
 
 // The shift of time at t, of which BeatTime takes away what the ends have.
-double Shift(const PlanContext& plan, double t) {
-  const auto after = std::ranges::upper_bound(plan.beats, t);
-  if (after == plan.beats.begin() || after == plan.beats.end()) return 0;
+double Shift(const PlanContext& context, double t) {
+  const auto after = std::ranges::upper_bound(context.beats, t);
+  if (after == context.beats.begin() || after == context.beats.end()) return 0;
   const double before = *(after - 1), period = *after - before;
-  return plan.options.accent * Share(plan, period) * period / (2 * M_PI) *
+  return context.options.accent * Share(context, period) * period / (2 * M_PI) *
          std::sin(2 * M_PI * (t - before) / period);
 }
 
 // What a key on a beat adds to that within a beat before it (`step` -1) or behind it (1).
-double KeyShift(const PlanContext& plan, double key, int step, double t) {
-  const auto& beats = plan.beats;
+double KeyShift(const PlanContext& context, double key, int step, double t) {
+  const auto& beats = context.beats;
   const auto beat =
       std::ranges::min_element(beats, {}, [key](double at) { return std::abs(at - key); });
-  if (beat == beats.end() || std::abs(*beat - key) >= plan.options.on_beat * plan.fps) return 0;
+  if (beat == beats.end() || std::abs(*beat - key) >= context.options.on_beat * context.fps)
+    return 0;
   if (beat == (step < 0 ? beats.begin() : beats.end() - 1)) return 0;
   const double period = std::abs(*(beat + step) - *beat), away = t - key;
   if (std::abs(away) >= period) return 0;
-  return plan.options.key_accent * Share(plan, period) * (1 - std::abs(away) / period) * period /
-         (2 * M_PI) * std::sin(2 * M_PI * away / period);
+  return context.options.key_accent * Share(context, period) * (1 - std::abs(away) / period) *
+         period / (2 * M_PI) * std::sin(2 * M_PI * away / period);
 }
 
 // Catmull-Rom weights at `u` in [0, 1] between the second and the third of four values.
@@ -83,15 +84,17 @@ struct Curve {
 
 }  // namespace
 
-double BeatTime(const PlanContext& plan, int frames, double t) {
-  const PlanOptions& options = plan.options;
+double BeatTime(const PlanContext& context, int frames, double t) {
+  const PlanOptions& options = context.options;
   const double last = frames - 1, share = (t + 1) / frames;
-  double shift = Shift(plan, t) - (1 - share) * Shift(plan, -1) - share * Shift(plan, last);
-  const double room = (frames - options.no_key_accent * plan.fps) /
-                      (options.whole_key_accent * plan.fps - options.no_key_accent * plan.fps);
-  if (plan.keyed && room > 0)
-    shift += std::min(room, 1.0) * (KeyShift(plan, -1, 1, t) + KeyShift(plan, last, -1, t));
-  return t + std::min(1.0, frames / (options.whole_accent * plan.fps)) * shift;
+  double shift =
+      Shift(context, t) - (1 - share) * Shift(context, -1) - share * Shift(context, last);
+  const double room =
+      (frames - options.no_key_accent * context.fps) /
+      (options.whole_key_accent * context.fps - options.no_key_accent * context.fps);
+  if (context.keyed && room > 0)
+    shift += std::min(room, 1.0) * (KeyShift(context, -1, 1, t) + KeyShift(context, last, -1, t));
+  return t + std::min(1.0, frames / (options.whole_accent * context.fps)) * shift;
 }
 
 // Between poses a cubic (Catmull-Rom, rotations in the tangent space of the pose before) keeps what

@@ -22,7 +22,7 @@ struct PlanContext {
   bool keyed = false;                  ///< it ends on a key
   bool has_path = false, has_heights = false;  ///< the root's place, and its height, were asked for
   double fps;                                  ///< the model's
-  PlanOptions options = {};                    ///< the same
+  PlanOptions options = {};                    ///< the model's, of its checkpoint
 };
 
 /// Knees and elbows bend one way, until the limb is folded: the bend of each about its hinge is led

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/audio/mfcc.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
@@ -21,11 +22,10 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
   const WindowPicker picker(of_clips, window);
   const PoseCodec codec(skeleton);
   const int joints = skeleton.joints(), width = codec.width();
-  const int audio_width = 40;
   torch::Tensor position = torch::empty({batch, window, 3});
   torch::Tensor rotation = torch::empty({batch, window, joints, 3});
   torch::Tensor features = torch::empty({batch, window, width});
-  torch::Tensor audio = torch::zeros({batch, window, audio_width});
+  torch::Tensor audio = torch::zeros({batch, window, kMfccCount});
   torch::Tensor has_audio = torch::zeros({batch, 1});
   torch::Tensor mask = torch::ones({batch, joints + 1});
 
@@ -61,7 +61,7 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
     }
     if (clip.audio.size() > 0 && random->Uniform() >= variation.drop_audio) {
       has_audio[b][0] = 1;
-      std::copy_n(clip.audio.col(start).data(), int64_t{window} * audio_width,
+      std::copy_n(clip.audio.col(start).data(), int64_t{window} * kMfccCount,
                   audio[b].data_ptr<float>());
     }
     if (random->Uniform() < variation.drop_key) {

@@ -2,29 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 
-#include "model/motion/canonical.h"
-#include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
-#include "tests/support/synthetic_clips.h"
+#include "tests/flow/flow_scene.h"
 
 namespace choreo {
 namespace {
-
-constexpr int kTau = 10;
-
-FlowModelParts Parts() {
-  const Skeleton& skeleton = Skeleton::Smpl24();
-  const int dimensions = 3 + 3 * skeleton.joints();
-  Eigen::MatrixXd covariance(dimensions, 60);
-  for (int lag = 0; lag < covariance.cols(); ++lag)
-    covariance.col(lag).setConstant(1e-4 * std::exp(-0.5 * std::pow(lag / 6.0, 2)));
-  return {skeleton,
-          {.window_frames = 40},
-          MotionPrior(covariance),
-          Eigen::MatrixXd::Identity(dimensions, dimensions)};
-}
 
 // It has learnt nothing: dances are the prior's.
 class Silent : public FlowNetwork {
@@ -54,162 +38,6 @@ class Silent : public FlowNetwork {
   }
   mutable int evaluations = 0;
 };
-
-// History and key out of a synthetic dance, in the canonical frame.
-struct Scene {
-  WindowRequest request;
-  std::vector<Pose> truth;
-};
-
-Scene MakeScene(int frames) {
-  const PreparedClip clip = testing_support::SyntheticClip("a", kTau + frames, 0.4, false);
-  std::vector<Pose> poses = clip.motion.frames;
-  const GroundFrame ground = GroundFrame::Of(poses[kTau - 1]);
-  for (Pose& pose : poses) pose = ground.ToLocal(pose);
-  Scene scene{{.frames = frames, .key = poses.back(), .to_key = frames}, {}};
-  scene.request.history.assign(poses.begin(), poses.begin() + kTau);
-  scene.truth.assign(poses.begin() + kTau, poses.end());
-  return scene;
-}
-
-double Apart(const Pose& a, const Pose& b) {
-  return ComparePoses(Skeleton::Smpl24(), a, b).position_m;
-}
-
-TEST(FlowWindow, DecodesWhatItEncodes) {
-  const Scene scene = MakeScene(40);
-  const FlowModelParts parts = Parts();
-  for (const bool keyed : {true, false}) {
-    WindowRequest request = scene.request;
-    if (!keyed) request.key.reset();
-    const FlowWindow window(parts.prior, request);
-    const auto x = window.Encode(scene.truth);
-    ASSERT_TRUE(x);
-    const std::vector<Pose> back = window.Decode(*x);
-    for (size_t i = 0; i < back.size(); ++i) EXPECT_LT(Apart(back[i], scene.truth[i]), 1e-9);
-    Eigen::MatrixXd z(x->rows(), x->cols());
-    for (int d = 0; d < z.rows(); ++d)
-      z.row(d) = window.Whiten(d, x->row(d).transpose()).transpose();
-    EXPECT_LT((window.Colour(z) - *x).norm(), 1e-4);
-  }
-}
-
-TEST(FlowWindow, ItsMeanIsTheKeyInItsLastFrameAndLeavesWhatTheKeyLeavesOpen) {
-  const Scene scene = MakeScene(30);
-  const FlowModelParts parts = Parts();
-  const auto last = [&](const WindowRequest& request) {
-    const FlowWindow window(parts.prior, request);
-    return window.Decode(Eigen::MatrixXd::Zero(parts.prior.dimensions(), 30)).back();
-  };
-  EXPECT_LT(Apart(last(scene.request), *scene.request.key), 2e-3);
-  WindowRequest arms = scene.request;
-  arms.mask.root_position = false;
-  arms.mask.joints.assign(24, false);
-  arms.mask.joints[16] = true;
-  const Pose reached = last(arms);
-  EXPECT_LT((reached.rotations.col(16) - scene.request.key->rotations.col(16)).norm(), 5e-3);
-  EXPECT_GT((reached.rotations.col(4) - scene.request.key->rotations.col(4)).norm(), 0.02);
-}
-
-// Keys too far away in time force any speed; what follows must not be faster still.
-TEST(FlowWindow, AHistoryFasterThanAnyDancerDoesNotGoOnSo) {
-  Scene scene = MakeScene(30);
-  scene.request.key.reset();
-  const auto carried = [&](double speed) {
-    for (int i = 0; i < kTau; ++i)
-      scene.request.history[static_cast<size_t>(i)].root_position.x() = speed * (i + 1 - kTau);
-    return FlowWindow(Parts().prior, scene.request).mean()(0, 29);
-  };
-  const double spread = std::sqrt(1e-4);
-  EXPECT_NEAR(carried(4 * spread), 2 * carried(2 * spread), 1e-9);
-  EXPECT_EQ(carried(100 * spread), carried(1000 * spread));
-}
-
-TEST(FlowWindow, WhoIsBentComesBackToTheUsualPoseFacingWhereShePleases) {
-  Scene scene = MakeScene(30);
-  const Pose rest = RestPose(Skeleton::Smpl24());
-  const MotionPrior prior(Parts().prior.covariance(), {}, {rest, Eigen::VectorXd::Constant(75, 1)});
-  for (Pose& pose : scene.request.history) pose = scene.request.history.back();  // stands still
-  scene.request.key.reset();
-  const FlowWindow window(prior, scene.request);
-  const Pose& last = scene.request.history.back();
-  const Pose end = window.Decode(Eigen::MatrixXd::Zero(prior.dimensions(), 30)).back();
-  const double before = last.rotations.rightCols(23).norm();
-  EXPECT_GT(before, 0.1);
-  EXPECT_LT(end.rotations.rightCols(23).norm(), 0.99 * before);
-  EXPECT_EQ(window.mean().row(4).norm(), 0);
-}
-
-// Part of the way back within a second, as far as it is; unless a key or a path says the place.
-TEST(FlowWindow, WhoIsOffTheStageComesBack) {
-  const Scene scene = MakeScene(30);
-  const MotionPrior prior(Parts().prior.covariance(), {},
-                          {RestPose(Skeleton::Smpl24()), Eigen::VectorXd::Constant(75, 0.3)});
-  const auto led = [&](WindowRequest request, const Eigen::Vector3d& off) {
-    const auto end = [&] {
-      return Eigen::Vector3d(FlowWindow(prior, request).mean().col(29).head<3>());
-    };
-    request.stage = request.history.back().root_position;
-    const Eigen::Vector3d there = end();
-    *request.stage += off;
-    return Eigen::Vector3d(end() - there);
-  };
-  WindowRequest open = scene.request;
-  open.key.reset();
-  const Eigen::Vector3d back = led(open, {1, 9, -2});
-  EXPECT_GT(back.x(), 0.03);
-  EXPECT_LT(back.x(), 1);
-  EXPECT_EQ(back.y(), 0);
-  EXPECT_NEAR(back.z(), -2 * back.x(), 1e-9);
-  EXPECT_EQ(led(scene.request, {1, 0, 0}).norm(), 0) << "the key says the place";
-  WindowRequest arms = scene.request;
-  arms.mask.root_position = false;
-  EXPECT_GT(led(arms, {1, 0, 0}).x(), 0.03);
-  open.path = scene.request.key->root_position.replicate(1, 30);
-  EXPECT_EQ(led(open, {1, 0, 0}).norm(), 0) << "the path does";
-}
-
-TEST(FlowWindow, ARootGoesTheWayRoundThatIsExpected) {
-  const Eigen::Vector3d half(0, 3.0, 0);
-  EXPECT_LT((NearerWayRound(half, {0, 1, 0}) - half).norm(), 1e-12);
-  EXPECT_NEAR(NearerWayRound(half, {0, -1, 0}).y(), 3.0 - 2 * M_PI, 1e-12);
-}
-
-TEST(FlowWindow, PlacesJointsWhereItsPosesHaveThem) {
-  const Scene scene = MakeScene(30);
-  const FlowModelParts parts = Parts();
-  const FlowWindow window(parts.prior, scene.request);
-  const Eigen::MatrixXd x = 0.3 * Eigen::MatrixXd::Random(parts.prior.dimensions(), 30);
-  const Eigen::MatrixXf places = window.PlaceJoints(parts.skeleton, x);
-  const std::vector<Pose> poses = window.Decode(x);
-  for (int i = 0; i < 30; ++i) {
-    const Eigen::Matrix3Xd at = JointPositions(parts.skeleton, poses[static_cast<size_t>(i)]);
-    EXPECT_LT((places.col(i).cast<double>() - at.reshaped()).norm(), 1e-5);
-  }
-}
-
-TEST(WindowRequest, MirroredTwiceIsItself) {
-  WindowRequest request = MakeScene(30).request;
-  request.mask.joints.assign(24, true);
-  request.mask.joints[16] = false;
-  request.turning = Eigen::Vector3d(0.1, 2, -0.3);
-  request.path = Eigen::Matrix3Xd::Random(3, 30);
-  request.energy = Eigen::MatrixXd::Random(kBodyParts, 30).cwiseAbs();
-  request.asked = {true, true, false, false, true};
-  request.stage = Eigen::Vector3d(1, 0, 2);
-  const std::vector<int> pairs = MirrorPairs(Skeleton::Smpl24());
-  const WindowRequest other = Mirror(pairs, request), back = Mirror(pairs, other);
-  EXPECT_FALSE(other.mask.joints[17]);
-  EXPECT_EQ(other.path.row(0), -request.path.row(0));
-  EXPECT_EQ(other.energy.row(1), request.energy.row(2));
-  EXPECT_EQ(other.asked, (std::array{true, false, true, true, false}));
-  EXPECT_EQ(back.mask.joints, request.mask.joints);
-  EXPECT_EQ(back.energy, request.energy);
-  EXPECT_EQ(back.path, request.path);
-  EXPECT_EQ(*back.turning, *request.turning);
-  EXPECT_EQ(*back.stage, *request.stage);
-  EXPECT_EQ(Apart(*back.key, *request.key), 0);
-}
 
 // Has a side that it favours.
 class Lopsided : public Silent {
@@ -397,17 +225,6 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
   const auto there = SampleTransition(parts, network, turned, noise);
   for (size_t i = 0; i < here.size(); ++i)
     EXPECT_LT(Apart(elsewhere.ToWorld(here[i]), there[i]), 1e-6);
-}
-
-TEST(WindowFeatures, BeatsHaveAPhaseAndSlowOnesAreHalved) {
-  const std::vector<double> beats = {0, 10, 20};
-  EXPECT_NEAR(PhaseAt(beats, 5)->phase, 0.5, 1e-12);
-  EXPECT_NEAR(PhaseAt(beats, 27)->phase, 0.7, 1e-12);
-  EXPECT_NEAR(PhaseAt(beats, -2)->phase, 0.8, 1e-12);
-  const std::vector<double> slow = {0, 40};
-  EXPECT_NEAR(PhaseAt(slow, 30)->phase, 0.5, 1e-12);
-  EXPECT_NEAR(PhaseAt(slow, 30)->period, 20, 1e-12);
-  EXPECT_FALSE(PhaseAt(std::vector<double>{3}, 3));
 }
 
 // Who has to go far has to be lively; a key says so of what it asks for.
