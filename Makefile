@@ -32,7 +32,7 @@ programs: packages  ## Install what is missing and compile choreod and choreo
 	@cmake --preset $(PRESET) $(if $(wildcard $(BUILD)/build.ninja),>/dev/null,)
 	@cmake --build $(BUILD) -j $(JOBS) --target choreod choreo
 
-build: programs  ## The same, and everything else: choreo-lab, tests, benchmarks (PRESET=release|debug|asan|tsan)
+build: programs  ## The same, and everything else but benchmarks: choreo-lab, tests (PRESET=release|debug|asan|tsan)
 	@cmake --build $(BUILD) -j $(JOBS)
 
 packages:  ## Install the Debian packages that are missing
@@ -40,10 +40,12 @@ packages:  ## Install the Debian packages that are missing
 
 bench: build  ## Run the benchmarks; writes docs/performance.md
 	@scripts/install_packages.sh bench
+	@cmake --build $(BUILD) -j $(JOBS) --target choreo_bench
 	@scripts/bench.sh $(BUILD)/bin
 
 verify: build  ## Everything too long for `make test`: figures (CHOREO_RECORDINGS=folder), the studio in a browser, sanitizers, no gRPC, the installed package, the container (as root)
 	@scripts/install_packages.sh test
+	@cmake --build $(BUILD) -j $(JOBS) --target choreo_bench
 	@scripts/verify.sh $(BUILD)
 
 format:  ## Format all sources in place

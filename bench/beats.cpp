@@ -15,13 +15,13 @@
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/core/grid.h"
 #include "model/dance/music_beats.h"
 
 namespace choreo::bench {
 namespace {
 
 constexpr double kFrom = 10, kTolerance = 0.07;  // seconds
-constexpr int64_t kTransition = 60;              // frames
 
 double FMeasure(std::vector<double> found, std::vector<double> map) {
   const auto early = [](double time) { return time < kFrom; };
@@ -60,9 +60,9 @@ Live Hear(const std::vector<float>& mono) {
   Live live;
   int transitions = 0, with = 0;
   const auto begin = std::chrono::steady_clock::now();
-  for (int64_t from = 0; from + kTransition <= feed.ready(); from += kTransition, ++transitions) {
-    with += !music.Around(from, from + kTransition).empty();
-    for (int64_t frame = from; frame < from + kTransition; ++frame) music.Of(frame);
+  for (int64_t from = 0; from + kUsualFrames <= feed.ready(); from += kUsualFrames, ++transitions) {
+    with += !music.Around(from, from + kUsualFrames).empty();
+    for (int64_t frame = from; frame < from + kUsualFrames; ++frame) music.Of(frame);
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   live.beats = music.told();

@@ -11,6 +11,7 @@
 #include "bench/bare_product.h"
 #include "bench/flow_probe.h"
 #include "bench/random_checkpoints.h"
+#include "model/core/grid.h"
 #include "model/core/threads.h"
 #include "model/engine/engines.h"
 #include "model/engine/packed/kernels.h"
@@ -29,7 +30,6 @@
 namespace choreo {
 namespace {
 
-constexpr int kFrames = 60;  // of each transition
 constexpr int kMostStreams = 64, kMostStreamsOfGpu = 512;
 
 /// What a run measures, and where it is for a while.
@@ -65,7 +65,7 @@ class Models {
 
 TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   TransitionSpec spec;
-  spec.frames = kFrames;
+  spec.frames = kUsualFrames;
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
   Pose key = RestPose(model.skeleton);
   key.root_position.x() += 0.5;
@@ -78,7 +78,7 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
     const Eigen::Vector3d from = spec.history.back().root_position;
     const Eigen::Vector3d way = key.root_position - from;
     spec.controls.root_path =
-        (way * Eigen::RowVectorXd::LinSpaced(kFrames, 1.0 / kFrames, 1)).colwise() + from;
+        (way * Eigen::RowVectorXd::LinSpaced(kUsualFrames, 1.0 / kUsualFrames, 1)).colwise() + from;
   }
   return spec;
 }
@@ -89,13 +89,13 @@ void Frames(benchmark::State& state, StepEngine& engine, int streams) {
   std::vector<StepInput> inputs(static_cast<size_t>(streams));
   std::vector<StepOutput> outputs(inputs.size());
   std::vector<Pose> previous(inputs.size());
-  int frame = kFrames;
+  int frame = kUsualFrames;
   const auto release = [&] {
     for (const StepInput& input : inputs) engine.Release(input.slot);
   };
   bool admitted = false;
   for (auto _ : state) {
-    if (frame == kFrames) {
+    if (frame == kUsualFrames) {
       state.PauseTiming();
       if (admitted) release();
       for (size_t i = 0; i < inputs.size(); ++i) {
@@ -116,7 +116,7 @@ void Frames(benchmark::State& state, StepEngine& engine, int streams) {
   state.SetItemsProcessed(state.iterations() * streams);
 }
 
-/// Admissions of transitions of kFrames: all that is computed ahead.
+/// Admissions of transitions of kUsualFrames: all that is computed ahead.
 void Admissions(benchmark::State& state, StepEngine& engine, const std::vector<double>& beats) {
   TransitionSpec spec = Spec(engine.model(), 1);
   spec.beats = beats;
@@ -140,12 +140,13 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   return shapes;
 }
 
-/// The continuous flow's products of one transition of kFrames.
+/// The continuous flow's products of one transition of kUsualFrames.
 std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
                                         const Skeleton& skeleton) {
   const int dimensions = 3 + 3 * skeleton.joints(), width = config.width;
-  const int tokens = (config.history_frames + kFrames + kFramesAToken - 1) / kFramesAToken;
-  const int token = kFramesAToken * TokenFrameWidth(dimensions, FrameFeatures());
+  const int tokens =
+      (config.history_frames + kUsualFrames + kUsualFramesAToken - 1) / kUsualFramesAToken;
+  const int token = kUsualFramesAToken * TokenFrameWidth(dimensions, FrameFeatures());
   std::vector<BareProducts::Shape> shapes;
   for (int step = 0; step < config.steps; ++step) {
     shapes.push_back({token, width, tokens});
@@ -155,7 +156,7 @@ std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
       shapes.push_back({width, kMlpRatio * width, tokens});
       shapes.push_back({kMlpRatio * width, width, tokens});
     }
-    shapes.push_back({width, 2 * kFramesAToken * dimensions, tokens});
+    shapes.push_back({width, 2 * kUsualFramesAToken * dimensions, tokens});
   }
   return shapes;
 }

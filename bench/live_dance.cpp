@@ -101,7 +101,7 @@ Lateness DanceLive(const client::Client& client, const client::Audio& song,
   SendKeys(*dance, seconds, request.key_each_s);
   std::vector<Sent> sent;
   std::thread player([&] { sent = Play(*dance, song, request, start); });
-  double fps = 30;
+  double fps = kModelFps;
   int latency = 0;
   std::vector<Clock::time_point> arrivals;
   Lateness lateness;

@@ -13,6 +13,8 @@
 #include "client/cli/local_server.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
+#include "model/audio/format.h"
+#include "model/audio/mfcc.h"
 #include "model/core/error.h"
 
 /// How many dances one choreod serves over gRPC, on the machine that also plays all its clients.
@@ -151,7 +153,7 @@ class Load {
     constexpr int kStreams = 8, kMinutes = 10;
     std::printf("\n| minute | ms of the server's CPU a frame | server MiB |\n|---|---|---|\n");
     constexpr int64_t kFrames = 1790;  // of a minute: ten and their music are what a song may last
-    const client::Audio song = ClickSong(60 * kMinutes, 22050, 1);
+    const client::Audio song = ClickSong(60 * kMinutes, kModelSampleRate, 1);
     struct Stream {
       std::unique_ptr<client::RemoteDance> dance;
       size_t sent = 0;
@@ -163,12 +165,12 @@ class Load {
           client_.StartDance({.seed = static_cast<uint64_t>(i), .audio = song.format});
       SendKeys(*streams[i].dance, 60 * kMinutes, 2);
     }
-    const auto samples = static_cast<size_t>(kFrames) * 22050 / 30;
+    const auto samples = size_t{kFrames} * kFeatureHop;
     for (int minute = 1; minute <= kMinutes; ++minute) {
       // As a player would, but faster: a minute of music is sent when the minute before was danced.
       const double before = CpuSeconds(server_.process());
       for (Stream& stream : streams) {
-        const size_t ahead = minute == 1 ? 22050 : 0;
+        const size_t ahead = minute == 1 ? size_t{kModelSampleRate} : 0;
         const auto next = std::span(song.samples).subspan(stream.sent);
         stream.dance->SendSamples(next.first(std::min(samples + ahead, next.size())));
         stream.sent += std::min(samples + ahead, next.size());
@@ -261,7 +263,7 @@ int main(int argc, char** argv) {
   program.add_option("--song", options.song, "Default: a made-up one, 44.1 kHz.")
       ->check(CLI::ExistingFile);
   program.add_option("--seconds", options.seconds, "Length of a dance.")
-      ->check(choreo::cli::NumberFrom(2, 600))
+      ->check(choreo::cli::NumberFrom(2, kMaxAudioSeconds))
       ->capture_default_str();
   program.add_option("--streams", options.streams, "Real-time streams at once.")
       ->check(CLI::Range(1, 10000))

@@ -16,6 +16,7 @@
 #include "bench/process_usage.h"
 #include "client/cli/local_server.h"
 #include "client/cli/options.h"
+#include "model/audio/format.h"
 #include "model/core/error.h"
 
 /// One choreod for a long time, among clients that dance as they should and others that do not:
@@ -28,7 +29,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr double kSong_s = 20;
-constexpr int kRate = 22'050;
+constexpr int kRate = kModelSampleRate;
 
 struct Options {
   double minutes = 30;

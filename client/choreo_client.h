@@ -15,6 +15,7 @@
 #include "client/dance_messages.h"
 #include "client/server_description.h"
 #include "model/core/error.h"
+#include "model/core/limits.h"
 #include "model/motion/motion.h"
 #include "model/motion/velocity_factors.h"
 
@@ -31,7 +32,7 @@ struct Options {
   /// HOST:PORT or unix:PATH. Several are replicas: when one fails, or is of another fingerprint
   /// than the dance, the next is asked. Calls take turns at the addresses of one name, and pass
   /// those whose health says that they do not serve.
-  std::vector<std::string> addresses = {"127.0.0.1:50051"};
+  std::vector<std::string> addresses = {"127.0.0.1:" + std::to_string(kDefaultPort)};
   bool tls = false;
   /// PEM file of the authority to trust, where `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};

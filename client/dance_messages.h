@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/dance_config.h"
+#include "model/core/grid.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -21,8 +22,8 @@ struct Header {
   Skeleton skeleton = {};
   uint64_t seed = 0;
   double temperature = 0;
-  double fps = 30;        ///< of the frames received
-  double model_fps = 30;  ///< of every other frame number
+  double fps = kModelFps;        ///< of the frames received
+  double model_fps = kModelFps;  ///< of every other frame number
   int64_t first_frame = 0;
   int latency_frames = 0;
   std::string server_version = {};

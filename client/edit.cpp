@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
@@ -166,22 +167,25 @@ class Edit {
 
 std::string NameOfFrame(int64_t frame) { return "frame " + std::to_string(frame); }
 
+std::string AtLeast(const std::string& where) {
+  return "at least " + std::to_string(kMinKeyDistance) + where;
+}
+
 void CheckKeyEdit(int64_t frame, int64_t from, int64_t to, int64_t frames) {
   const std::string at = NameOfFrame(frame);
   if (frame < 0 || frame >= frames) {
     throw InvalidArgument("key.frame", std::to_string(frame) + " is not in the dance, [0, " +
                                            std::to_string(frames - 1) + "]");
   }
-  if (frame == 0 ? from != -1 : from < 0 || frame - from < 2) {
-    throw InvalidArgument("from",
-                          std::to_string(from) + " with a key at " + at + ": must be " +
-                              (frame == 0 ? "-1" : "at least 2 before it and in the dance"));
+  if (frame == 0 ? from != -1 : from < 0 || frame - from < kMinKeyDistance) {
+    throw InvalidArgument("from", std::to_string(from) + " with a key at " + at + ": must be " +
+                                      (frame == 0 ? "-1" : AtLeast(" before it and in the dance")));
   }
-  if (frame == frames - 1 ? to != frames : to >= frames || to - frame < 2) {
+  if (frame == frames - 1 ? to != frames : to >= frames || to - frame < kMinKeyDistance) {
     throw InvalidArgument(
         "to", std::to_string(to) + " with a key at " + at + ": must be " +
                   (frame == frames - 1 ? std::to_string(frames)
-                                       : "at least 2 after it and in the dance, which has " +
+                                       : AtLeast(" after it and in the dance, which has ") +
                                              std::to_string(frames) + " frames"));
   }
 }

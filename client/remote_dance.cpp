@@ -17,6 +17,8 @@ Attempt::Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
     : server_(replicas.current()), journal_(journal), mutex_(mutex) {
   replicas.Prepare(&context_);
   if (deadline) context_.set_deadline(*deadline);
+  // Else StreamDance waits for a connection, and with it whoever wants `mutex`.
+  context_.set_initial_metadata_corked(true);
   stream_ = server_.stub->StreamDance(&context_);
   sender_ = std::thread([this, first] { SendLoop(first); });
 }

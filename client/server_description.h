@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/grid.h"
 #include "model/motion/skeleton.h"
 
 /// What a choreod says of itself and of its models.
@@ -16,7 +17,7 @@ struct ModelDescription {
   std::string licence = {};      ///< terms of the weights
   std::string card = {};         ///< JSON
   Skeleton skeleton = {};
-  double fps = 30;
+  double fps = kModelFps;
   int history_frames = 0;  ///< frames of the past that it looks at
   double default_temperature = 0;
   std::vector<std::string> controls = {};  ///< "root_path", "velocity_factors"

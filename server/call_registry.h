@@ -35,11 +35,11 @@ class Call {
 
 /// What clients may take, and for how long they may do nothing.
 struct CallLimits {
-  int calls = 64;
-  int calls_of_peer = 64;  ///< of one address, those without a first message included
-  std::chrono::milliseconds first_message{10'000};
-  std::chrono::milliseconds idle{120'000};   ///< nothing came and nothing went
-  std::chrono::milliseconds unread{60'000};  ///< an answer was not taken
+  int calls = 0;
+  int calls_of_peer = 0;  ///< of one address, those without a first message included
+  std::chrono::milliseconds first_message{};
+  std::chrono::milliseconds idle{};    ///< nothing came and nothing went
+  std::chrono::milliseconds unread{};  ///< an answer was not taken
 };
 
 /// With what a call ends that another server can go on with.

@@ -98,6 +98,7 @@ class CallSession : public Call {
     {
       const std::lock_guard lock(mutex_);
       if (!ended_) {
+        if (paused_) dance->SetPaused(true);  // which was said before it was there
         dance_ = std::move(dance);
         return;
       }
@@ -141,7 +142,7 @@ class CallSession : public Call {
     header->set_first_frame(first_frame);
     header->set_latency_frames(DanceStream::LatencyFrames(config, model));
     header->set_exact_resume(exact_resume);
-    header->set_free_transition_frames(kFreeTransitionFrames);
+    header->set_free_transition_frames(kUsualFrames);
     header->set_server_version(CHOREO_VERSION);
     outbox_.Send(std::move(response));
   }
@@ -184,7 +185,13 @@ class CallSession : public Call {
   double Elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   void SetPaused(bool paused) {
-    if (const auto current = dance()) current->SetPaused(paused);
+    std::shared_ptr<Dance> current;
+    {
+      const std::lock_guard lock(mutex_);
+      paused_ = paused;
+      current = dance_;
+    }
+    if (current) current->SetPaused(paused);
   }
 
   void CancelDance() {
@@ -203,9 +210,10 @@ class CallSession : public Call {
   const Clock::time_point start_ = Clock::now();
   bool admitted_ = false;  // of the sender of messages
 
-  mutable std::mutex mutex_;      // guards the two below
+  mutable std::mutex mutex_;      // guards the three below
   std::shared_ptr<Dance> dance_;  // null before the configuration and after the call
   bool ended_ = false;
+  bool paused_ = false;  // as the outbox wants it, be there a dance or not
 
   std::atomic<int64_t> frames_ = 0;
   std::atomic<double> first_frame_s_ = 0;

@@ -9,6 +9,7 @@
 
 #include "model/core/error.h"
 #include "model/core/programs.h"
+#include "model/core/threads.h"
 #include "model/engine/engine_choice.h"
 #include "model/engine/step_engine.h"
 #include "server/config_flags.h"
@@ -36,8 +37,9 @@ void CheckAddress(const std::string& name, const std::string& address) {
                                                    [](char c) { return c >= '0' && c <= '9'; });
   if (!digits) throw InvalidArgument(name, '"' + address + "\" is not HOST:PORT");
   // gRPC would listen on the port's last 16 bits.
-  if (port.size() > 5 || std::stoi(port) > 65535) {
-    throw InvalidArgument(name, "port " + port + " is not in [0, 65535]");
+  if (port.size() > 5 || std::stoi(port) > kMaxPort) {
+    throw InvalidArgument(name,
+                          "port " + port + " is not in [0, " + std::to_string(kMaxPort) + "]");
   }
 }
 
@@ -125,7 +127,7 @@ void ServerConfig::Validate() const {
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);
   CheckRange("--workers", workers, 0, 1024);
-  CheckRange("--threads", threads, 1, 1024);
+  CheckRange("--threads", threads, 1, kMaxMathThreads);
   CheckRange("--io-threads", io_threads, 1, 256);
   CheckRange("--drain-seconds", drain_seconds, 0, 3600);
   CheckRange("--outbox-kib", outbox_kib, 1, 65536);

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "model/core/limits.h"
+
 namespace choreo {
 
 /// What a choreod is started with. Flags, a configuration file and the environment fill it; main
 /// is the only place that acts on it.
 struct ServerConfig {
   /// HOST:PORT to listen on. Port 0: a free one is picked and printed.
-  std::string listen = "127.0.0.1:50051";
+  std::string listen = "127.0.0.1:" + std::to_string(kDefaultPort);
   /// One model each; the first is the default. Empty: the checkpoint that ships.
   std::vector<std::filesystem::path> checkpoints;
   std::filesystem::path models;  ///< a folder of checkpoints instead (ModelFolder); empty: none

@@ -9,7 +9,8 @@ namespace {
 void AddOptions(CLI::App& app, ServerConfig& config) {
   app.add_option("--listen", config.listen,
                  "HOST:PORT to listen on. Port 0 picks a free one, which is printed. The default "
-                 "serves this machine alone; [::]:50051 serves all, with TLS or --insecure.")
+                 "serves this machine alone; [::] in place of 127.0.0.1 serves all, with TLS or "
+                 "--insecure.")
       ->envname("CHOREO_LISTEN")
       ->capture_default_str();
   app.add_option("--checkpoint", config.checkpoints,

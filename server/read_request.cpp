@@ -140,17 +140,14 @@ DanceStart::Audio SamplesOf(const v1::AudioFormat& format) {
 
 }  // namespace
 
-KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& field) {
+KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field) {
   switch (keyframe.when_case()) {
     case v1::Keyframe::kFrame:
       return AtFrame{keyframe.frame()};
     case v1::Keyframe::kTime:
       return AtTime{keyframe.time()};
     case v1::Keyframe::kIntervalAfterPrevious:
-      return AfterPrevious{
-          static_cast<double>(CheckedIn(keyframe.interval_after_previous(), kMinKeyDistance,
-                                        kMaxDanceFrames, field + ".interval_after_previous")) /
-          fps};
+      return AfterPrevious{keyframe.interval_after_previous()};
     case v1::Keyframe::WHEN_NOT_SET:
       break;
   }

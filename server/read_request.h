@@ -14,7 +14,7 @@
 /// Pure functions, thread-safe.
 namespace choreo {
 
-KeyMoment ToMoment(const v1::Keyframe& keyframe, double fps, const std::string& field);
+KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
 
 /// For StreamDance. `fresh_seed` is used where the message has none.
 DanceConfig ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,

@@ -1,9 +1,11 @@
 #include "server/reset_guard.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <grpcpp/support/server_interceptor.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -46,7 +48,11 @@ void End(const std::string& peer) try {
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
     const int descriptor = std::stoi(entry.path().filename().string());
     // A socket that listens has no peer.
-    if (PeerOf(descriptor) == peer) connect(descriptor, &nobody, sizeof nobody);
+    if (PeerOf(descriptor) != peer) continue;
+    // gRPC may close it by now, and its number be somebody else's: a copy is of one connection.
+    const int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+    if (PeerOf(copy) == peer) connect(copy, &nobody, sizeof nobody);
+    if (copy >= 0) close(copy);
   }
 } catch (const std::exception& error) {  // the process is out of descriptors, for one
   spdlog::error("{}: {}", peer, error.what());

@@ -190,7 +190,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     const Target target =
         ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr, model.skeleton,
                  field, field + ".mask");
-    stream.SetKey(keyframe.id(), ToMoment(keyframe, model.fps, field), target.pose, target.mask);
+    stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask);
   }
 
   void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {

@@ -49,7 +49,7 @@ Desk::Desk(const House& house, Send send)
 
 Desk::~Desk() {
   for (auto& [call, dancing] : dances_) dancing.dance->Cancel();
-  for (auto& [call, dancing] : dances_) dancing.reader.join();
+  dances_.clear();
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -64,7 +64,7 @@ void Desk::Take(Request request) {
   try {
     if (request.has_dance()) return TakeDance(call, request.dance());
     if (request.has_cancel()) return EndDance(call);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     EndDance(call);
     return Fail(call, error.what());
   }
@@ -130,14 +130,16 @@ void Desk::StartDance(uint32_t call, const v1::DanceConfig& request) {
   const bool hears = music && house_.model().takes_music;
   if (music) config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
   if (hears) config.audio = music->audio.format;
+  auto dance = house_.client().StartDance(config);
+  if (hears) {
+    dance->SendSamples(music->audio.samples);
+    dance->EndAudio();
+  }
+  // Whatever fails before, no call is left that has no dance.
   Dancing& dancing = dances_[call];
   dancing.is_live = is_live;
-  dancing.dance = house_.client().StartDance(config);
-  if (hears) {
-    dancing.dance->SendSamples(music->audio.samples);
-    dancing.dance->EndAudio();
-  }
-  dancing.reader = std::thread([this, call, &dancing] { ReadDance(call, &dancing); });
+  dancing.dance = std::move(dance);
+  dancing.reader = std::jthread([this, call, &dancing] { ReadDance(call, &dancing); });
 }
 
 void Desk::ReadDance(uint32_t call, Dancing* dancing) {
@@ -167,7 +169,6 @@ void Desk::EndDance(uint32_t call) {
   const auto found = dances_.find(call);
   if (found == dances_.end()) return;
   found->second.dance->Cancel();
-  found->second.reader.join();
   dances_.erase(found);
 }
 
@@ -178,12 +179,7 @@ void Desk::Reap() {
       const std::lock_guard lock(mutex_);
       over = dance->second.over;
     }
-    if (!over) {
-      ++dance;
-      continue;
-    }
-    dance->second.reader.join();
-    dance = dances_.erase(dance);
+    dance = over ? dances_.erase(dance) : std::next(dance);
   }
 }
 

@@ -34,10 +34,10 @@ class Desk {
   /// A dance in progress, and the thread that reads it.
   struct Dancing {
     std::unique_ptr<client::RemoteDance> dance;
-    std::thread reader;
     bool is_live = false;               // its keys come one by one
     std::vector<client::KeyPose> keys;  // until they are complete
     bool over = false;                  // guarded by mutex_
+    std::jthread reader;                // last: uses the others
   };
 
   void TakeDance(uint32_t call, const v1::StreamDanceRequest& request);

@@ -1,26 +1,21 @@
 #include "studio/from_page.h"
 
 #include <algorithm>
+#include <climits>
 #include <cstring>
 
 #include "client/convert.h"
+#include "model/audio/format.h"
+#include "model/formats/own_arrays.h"
 #include "model/motion/pose_limits.h"
 
 namespace choreo::studio {
 namespace {
 
-constexpr double kWholeTurn = 2 * M_PI;
-
 void RequireCount(const std::string& field, int count, int wanted) {
   if (count == wanted) return;
   throw InvalidArgument(field,
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
-}
-
-void RequireWithin(const std::string& field, uint32_t value, uint32_t from, uint32_t to) {
-  if (value >= from && value <= to) return;
-  throw InvalidArgument(field, std::to_string(value) + ", must be " + std::to_string(from) +
-                                   " to " + std::to_string(to));
 }
 
 Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field,
@@ -68,7 +63,7 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
     default:
       throw InvalidArgument("keyframe.when", "must be a frame or a time");
   }
-  out.pose = ToPose(key.pose(), skeleton, "keyframe.pose", kWholeTurn);
+  out.pose = ToPose(key.pose(), skeleton, "keyframe.pose", kMaxRotation);
   out.mask = ToMask(key.has_mask() ? &key.mask() : nullptr, key.pose().has_root_position(),
                     skeleton, "keyframe.mask.joints");
   return out;
@@ -113,8 +108,9 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
     const v1::AudioFormat& format = config.audio_format();
     if (format.encoding() != v1::AUDIO_ENCODING_PCM_F32LE)
       throw InvalidArgument("config.audio_format.encoding", "must be 32-bit floats");
-    RequireWithin("config.audio_format.sample_rate", format.sample_rate(), 8000, 192000);
-    RequireWithin("config.audio_format.channels", format.channels(), 1, 8);
+    CheckAudioFormat(format.sample_rate(),
+                     static_cast<int>(std::min(format.channels(), uint32_t{INT_MAX})),
+                     "config.audio_format");
     if (format.first_sample() != 0) refuse("config.audio_format.first_sample");
     out.audio = {client::AudioKind::kPcmFloat, static_cast<int>(format.sample_rate()),
                  static_cast<int>(format.channels())};
@@ -178,8 +174,7 @@ client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton) {
   if (count < 1) throw InvalidArgument("clip.frames", "there are none");
   RequireCount("clip.frames.root_positions", frames.root_positions_size(), 3 * count);
   RequireCount("clip.frames.rotations", frames.rotations_size(), 3 * count * skeleton.joints());
-  if (!(clip.frame_rate() >= 1 && clip.frame_rate() <= 1000))
-    throw InvalidArgument("clip.frame_rate", "must be 1 to 1000");
+  CheckRate("clip.frame_rate", clip.frame_rate());
   v1::Frames whole = frames;
   const bool touches = frames.contacts_size() > 0;
   if (!touches) whole.mutable_contacts()->Resize(4 * count, 0);

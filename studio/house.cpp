@@ -19,7 +19,7 @@ namespace {
 std::string BodyAtRest(const Skeleton& skeleton) {
   const ScratchFolder folder;
   const std::filesystem::path path = folder.path() / "body.glb";
-  WriteMotion(path, skeleton, {.fps = 30, .frames = {RestPose(skeleton)}});
+  WriteMotion(path, skeleton, {.frames = {RestPose(skeleton)}});
   return ReadBytes(path);
 }
 

@@ -10,8 +10,8 @@ constexpr size_t kLargestMessage = size_t{256} << 20;  // a song
 
 }  // namespace
 
-Socket::Socket(beast::tcp_stream stream, const House& house)
-    : stream_(std::move(stream)), house_(house) {}
+Socket::Socket(beast::tcp_stream stream, const House& house, boost::asio::thread_pool* leaving)
+    : stream_(std::move(stream)), house_(house), leaving_(*leaving) {}
 
 void Socket::Start(const beast::http::request<beast::http::string_body>& request) {
   beast::get_lowest_layer(stream_).expires_never();
@@ -32,8 +32,12 @@ void Socket::Start(const beast::http::request<beast::http::string_body>& request
   });
 }
 
+void Socket::EndCalls() {
+  if (desk_) boost::asio::post(leaving_, [desk = std::move(desk_)]() mutable { desk.reset(); });
+}
+
 void Socket::Close() {
-  desk_.reset();
+  EndCalls();
   beast::error_code ignored;
   beast::get_lowest_layer(stream_).socket().shutdown(boost::asio::socket_base::shutdown_both,
                                                      ignored);
@@ -42,10 +46,7 @@ void Socket::Close() {
 
 void Socket::Read() {
   stream_.async_read(received_, [self = shared_from_this()](beast::error_code error, size_t) {
-    if (error || !self->desk_) {
-      self->desk_.reset();
-      return;
-    }
+    if (error || !self->desk_) return self->EndCalls();
     Request request;
     const auto bytes = self->received_.data();
     const bool good = request.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/asio/thread_pool.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -15,7 +16,8 @@ namespace choreo::studio {
 /// others and wait their turn.
 class Socket : public std::enable_shared_from_this<Socket> {
  public:
-  Socket(boost::beast::tcp_stream stream, const House& house);
+  /// Desks end on `leaving`: their last calls may take long, and other pages are served meanwhile.
+  Socket(boost::beast::tcp_stream stream, const House& house, boost::asio::thread_pool* leaving);
 
   /// Takes over from HTTP.
   void Start(const boost::beast::http::request<boost::beast::http::string_body>& request);
@@ -24,11 +26,13 @@ class Socket : public std::enable_shared_from_this<Socket> {
 
  private:
   void Read();
+  void EndCalls();
   void Queue(std::string message);
   void Write();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
   const House& house_;
+  boost::asio::thread_pool& leaving_;
   boost::beast::flat_buffer received_;
   std::deque<std::string> unsent_;
   std::unique_ptr<Desk> desk_;

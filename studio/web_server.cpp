@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "model/core/error.h"
+#include "model/core/limits.h"
 #include "studio/page.h"
 #include "studio/socket.h"
 
@@ -19,6 +20,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using tcp = boost::asio::ip::tcp;
 
+constexpr int kLeaveAtOnce = 4;  // pages that are closed
 constexpr std::chrono::milliseconds kAskEvery{100};
 constexpr std::chrono::seconds kPatience{30};      // for a request
 constexpr size_t kLargestBody = size_t{64} << 20;  // of a project with its song
@@ -43,9 +45,9 @@ Place ParsePlace(const std::string& listen) {
     const auto [stop, code] = std::from_chars(listen.data() + colon + 1, end, port);
     if (code != std::errc() || stop != end) port = -1;
   }
-  if (colon == 0 || port < 0 || port > 65535) {
-    throw InvalidArgument("--listen",
-                          "\"" + listen + "\" is not HOST:PORT with a port from 0 to 65535");
+  if (colon == 0 || port < 0 || port > kMaxPort) {
+    throw InvalidArgument("--listen", "\"" + listen + "\" is not HOST:PORT with a port from 0 to " +
+                                          std::to_string(kMaxPort));
   }
   std::string host = listen.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
@@ -178,7 +180,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 }  // namespace
 
 WebServer::WebServer(const std::string& listen, const House& house)
-    : house_(house), calls_(house), acceptor_(io_), timer_(io_) {
+    : house_(house), calls_(house), acceptor_(io_), timer_(io_), leaving_(kLeaveAtOnce) {
   const Place place = ParsePlace(listen);
   host_ = place.host;
   try {
@@ -195,6 +197,7 @@ WebServer::WebServer(const std::string& listen, const House& house)
 WebServer::~WebServer() {
   for (const auto& weak : sockets_)
     if (const auto socket = weak.lock()) socket->Close();
+  leaving_.join();  // while io_ is there, by which they answer
 }
 
 std::string WebServer::url() const {
@@ -225,7 +228,7 @@ void WebServer::Accept() {
       std::make_shared<Connection>(
           std::move(socket), host_, house_.photo_model(), &calls_,
           [this](beast::tcp_stream stream, const http::request<http::string_body>& request) {
-            const auto page = std::make_shared<Socket>(std::move(stream), house_);
+            const auto page = std::make_shared<Socket>(std::move(stream), house_, &leaving_);
             sockets_.insert(page);
             page->Start(request);
           })

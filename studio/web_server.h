@@ -3,6 +3,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <functional>
 #include <memory>
 #include <set>
@@ -45,6 +46,7 @@ class WebServer {
   boost::asio::steady_timer timer_;
   std::string host_;
   std::set<std::weak_ptr<Socket>, std::owner_less<>> sockets_;
+  boost::asio::thread_pool leaving_;  // where pages that are closed end their calls
 };
 
 }  // namespace choreo::studio

@@ -6,6 +6,8 @@
 #include "client/cli/json_fields.h"
 #include "client/cli/options.h"
 #include "client/cli/velocity_options.h"
+#include "model/core/rounded.h"
+#include "model/motion/velocity_factors.h"
 
 namespace choreo::cli {
 namespace {
@@ -67,11 +69,15 @@ void ControlOptions::AddTo(CLI::App& command) {
       ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
   AddRepeated(command, "--velocity", velocities,
               "How lively a part of the body is: trunk, left_arm, right_arm, left_leg, right_leg, "
-              "arms, legs or all; left_arm=1.5 is a multiplier, 0 to 10, of the reference, "
-              "left_arm=1.2cm a speed, 0 to 50 cm a frame; one unit in a command. Or a JSON file, "
-              "for what changes: "
-              "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
-              "\"speeds\". May be given more than once; the last one of a part counts.");
+              "arms, legs or all; left_arm=1.5 is a multiplier, 0 to " +
+                  Rounded(kMaxVelocityFactor) +
+                  ", of the reference, "
+                  "left_arm=1.2cm a speed, 0 to " +
+                  Rounded(100 * kMaxVelocity) +
+                  " cm a frame; one unit in a command. Or a JSON file, "
+                  "for what changes: "
+                  "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
+                  "\"speeds\". May be given more than once; the last one of a part counts.");
   command.add_option("--velocity-reference", reference,
                      "What --velocity multiplies, of those that `choreo info` lists; default: the "
                      "model's first.");

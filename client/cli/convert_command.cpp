@@ -7,6 +7,7 @@
 #include "client/cli/output_file.h"
 #include "model/fit/retarget.h"
 #include "model/formats/motion_file.h"
+#include "model/formats/own_arrays.h"
 #include "model/motion/contacts.h"
 #include "model/motion/resample.h"
 
@@ -53,7 +54,7 @@ void AddConvertCommand(CLI::App& program) {
   command->add_option("in", options->in, "Motion to read.")->required()->check(CLI::ExistingFile);
   command->add_option("out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")->required();
   command->add_option("--fps", options->fps, "Resample to this rate; default: as it is.")
-      ->check(NumberFrom(1, 1000));
+      ->check(NumberFrom(kMinFileFps, kMaxFileFps));
   command->add_flag("--smpl", options->smpl,
                     "Retarget what has a skeleton of its own to SMPL's 24 joints.");
   options->bvh.AddTo(*command);

@@ -23,6 +23,7 @@
 #include "client/cli/report.h"
 #include "client/cli/vmc_show.h"
 #include "model/core/atomic_file.h"
+#include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
@@ -275,9 +276,8 @@ void AddDanceCommand(CLI::App& program) {
   AddTemperature(*command, options->temperature);
   AddStyle(*command, options->style);
   command
-      ->add_option("--fps", options->fps,
-                   "Frames a second that are written, 1 to 120; default: the model's.")
-      ->check(NumberFrom(1, 120));
+      ->add_option("--fps", options->fps, "Frames a second that are written; default: the model's.")
+      ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   options->controls.AddTo(*command);
   command->add_option("-m,--model", options->model,
                       "Model of the server to dance with; default: its first.");

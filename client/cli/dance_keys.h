@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "model/core/grid.h"
 
 namespace choreo::cli {
 
@@ -23,7 +24,7 @@ struct DanceKeys {
 /// How long a dance is.
 struct DanceLength {
   int64_t frames = 0;
-  double fps = 30;  ///< the model's
+  double fps = kModelFps;  ///< the model's
 };
 
 /// Of something at a frame that the dance does not reach: "at 20 s lies behind the dance's end:

@@ -12,6 +12,7 @@
 #include "client/cli/pose_source.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
+#include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
@@ -163,12 +164,12 @@ void EditSession::CheckKeys() const {
 }
 
 void EditSession::CheckAround(double seconds) const {
-  constexpr double kLeast = 2;  // frames
   const double frames = std::round(seconds * edit_.model.fps);
-  if (frames >= kLeast && frames <= static_cast<double>(longest_)) return;
+  if (frames >= kMinKeyDistance && frames <= static_cast<double>(longest_)) return;
   std::ostringstream message;
-  message << seconds << " s, must be " << Rounded(kLeast / edit_.model.fps) << " to "
-          << Rounded(Seconds(longest_)) << " s: " << kLeast << " to " << longest_ << " frames";
+  message << seconds << " s, must be " << Rounded(kMinKeyDistance / edit_.model.fps) << " to "
+          << Rounded(Seconds(longest_)) << " s: " << kMinKeyDistance << " to " << longest_
+          << " frames";
   throw InvalidArgument("--around", message.str());
 }
 

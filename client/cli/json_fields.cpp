@@ -11,6 +11,7 @@
 
 #include "model/core/error.h"
 #include "model/core/json_limits.h"
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
 
@@ -189,7 +190,8 @@ Moment ParseMoment(const json& value, const std::string& field) {
   if (!(moment.time_s >= 0))
     throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is before 0");
   if (moment.time_s > kMaxSeconds)
-    throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is beyond 1e9 s");
+    throw InvalidArgument(field + ".time",
+                          Shown(value["time"]) + " s is beyond " + InFull(kMaxSeconds) + " s");
   return moment;
 }
 

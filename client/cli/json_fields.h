@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/core/limits.h"
+
 /// How the files that people write (key files, path files) are read. Errors are
 /// Error(kInvalidArgument) whose field is NAME:LIST[i].MEMBER, naming value and limit.
 namespace choreo::cli {
@@ -23,7 +25,7 @@ bool IsFrameNumber(const Json& value) {
 /// Behind the end of any dance, and far from where numbers of frames end.
 inline constexpr double kMaxSeconds = 1e9;
 /// Seconds of the longest dance.
-inline constexpr double kLongestDance = 3600;
+inline constexpr double kLongestDance = kMaxDanceFrames / kModelFps;
 
 /// A value as messages show it: at most 40 characters.
 std::string Shown(const nlohmann::json& value);

@@ -9,11 +9,13 @@
 
 #include "client/cli/json_fields.h"
 #include "client/cli/key_joints.h"
+#include "model/core/rounded.h"
 #include "model/fit/retarget.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/pose_limits.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
@@ -45,7 +47,7 @@ constexpr const char* kPoseMembers[] = {"rotations",  "root_position", "smpl_pos
 void CheckAngles(const Eigen::Matrix3Xd& rotations, const std::string& field) {
   for (Eigen::Index joint = 0; joint < rotations.cols(); ++joint) {
     const double angle = rotations.col(joint).norm();
-    if (angle > 2 * M_PI) {
+    if (angle > kMaxRotation) {
       std::ostringstream message;
       message << angle << " rad exceeds 2π; angles are in radians";
       throw InvalidArgument(field + "[" + std::to_string(joint) + "]", message.str());
@@ -232,7 +234,8 @@ double ParseSeconds(std::string_view text, const std::string& source) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (code != std::errc() || end != text.data() + text.size() || !(seconds >= 0) ||
       seconds > kMaxSeconds) {
-    throw InvalidArgument(source, "\"" + std::string(text) + "\" is not a time, 0 to 1e9 seconds");
+    throw InvalidArgument(source, "\"" + std::string(text) + "\" is not a time, 0 to " +
+                                      InFull(kMaxSeconds) + " seconds");
   }
   return seconds;
 }

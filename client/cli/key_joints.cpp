@@ -8,6 +8,7 @@
 #include "client/cli/json_fields.h"
 #include "client/cli/pose_library.h"
 #include "model/core/error.h"
+#include "model/core/rounded.h"
 #include "model/fit/retarget.h"
 #include "model/motion/canonical.h"
 #include "model/motion/joint_angles.h"
@@ -76,8 +77,9 @@ client::KeyPose ReadNamedPose(const json& value, const std::string& field,
   if (value.contains("facing")) {
     const double degrees = JsonNumber(value["facing"], field + ".facing");
     if (!(std::abs(degrees) <= kMostTurn)) {
-      throw InvalidArgument(field + ".facing",
-                            Shown(value["facing"]) + " degrees, must be -360 to 360");
+      throw InvalidArgument(field + ".facing", Shown(value["facing"]) + " degrees, must be " +
+                                                   Rounded(-kMostTurn) + " to " +
+                                                   Rounded(kMostTurn));
     }
     place.heading = degrees * M_PI / 180;
   }

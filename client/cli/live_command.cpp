@@ -18,6 +18,7 @@
 #include "client/live/live_dance.h"
 #include "client/live/midi_clock.h"
 #include "client/live/vmc.h"
+#include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
@@ -32,8 +33,8 @@ struct LiveCommand {
   std::vector<std::string> keys;
   int osc_port = 0;
   std::string midi_clock;
-  double ahead_s = 1;
-  double look_ahead_s = 0.3;
+  double ahead_s = live::LiveOptions{}.ahead_s;
+  double look_ahead_s = live::LiveOptions{}.look_ahead_s;
   std::optional<double> seconds;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
@@ -189,26 +190,26 @@ void AddLiveCommand(CLI::App& program) {
       ->add_option("--osc", options->osc_port,
                    "UDP port for OSC messages of anybody who reaches it: /choreo/key POSE [SECONDS "
                    "ahead], /choreo/undo.")
-      ->check(WholeNumberFrom(1, 65535));
+      ->check(WholeNumberFrom(1, kMaxPort));
   command->add_option("--midi-clock", options->midi_clock,
                       "Device that raw MIDI comes from, as /dev/snd/midiC1D0: its clock says where "
                       "the beats are from its Start on, instead of the music.");
   command
       ->add_option("--ahead", options->ahead_s,
                    "Seconds from asking for a pose to the first beat that it may stand on.")
-      ->check(NumberFrom(0.2, 60))
+      ->check(NumberFrom(0.2, live::kMostAheadSeconds))
       ->capture_default_str();
   command
       ->add_option("--look-ahead", options->look_ahead_s,
                    "Seconds ahead of the music that are settled: poses can't be asked for or taken "
                    "back there.")
-      ->check(NumberFrom(0, 60))
+      ->check(NumberFrom(0, live::kMostAheadSeconds))
       ->capture_default_str();
   command->add_option("-s,--seconds", options->seconds, "Of music, at most.")->check(AboveZero());
   AddSeed(*command, options->seed, "Same seed, same music, same poses: same dance. Default: 0.");
   AddTemperature(*command, options->temperature);
-  command->add_option("--fps", options->fps, "Frames a second, 1 to 120; default: the model's.")
-      ->check(NumberFrom(1, 120));
+  command->add_option("--fps", options->fps, "Frames a second; default: the model's.")
+      ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   command->add_option("-m,--model", options->model,
                       "Model of the server to dance with; default: its first.");
   AddVmc(*command, options->vmc);

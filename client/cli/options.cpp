@@ -5,6 +5,11 @@
 #include <iostream>
 #include <sstream>
 
+#include "client/cli/json_fields.h"
+#include "model/core/limits.h"
+#include "model/core/rounded.h"
+#include "model/motion/pose_faults.h"
+
 namespace choreo::cli {
 namespace {
 
@@ -35,7 +40,7 @@ CLI::Validator NumberFrom(double low, double high) {
   return NumberThat(limits.str(), "", [=](double value) { return value >= low && value <= high; });
 }
 
-CLI::Validator TimeInSeconds() { return NumberFrom(0, 1e9); }
+CLI::Validator TimeInSeconds() { return NumberFrom(0, kMaxSeconds); }
 
 CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
   return NumberThat("a whole number from " + std::to_string(low) + " to " + std::to_string(high),
@@ -59,8 +64,10 @@ void CheckSongStart(const CLI::App& command, const std::string& song) {
 
 void AddAllowBends(CLI::App& command, bool& allowed) {
   command.add_flag("--allow-bends", allowed,
-                   "Take keys that bend a knee or an elbow more than 15 degrees backwards, or "
-                   "beyond 165 degrees. They are refused otherwise.");
+                   "Take keys that bend a knee or an elbow more than " + Rounded(kBrokenBackwards) +
+                       " degrees backwards, or "
+                       "beyond " +
+                       Rounded(kFolded) + " degrees. They are refused otherwise.");
 }
 
 void AddVmc(CLI::App& command, std::string& address) {
@@ -70,8 +77,9 @@ void AddVmc(CLI::App& command, std::string& address) {
 }
 
 void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
-  command.add_option("--temperature", temperature,
-                     "Variety, 0 (calm) to 2; default: the model's. " + kOfChance);
+  command.add_option(
+      "--temperature", temperature,
+      "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);
 }
 
 void AddStyle(CLI::App& command, std::string& style) {

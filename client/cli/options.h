@@ -16,7 +16,7 @@ namespace choreo::cli {
 
 /// A number above 0.
 const CLI::Validator& AboveZero();
-/// A time, 0 to 1e9 seconds: more than any dance, and no trouble for a counter of frames.
+/// A time, 0 to kMaxSeconds.
 CLI::Validator TimeInSeconds();
 
 /// A number within these limits, and a whole one.

@@ -14,6 +14,7 @@
 #include "model/formats/npz.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/pose_limits.h"
 #include "model/motion/rotation.h"
 
 namespace choreo::cli {
@@ -22,7 +23,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kFarthest = 10;          // metres of a landmark from the hips
-constexpr double kMostTurn = 2 * M_PI;    // radians
 constexpr double kNearlyRotation = 0.05;  // of a matrix's rows
 
 double Within(const json& value, const std::string& field, double from, double to) {
@@ -102,7 +102,7 @@ std::vector<Eigen::Matrix3d> Rotations(const std::vector<double>& numbers, int l
       out.push_back(m);
     } else {
       const Eigen::Vector3d vector(&numbers[3 * joint]);
-      if (!(vector.norm() <= kMostTurn)) {
+      if (!(vector.norm() <= kMaxRotation)) {
         std::ostringstream message;
         message << vector.norm() << " rad exceeds 2π; angles are in radians";
         throw InvalidArgument(where, message.str());

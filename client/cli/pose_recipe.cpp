@@ -93,7 +93,8 @@ void Draw(const std::vector<std::string>& reach, const Skeleton& skeleton, Pose*
     throw InvalidArgument(
         fields[i],
         "is out of reach: " + skeleton.joint_names[static_cast<size_t>(targets[i].joint)] +
-            " ended " + Rounded(100 * drawn.missed_m[i]) + " cm off, and may be 1 cm");
+            " ended " + Rounded(100 * drawn.missed_m[i]) + " cm off, and may be " +
+            Rounded(100 * kOutOfReach) + " cm");
   }
   *pose = std::move(drawn.pose);
 }

@@ -18,13 +18,17 @@
 namespace choreo::cli {
 namespace {
 
+std::string SizeText(const VideoFormat& format) {
+  return std::to_string(format.width) + "x" + std::to_string(format.height);
+}
+
 struct RenderOptions {
   std::string motion;
   std::string out;
   std::string report;
   ContactSheetOptions sheet;
   std::string video;
-  std::string size = "1280x720";
+  std::string size = SizeText({});
   VideoOptions film;
 };
 
@@ -55,7 +59,7 @@ void DrawFilm(const RenderOptions& options, const SkeletonMotion& dance, std::ve
   char end = 0;
   if (std::sscanf(options.size.c_str(), "%dx%d%c", &film.format.width, &film.format.height, &end) !=
       2) {
-    throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in 1280x720");
+    throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in " + SizeText({}));
   }
   std::unique_ptr<ProgressBar> bar;
   film.on_frame = [&](int64_t frames) {
@@ -102,10 +106,10 @@ void AddRenderCommand(CLI::App& program) {
                    "Report of the dance: its key poses are highlighted.")
       ->check(CLI::ExistingFile);
   command->add_option("--frames", options->sheet.frames, "Frames to show, evenly spaced.")
-      ->check(WholeNumberFrom(1, 1000))
+      ->check(WholeNumberFrom(1, kMaxSheetFrames))
       ->capture_default_str();
   command->add_option("--columns", options->sheet.columns, "Frames in a row.")
-      ->check(WholeNumberFrom(1, 100))
+      ->check(WholeNumberFrom(1, kMaxSheetColumns))
       ->capture_default_str();
   command->add_option("--title", options->sheet.title, "Heading; default: the file's name.");
   command->add_option("--video", options->video,
@@ -115,8 +119,8 @@ void AddRenderCommand(CLI::App& program) {
                    "The video's music: begins with the first frame, ends with the last.")
       ->check(CLI::ExistingFile);
   AddSongStart(*command, options->film.format.song_start_s);
-  command->add_option("--fps", options->film.format.fps, "Frames a second of the video, 1 to 120.")
-      ->check(NumberFrom(1, 120))
+  command->add_option("--fps", options->film.format.fps, "Frames a second of the video.")
+      ->check(NumberFrom(kMinVideoFps, kMaxVideoFps))
       ->capture_default_str();
   command->add_option("--size", options->size, "Of the video, pixels.")->capture_default_str();
   command->callback([options, command] {

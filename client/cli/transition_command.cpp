@@ -15,6 +15,8 @@
 #include "client/cli/report.h"
 #include "client/edit.h"
 #include "model/core/atomic_file.h"
+#include "model/core/grid.h"
+#include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
@@ -25,7 +27,7 @@ struct TransitionOptions {
   ServerOptions server;
   std::string from;
   std::string to;
-  int frames = 60;
+  int frames = kUsualFrames;
   std::string song;
   double at_s = 0;
   int candidates = 1;
@@ -144,8 +146,8 @@ void AddTransitionCommand(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--candidates", options->candidates,
-                   "Alternatives, 1 to 32; the best is FILE, the others FILE.2, ... " + kOfChance)
-      ->check(WholeNumberFrom(1, 32))
+                   "Alternatives; the best is FILE, the others FILE.2, ... " + kOfChance)
+      ->check(WholeNumberFrom(1, kMaxCandidates))
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);

@@ -72,7 +72,8 @@ void CheckKeys(const WrittenDance& dance) {
     if (distance <= kDistance && angle <= kAngle) continue;
     throw Error(ErrorCode::kInternal, key.reached.id,
                 "was missed by " + Rounded(1000 * distance) + " mm and " + Rounded(angle) +
-                    " degrees, more than 1 mm or 0.1 degrees");
+                    " degrees, more than " + Rounded(1000 * kDistance) + " mm or " +
+                    Rounded(kAngle) + " degrees");
   }
 }
 

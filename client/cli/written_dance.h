@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "model/core/grid.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo::cli {
@@ -21,8 +22,8 @@ struct WrittenKey {
 struct WrittenDance {
   client::Header header = {};
   client::Report report = {};
-  int64_t frames = 0;  ///< of the file
-  double fps = 30;     ///< of the file
+  int64_t frames = 0;      ///< of the file
+  double fps = kModelFps;  ///< of the file
   std::vector<WrittenKey> keys = {};
   std::vector<client::Warning> warnings = {};  ///< of the server; Examine leaves them empty
   /// The beat hit rate of a dance whose beats fall anywhere: the share of frames within two frames

@@ -14,7 +14,6 @@ namespace {
 constexpr double kSpareSeconds = 0.05;      // for the way from here to the server and back
 constexpr double kLeastWaySeconds = 0.5;    // from pose to pose
 constexpr double kLeastAheadSeconds = 0.1;  // of a pose before what is danced already
-constexpr double kMostAheadSeconds = 60;
 constexpr double kClockMissedSeconds = 5;  // a MIDI clock that was not started by then is asked for
 constexpr int kMostNotes = 5;              // a second
 constexpr size_t kLongestNote = 300;       // bytes

@@ -18,8 +18,11 @@
 #include "client/live/midi_clock.h"
 #include "client/live/pose_player.h"
 #include "client/live/sound.h"
+#include "model/core/limits.h"
 
 namespace choreo::live {
+
+inline constexpr double kMostAheadSeconds = 60;  ///< that a cue's pose may come behind it
 
 /// What a live dance is made with.
 struct LiveOptions {
@@ -29,7 +32,7 @@ struct LiveOptions {
   double ahead_s = 1;                      ///< a cue's pose comes so long behind it, on a beat
   double look_ahead_s = 0.3;               ///< what is nearer than this is danced already
   double seconds = std::numeric_limits<double>::infinity();  ///< of music, at most
-  int most_keys = 1000;  ///< that the server takes in one dance, those taken back included
+  int most_keys = kMaxKeys;  ///< that the server takes in one dance, those taken back included
 };
 
 /// How it goes: frames and keys since the last time, the pulse as it is now.

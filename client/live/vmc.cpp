@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/limits.h"
 #include "model/motion/rotation.h"
 
 namespace choreo::live {
@@ -81,9 +82,10 @@ lo_address Resolve(const std::string& address) {
   const std::string port = address.substr(colon + 1);
   int number = 0;
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
-  if (error != std::errc() || end != port.data() + port.size() || number < 1 || number > 65535)
+  if (error != std::errc() || end != port.data() + port.size() || number < 1 || number > kMaxPort)
     throw InvalidArgument("--vmc", "\"" + address + "\" has the port " + port +
-                                       ", which is no whole number from 1 to 65535");
+                                       ", which is no whole number from 1 to " +
+                                       std::to_string(kMaxPort));
   std::string host = address.substr(0, colon);
   if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
   return lo_address_new(host.c_str(), address.c_str() + colon + 1);

@@ -3,13 +3,14 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "model/audio/format.h"
 #include "model/audio/mel.h"
+#include "model/core/grid.h"
 
 namespace choreo {
 
-inline constexpr int kMfccCount = 40;
-/// Samples at 22 050 Hz from one row to the next: 30 rows a second, one a frame of motion.
-inline constexpr int kFeatureHop = 735;
+/// Samples from one row to the next: one a frame of motion.
+inline constexpr int kFeatureHop = kModelSampleRate / static_cast<int>(kModelFps);
 
 /// One row of cepstral coefficients: the first kMfccCount of the orthonormal DCT-II of a mel
 /// spectrum in dB.

@@ -35,7 +35,7 @@ float OnsetMeter<kRiseRows, kLoudRows>::Add(const MelBandsDb& db) {
   return static_cast<float>(0.5 * (all / kMelBands + bass / kBassBands));
 }
 
-template class OnsetMeter<2, 60>;
+template class OnsetMeter<kRowRise, kRowLoud>;
 
 std::vector<float> OnsetStrength(std::span<const float> mono) {
   const std::vector<MelBandsDb> frames = MelSpectrogram(mono, kOnsetHop);

@@ -28,8 +28,9 @@ class OnsetMeter {
   std::array<double, kLoudRows> loudest_{};
 };
 
-/// Of the rows of a FeatureStream, 30 a second: over two rows, 67 ms, and two seconds.
-using RowOnset = OnsetMeter<2, 60>;
+/// Of the rows of a FeatureStream: over two rows, 67 ms, and two seconds.
+inline constexpr size_t kRowRise = 2, kRowLoud = 60;
+using RowOnset = OnsetMeter<kRowRise, kRowLoud>;
 
 /// Samples at 22 050 Hz from one onset value, and one beat frame, to the next.
 inline constexpr int kOnsetHop = 512;

@@ -7,10 +7,11 @@
 #include <numbers>
 #include <utility>
 
+#include "model/core/grid.h"
+
 namespace choreo {
 namespace {
 
-constexpr double kRowRate = 30;  // a second
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
 // ---- Onsets, evened out.
@@ -39,7 +40,7 @@ constexpr double kDoubtRows = 30;    // as many average onsets are taken to have
 constexpr double kLeastConfidence = 0.13;
 constexpr int kSilentRows = 75;  // without any onset, and the music has stopped
 
-double Kept(double seconds) { return std::exp(-1 / (kRowRate * seconds)); }
+double Kept(double seconds) { return std::exp(-1 / (kModelFps * seconds)); }
 
 // What of each resonator is left a row later, turned by its tempo; how likely each tempo is; the
 // phases of a beat as phasors.
@@ -67,7 +68,7 @@ struct PulseTables {
 
   // In rows.
   static double PeriodOf(double step) {
-    return 60 * kRowRate / (kSlowestBpm * std::exp2(step / static_cast<double>(kOctave)));
+    return 60 * kModelFps / (kSlowestBpm * std::exp2(step / static_cast<double>(kOctave)));
   }
 };
 

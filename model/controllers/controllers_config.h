@@ -3,13 +3,15 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "model/core/grid.h"
+
 namespace choreo {
 
 /// Shape and switches of the controllers network (paper C, Section 3.2). Stored in every
 /// checkpoint.
 struct ControllersConfig {
   std::string name = "controllers-paper";  ///< what servers call it; the preset's unless named
-  int history_frames = 10;                 ///< tau
+  int history_frames = kHistoryFrames;     ///< tau
   int max_transition_frames = 600;
 
   /// Both controllers: window u, heads, width and layers of encoder and decoder, hidden width of

@@ -34,10 +34,13 @@ inline void CheckJsonDepth(std::string_view json, const std::string& name) {
   }
 }
 
+inline constexpr int kMostJsonLevels = 16;  ///< of skeletons and configurations
+
 /// Refuses numbers beyond those of an int: read as one they would be another, or undefined. For
 /// what holds no larger ones and at most so many levels, such as skeletons and the configurations
 /// of networks.
-inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name, int levels = 16) {
+inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name,
+                             int levels = kMostJsonLevels) {
   constexpr double kLimit = std::numeric_limits<int>::max();
   if (json.is_number()) {
     const auto number = json.get<double>();
@@ -45,7 +48,9 @@ inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name
     throw InvalidArgument(name, "the number " + json.dump() + " is beyond 2147483647");
   }
   if (!json.is_structured()) return;
-  if (levels == 0) throw InvalidArgument(name, "is JSON of more than 16 levels");
+  if (levels == 0)
+    throw InvalidArgument(name,
+                          "is JSON of more than " + std::to_string(kMostJsonLevels) + " levels");
   for (const auto& value : json) CheckJsonNumbers(value, name, levels - 1);
 }
 

@@ -92,8 +92,9 @@ int UsableCores() {
 }
 
 void SetMathThreads(int threads) {
-  if (threads < 1 || threads > 1024) {
-    throw InvalidArgument("threads", std::to_string(threads) + " is not in [1, 1024]");
+  if (threads < 1 || threads > kMaxMathThreads) {
+    throw InvalidArgument("threads", std::to_string(threads) + " is not in [1, " +
+                                         std::to_string(kMaxMathThreads) + "]");
   }
   for (const char* symbol :
        {"openblas_set_num_threads", "omp_set_num_threads", "MKL_Set_Num_Threads"}) {

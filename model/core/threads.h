@@ -28,9 +28,11 @@ std::string RequireFastBlas(const BlasInfo& blas);
 /// Cores that this process may use: its CPU affinity and its cgroup's quota taken together; >= 1.
 int UsableCores();
 
+inline constexpr int kMaxMathThreads = 1024;  ///< of one matrix product
+
 /// Sets how many threads one matrix product uses, in every BLAS and OpenMP runtime loaded. Throws
-/// Error(kInvalidArgument) unless threads is in [1, 1024]. LibTorch's own pools are the business of
-/// engine/engines.h.
+/// Error(kInvalidArgument) unless threads is in [1, kMaxMathThreads]. LibTorch's own pools are the
+/// business of engine/engines.h.
 void SetMathThreads(int threads);
 
 /// From here on, denormal results and operands count as zero on the calling thread and on threads

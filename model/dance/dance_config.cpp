@@ -95,7 +95,7 @@ int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const Model
 
 bool TakesMusic(const ModelInfo& model) {
   // Rows come at 30 a second (FeatureStream).
-  return model.audio_features == kMfccCount && model.fps == 30;
+  return model.audio_features == kMfccCount && model.fps == kModelFps;
 }
 
 void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio, int64_t first_frame,

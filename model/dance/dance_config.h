@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/grid.h"
 #include "model/dance/control_track.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
@@ -16,7 +17,7 @@ struct DanceStart {
   uint64_t seed = 0;
   std::optional<float> temperature;  ///< 0..2; none: the model's default
   std::string style;                 ///< one of the model's, or empty: any
-  double output_fps = 30;            ///< 1..120; the model's own rate passes through untouched
+  double output_fps = kModelFps;     ///< 1..120; the model's own rate passes through untouched
   /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
   /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
   /// if that stands on it. Excludes `continuation`.

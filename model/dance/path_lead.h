@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/core/grid.h"
 #include "model/dance/root_path.h"
 
 namespace choreo {
@@ -12,7 +13,7 @@ namespace choreo {
 /// What is to be led: the root over the floor, or its height.
 struct LeadRequest {
   int64_t first_frame = 0;  ///< absolute
-  double fps = 30;
+  double fps = kModelFps;
   std::vector<const PathCurve*> curves;  ///< [frames] the curve that speaks of a frame; null: none
   Eigen::Vector3d axes = {1, 0, 1};      ///< 1 for each axis led, 0 for the others
   PathPoint start;                       ///< the root's in the frame before the first

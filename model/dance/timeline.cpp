@@ -21,7 +21,7 @@ double FiniteSeconds(double seconds, const std::string& field) {
 
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest) {
   if (next_key && *next_key + 1 - from <= longest) return *next_key + 1;
-  return from + std::clamp(longest / 2, 1, kFreeTransitionFrames);
+  return from + std::clamp(longest / 2, 1, kUsualFrames);
 }
 
 bool Key::operator==(const Key& other) const {
@@ -48,12 +48,8 @@ int64_t Timeline::Resolve(const KeyMoment& when, const std::string& field) const
     return std::llround(seconds * options_.fps);
   }
   const std::string path = field + ".interval_after_previous";
-  const double seconds = FiniteSeconds(std::get<AfterPrevious>(when).seconds, path);
-  const double limit = kMaxTransitionFrames / options_.fps;
-  if (seconds <= 0 || seconds > limit) {
-    throw InvalidArgument(path, Show(seconds) + " s is not in (0, " + Show(limit) + "]");
-  }
-  const int64_t frame = previous_frame_ + std::llround(seconds * options_.fps);
+  const int64_t frame = previous_frame_ + CheckedIn(std::get<AfterPrevious>(when).frames,
+                                                    kMinKeyDistance, kMaxDanceFrames, path);
   if (frame > kMaxDanceFrames) {
     throw InvalidArgument(
         path, "leads to frame " + Frames(frame) + ", beyond the limit " + Frames(kMaxDanceFrames));

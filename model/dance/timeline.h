@@ -9,18 +9,11 @@
 #include <unordered_map>
 #include <variant>
 
+#include "model/core/limits.h"
 #include "model/motion/motion.h"
 
 /// Keys on the grid of the model's frames, and how they cut a dance into transitions.
 namespace choreo {
-
-/// Limits of the API that the timeline enforces.
-inline constexpr int kMaxKeys = 1000;                ///< of one stream at a time
-inline constexpr int kMaxTransitionFrames = 1800;    ///< one transition; one minute at 30 fps
-inline constexpr int64_t kMaxDanceFrames = 108'000;  ///< absolute; one hour at 30 fps
-inline constexpr int kMinKeyDistance = 2;            ///< frames between two keys
-/// Length of a transition with no target, frames.
-inline constexpr int kFreeTransitionFrames = 60;
 
 /// When a key is due. Times round to the nearest frame; the frame and its time are reported with
 /// the key.
@@ -30,9 +23,9 @@ struct AtFrame {
 struct AtTime {
   double seconds = 0;  ///< absolute
 };
-/// After the key of the keyframe message before this one (after time 0 for the first).
+/// After the key of the keyframe message before this one (after frame 0 for the first).
 struct AfterPrevious {
-  double seconds = 0;
+  int64_t frames = 0;
 };
 using KeyMoment = std::variant<AtFrame, AtTime, AfterPrevious>;
 
@@ -64,7 +57,7 @@ struct Segment {
 };
 
 /// Where the transition that begins at `from` ends, before the next key or none: behind that key,
-/// or, where none stands ahead within `longest` frames, after some kFreeTransitionFrames. Half the
+/// or, where none stands ahead within `longest` frames, after some kUsualFrames. Half the
 /// longest at most, so that what is left before a key after a cut is never shorter than that.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 
@@ -79,7 +72,7 @@ int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest
 class Timeline {
  public:
   struct Options {
-    double fps = 30;
+    double fps = kModelFps;
     int64_t first_frame = 0;  ///< where the dance starts (a continuation's frame)
     /// The dance is frames [first_frame, end_frame); no key at or after it.
     std::optional<int64_t> end_frame = {};

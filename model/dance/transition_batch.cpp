@@ -5,6 +5,8 @@
 namespace choreo {
 namespace {
 
+int FramesOf(const TransitionInput& given) { return given.stop.value_or(given.request.frames); }
+
 struct Active {
   size_t index;
   TransitionRun run;
@@ -16,6 +18,9 @@ struct Active {
 std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
                                                std::span<const TransitionInput> transitions,
                                                const std::function<void(int)>& danced) {
+  const auto is_danced = [&](const Active& one) {
+    return one.run.done() == FramesOf(transitions[one.index]);
+  };
   std::vector<TransitionResult> results(transitions.size());
   std::vector<Active> active;
   size_t next = 0;
@@ -24,7 +29,7 @@ std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
       while (next < transitions.size() && engine.free_slots() > 0) {
         const TransitionInput& given = transitions[next];
         if (given.request.has_audio && (given.audio_rows.rows() != engine.model().audio_features ||
-                                        given.audio_rows.cols() < given.request.frames)) {
+                                        given.audio_rows.cols() < FramesOf(given))) {
           throw InvalidArgument("audio_rows", "is not [audio_features, frames]");
         }
         TransitionRun run(engine.model(), given.request);
@@ -47,9 +52,9 @@ std::vector<TransitionResult> DanceTransitions(StepEngine& engine,
         results[index].frames.push_back(run.Take(outputs[i]));
         results[index].arrival = run.arrival();
         results[index].stage = run.stage();
-        if (run.done() == run.frames()) engine.Release(slot);
+        if (is_danced(active[i])) engine.Release(slot);
       }
-      std::erase_if(active, [](const Active& one) { return one.run.done() == one.run.frames(); });
+      std::erase_if(active, is_danced);
       if (danced) danced(static_cast<int>(inputs.size()));
     }
   } catch (...) {

@@ -14,6 +14,8 @@ namespace choreo {
 struct TransitionInput {
   TransitionRequest request;
   Eigen::MatrixXf audio_rows;  ///< [audio_features, frames]; unread without audio
+  /// Of the request's frames those before it are danced, at least one; none: all.
+  std::optional<int> stop = {};
 };
 
 /// How it came out.

@@ -94,7 +94,8 @@ void ValidateOutputFps(double fps, const std::string& field) {
 
 void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field) {
-  CheckedIn(continuation.frame, 0, kMaxDanceFrames, field + ".frame");
+  // One more: a key may stand in the last frame of all, and the dance then ends behind it.
+  CheckedIn(continuation.frame, 0, kMaxDanceFrames + 1, field + ".frame");
   if (static_cast<int>(continuation.poses.size()) != model.history_frames) {
     throw InvalidArgument(field + ".poses", std::to_string(continuation.poses.size()) +
                                                 " poses, the model needs " +

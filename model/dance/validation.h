@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "model/core/limits.h"
 #include "model/dance/transition.h"
 #include "model/engine/step_engine.h"
 #include "model/motion/motion.h"
@@ -14,14 +15,8 @@
 /// the limit, as in "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
 namespace choreo {
 
-inline constexpr double kMaxRotation =
-    6.2832;  ///< radians: 2π, rounded up for senders that compute in floats
-inline constexpr double kMaxTemperature = 2.0;
-inline constexpr int kMaxCandidates = 32;
 inline constexpr size_t kMaxIdLength = 256;            ///< bytes
 inline constexpr size_t kMaxFingerprintLength = 1024;  ///< bytes
-inline constexpr double kMinOutputFps = 1;
-inline constexpr double kMaxOutputFps = 120;
 
 /// The value; throws unless it is in [least, most].
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);

@@ -145,7 +145,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
 }  // namespace
 
 std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptions& options) {
-  CheckWithin("options.frames", options.frames, 1, 10000);
+  CheckWithin("options.frames", options.frames, 1, kMaxSheetFrames);
   const int64_t count = std::min<int64_t>(options.frames, total);
   std::vector<int64_t> places;
   std::map<int64_t, bool> chosen;  // frame -> whether a key
@@ -179,7 +179,7 @@ void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
                                                   " captions for " +
                                                   std::to_string(motion.frames.size()) + " frames");
   }
-  CheckWithin("options.columns", options.columns, 1, 100);
+  CheckWithin("options.columns", options.columns, 1, kMaxSheetColumns);
   CheckWithin("options.tile_width", options.tile_width, 16, 4096);
   CheckWithin("options.tile_height", options.tile_height, 16, 4096);
   const std::vector<SheetFrame> shown =

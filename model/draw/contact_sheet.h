@@ -11,6 +11,8 @@
 
 namespace choreo {
 
+inline constexpr int kMaxSheetFrames = 10'000, kMaxSheetColumns = 100;
+
 struct ContactSheetOptions {
   std::string title;
   /// Frames shown, evenly spaced from the first to the last; fewer where the motion has fewer.

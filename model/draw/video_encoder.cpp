@@ -24,7 +24,7 @@ void CheckFormat(const VideoFormat& format) {
     if (pixels % 2 != 0)
       throw InvalidArgument(field, std::to_string(pixels) + ", must be an even number of pixels");
   }
-  CheckWithin("video.fps", format.fps, 1, 120);
+  CheckWithin("video.fps", format.fps, kMinVideoFps, kMaxVideoFps);
 }
 
 // "file:" keeps ffmpeg from taking a name for a protocol or an option.

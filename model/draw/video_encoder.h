@@ -6,13 +6,16 @@
 #include <string>
 
 #include "model/core/atomic_file.h"
+#include "model/core/grid.h"
 #include "model/draw/picture.h"
 
 namespace choreo {
 
+inline constexpr double kMinVideoFps = 1, kMaxVideoFps = 120;
+
 struct VideoFormat {
   int width = 1280, height = 720;  ///< pixels, even, 16 to 8192
-  double fps = 30;                 ///< 1 to 120
+  double fps = kModelFps;          ///< kMinVideoFps to kMaxVideoFps
   /// A file with music, which is heard from the first frame on and ends with the last; none if
   /// empty.
   std::filesystem::path song;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <vector>
 
+#include "model/core/grid.h"
 #include "model/core/quantile.h"
 #include "model/engine/step_engine.h"
 #include "model/motion/kinematics.h"
@@ -17,11 +18,11 @@ constexpr double kStepsFade = 0.99;
 constexpr double kTransitionsFade = 0.95;
 /// As many of each as the warm-up stands for.
 constexpr double kWarmSteps = 100;
-constexpr double kWarmFrames = 20 * 60;
+constexpr double kWarmFrames = 20 * kUsualFrames;
 
-constexpr int kFrames = 60;  // of a transition: two seconds, as between two keys
-constexpr int kSteps = 12;   // of those
+constexpr int kSteps = 12;  // of those
 constexpr int kTogether = 16;
+constexpr double kBeatSeconds = 0.5;
 
 double SecondsOf(const auto& action) {
   const auto begin = std::chrono::steady_clock::now();
@@ -37,8 +38,11 @@ struct Measured {
 Measured Dance(StepEngine& engine, int count) {
   const ModelInfo& model = engine.model();
   TransitionSpec spec;
-  spec.frames = std::min(kFrames, model.max_transition_frames);
+  spec.frames = std::min(kUsualFrames, model.max_transition_frames);
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
+  // As music has them: a model that is guided by them is asked twice.
+  for (double beat = 0; beat <= spec.frames; beat += kBeatSeconds * model.fps)
+    spec.beats.push_back(beat);
   std::vector<double> admissions, steps;
   std::vector<StepInput> in(static_cast<size_t>(count));
   for (StepInput& input : in) {

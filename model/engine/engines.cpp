@@ -211,7 +211,6 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
 }
 
 constexpr uintmax_t kMostBytes = uintmax_t{1} << 30;  // of a checkpoint
-constexpr size_t kMostNameBytes = 64;                 // of a model: metrics and logs repeat it
 
 void CheckName(const std::string& name, const std::filesystem::path& path) {
   if (!name.empty() && name.size() <= kMostNameBytes && Printable(name) == name) return;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "model/core/grid.h"
+#include "model/core/limits.h"
 #include "model/engine/engine_cost.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -30,12 +32,12 @@ struct ModelInfo {
   std::string licence;      ///< terms of the weights
   std::string card;         ///< the model card, JSON
   Skeleton skeleton;
-  double fps = 30;          ///< rate at which the model runs
-  int history_frames = 10;  ///< tau
-  int audio_features = 40;  ///< MFCC rows' width
-  int max_transition_frames = 1800;
+  double fps = kModelFps;               ///< rate at which the model runs
+  int history_frames = kHistoryFrames;  ///< tau
+  int audio_features = kMfccCount;      ///< MFCC rows' width
+  int max_transition_frames = kMaxTransitionFrames;
   double default_temperature = 0.3;
-  double max_temperature = 2;     ///< beyond it nothing changes any more
+  double max_temperature = kMaxTemperature;  ///< beyond it nothing changes any more
   bool hears_music = true;        ///< false: learnt without; music changes when it dances, not what
   bool deterministic = false;     ///< seed, candidate and temperature change nothing
   bool root_path = false;         ///< takes Controls::root_path

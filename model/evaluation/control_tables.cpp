@@ -9,7 +9,6 @@
 namespace choreo {
 namespace {
 
-constexpr int kLengths[] = {10, 50, 100, 150};
 constexpr int kLongLengths[] = {100, 150, 200, 250};
 constexpr int kFactorFrames = 90;
 constexpr std::pair<double, const char*> kScales[] = {{0.5, "0.5"}, {1.0, "1.0"}, {1.5, "1.5"}};
@@ -73,7 +72,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   const Skeleton& skeleton = model.skeleton;
   std::vector<ControlCourse> courses;
   std::vector<std::vector<Dances>> dances(ways.size());  // by length
-  for (const int frames : kLengths) {
+  for (const int frames : kControlledFrames) {
     courses.emplace_back(evaluation, frames);
     for (size_t w = 0; w < ways.size(); ++w) dances[w].push_back(courses.back().Dance(ways[w]));
   }
@@ -89,7 +88,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
       table.Begin({ways[w].name});
       for (size_t i = 0; i < courses.size(); ++i) {
         lengths.push_back(courses[i].FiguresOf(dances[w][i], figure));
-        table.Put(std::to_string(kLengths[i]), digits, Mean(lengths.back()));
+        table.Put(std::to_string(kControlledFrames[i]), digits, Mean(lengths.back()));
       }
       if (averaged) table.Put("mean", digits, MeanOfMeans(lengths));
     }
@@ -108,7 +107,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   for (size_t w = 0; w < ways.size(); ++w) {
     ratio.Begin({ways[w].name});
     for (size_t i = 0; i < courses.size(); ++i)
-      ratio.Put(std::to_string(kLengths[i]), 2, Ratio(lrp[w][i], lrp[kInterpolation][i]));
+      ratio.Put(std::to_string(kControlledFrames[i]), 2, Ratio(lrp[w][i], lrp[kInterpolation][i]));
   }
   add("lrp_turned", "LRP in the scene's axes, cm", "As LRP, but a wrong heading counts too.", 1,
       false, [&](const auto& window, const auto& danced) {

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "model/core/error.h"
+#include "model/core/limits.h"
 #include "model/core/progress.h"
 #include "model/engine/engine_choice.h"
 #include "model/evaluation/contest.h"
@@ -216,7 +217,7 @@ void AddEvalCommand(CLI::App& app) {
       ->add_option("--lengths", options.lengths,
                    "Frames of the transitions, at most as many as every model takes: 150 of the "
                    "preset default")
-      ->check(CLI::Range(1, 1800));
+      ->check(CLI::Range(1, kMaxTransitionFrames));
   const auto count = [&](const char* name, int& value, int least, int most, const char* what) {
     command->add_option(name, value, what)->take_last()->check(CLI::Range(least, most));
   };

@@ -3,9 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "model/core/grid.h"
+#include "model/core/limits.h"
 #include "model/evaluation/runner.h"
 #include "model/evaluation/table.h"
 #include "model/evaluation/windows.h"
+#include "model/training/trainer.h"
 
 namespace choreo {
 
@@ -46,13 +49,14 @@ struct Method {
 
 /// What one evaluation does alike in all its rows.
 struct EvalOptions {
-  std::vector<int> lengths = {10, 30, 60, 90};  ///< frames of the transitions
+  std::vector<int> lengths{kComparedFrames.begin(),
+                           kComparedFrames.end()};  ///< frames of the transitions
   int windows_per_clip = 8;
   int best_of = 10;  ///< samples a window, of which the nearest counts
   float temperature = 0;
-  int long_seeds = 50;     ///< long dances of each kind; 0: none
-  int long_frames = 1800;  ///< 60 s
-  int free_dances = 20;    ///< without keys, of the table of liveliness; 0: none
+  int long_seeds = 50;  ///< long dances of each kind; 0: none
+  int long_frames = kMaxTransitionFrames;
+  int free_dances = 20;  ///< without keys, of the table of liveliness; 0: none
 };
 
 /// One set, and who dances beside it. Nothing is owned.

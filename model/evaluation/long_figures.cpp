@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "model/core/grid.h"
 #include "model/dance/quality_report.h"
 
 namespace choreo {
 namespace {
-
-constexpr double kBeyondStraight = 15 * M_PI / 180;
 
 // Speeds of one joint, m/s, appended.
 void AddJointSpeeds(const JointTrack& track, Eigen::Index joint, double fps,
@@ -80,7 +79,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
     away.push_back(std::hypot(root.x() - start.x(), root.z() - start.z()));
     heights.push_back(root.y());
     backwards += std::ranges::count_if(hinges, [&](const Hinge& hinge) {
-      return hinge.axis.dot(poses[t].rotations.col(hinge.joint)) < -kBeyondStraight;
+      return hinge.axis.dot(poses[t].rotations.col(hinge.joint)) < -kBrokenBackwards * M_PI / 180;
     });
   }
   figures.lowest_m = std::ranges::min(heights);
@@ -158,7 +157,9 @@ RealDances MeasureReal(const ClipSet& set, const ModelInfo& model) {
   std::vector<JointTrack> tracks;
   for (const PreparedClip& clip : set.clips) {
     std::vector<int> keys;
-    for (int f = 59; f < static_cast<int>(clip.motion.frames.size()); f += 60) keys.push_back(f);
+    for (int f = kUsualFrames - 1; f < static_cast<int>(clip.motion.frames.size());
+         f += kUsualFrames)
+      keys.push_back(f);
     real.clips.push_back(MeasureLong(model.skeleton, model.fps, clip.motion.frames, keys));
     tracks.push_back(TrackJoints(model.skeleton, clip.motion.frames));
   }

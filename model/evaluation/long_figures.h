@@ -54,7 +54,8 @@ struct RealRange {
 
   /// A dance whose last fifth is slower than a quarter of real motion has frozen. One that stands
   /// in its middle and moves again at its end has not: that shows in LongFigures::stillest alone.
-  bool Frozen(const LongFigures& dance) const { return dance.late_speed < 0.25 * median_speed; }
+  bool Frozen(double speed) const { return speed < 0.25 * median_speed; }
+  bool Frozen(const LongFigures& dance) const { return Frozen(dance.late_speed); }
   bool Exploded(const LongFigures& dance) const { return dance.top_speed > top_speed; }
   /// It leaves its place, its height or its pace by more than real motion does.
   bool Drifted(const LongFigures& dance) const;

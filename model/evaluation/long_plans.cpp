@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/grid.h"
 #include "model/core/random.h"
 #include "model/dance/foot_lock.h"
 
 namespace choreo {
 namespace {
 
-constexpr int kTwoSeconds = 60;
 constexpr int kEqualInterval = 100;
 constexpr int kLeastInterval = 15;  // between keys on beats
 constexpr int kFewestSeconds = 20, kMostSpans = 30;
@@ -24,7 +24,7 @@ const Pose& WalkedPose(const PreparedClip& clip, int at) {
 std::vector<int> KeyFrames(KeyTimes times, int frames, const std::vector<double>& beats) {
   std::vector<int> keys;
   if (times == KeyTimes::kNone) return keys;
-  const int interval = times == KeyTimes::kEachTwoSeconds ? kTwoSeconds : kEqualInterval;
+  const int interval = times == KeyTimes::kEachTwoSeconds ? kUsualFrames : kEqualInterval;
   for (int equal = interval - 1; equal < frames; equal += interval) {
     int frame = equal;
     if (times == KeyTimes::kOnBeats && !beats.empty()) {
@@ -82,11 +82,11 @@ std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set
     const std::vector<Pose>& poses = set.clips[clip].motion.frames;
     if (static_cast<double>(poses.size()) < kFewestSeconds * model.fps) continue;
     const int usable = static_cast<int>(poses.size()) - model.history_frames;
-    const int spans = std::min(usable / kTwoSeconds, kMostSpans);
+    const int spans = std::min(usable / kUsualFrames, kMostSpans);
     LongPlan plan;
     plan.clip = clip;
-    plan.start = model.history_frames + (usable - spans * kTwoSeconds) / 2;
-    plan.frames = spans * kTwoSeconds;
+    plan.start = model.history_frames + (usable - spans * kUsualFrames) / 2;
+    plan.frames = spans * kUsualFrames;
     plan.temperature = temperature;
     plan.history = RealPoses(set, {plan.clip, plan.start}, 0, model.history_frames);
     for (const int key : KeyFrames(KeyTimes::kEachTwoSeconds, plan.frames, {}))

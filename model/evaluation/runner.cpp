@@ -14,7 +14,8 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
   TransitionRequest& request = input.request;
   const auto next = key == plan.keys.end() ? std::nullopt : std::optional<int64_t>(key->first);
   const auto to = static_cast<int>(TransitionEnd(at, next, model.max_transition_frames));
-  request.frames = std::min(to, plan.frames) - at;
+  request.frames = to - at;
+  input.stop = std::min(to, plan.frames) - at;
   if (next && *next + 1 == to) request.target = Target{key->second, {}};
   request.history = plan.history;
   request.stage = chain.stage;
@@ -28,7 +29,7 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
   if (plan.audio.cols() > 0) {
     request.has_audio = true;
     request.audio_history = plan.audio.middleCols(at, model.history_frames);
-    input.audio_rows = plan.audio.middleCols(at + model.history_frames, request.frames);
+    input.audio_rows = plan.audio.middleCols(at + model.history_frames, *input.stop);
   }
   return input;
 }

@@ -125,8 +125,8 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
       const PoseError error = ComparePoses(model.skeleton, poses.back(), danced.key->pose);
       worst = std::max(worst, error.position_m);
     }
-    const auto frozen = std::ranges::count_if(
-        speeds, [&](float speed) { return speed < 0.25 * range.median_speed; });
+    const auto frozen =
+        std::ranges::count_if(speeds, [&](float speed) { return range.Frozen(speed); });
     const auto of_keys = [&](double value) { return all[0].asked ? value : NAN; };
     table.Begin({one.name, std::to_string(one.frames)});
     table.Put("transitions", 0, count);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/grid.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -129,7 +130,7 @@ void HingePlaneTerm::Linearise(const FitPlaces& places, FitRows* rows) const {
 
 JointTerm::JointTerm(const Skeleton& skeleton, const FitOptions& options, double fps)
     : priors_(static_cast<size_t>(skeleton.joints())),
-      change_information_(1.0 / Square(options.change_rad * 30.0 / fps)),
+      change_information_(1.0 / Square(options.change_rad * kModelFps / fps)),
       limit_rad_(options.hinge_limit_rad) {
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     const bool stiff = Contains(skeleton.joint_names[joint], {"spine", "collar", "neck", "head",

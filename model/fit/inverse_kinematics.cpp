@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 
+#include "model/core/grid.h"
 #include "model/fit/fit_problem.h"
 #include "model/motion/kinematics.h"
 
@@ -84,7 +85,7 @@ DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
   Eigen::Matrix3Xd places(3, std::ssize(pins));
   Eigen::Index mark = 0;
   for (const auto& [joint, pin] : pins) places.col(mark++) = pin.position;
-  FitProblem problem(skeleton, Landmarks(skeleton, pins), kDrawnOptions, 30);
+  FitProblem problem(skeleton, Landmarks(skeleton, pins), kDrawnOptions, kModelFps);
   problem.Solve(places, {.before = &pose}, kIterations, drawn.pose);
   MakeContinuous(drawn.pose, pose);
   const Eigen::Matrix3Xd ended = JointPositions(skeleton, drawn.pose);

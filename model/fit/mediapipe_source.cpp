@@ -67,7 +67,7 @@ const std::vector<std::string>& MediaPipeJointNames() {
 
 Pose FitMediaPipe(const Eigen::Matrix3Xd& landmarks, std::span<const double> visibilities,
                   const Skeleton& skeleton) {
-  PositionClip clip{.fps = 30, .joint_names = MediaPipeJointNames(), .frames = {}};
+  PositionClip clip{.joint_names = MediaPipeJointNames(), .frames = {}};
   clip.frames.push_back(Eigen::Vector3d(1, -1, -1).asDiagonal() * landmarks);
   Pose pose = FitClip(clip, MediaPipeSource(visibilities), skeleton).motion.frames.front();
   pose.root_position.x() = pose.root_position.z() = 0;

@@ -4,13 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "model/core/grid.h"
+
 /// Joint positions of a recorded dancer over time, and the corrections that raw recordings need
 /// before rotations are fitted to them. Right-handed, Y up, metres, seconds. Corrections expect
 /// what ValidateClip lets pass.
 namespace choreo {
 
 struct PositionClip {
-  double fps = 30;
+  double fps = kModelFps;
   std::vector<std::string> joint_names;  ///< [K]
   std::vector<Eigen::Matrix3Xd> frames;  ///< each [3, K]
 };

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/core/grid.h"
 #include "model/fit/fit_problem.h"
 
 namespace choreo {
@@ -13,7 +14,7 @@ namespace choreo {
 class PositionFitter {
  public:
   PositionFitter(const Skeleton& skeleton, const SourceMapping& mapping,
-                 const FitOptions& options = {}, double fps = 30);
+                 const FitOptions& options = {}, double fps = kModelFps);
 
   /// Landmark targets [3, landmarks] → the pose, on the exp-map branch nearest to the frame before.
   /// What they leave open, such as how a straight arm is turned about itself, changes little from

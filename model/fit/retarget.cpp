@@ -94,7 +94,7 @@ Motion Retarget(const Skeleton& from, const Motion& motion, const Skeleton& to) 
 }
 
 Pose Retarget(const Skeleton& from, const Pose& pose, const Skeleton& to) {
-  return Retarget(from, Motion{.fps = 30, .frames = {pose}}, to).frames.front();
+  return Retarget(from, Motion{.frames = {pose}}, to).frames.front();
 }
 
 }  // namespace choreo

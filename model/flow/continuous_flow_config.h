@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "model/core/grid.h"
+#include "model/core/limits.h"
 #include "model/flow/plan_options.h"
 #include "model/motion/velocity_factors.h"
 
@@ -12,10 +14,10 @@ namespace choreo {
 
 /// Shape of the continuous flow and how it is sampled. Stored in every checkpoint.
 struct ContinuousFlowConfig {
-  std::string name = "default";  ///< as servers list the model
-  int history_frames = 10;       ///< tau
+  std::string name = "default";         ///< as servers list the model
+  int history_frames = kHistoryFrames;  ///< tau
   int window_frames = 96;  ///< most frames of a window; longer transitions are cut into several
-  int max_transition_frames = 1800;
+  int max_transition_frames = kMaxTransitionFrames;
 
   /// The transformer: two frames a token.
   int width = 224, layers = 6, heads = 7;

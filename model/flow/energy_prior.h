@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "model/core/grid.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {
@@ -27,7 +28,7 @@ class EnergyPrior {
     /// sees them, the root's own as the trunk's; and of all joints in the world. None: the key
     /// leaves it open.
     std::optional<Levels> way = {}, way_in_world = {};
-    int frames = 60;
+    int frames = kUsualFrames;
     int style = -1;  ///< that is asked for, or -1
   };
   /// One, the logarithm of the surprise, the history's levels and those of both ways; then the same

@@ -3,6 +3,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "model/core/grid.h"
+#include "model/core/limits.h"
+
 namespace choreo {
 
 /// delta of a coupling → 0 would make the inverse explode and the likelihood unbounded (paper F,
@@ -18,15 +21,15 @@ inline constexpr double kSampleBound = 3.0;
 /// Shape and training-time switches of the flow model (paper F, Section 3.2). Stored in every
 /// checkpoint.
 struct FlowConfig {
-  std::string name = "paper";  ///< as servers list the model; a preset's is its own
-  int history_frames = 10;     ///< tau
-  int audio_features = 40;     ///< MFCCs a row
-  bool hears_music = true;     ///< false: no training clip had music, which is then not listened to
-  int flow_steps = 16;         ///< K, at least 1
-  int hidden = 512;            ///< width of each coupling's network, a 2-layer LSTM
+  std::string name = "paper";           ///< as servers list the model; a preset's is its own
+  int history_frames = kHistoryFrames;  ///< tau
+  int audio_features = kMfccCount;      ///< MFCCs a row
+  bool hears_music = true;  ///< false: no training clip had music, which is then not listened to
+  int flow_steps = 16;      ///< K, at least 1
+  int hidden = 512;         ///< width of each coupling's network, a 2-layer LSTM
   int condition_width = 0;  ///< 0: the raw condition goes to every coupling (the paper); else one
                             ///< shared encoding of this width
-  int max_transition_frames = 1800;
+  int max_transition_frames = kMaxTransitionFrames;
   double temperature = 1.0;  ///< served by default
 
   /// Switches of the ablations.

@@ -2,12 +2,23 @@
 
 #include <nlohmann/json.hpp>
 
+#define CHOREO_TO_JSON(Type, ...)                                              \
+  void to_json(nlohmann::json& nlohmann_json_j, const Type& nlohmann_json_t) { \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))   \
+  }
+
 /// Defines to_json and from_json of a struct that a header declares: one list serves both
 /// directions, so that a field can't be written and not read. All must be there.
 #define CHOREO_JSON_FIELDS(Type, ...)                                            \
-  void to_json(nlohmann::json& nlohmann_json_j, const Type& nlohmann_json_t) {   \
-    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))     \
-  }                                                                              \
+  CHOREO_TO_JSON(Type, __VA_ARGS__)                                              \
   void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t) { \
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))   \
+  }
+
+/// The same of options: what is not there has its default.
+#define CHOREO_JSON_OPTIONS(Type, ...)                                                      \
+  CHOREO_TO_JSON(Type, __VA_ARGS__)                                                         \
+  void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t) {            \
+    const Type nlohmann_json_default_obj{};                                                 \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM_WITH_DEFAULT, __VA_ARGS__)) \
   }

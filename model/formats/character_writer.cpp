@@ -2,6 +2,7 @@
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/rounded.h"
 #include "model/formats/character_file.h"
 #include "model/formats/glb_chunks.h"
 #include "model/formats/gltf_builder.h"
@@ -118,7 +119,8 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
     if (static_cast<double>(driven.size() * motion.frames.size()) > kMaxPlaces) {
       throw InvalidArgument("nodes", std::to_string(driven.size()) + " above its bones in " +
                                          std::to_string(motion.frames.size()) +
-                                         " frames, at most 30000000 places are written");
+                                         " frames, at most " + Rounded(kMaxPlaces) +
+                                         " places are written");
     }
     std::vector<GltfTrack> tracks;
     for (const int node : body.nodes) tracks.emplace_back().node = node;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/grid.h"
+#include "model/core/rounded.h"
 #include "model/formats/glb_chunks.h"
 #include "model/formats/gltf_file.h"
 #include "model/formats/own_arrays.h"
@@ -12,7 +14,6 @@ namespace choreo {
 namespace {
 
 constexpr double kSparseRate = 20;  // keys a second below which they are no frames
-constexpr double kDefaultRate = 30;
 constexpr double kMaxFrames = 1e6;
 
 GltfChannel ReadGltfChannel(const tinygltf::Model& model,
@@ -59,12 +60,12 @@ void ChooseTimes(const tinygltf::Animation& animation, GltfScene& scene) {
     end = std::max(end, channel.times[channel.times.size() - 1]);
     if (channel.times.size() > densest->times.size()) densest = &channel;
   }
-  scene.fps = kDefaultRate;
+  scene.fps = kModelFps;
   const Eigen::Index keys = densest->times.size();
   if (keys > 1) {
     const double seconds = densest->times[keys - 1] - densest->times[0];
     scene.fps = WholeRate(static_cast<double>(keys - 1) / seconds);
-    if (scene.fps < kSparseRate) scene.fps = kDefaultRate;
+    if (scene.fps < kSparseRate) scene.fps = kModelFps;
   }
   if (animation.extras.IsObject() && animation.extras.Has("fps")) {
     scene.fps =
@@ -74,13 +75,14 @@ void ChooseTimes(const tinygltf::Animation& animation, GltfScene& scene) {
   const double frames = std::floor((end - scene.start) * scene.fps + 0.01) + 1;
   if (!(frames <= kMaxFrames)) {
     throw InvalidArgument("animations[0]", std::to_string(end - scene.start) + " s at " +
-                                               std::to_string(scene.fps) +
-                                               " fps, at most 1000000 frames are read");
+                                               std::to_string(scene.fps) + " fps, at most " +
+                                               Rounded(kMaxFrames) + " frames are read");
   }
   if (frames * static_cast<double>(scene.nodes.names.size()) > kMaxPlaces) {
     throw InvalidArgument("nodes", std::to_string(scene.nodes.names.size()) + " in " +
                                        std::to_string(static_cast<int64_t>(frames)) +
-                                       " frames, at most 30000000 places are read");
+                                       " frames, at most " + Rounded(kMaxPlaces) +
+                                       " places are read");
   }
   scene.frames = static_cast<int64_t>(frames);
 }

@@ -1,6 +1,8 @@
 #include "model/formats/motion_file.h"
 
+#include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
+#include <iterator>
 #include <utility>
 
 #include "model/core/error.h"
@@ -17,13 +19,27 @@
 namespace choreo {
 namespace {
 
-SkeletonMotion FromNpz(const NpzArchive& npz) {
+SkeletonMotion ReadAnyNpz(const std::filesystem::path& path, const Skeleton*) {
+  const NpzArchive npz = NpzArchive::Read(path);
   if (!npz.Has("skeleton")) return {Skeleton::Smpl24(), ReadSmplMotion(npz)};
   const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));
   return {skeleton, ReadOwnArrays(skeleton, npz)};
 }
 
-SkeletonMotion FromBvh(const BvhFile& file, const Skeleton* wanted) {
+void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
+              const std::vector<Contacts>* contacts) {
+  NpzArchive npz;
+  if (SameBones(skeleton, Skeleton::Smpl24())) {
+    AddSmplMotion(motion, contacts, npz);
+  } else {
+    AddOwnArrays(skeleton, motion, contacts, npz);
+    npz.SetText("skeleton", SkeletonToJson(skeleton));
+  }
+  npz.Write(path);
+}
+
+SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted) {
+  const BvhFile file = ReadBvh(path);
   const Skeleton& smpl = Skeleton::Smpl24();
   if (file.frames() == 0) return {smpl, {}};
   const auto own = BvhSkeleton(file);
@@ -36,13 +52,44 @@ SkeletonMotion FromBvh(const BvhFile& file, const Skeleton* wanted) {
   return {smpl, FitClip(clip, BvhSource(clip), smpl).motion};
 }
 
-// `wanted`: a skeleton to try first, or none.
+// What a motion file may be. One more is a row.
+struct Format {
+  const char* extension;
+  // `wanted`: a skeleton to try first, or none.
+  SkeletonMotion (*read)(const std::filesystem::path& path, const Skeleton* wanted);
+  void (*write)(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
+                const std::vector<Contacts>* contacts);
+};
+constexpr Format kFormats[] = {
+    {".npz", ReadAnyNpz, WriteNpz},
+    {".bvh", ReadAnyBvh,
+     [](const auto& path, const auto& skeleton, const auto& motion, const auto*) {
+       WriteBvh(path, MotionToBvh(skeleton, motion));
+     }},
+    {".glb", ReadGlb,
+     [](const auto& path, const auto& skeleton, const auto& motion, const auto*) {
+       WriteGlb(path, skeleton, motion);
+     }},
+};
+
+const Format* FindFormat(const std::filesystem::path& path) {
+  const auto found = std::ranges::find(kFormats, SmallExtension(path), &Format::extension);
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+const Format& FormatOf(const std::filesystem::path& path) {
+  if (const Format* format = FindFormat(path)) return *format;
+  std::string known;
+  for (const Format& format : kFormats) {
+    const bool last = &format == std::end(kFormats) - 1;
+    known += std::string(known.empty() ? "" : last ? " or " : ", ") + format.extension;
+  }
+  throw InvalidArgument(path.string(),
+                        "has the extension '" + path.extension().string() + "', must be " + known);
+}
+
 SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) try {
-  RequireMotionFile(path);
-  const std::string extension = SmallExtension(path);
-  SkeletonMotion read = extension == ".glb"   ? ReadGlb(path, wanted)
-                        : extension == ".npz" ? FromNpz(NpzArchive::Read(path))
-                                              : FromBvh(ReadBvh(path), wanted);
+  SkeletonMotion read = FormatOf(path).read(path, wanted);
   if (read.motion.frames.empty()) throw InvalidArgument("", "has no frames");
   CheckMotionLimits(read.motion);
   return read;
@@ -57,17 +104,9 @@ std::string SmallExtension(const std::filesystem::path& path) {
   return boost::algorithm::to_lower_copy(path.extension().string(), std::locale::classic());
 }
 
-bool IsMotionFile(const std::filesystem::path& path) {
-  const std::string extension = SmallExtension(path);
-  return extension == ".npz" || extension == ".bvh" || extension == ".glb";
-}
+bool IsMotionFile(const std::filesystem::path& path) { return FindFormat(path) != nullptr; }
 
-void RequireMotionFile(const std::filesystem::path& path) {
-  if (!IsMotionFile(path)) {
-    throw InvalidArgument(path.string(), "has the extension '" + path.extension().string() +
-                                             "', must be .npz, .bvh or .glb");
-  }
-}
+void RequireMotionFile(const std::filesystem::path& path) { FormatOf(path); }
 
 SkeletonMotion ReadMotion(const std::filesystem::path& path) { return Read(path, nullptr); }
 
@@ -88,22 +127,7 @@ Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
 
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts) {
-  RequireMotionFile(path);
-  const std::string extension = SmallExtension(path);
-  if (extension == ".glb") {
-    WriteGlb(path, skeleton, motion);
-  } else if (extension == ".npz") {
-    NpzArchive npz;
-    if (SameBones(skeleton, Skeleton::Smpl24())) {
-      AddSmplMotion(motion, contacts, npz);
-    } else {
-      AddOwnArrays(skeleton, motion, contacts, npz);
-      npz.SetText("skeleton", SkeletonToJson(skeleton));
-    }
-    npz.Write(path);
-  } else {
-    WriteBvh(path, MotionToBvh(skeleton, motion));
-  }
+  FormatOf(path).write(path, skeleton, motion, contacts);
 }
 
 }  // namespace choreo

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/rounded.h"
 
 namespace choreo {
 
@@ -80,8 +81,9 @@ double NpzNumber(const NpzArchive& npz, const std::string& key) {
 }
 
 double CheckRate(const std::string& key, double fps) {
-  if (fps >= 1 && fps <= 1000) return fps;
-  throw InvalidArgument(key, std::to_string(fps) + ", must be 1 to 1000 frames a second");
+  if (fps >= kMinFileFps && fps <= kMaxFileFps) return fps;
+  throw InvalidArgument(key, std::to_string(fps) + ", must be " + Rounded(kMinFileFps) + " to " +
+                                 Rounded(kMaxFileFps) + " frames a second");
 }
 
 Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int joints,

@@ -37,7 +37,8 @@ Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns);
 double NpzNumber(const NpzArchive& npz, const std::string& key);
-/// Throws Error(kInvalidArgument, key) unless a rate lies within 1 to 1000 frames a second.
+inline constexpr double kMinFileFps = 1, kMaxFileFps = 1000;
+/// Throws Error(kInvalidArgument, key) unless a rate lies within these, frames a second.
 double CheckRate(const std::string& key, double fps);
 /// Poses of `joints` joints, whose rotations are those of each column and zero beyond.
 Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int joints,

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "model/core/grid.h"
+
 namespace choreo {
 
 /// One frame of a skeleton, in a world frame: right-handed, Y up, floor y = 0.
@@ -15,7 +17,7 @@ struct Pose {
 
 /// Frames at a constant rate. Exponential-map branches are continuous from frame to frame.
 struct Motion {
-  double fps = 30;
+  double fps = kModelFps;
   std::vector<Pose> frames;
 };
 

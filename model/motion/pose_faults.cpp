@@ -11,8 +11,6 @@ namespace choreo {
 namespace {
 
 constexpr double kUnderFloor = 0.05;  // metres that a rounded pose may be
-constexpr double kHighestJump = 1.2;  // metres that feet are above the floor
-constexpr double kFolded = 165;       // degrees
 constexpr double kInAir = 0.15;       // metres; less may be tiptoe
 constexpr double kLongestJump = 1.0;  // seconds
 constexpr double kLimbSpeed = 7;      // m/s, about the body

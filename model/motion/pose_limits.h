@@ -8,6 +8,8 @@
 namespace choreo {
 
 inline constexpr double kMaxPosition = 10'000;  ///< metres from the origin, each axis
+/// Radians, of a key: 2π, rounded up for senders that compute in floats.
+inline constexpr double kMaxRotation = 6.2832;
 /// Radians. A continuous motion may have wound up this far; beyond it nothing is left of a float's
 /// precision.
 inline constexpr double kMaxWoundRotation = 1'000;

@@ -62,9 +62,9 @@ class ControlRun : public TrainingRun {
     torch::NoGradGuard no_grad;
     model_->eval();
     NamedFigures figures;
-    for (const int frames : {10, 50, 100, 150}) {
+    for (const int frames : kControlledFrames) {
       if (validation_.Longest() < model_->config().history_frames + frames) continue;
-      Random random(20240607, static_cast<uint32_t>(frames));
+      Random random(kValidationSeed, static_cast<uint32_t>(frames));
       const ControlBatch batch = validation_.Draw(
           kControlValidationWindows, model_->config().history_frames, frames, {}, &random);
       const FrameTensors last =

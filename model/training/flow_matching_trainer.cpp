@@ -158,9 +158,9 @@ class FlowMatchingRun : public TrainingRun {
     const FlowModelParts& parts = matching_->parts();
     const Skeleton& skeleton = train_.skeleton();
     NamedFigures figures;
-    for (const int frames : {10, 30, 60, 90}) {
+    for (const int frames : kComparedFrames) {
       if (frames > validation_.Longest(parts.config.history_frames)) continue;
-      Random random(20240607, static_cast<uint32_t>(frames));
+      Random random(kValidationSeed, static_cast<uint32_t>(frames));
       const WindowBatch batch =
           validation_.Draw(parts, kMatchingValidationWindows, frames, frames, {}, &random);
       double line = 0, mean = 0, seeds = 0;

@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kNormalisationBatches = 24;
 constexpr int kValidationWindows = 64;
-constexpr int kValidationLengths[] = {10, 30, 60, 90};
 // Standardised features keep at least these spreads: metres, radians, m/s and rad/s, contacts.
 constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
                  kContactFloor = 0.1;
@@ -126,8 +125,8 @@ class FlowRun : public TrainingRun {
     model_->eval();
     const int history = model_->config().history_frames;
     NamedFigures figures;
-    for (const int frames : kValidationLengths) {
-      Random random(20240607, static_cast<uint32_t>(frames));
+    for (const int frames : kComparedFrames) {
+      Random random(kValidationSeed, static_cast<uint32_t>(frames));
       const MotionBatch batch =
           DrawMotion(clips_.validation, kValidationWindows, history, frames, {}, device_, &random);
       const torch::Tensor condition = model_->Begin(batch.transition);

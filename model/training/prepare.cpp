@@ -13,6 +13,7 @@
 #include "model/audio/feature_stream.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/grid.h"
 #include "model/core/progress.h"
 #include "model/fit/fit_clip.h"
 #include "model/fit/recorded_floor.h"
@@ -27,7 +28,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kModelFps = 30;
 constexpr double kTopSpeed = 15;  // m/s of any joint; faster is a defect of the recording
 constexpr int kShortestFrames = 60;
 constexpr int kLongestCalibration = 6;  // frames

@@ -8,6 +8,7 @@
 
 #include "model/controllers/controllers_config.h"
 #include "model/core/error.h"
+#include "model/core/limits.h"
 #include "model/training/trainer.h"
 
 namespace choreo {
@@ -51,6 +52,7 @@ std::string TrainOptions::Command() const {
   command << "choreo-lab train";
   for (const auto& folder : data) command << " --data " << folder.filename().string();
   command << " --splits " << splits.filename().string() << ' ' << Fixed();
+  if (!from.empty()) command << " --from " << from.filename().string();
   if (!name.empty()) command << " --name " << name;
   return command.str();
 }
@@ -66,7 +68,6 @@ std::string TrainOptions::Fixed() const {
       flags += std::string(" ") + option;
     }
   });
-  if (!from.empty()) text << " --from " << from.filename().string();
   return text.str() + flags;
 }
 
@@ -75,7 +76,8 @@ void TrainOptions::Validate() const {
                           const char* limit) {
     if (!good) throw InvalidArgument(option, value + ", but it must be " + limit);
   };
-  require(name.size() <= 64, "--name", name, "at most 64 bytes");
+  require(name.size() <= kMostNameBytes, "--name", name,
+          ("at most " + std::to_string(kMostNameBytes) + " bytes").c_str());
   require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
   require(steps >= 1, "--steps", std::to_string(steps), "at least 1");
   require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -13,6 +14,11 @@ class App;
 }
 
 namespace choreo {
+
+/// Frames from key to key at which models are compared (paper F, Section 5).
+inline constexpr std::array kComparedFrames{10, 30, 60, 90};
+/// The same of paper C's network (paper C, Table 1).
+inline constexpr std::array kControlledFrames{10, 50, 100, 150};
 
 /// Of paper F's flows, the presets `paper` and `ablation`.
 struct FlowOptions {

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "model/core/grid.h"
 #include "model/flow/checkpoint.h"
 
 namespace choreo {
@@ -17,7 +18,6 @@ namespace {
 constexpr int64_t kWarmUpSteps = 200;
 constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end
 constexpr double kMaxGradientNorm = 1.0;
-constexpr int kTypicalFrames = 60;
 constexpr double kForget = 0.02;  // of a loss's running mean, a step
 
 // Warm-up, then a cosine to a twentieth of the peak.
@@ -30,7 +30,7 @@ double RateAt(double peak, int64_t step, int64_t steps) {
 }  // namespace
 
 int WindowsOf(int batch, int frames) {
-  return std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
+  return std::max(8, batch * kUsualFrames / std::max(frames, kUsualFrames / 3));
 }
 
 TrainingRun::TrainingRun(const TrainOptions& options, const TrainingClips& clips)
@@ -161,6 +161,10 @@ nlohmann::json TrainingRun::Card() const {
   return card;
 }
 
+std::string TrainingRun::BaseHash() const {
+  return base_.is_null() ? "" : base_.at("hash").get<std::string>();
+}
+
 std::string TrainingRun::WriteCheckpoint() {
   return SaveModel(options_.run / "checkpoint.safetensors", Card());
 }
@@ -171,6 +175,7 @@ void TrainingRun::Save() {
   state.metadata["step"] = std::to_string(step_ + 1);
   state.metadata["seconds"] = std::to_string(seconds_);
   state.metadata["data"] = data_hash_;
+  state.metadata["from"] = BaseHash();
   state.metadata["options"] = options_.Fixed();
   state.metadata["curves"] = curves_.Serialise();
   nlohmann::json losses;
@@ -184,6 +189,14 @@ void TrainingRun::Load() {
   if (state.metadata.at("data") != data_hash_) {
     throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
                 "the run was started on other data (hash " + state.metadata.at("data") + ")");
+  }
+  // Not by its name: most checkpoints have the same.
+  const auto from = state.metadata.find("from");
+  const std::string base = from == state.metadata.end() ? "" : from->second;
+  if (base != BaseHash()) {
+    throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
+                "the run was started from another checkpoint" +
+                    (base.empty() ? " or from none" : " (hash " + base + ")"));
   }
   if (state.metadata.at("options") != options_.Fixed()) {
     throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),

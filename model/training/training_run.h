@@ -85,6 +85,8 @@ class TrainingRun {
   /// What a checkpoint says of itself: data and their terms, the command, figures on validation
   /// clips, limits, and what it went on from, whose terms bind it, too.
   nlohmann::json Card() const;
+  /// Of what the run went on from; empty: from scratch.
+  std::string BaseHash() const;
   std::string WriteCheckpoint();
   void Save();
   void Load();
@@ -110,6 +112,9 @@ void TrainBy(const TrainOptions& options) {
                                LoadClips(options.data, options.splits, kValidationGroup)};
   Run(options, clips).Go();
 }
+
+/// Of what is drawn for validation: the same at every run.
+inline constexpr uint64_t kValidationSeed = 20240607;
 
 /// How many windows of so many frames make up a step: `batch` of 60 frames or as many frames of
 /// longer ones, at most three times as many short ones, at least 8.

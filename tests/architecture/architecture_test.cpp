@@ -14,8 +14,7 @@
 #include "tests/architecture/includes.h"
 
 // The house's rules (docs/architecture.md), held by its includes.
-namespace choreo {
-namespace {
+namespace choreo::architecture_test {
 
 using ::testing::IsEmpty;
 
@@ -232,5 +231,4 @@ TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
   EXPECT_LE(constants, 15);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::architecture_test

@@ -9,8 +9,7 @@
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::beats_test {
 
 /// An onset envelope that is 1 every `period` frames from `first` on.
 std::vector<float> Pulses(size_t frames, size_t first, size_t period) {
@@ -119,5 +118,4 @@ TEST(BeatsTest, SecondsCountFromTheFirstSample) {
   EXPECT_EQ(track.Seconds(), (std::vector<double>{0, 100 * 512.0 / 22050}));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::beats_test

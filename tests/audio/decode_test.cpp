@@ -15,8 +15,7 @@
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::decode_test {
 
 using ::testing::HasSubstr;
 
@@ -261,5 +260,4 @@ TEST_F(DecodeTest, WavOfUnknownLengthIsReadToItsEnd) {
   EXPECT_EQ(Decode(bytes).samples(), 5000);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::decode_test

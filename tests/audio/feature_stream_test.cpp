@@ -12,8 +12,7 @@
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::feature_stream_test {
 
 using ::testing::HasSubstr;
 
@@ -209,5 +208,4 @@ TEST(FeatureStreamTest, RefusesFormatsBeyondTheLimits) {
   EXPECT_THROW(FeatureStream(44100, 9), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::feature_stream_test

@@ -19,8 +19,7 @@
 #include "model/audio/onset.h"
 #include "model/core/npy.h"
 
-namespace choreo {
-namespace {
+namespace choreo::golden_test {
 
 std::filesystem::path GoldenFolder() {
   const char* named = std::getenv("CHOREO_GOLDEN");
@@ -116,5 +115,4 @@ TEST_P(GoldenTest, TempoAndBeats) {
 INSTANTIATE_TEST_SUITE_P(Librosa, GoldenTest,
                          ::testing::Values("clicks_22050", "feelings_30s_22050"));
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::golden_test

@@ -12,8 +12,7 @@
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::mel_test {
 
 /// Edges and centres of the bands on Slaney's scale: mel m of 0 to 15 is 200 m / 3 Hz, above it
 /// 1000 * 6.4^((m - 15) / 27) Hz.
@@ -94,5 +93,4 @@ TEST(RealFourierTest, AgreesWithTheDefinitionAndComesBack) {
   for (size_t i = 0; i < 16; ++i) EXPECT_NEAR(back[i], signal[i], 1e-14);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::mel_test

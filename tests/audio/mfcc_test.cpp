@@ -6,8 +6,7 @@
 
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::mfcc_test {
 
 TEST(MfccTest, TheTransformIsOrthonormal) {
   Eigen::MatrixXd transform(kMfccCount, kMelBands);
@@ -79,5 +78,4 @@ TEST(MfccTest, RowsAreCountedByTheHop) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::mfcc_test

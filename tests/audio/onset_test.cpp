@@ -8,8 +8,7 @@
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::onset_test {
 
 TEST(OnsetTest, PeaksWhereTheSoundBegins) {
   for (const int64_t start : {5120, 10000, 17777}) {
@@ -64,5 +63,4 @@ TEST(OnsetTest, ShortSoundsHaveZeros) {
   EXPECT_THROW(OnsetStrength({}), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::onset_test

@@ -12,8 +12,7 @@
 #include "model/audio/feature_stream.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::pulse_test {
 
 constexpr int kRate = 22050;
 
@@ -195,5 +194,4 @@ TEST(PulseTest, AStreamThatStartsLaterHearsTheSame) {
   EXPECT_EQ(part.confidence, all.confidence);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::pulse_test

@@ -11,8 +11,7 @@
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::resample_test {
 
 // Two rates of few phases, the usual ones, both ends of the range, one of many phases that are
 // kept, one whose are not.
@@ -196,5 +195,4 @@ TEST(ResamplerTest, RefusesFormatsBeyondTheLimits) {
   EXPECT_THAT(refusal(44100, 1, 44100 * 600 + 1), HasSubstr("0 to 26460000"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::resample_test

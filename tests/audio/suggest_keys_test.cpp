@@ -9,8 +9,7 @@
 #include "tests/audio/signals.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::suggest_keys_test {
 
 constexpr int64_t kPeriod = 22;  // onset frames: 0.51 s, 117 a minute
 
@@ -144,5 +143,4 @@ TEST(SuggestKeysTest, MoreThanFitOrNoneAreRefused) {
   EXPECT_EQ(BeatsOf(Song(19, 4).Suggest(7)), (std::vector<size_t>{0, 3, 6, 9, 12, 15, 18}));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::suggest_keys_test

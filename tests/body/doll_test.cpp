@@ -5,8 +5,7 @@
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/native_tang2018.h"
 
-namespace choreo {
-namespace {
+namespace choreo::doll_test {
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
 
@@ -96,5 +95,4 @@ TEST(DollAboveFloor, IsMeasuredFromWhatTouchesFirst) {
   EXPECT_LT(DollAboveFloor(kSmpl, pose), JointPositions(kSmpl, pose).row(1).minCoeff() - 0.1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::doll_test

@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace choreo {
-namespace {
+namespace choreo::rounded_cone_test {
 
 using Eigen::Vector3f;
 
@@ -80,5 +79,4 @@ TEST(RoundedCone, ShadowsLieOppositeTheLamp) {
   EXPECT_FLOAT_EQ(OcclusionBy(post, {0, 0, 0}, {0, -1, 0}), 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::rounded_cone_test

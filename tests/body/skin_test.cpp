@@ -8,8 +8,7 @@
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::skin_test {
 
 using Eigen::Vector3f;
 
@@ -96,5 +95,4 @@ TEST(Skin, StaysOnTheDollWhenTheBodyBends) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::skin_test

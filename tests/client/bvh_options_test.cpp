@@ -6,8 +6,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::bvh_options_test {
 
 using testing::Contains;
 using testing::HasSubstr;
@@ -55,5 +54,4 @@ TEST_F(BvhOptionsTest, WhatCannotBeIsNamed) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "b.bvh"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::bvh_options_test

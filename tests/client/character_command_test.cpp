@@ -9,8 +9,7 @@
 #include "tests/support/character_rigs.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::character_command_test {
 
 using testing::HasSubstr;
 using testing_support::WriteCharacter;
@@ -88,5 +87,4 @@ TEST_F(CharacterCommandTest, WhatCannotBeIsNamed) {
   ExpectRefused(Convert(hero + " --names ue"), "--names: is for a .bvh");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::character_command_test

@@ -9,8 +9,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::cli {
-namespace {
+namespace choreo::cli::choreography_test {
 
 std::vector<double> EvenBeats(double first, double period, int count) {
   std::vector<double> beats;
@@ -128,5 +127,4 @@ TEST(ChoreographyTest, RefusesADanceThatIsTooShort) {
               [] { ComposeKeys({.seconds = 1, .beats = {}, .seed = 0}, PoseLibrary()); });
 }
 
-}  // namespace
-}  // namespace choreo::cli
+}  // namespace choreo::cli::choreography_test

@@ -15,8 +15,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 
-namespace choreo {
-namespace {
+namespace choreo::command_test {
 
 using testing::HasSubstr;
 
@@ -250,5 +249,4 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("--version").code, 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::command_test

@@ -7,8 +7,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 
-namespace choreo {
-namespace {
+namespace choreo::controlled_command_test {
 
 using testing::HasSubstr;
 
@@ -378,5 +377,4 @@ TEST_F(ControlledCommandTest, AModelWithoutThemRefusesThem) {
   EXPECT_THAT(outcome.said, HasSubstr("--velocity: the model \"fake\" does not have this control"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::controlled_command_test

@@ -9,8 +9,7 @@
 #include "tests/client/test_server.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::client {
-namespace {
+namespace choreo::client::controls_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -184,5 +183,4 @@ TEST(ControlsTest, OfNoBodyPartAreRefusedBeforeTheyAreSent) {
               [&] { client.Dance({.frames = 60, .controls = controls}, {}, {}); });
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::controls_test

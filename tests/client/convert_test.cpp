@@ -4,8 +4,7 @@
 
 #include "tests/support/expect_error.h"
 
-namespace choreo::client {
-namespace {
+namespace choreo::client::convert_test {
 
 v1::Frames TwoFrames(int joints) {
   v1::Frames frames;
@@ -81,5 +80,4 @@ TEST(ClientConvertTest, RefusesContinuationsThatAreNone) {
   ExpectError(ErrorCode::kInvalidArgument, "continuation", [&] { ToProto(config); });
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::convert_test

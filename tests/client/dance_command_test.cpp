@@ -15,8 +15,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 
-namespace choreo {
-namespace {
+namespace choreo::dance_command_test {
 
 using testing::HasSubstr;
 
@@ -430,5 +429,4 @@ TEST_F(CommandTest, DancesThroughKeyFilesAndMotions) {
   EXPECT_NEAR(motion.frames[90].rotations(2, 16), -1, 0.002);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::dance_command_test

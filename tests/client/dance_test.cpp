@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +18,7 @@
 #include "tests/client/test_server.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::client {
-namespace {
+namespace choreo::client::dance_test {
 
 using cli::FindLibraryPose;
 
@@ -161,6 +163,25 @@ TEST(DanceTest, CanBeCancelledWhileItWaits) {
   std::thread canceller([&] { dance->Cancel(); });
   ExpectError(ErrorCode::kCancelled, "", [&] { dance->Next(); });
   canceller.join();
+}
+
+// To somebody who is there and says nothing.
+TEST(DanceTest, CanBeSteeredAndCancelledWhileItConnects) {
+  const int mute = socket(AF_INET, SOCK_STREAM, 0);
+  ASSERT_EQ(listen(mute, 1), 0);  // at a free port
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  getsockname(mute, reinterpret_cast<sockaddr*>(&address), &size);
+  const Client client({.addresses = {"127.0.0.1:" + std::to_string(ntohs(address.sin_port))},
+                       .connect_timeout_s = 600});
+  const auto dance = client.StartDance({.frames = 30});
+  std::thread reader([&] { ExpectError(ErrorCode::kCancelled, "", [&] { dance->Next(); }); });
+  const int connection = accept(mute, nullptr, nullptr);
+  dance->CompleteKeys();
+  dance->Cancel();
+  reader.join();
+  close(connection);
+  close(mute);
 }
 
 TEST(DanceTest, CanBeAbandoned) {
@@ -342,5 +363,4 @@ TEST(TransitionTest, AsksAnotherReplicaWhenOneIsAway) {
   EXPECT_EQ(client.GenerateTransition(request).candidates.front().motion.frames.size(), 10U);
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::dance_test

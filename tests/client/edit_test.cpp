@@ -15,8 +15,7 @@
 #include "tests/client/test_music.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::edit_test {
 
 using testing::HasSubstr;
 
@@ -360,5 +359,4 @@ TEST(EditLibraryTest, RefusesWhatIsNoInterval) {
   refused(50, 40, 60, "audio: is a file");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::edit_test

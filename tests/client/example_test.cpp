@@ -9,8 +9,7 @@
 #include "tests/support/shell.h"
 
 /// The example of the README and the program that it is taken from.
-namespace choreo {
-namespace {
+namespace choreo::example_test {
 
 std::string ReadFile(const std::string& path) {
   std::ifstream file(path);
@@ -47,5 +46,4 @@ TEST(ExampleTest, ItDances) {
   EXPECT_THAT(outcome.said, testing::HasSubstr("76 frames"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::example_test

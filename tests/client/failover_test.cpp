@@ -9,8 +9,7 @@
 #include "tests/support/tcp_proxy.h"
 
 /// Replicas that are there and would not, or not soon, do what is asked.
-namespace choreo::client {
-namespace {
+namespace choreo::client::failover_test {
 
 Options Replicas(std::vector<std::string> addresses) {
   Options options;
@@ -207,5 +206,4 @@ TEST(FailoverTest, SilenceIsNotShorterThanServersArePinged) {
   ExpectError(ErrorCode::kInvalidArgument, "silence_s", [] { Client({.silence_s = 1}); });
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::failover_test

@@ -4,8 +4,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::health_test {
 
 using HealthTest = CommandTest;
 
@@ -31,5 +30,4 @@ TEST_F(HealthTest, ServesUntilItDrains) {
   EXPECT_EQ(Choreo("health" + Server()).code, 1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::health_test

@@ -13,8 +13,7 @@
 #include "tests/client/test_music.h"
 
 /// Programs that are told to stop.
-namespace choreo {
-namespace {
+namespace choreo::interruption_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -84,5 +83,4 @@ TEST_F(InterruptionTest, AVideoLeavesNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.mp4"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::interruption_test

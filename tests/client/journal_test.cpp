@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace choreo::client {
-namespace {
+namespace choreo::client::journal_test {
 
 using testing::ElementsAre;
 using testing::Pair;
@@ -95,5 +94,4 @@ TEST(JournalTest, KnowsWhichMessagesComeTooLateForAResumption) {
   EXPECT_THAT(journal.KeysBefore(40, 30), ElementsAre(Pair("a", 10), Pair("c", 30), Pair("c", 30)));
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::journal_test

@@ -15,8 +15,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo::cli {
-namespace {
+namespace choreo::cli::key_file_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -102,7 +101,7 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   refused(File(R"("frame": 18446744073709551615, "rotations": )" + Rotations()),
           "keyframes[0].frame: 18446744073709551615 is not a whole number from 0 to 1000000000");
   refused(File(R"("time": 1e300, "rotations": )" + Rotations()),
-          "keyframes[0].time: 1e+300 s is beyond 1e9 s");
+          "keyframes[0].time: 1e+300 s is beyond 1e+09 s");
   refused(Key(Rotations("[0, 1e999, 0]")),
           "keyframes[0].rotations[23][1]: 1e999 is beyond 1.8e308, the largest number");
 }
@@ -299,7 +298,7 @@ TEST_F(MotionKeysTest, TakesTheShortestWayAfterAnyNumberOfTurns) {
 
 TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
   for (const char* times : {"", "x", "1,", "-1", "1.2x", "1=", "nan"}) {
-    ExpectError(ErrorCode::kInvalidArgument, "is not a time, 0 to 1e9 seconds",
+    ExpectError(ErrorCode::kInvalidArgument, "is not a time, 0 to 1e+09 seconds",
                 [&] { ReadKeys(path_ + "@" + times, Body()); });
   }
   ExpectError(ErrorCode::kInvalidArgument, "second 3.5 lies behind the motion's end at 3",
@@ -335,5 +334,4 @@ TEST_F(MotionKeysTest, ReadsAKeyFileByItsPath) {
   EXPECT_EQ(ReadKeys(path, Body()).front().id, "a");
 }
 
-}  // namespace
-}  // namespace choreo::cli
+}  // namespace choreo::cli::key_file_test

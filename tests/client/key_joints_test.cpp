@@ -11,8 +11,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::cli {
-namespace {
+namespace choreo::cli::key_joints_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -101,5 +100,4 @@ TEST(KeyJointsTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   refused(R"("frame": 1, "pose": "kick", "hold": 1)", "keyframes[0].hold: goes with time");
 }
 
-}  // namespace
-}  // namespace choreo::cli
+}  // namespace choreo::cli::key_joints_test

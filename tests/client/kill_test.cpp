@@ -18,8 +18,7 @@
 #include "tests/support/sanitizers.h"
 
 /// Processes that are killed in the middle of a dance.
-namespace choreo::client {
-namespace {
+namespace choreo::client::kill_test {
 
 using cli::LocalServer;
 
@@ -277,5 +276,4 @@ TEST(KillTest, AKilledClientGivesItsSlotsBack) {
             30);
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::kill_test

@@ -7,8 +7,7 @@
 #include "client/choreo_client.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo::cli {
-namespace {
+namespace choreo::cli::local_server_test {
 
 TEST(LocalServerTest, ServesAsLongAsItLives) {
   std::string address;
@@ -45,5 +44,4 @@ TEST(LocalServerTest, SaysWhenThereIsNothingToStart) {
               [] { LocalServer server{std::filesystem::path("/bin/true")}; });
 }
 
-}  // namespace
-}  // namespace choreo::cli
+}  // namespace choreo::cli::local_server_test

@@ -22,8 +22,7 @@
 
 /// Paper F's Figure 12, by our own programs on recordings of our own making: prepare tang2018
 /// natively, train a few steps, serve the checkpoint in this process, dance.
-namespace choreo {
-namespace {
+namespace choreo::native_skeleton_test {
 
 using testing_support::Native;
 
@@ -163,5 +162,4 @@ TEST(PoseLibrary, AsksForKeyframesWhereItCannotBeRetargeted) {
               [&] { cli::PosesToDance(stick); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::native_skeleton_test

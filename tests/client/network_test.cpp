@@ -15,8 +15,7 @@
 
 /// A server behind a network that loses, delays and disorders packets, or is not there for a while.
 /// CHOREO_FAULT_SECONDS makes the dances longer (scripts/faults.sh).
-namespace choreo::client {
-namespace {
+namespace choreo::client::network_test {
 
 using cli::LocalServer;
 using Clock = std::chrono::steady_clock;
@@ -179,5 +178,4 @@ TEST_F(NetworkTest, PlacesOfClientsThatAreOutOfReachComeBack) {
   }
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::network_test

@@ -4,8 +4,7 @@
 
 #include "client/replicas.h"
 
-namespace choreo::client {
-namespace {
+namespace choreo::client::patience_test {
 
 const grpc::Status kGone(grpc::StatusCode::UNAVAILABLE, "connection refused");
 
@@ -53,5 +52,4 @@ TEST(PatienceTest, OneThatIsAwayMayComeBackAndDoBetter) {
   EXPECT_EQ(patience.Verdict().error_message(), "the device is gone");
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::patience_test

@@ -20,8 +20,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo::cli {
-namespace {
+namespace choreo::cli::photo_pose_test {
 
 using nlohmann::json;
 
@@ -228,5 +227,4 @@ TEST_F(PhotoPoseTest, APhotoItselfIsForTheStudio) {
                                  "studio` and drop me.jpg on its page"));
 }
 
-}  // namespace
-}  // namespace choreo::cli
+}  // namespace choreo::cli::photo_pose_test

@@ -8,8 +8,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/draw/decoded_png.h"
 
-namespace choreo {
-namespace {
+namespace choreo::plot_command_test {
 
 using testing::HasSubstr;
 
@@ -81,5 +80,4 @@ TEST_F(PlotCommandTest, SaysWhatDoesNotFit) {
   EXPECT_EQ(Plot("elbow " + both).code, 2);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::plot_command_test

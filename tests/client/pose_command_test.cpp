@@ -15,8 +15,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo::cli {
-namespace {
+namespace choreo::cli::pose_command_test {
 
 using testing::HasSubstr;
 
@@ -135,5 +134,4 @@ TEST_F(PoseCommandTest, MirrorsTheMaskToo) {
   EXPECT_NEAR(key.pose.rotations(1, Body().right_elbow), 1, 1e-12);
 }
 
-}  // namespace
-}  // namespace choreo::cli
+}  // namespace choreo::cli::pose_command_test

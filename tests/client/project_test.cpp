@@ -7,8 +7,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 
-namespace choreo {
-namespace {
+namespace choreo::project_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -132,5 +131,4 @@ TEST_F(ProjectTest, WhatCannotBeIsNamed) {
   ExpectRefused("p.json: has no list");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::project_test

@@ -14,8 +14,7 @@
 
 /// Three replicas, many dances in real time, and one server after the other that is killed or falls
 /// silent. CHOREO_FAULT_STREAMS and CHOREO_FAULT_SECONDS make it longer (scripts/faults.sh).
-namespace choreo::client {
-namespace {
+namespace choreo::client::replica_fault_test {
 
 using cli::LocalServer;
 using Clock = std::chrono::steady_clock;
@@ -185,5 +184,4 @@ TEST(ReplicaFaultTest, WhoIsAskedToLeaveHandsItsDancesOnAndExitsWithZero) {
   }
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::replica_fault_test

@@ -16,8 +16,7 @@
 #include "tests/support/temporary_folder.h"
 
 /// Who is let in, and who can read what is said.
-namespace choreo::client {
-namespace {
+namespace choreo::client::security_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -342,5 +341,4 @@ TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {
   ExpectError(ErrorCode::kInvalidArgument, "/absent", [&] { Client(options).GetServerInfo(); });
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::security_test

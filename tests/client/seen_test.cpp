@@ -4,8 +4,7 @@
 
 #include "tests/support/expect_error.h"
 
-namespace choreo::client {
-namespace {
+namespace choreo::client::seen_test {
 
 FrameBlock Block(int64_t first, int64_t count) {
   FrameBlock block;
@@ -67,5 +66,4 @@ TEST(SeenTest, HidesTheRejectionsThatAResumptionBringsAboutAndNoOthers) {
   EXPECT_TRUE(seen.Admit(rejected("late", 80)));
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::seen_test

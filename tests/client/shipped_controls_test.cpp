@@ -17,8 +17,7 @@
 #include "tests/support/temporary_folder.h"
 
 /// What the model that ships does with controls, in the server that people run.
-namespace choreo::client {
-namespace {
+namespace choreo::client::shipped_controls_test {
 
 constexpr int kFrames = 241;
 const Skeleton& Body() { return Skeleton::Smpl24(); }
@@ -206,5 +205,4 @@ TEST_F(ShippedControlsTest, GoesDownWhereThePathDoes) {
   }
 }
 
-}  // namespace
-}  // namespace choreo::client
+}  // namespace choreo::client::shipped_controls_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/expect_error.h"
 
-namespace choreo::cli {
-namespace {
+namespace choreo::cli::written_dance_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -88,5 +87,4 @@ TEST(WrittenDanceTest, ChanceIsTheShareOfFramesNearABeat) {
   EXPECT_DOUBLE_EQ(*BeatHitChance({0.0, 3.3}, 100, 30), 0.03 + 0.03);  // 0 to 2, 97 to 99
 }
 
-}  // namespace
-}  // namespace choreo::cli
+}  // namespace choreo::cli::written_dance_test

@@ -14,8 +14,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::controllers_model_test {
 
 using torch::Tensor;
 
@@ -203,5 +202,4 @@ TEST_F(ControllersModelTest, ACheckpointComesBackWhole) {
               [&] { ParseControllers(edited, "c"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::controllers_model_test

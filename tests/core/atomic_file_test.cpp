@@ -12,8 +12,7 @@
 #include "tests/support/full_disk.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::atomic_file_test {
 
 class AtomicFileTest : public testing::Test {
  protected:
@@ -89,5 +88,4 @@ TEST_F(AtomicFileTest, SaysWhyItCannotBe) {
               [this] { WriteFile(folder_ / "absent" / "a", "x"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::atomic_file_test

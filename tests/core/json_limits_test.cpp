@@ -6,8 +6,7 @@
 
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::json_limits_test {
 
 TEST(JsonNumbers, ThoseOfAnIntPassWhereverTheyStand) {
   CheckJsonNumbers(nlohmann::json::parse(R"({"a": [1, -2147483647, 0.5, {"b": 2147483647}]})"), "");
@@ -28,5 +27,4 @@ TEST(JsonNumbers, NestedDeeperThanAnybodyWritesIsRefused) {
               [&] { CheckJsonNumbers(json, "skeleton"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::json_limits_test

@@ -8,8 +8,7 @@
 
 #include "model/core/error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::npy_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -130,5 +129,4 @@ TEST(NpyTest, AShapeThatDoesNotHoldTheValuesIsNotWritten) {
   EXPECT_THROW(SerializeNpy({{2, 2}, std::vector<float>{1, 2, 3}}), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::npy_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace choreo {
-namespace {
+namespace choreo::printable_test {
 
 TEST(PrintableTest, TextStaysAndControlCharactersAreNamed) {
   EXPECT_EQ(Printable("pas de bourrée 舞 🕺"), "pas de bourrée 舞 🕺");
@@ -16,5 +15,4 @@ TEST(PrintableTest, TextStaysAndControlCharactersAreNamed) {
   EXPECT_EQ(Printable(""), "");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::printable_test

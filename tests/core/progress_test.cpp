@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace choreo {
-namespace {
+namespace choreo::progress_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -77,5 +76,4 @@ TEST(FormatDurationTest, NamesTheTwoLargestUnits) {
   EXPECT_EQ(FormatDuration(3725), "1 h 02 min");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::progress_test

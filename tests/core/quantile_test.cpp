@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace choreo {
-namespace {
+namespace choreo::quantile_test {
 
 TEST(Quantile, IsAValueOfItsRank) {
   const std::vector<double> values = {5, 1, 4, 2, 3};
@@ -24,5 +23,4 @@ TEST(Quantile, OfASlowSignalPassesSpikesAndItsEnds) {
   EXPECT_DOUBLE_EQ(SlowQuantile(values, 0.5, 10)[25], 25);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::quantile_test

@@ -11,8 +11,7 @@
 
 #include "model/core/error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::random_test {
 
 using ::testing::ElementsAre;
 
@@ -165,5 +164,4 @@ TEST(RandomTest, StreamsAndSeedsDiffer) {
   EXPECT_EQ(words.size(), 600U);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::random_test

@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace choreo {
-namespace {
+namespace choreo::rounded_test {
 
 TEST(RoundedTest, ShowsWhatPeopleReadAndNoMore) {
   EXPECT_EQ(Rounded(0.123457), "0.12");
@@ -33,5 +32,4 @@ TEST(InFullTest, ShowsEveryDigitAndNoMore) {
   EXPECT_EQ(InFull(0.1), "0.1");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::rounded_test

@@ -10,8 +10,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::safetensors_test {
 
 class SafetensorsTest : public testing::Test {
  protected:
@@ -82,5 +81,4 @@ TEST_F(SafetensorsTest, OverlappingTensorsAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::safetensors_test

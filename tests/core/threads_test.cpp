@@ -8,8 +8,7 @@
 
 #include "model/core/error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::threads_test {
 
 TEST(ThreadsTest, RefusesTheReferenceBlasAndTellsWhatToInstall) {
   const BlasInfo reference{BlasInfo::Kind::kReference, "Netlib reference BLAS",
@@ -65,5 +64,4 @@ TEST(ThreadsTest, FlushesDenormalsHereAndInThreadsStartedAfterwards) {
   EXPECT_EQ(child, 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::threads_test

@@ -8,8 +8,7 @@
 #include "model/motion/rotation.h"
 #include "tests/dance/poses.h"
 
-namespace choreo {
-namespace {
+namespace choreo::arrival_test {
 
 constexpr double kFps = 30;
 constexpr int kWindow = 12;
@@ -216,5 +215,4 @@ TEST(Arrival, HasNoAccelerationSpike) {
   EXPECT_LT(worst_ratio, 4);  // a jump in the last frame would come to 30
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::arrival_test

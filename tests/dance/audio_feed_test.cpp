@@ -9,8 +9,7 @@
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
-namespace choreo {
-namespace {
+namespace choreo::audio_feed_test {
 
 using Row = std::array<float, kMfccCount>;
 
@@ -67,5 +66,4 @@ TEST(AudioFeedTest, PartialFramesAndWhatIsNoNumberAreRefusedAndChangeNothing) {
   for (int64_t row = 0; row < feed.ready(); ++row) EXPECT_EQ(RowOf(feed, row), RowOf(whole, row));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::audio_feed_test

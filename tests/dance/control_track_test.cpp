@@ -9,8 +9,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_engine.h"
 
-namespace choreo {
-namespace {
+namespace choreo::control_track_test {
 
 using testing::HasSubstr;
 
@@ -370,5 +369,4 @@ TEST_F(ControlTrackTest, KeepsNoMoreThanItsLimits) {
               [&] { other.Set(Velocity(huge), 0, "controls"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::control_track_test

@@ -5,8 +5,7 @@
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::controlled_dance_test {
 
 using testing::HasSubstr;
 
@@ -371,5 +370,4 @@ TEST_F(ControlledDanceTest, ASingleTransitionIsThatOfTheStream) {
   EXPECT_EQ(transition.warnings[0].message, dance.warnings.at(0).message);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::controlled_dance_test

@@ -11,8 +11,7 @@
 #include "tests/dance/dances.h"
 
 // What a stream answers to input that is wrong or comes at the wrong moment.
-namespace choreo {
-namespace {
+namespace choreo::dance_contract_test {
 
 class DanceContract : public ::testing::Test {
  protected:
@@ -269,5 +268,4 @@ TEST(DanceWarnings, TemperatureBeyondTheModelsIsTold) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::dance_contract_test

@@ -8,8 +8,7 @@
 
 #include "tests/dance/dances.h"
 
-namespace choreo {
-namespace {
+namespace choreo::dance_determinism_test {
 
 TEST(DanceStream, SameSeedSameBitsWhateverElseRuns) {
   const auto alone = FakeScheduler();
@@ -186,5 +185,4 @@ TEST(DanceStream, MovingAndTurningTheSceneMovesTheDance) {
 }
 
 // A message that is refused leaves everything as it was.
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::dance_determinism_test

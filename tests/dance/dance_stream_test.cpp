@@ -8,8 +8,7 @@
 
 #include "tests/dance/dances.h"
 
-namespace choreo {
-namespace {
+namespace choreo::dance_stream_test {
 
 TEST(DanceStream, HitsEveryKeyAndReportsIt) {
   const auto scheduler = FakeScheduler();
@@ -267,5 +266,4 @@ TEST(DanceStream, RefusedMessagesChangeNothing) {
   EXPECT_TRUE(SameDance(expected, recording));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::dance_stream_test

@@ -9,8 +9,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 
-namespace choreo {
-namespace {
+namespace choreo::foot_lock_test {
 
 constexpr double kFps = 30;
 
@@ -244,5 +243,4 @@ TEST(FootLock, NeedsLegsAndTimeToStep) {
   EXPECT_FALSE(FootLock::Fits(legless, kFps, 30));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::foot_lock_test

@@ -9,8 +9,7 @@
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::music_beats_test {
 
 // Of a song that beats every half second.
 double Off(double seconds) { return std::abs(seconds - 0.5 * std::round(2 * seconds)); }
@@ -268,5 +267,4 @@ TEST(MusicBeats, WhatFollowsChangesNothing) {
   EXPECT_EQ(around(), heard);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::music_beats_test

@@ -5,8 +5,7 @@
 #include "model/motion/resample.h"
 #include "tests/dance/poses.h"
 
-namespace choreo {
-namespace {
+namespace choreo::output_rate_test {
 
 std::vector<DanceFrame> Frames(int count) {
   std::mt19937 random(1);
@@ -75,5 +74,4 @@ TEST(OutputRate, PartsJoinWithoutASeam) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::output_rate_test

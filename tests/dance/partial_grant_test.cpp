@@ -6,8 +6,7 @@
 #include "tests/dance/dances.h"
 
 /// Frames leave as far as they are granted, and what lies ahead may still change.
-namespace choreo {
-namespace {
+namespace choreo::partial_grant_test {
 
 using Step = std::function<void(DanceStream&)>;
 
@@ -162,5 +161,4 @@ TEST_F(PartialGrantTest, WithoutMusicTheDanceGoesAsFarAsGranted) {
   EXPECT_EQ(sink->WaitForEnd().poses.size(), 40U);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::partial_grant_test

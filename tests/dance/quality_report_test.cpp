@@ -6,8 +6,7 @@
 
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::quality_report_test {
 
 Pose Standing() { return RestPose(Skeleton::Smpl24()); }
 
@@ -127,5 +126,4 @@ TEST(QualityReport, AnEmptyDanceHasAReport) {
   EXPECT_FALSE(report.beat_hit_rate);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::quality_report_test

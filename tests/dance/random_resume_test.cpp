@@ -9,8 +9,7 @@
 #include "tests/dance/dances.h"
 
 /// Live dances of messages in random order, taken up again wherever they can be.
-namespace choreo {
-namespace {
+namespace choreo::random_resume_test {
 
 constexpr int64_t kFrames = 420;
 
@@ -130,5 +129,4 @@ TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
   EXPECT_GT(given, 300U);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::random_resume_test

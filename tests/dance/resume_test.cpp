@@ -3,8 +3,7 @@
 
 #include "tests/dance/dances.h"
 
-namespace choreo {
-namespace {
+namespace choreo::resume_test {
 
 /// What a client sends again after the server broke: the same config with the continuation, the
 /// same messages.
@@ -128,10 +127,31 @@ TEST(Resume, GoesOnBitForBitAfterEdits) {
     stream.SetKey("c", AtTime{4.9}, poses[2]);
     stream.RemoveKey("c");
     stream.GenerateUntil(110);
-    stream.SetKey("d", AfterPrevious{2.0}, poses[3]);
+    stream.SetKey("d", AfterPrevious{60}, poses[3]);
     stream.GenerateUntil(300);
     stream.SetKey("e", AtFrame{330}, poses[4]);
   });
+}
+
+// A server that is lost behind the last frame of all hands on a dance that only wants its summary.
+TEST(Resume, GoesOnBehindAKeyInTheLastFrameOfAll) {
+  const auto scheduler = FakeScheduler();
+  Dance dance = RandomDance(10);
+  dance.config.continuation = Continuation{.frame = kMaxDanceFrames - 20,
+                                           .poses = FillHistory(scheduler->model(), {}),
+                                           .fingerprint = scheduler->model().fingerprint};
+  dance.keys.erase(dance.keys.begin() + 1, dance.keys.end());
+  dance.keys.front().frame = kMaxDanceFrames;
+  const Recording whole = Perform(*scheduler, dance);
+  ASSERT_TRUE(whole.summary) << whole.error->what();
+  EXPECT_EQ(whole.poses.size(), 21U);
+  ASSERT_EQ(whole.continuations.size(), 1U);
+  EXPECT_EQ(whole.continuations.front().frame, kMaxDanceFrames + 1);
+  const Recording rest =
+      Resume(*scheduler, dance, whole.continuations.front(),
+             [&dance](DanceStream& stream) { SendKey(stream, dance.keys.front()); });
+  ASSERT_TRUE(rest.summary) << rest.error->what();
+  EXPECT_TRUE(rest.poses.empty());
 }
 
 TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
@@ -185,5 +205,4 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
   EXPECT_THROW(config.Validate(scheduler->model()), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::resume_test

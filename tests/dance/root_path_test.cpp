@@ -10,8 +10,7 @@
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::root_path_test {
 
 RootPath Path(std::vector<int64_t> frames, const std::vector<Eigen::Vector3d>& points,
               bool has_heights = false) {
@@ -226,5 +225,4 @@ TEST_F(LeadTest, LeadsItsAxesAlone) {
   for (int frame = 1; frame < 90; ++frame) EXPECT_GE(lead.path(1, frame), lead.path(1, frame - 1));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::root_path_test

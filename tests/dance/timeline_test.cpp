@@ -9,8 +9,7 @@
 #include "model/core/error.h"
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::timeline_test {
 
 using ::testing::HasSubstr;
 
@@ -81,10 +80,20 @@ TEST(Timeline, GrantsBehindTheLastKeyChangeNothing) {
 
 TEST(Timeline, TimesRoundToTheGrid) {
   Timeline timeline({});
-  Set(timeline, "a", AtTime{1.016});       // 30.48
-  Set(timeline, "b", AtTime{2.0168});      // 60.504
-  Set(timeline, "c", AfterPrevious{0.5});  // after 61
+  Set(timeline, "a", AtTime{1.016});      // 30.48
+  Set(timeline, "b", AtTime{2.0168});     // 60.504
+  Set(timeline, "c", AfterPrevious{15});  // after 61
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 31, "a"}, {31, 62, "b"}, {62, 77, "c"}}));
+}
+
+// A key further ahead than a transition reaches is one however its moment is told.
+TEST(Timeline, AnIntervalMayBeLongerThanATransition) {
+  Timeline timeline({});
+  timeline.GenerateUntil(0);
+  Set(timeline, "a", AtFrame{30});
+  EXPECT_EQ(Set(timeline, "b", AfterPrevious{2 * kMaxTransitionFrames}), std::nullopt);
+  timeline.Complete();
+  EXPECT_EQ(timeline.End(), 30 + 2 * kMaxTransitionFrames + 1);
 }
 
 TEST(Timeline, KeysAreEditedBehindTheFrontier) {
@@ -132,9 +141,13 @@ TEST(Timeline, RefusesWhatCanNeverBe) {
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtTime{-0.5}); }), HasSubstr("-0.5 s"));
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtTime{std::nan("")}); }), HasSubstr("nan"));
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtTime{1e300}); }), HasSubstr("1e+300"));
-  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{0}); }), HasSubstr("0 s is not in"));
-  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{-1}); }), HasSubstr("-1 s"));
-  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{61}); }), HasSubstr("(0, 60]"));
+  for (const int64_t frames : {INT64_MIN, int64_t{1}, int64_t{108'001}, INT64_MAX}) {
+    EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{frames}); }),
+                HasSubstr("keyframes[0].interval_after_previous: " + std::to_string(frames) +
+                          " is not in [2, 108000]"));
+  }
+  EXPECT_THAT(Refusal([&] { Set(timeline, "b", AfterPrevious{107'971}); }),  // a stands at 30
+              HasSubstr("interval_after_previous: leads to frame 108001, beyond the limit 108000"));
   EXPECT_THAT(Refusal([&] { timeline.Remove("b", "remove_keyframes[0]"); }, ErrorCode::kNotFound),
               HasSubstr("remove_keyframes[0].id: there is no key \"b\""));
   timeline.GenerateUntil(20);
@@ -327,5 +340,4 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::timeline_test

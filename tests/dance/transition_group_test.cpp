@@ -8,8 +8,7 @@
 
 #include "tests/dance/dances.h"
 
-namespace choreo {
-namespace {
+namespace choreo::transition_group_test {
 
 class GroupRecorder : public GroupSink {
  public:
@@ -140,7 +139,7 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
       request.music_beats = dance.config.music_beats;
       const int64_t from = continuation ? continuation->frame : 0;
       const bool has_key = key < dance.keys.size() && dance.keys[key].frame + 1 == end.frame;
-      request.frames = has_key ? static_cast<int>(end.frame - from) : kFreeTransitionFrames;
+      request.frames = has_key ? static_cast<int>(end.frame - from) : kUsualFrames;
       if (has_key) {
         request.target = Target{dance.keys[key].pose, dance.keys[key].mask};
         ++key;
@@ -212,5 +211,4 @@ TEST(TransitionGroup, CancellationAndRefusalFreeEverySlot) {
   EXPECT_TRUE(Generate(*scheduler, request)->ranked);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::transition_group_test

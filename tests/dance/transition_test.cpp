@@ -7,8 +7,7 @@
 #include "tests/dance/poses.h"
 #include "tests/support/fake_engine.h"
 
-namespace choreo {
-namespace {
+namespace choreo::transition_test {
 
 TransitionRequest RandomRequest(uint32_t seed) {
   std::mt19937 random(seed);
@@ -153,5 +152,4 @@ TEST(BeatsAround, AreThoseOfTheTransitionAndOneOnEitherSide) {
   EXPECT_TRUE(BeatsAround({}, 30, 0, 10).empty());
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::transition_test

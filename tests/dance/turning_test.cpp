@@ -6,8 +6,7 @@
 #include "tests/support/turning_engine.h"
 
 /// Rotations of a dancer who turns and turns.
-namespace choreo {
-namespace {
+namespace choreo::turning_test {
 
 constexpr double kStep = 0.2;  // radians a frame
 constexpr int64_t kFrames = 300;
@@ -82,5 +81,4 @@ TEST(TurningAboutOneAxis, VectorsAreContinuous) {
   EXPECT_NEAR(recording.poses.back().rotations.col(0).norm(), kStep * kFrames, 1e-2);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::turning_test

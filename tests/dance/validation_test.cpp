@@ -9,8 +9,7 @@
 #include "tests/dance/dances.h"
 #include "tests/dance/poses.h"
 
-namespace choreo {
-namespace {
+namespace choreo::validation_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -108,7 +107,7 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
               c.continuation = good;
               c.continuation->frame = -1;
             }),
-            "config.continuation.frame: -1 is not in [0, 108000]");
+            "config.continuation.frame: -1 is not in [0, 108001]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.end_frame = 0; }),
             "config.frames: 0 is not in [1, 108000]");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
@@ -126,5 +125,4 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
             "accepted");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::validation_test

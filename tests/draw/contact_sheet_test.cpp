@@ -10,8 +10,7 @@
 #include "tests/support/full_disk.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::contact_sheet_test {
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
 constexpr uint32_t kKeyColour = 0xd99a00;
@@ -157,5 +156,4 @@ TEST(ContactSheet, RefusesWhatItCannotDraw) {
               [&] { DrawContactSheet(kSmpl, motion, Small(), folder / "absent/a.png"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::contact_sheet_test

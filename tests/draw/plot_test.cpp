@@ -9,8 +9,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::plot_test {
 
 constexpr uint32_t kFirstLine = 0x0072b2;
 constexpr uint32_t kSecondLine = 0xd55e00;
@@ -190,5 +189,4 @@ TEST(Plot, RefusesWhatItCannotDraw) {
               [&] { DrawPlot(Example(), folder / "absent/a.png"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::plot_test

@@ -9,8 +9,7 @@
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::render_test {
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
 
@@ -127,5 +126,4 @@ TEST(Render, RefusesWhatItCannotDraw) {
   EXPECT_THROW(DrawFrame(kSmpl, other, {}, {}, picture), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::render_test

@@ -13,8 +13,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::video_test {
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
 constexpr int kRate = 44100;
@@ -220,5 +219,4 @@ TEST(Video, RefusesWhatItCannotMake) {
   refuse("video.fps: 500, must be 1 to 120", options, Cheer(2, 1));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::video_test

@@ -19,8 +19,7 @@ thread_local uint64_t allocations = 0;
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace choreo {
-namespace {
+namespace choreo::allocation_test {
 
 // Does nothing in a step but look at the counter.
 class CountingEngine : public FakeEngine {
@@ -71,5 +70,4 @@ TEST(SchedulerAllocationTest, AFrameAllocatesNothing) {
   EXPECT_EQ(seen[seen.size() - 50], seen[seen.size() - 1450]);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::allocation_test

@@ -13,8 +13,7 @@
 #include "tests/engine/engine_dances.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::continuous_flow_engine_test {
 
 class ContinuousFlowEngineTest : public testing::Test {
  protected:
@@ -222,5 +221,4 @@ TEST_F(ContinuousFlowEngineTest, AServedTransitionArrivesExactly) {
   EXPECT_LT(arrival->final_error_deg, 0.1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::continuous_flow_engine_test

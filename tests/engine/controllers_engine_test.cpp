@@ -11,8 +11,7 @@
 #include "tests/engine/engine_dances.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::controllers_engine_test {
 
 class ControllersEngineTest : public testing::Test {
  protected:
@@ -137,5 +136,4 @@ TEST_F(ControllersEngineTest, StepsOutOfTurnAreRefused) {
   });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::controllers_engine_test

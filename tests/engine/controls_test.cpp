@@ -6,8 +6,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::controls_test {
 
 class ControlsTest : public testing::Test {
  protected:
@@ -60,5 +59,4 @@ TEST_F(ControlsTest, ThatAreNoNumbersOrNegativeAreRefused) {
   ExpectRefused("controls.root_path: not finite");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::controls_test

@@ -7,8 +7,7 @@
 #include "tests/engine/engine_dances.h"
 
 // The torch engine on GPUs, against itself on the CPU. Skipped where none answers.
-namespace choreo {
-namespace {
+namespace choreo::cuda_engine_test {
 
 constexpr Device kGpu{Device::Kind::kCuda, 0};
 
@@ -59,5 +58,4 @@ TEST_P(CudaEngineTest, EveryDeviceGivesTheSameBits) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::cuda_engine_test

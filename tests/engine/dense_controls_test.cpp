@@ -4,8 +4,7 @@
 
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::dense_controls_test {
 
 class DenseControlsTest : public testing::Test {
  protected:
@@ -79,5 +78,4 @@ TEST_F(DenseControlsTest, OneFrameIsTheKeys) {
             1e-5);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::dense_controls_test

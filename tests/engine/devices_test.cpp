@@ -5,8 +5,7 @@
 
 #include "model/core/error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::devices_test {
 
 using ::testing::HasSubstr;
 
@@ -61,5 +60,4 @@ TEST(DevicesTest, OtherFormsAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::devices_test

@@ -14,8 +14,7 @@
 #include "tests/engine/engine_dances.h"
 
 // What every engine of the flow model promises, whatever steps it.
-namespace choreo {
-namespace {
+namespace choreo::engines_test {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
@@ -220,5 +219,4 @@ TEST(EngineSetUpTest, KindsHaveNames) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::engines_test

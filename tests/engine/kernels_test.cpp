@@ -7,8 +7,7 @@
 #include "tests/engine/engine_dances.h"
 
 /// Which instructions the packed engine is told to use.
-namespace choreo {
-namespace {
+namespace choreo::kernels_test {
 
 using testing::HasSubstr;
 
@@ -50,5 +49,4 @@ TEST(KernelsTest, ThatAreNotHereAreNamed) {
               HasSubstr("kernels: \"avx512_bf16\" is none of "));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::kernels_test

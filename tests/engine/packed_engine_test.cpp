@@ -22,8 +22,7 @@ extern "C" [[gnu::noinline]] void* malloc(std::size_t size) noexcept {
 }
 
 // The packed engine against the torch engine.
-namespace choreo {
-namespace {
+namespace choreo::packed_engine_test {
 
 double LargestDifference(const std::filesystem::path& checkpoint, uint64_t seed, int frames,
                          EngineKind kind = EngineKind::kPacked) {
@@ -125,5 +124,4 @@ TEST_P(PackedEngineTest, AFrameAllocatesNothing) {
   EXPECT_EQ(allocations, settled);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::packed_engine_test

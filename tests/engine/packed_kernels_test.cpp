@@ -10,8 +10,7 @@
 #include "model/engine/packed/matrix.h"
 
 // The packed engine's kernels against the same in double.
-namespace choreo {
-namespace {
+namespace choreo::packed_kernels_test {
 
 std::vector<const PackedKernels*> AllKernels() {
   std::vector<const PackedKernels*> all(PackedKernelsHere().begin(), PackedKernelsHere().end());
@@ -123,5 +122,4 @@ TEST_P(PackedKernelsTest, RowsAreNormalisedWhateverTheirLength) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::packed_kernels_test

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace choreo {
-namespace {
+namespace choreo::scheduler_chain_test {
 
 using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAre;
@@ -105,5 +104,4 @@ TEST_F(SchedulerTest, OnlyTheFirstFollowUpInherits) {
                                          ElementsAre(50), ElementsAre(3)));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::scheduler_chain_test

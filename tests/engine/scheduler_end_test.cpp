@@ -1,7 +1,6 @@
 #include "tests/engine/scheduler_fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::scheduler_end_test {
 
 TEST_F(SchedulerTest, CancellingARunningJobGivesItsSlotToTheNext) {
   Start(1);
@@ -144,5 +143,4 @@ TEST_F(SchedulerTest, DestructionEndsEveryJobOnce) {
   EXPECT_EQ(waiting->failure(), ErrorCode::kUnavailable);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::scheduler_end_test

@@ -5,8 +5,7 @@
 
 #include "tests/engine/scheduler_fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::scheduler_room_test {
 
 using std::chrono::milliseconds;
 using ::testing::Contains;
@@ -191,5 +190,4 @@ TEST(SchedulerLoadTest, FollowsFromWhatTheWarmUpMeasured) {
   EXPECT_EQ(unknown.LoadOf(1e6), 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::scheduler_room_test

@@ -6,8 +6,7 @@
 #include "tests/engine/fake_job.h"
 #include "tests/support/fake_engine.h"
 
-namespace choreo {
-namespace {
+namespace choreo::scheduler_stress_test {
 
 // Throws now and then, as a device may.
 class FlakyEngine : public FakeEngine {
@@ -106,5 +105,4 @@ TEST(SchedulerStressTest, EveryAcceptedJobEndsExactlyOnce) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::scheduler_stress_test

@@ -4,8 +4,7 @@
 
 #include <set>
 
-namespace choreo {
-namespace {
+namespace choreo::scheduler_test {
 
 using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAre;
@@ -253,5 +252,4 @@ TEST_F(SchedulerTest, OutputsAreTheSameAloneAndAmongFifteenOthers) {
   EXPECT_NE(crowd[0]->frames()[5].pose.rotations, alone->frames()[5].pose.rotations);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::scheduler_test

@@ -10,8 +10,7 @@
 #include "tests/engine/engine_dances.h"
 
 // What every checkpoint in model/checkpoints is, whatever network is in it.
-namespace choreo {
-namespace {
+namespace choreo::shipped_checkpoints_test {
 
 constexpr std::uintmax_t kLargest = 16'000'000;  // bytes
 
@@ -66,5 +65,4 @@ TEST(ShippedCheckpoints, TheLicenceNamesTheTermsOfAllThatAModelWentOnFrom) {
   EXPECT_GT(runs, 1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::shipped_checkpoints_test

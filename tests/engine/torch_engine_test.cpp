@@ -15,8 +15,7 @@
 #include "tests/engine/engine_dances.h"
 #include "tests/support/load_checkpoint.h"
 
-namespace choreo {
-namespace {
+namespace choreo::torch_engine_test {
 
 // The torch engine against the module that is trained.
 class TorchEngineTest : public testing::TestWithParam<Shape> {
@@ -148,5 +147,4 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::torch_engine_test

@@ -5,8 +5,7 @@
 
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::transition_window_test {
 
 using testing::Each;
 
@@ -48,5 +47,4 @@ TEST(TransitionWindowTest, KeepsMusicFromANetworkThatLearntWithout) {
   EXPECT_THAT(Heard(Model(false)), Each(0));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::transition_window_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/fake_engine.h"
 
-namespace choreo {
-namespace {
+namespace choreo::warm_up_test {
 
 class CountingEngine final : public FakeEngine {
  public:
@@ -48,6 +47,22 @@ TEST(WarmUp, MeasuresAStepAloneAndTogether) {
   EXPECT_EQ(engine.cost().slots, 4);
 }
 
+// With beats transitions of `default` take twice as long, and most have them.
+TEST(WarmUp, CountsWhatBeatsCost) {
+  class GuidedEngine final : public FakeEngine {
+   public:
+    using FakeEngine::FakeEngine;
+    int Admit(const TransitionSpec& spec) override {
+      if (spec.beats.empty()) ++unguided;
+      return FakeEngine::Admit(spec);
+    }
+    int unguided = 0;
+  };
+  GuidedEngine engine(2);
+  WarmUp(engine);
+  EXPECT_EQ(engine.unguided, 0);
+}
+
 TEST(FrameCost, FollowsTheMachine) {
   FrameCost cost({.admission = 0, .alone = 1e-3, .together = 1e-3, .slots = 4}, 4);
   EXPECT_NEAR(cost.LoadOf(30, 30), 30e-3, 1e-9);
@@ -66,5 +81,4 @@ TEST(FrameCost, TransitionsWithoutAFrameCountAsOne) {
   EXPECT_NEAR(cost.LoadOf(1, 30), 2e-3, 1e-6);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::warm_up_test

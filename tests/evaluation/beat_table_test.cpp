@@ -6,8 +6,7 @@
 
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::beat_table_test {
 
 TEST(ScoreBeats, CountsMaximaAtMostTwoFramesOff) {
   std::vector<float> speeds;
@@ -48,5 +47,4 @@ TEST(BeatTable, ADanceOnItsSongsBeatsIsAboveChance) {
   EXPECT_EQ(cells[5].value, 1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::beat_table_test

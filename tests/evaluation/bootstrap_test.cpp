@@ -8,8 +8,7 @@
 
 #include "model/evaluation/table.h"
 
-namespace choreo {
-namespace {
+namespace choreo::bootstrap_test {
 
 TEST(Bootstrap, EqualClipsLeaveNoDoubt) {
   const std::vector<double> above = {1, 2, 3}, below = {2, 4, 6};
@@ -53,5 +52,4 @@ TEST(Bootstrap, ARatioOfNothingIsNone) {
   EXPECT_TRUE(std::isnan(Ratio({{0, 1}}, {}).value));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::bootstrap_test

@@ -11,8 +11,7 @@
 #include "tests/support/fake_engine.h"
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::control_tables_test {
 
 using testing_support::SyntheticClip;
 
@@ -231,5 +230,4 @@ TEST_F(ControlTablesTest, OfAModelThatTakesNoneThereAreNone) {
   EXPECT_TRUE(Evaluate(set_, {{"model", Method::Kind::kEngine, &plain_}}, options_).empty());
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::control_tables_test

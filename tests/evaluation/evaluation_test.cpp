@@ -15,8 +15,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::evaluation_test {
 
 using testing_support::SyntheticClip;
 
@@ -208,5 +207,4 @@ TEST(SetNames, AreThoseOfFoldersEachOnce) {
   ExpectError(ErrorCode::kInvalidArgument, "--data", [] { SetNames({"old/a", "new/a"}); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::evaluation_test

@@ -13,8 +13,7 @@
 #include "tests/support/fake_engine.h"
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::liveliness_test {
 
 using testing_support::SyntheticClip;
 
@@ -186,5 +185,4 @@ TEST(Liveliness, ClipsThatAreTooShortLeaveRowsOut) {
   EXPECT_TRUE(std::isfinite(Value(tables[0], "free: frozen %", "danced")));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::liveliness_test

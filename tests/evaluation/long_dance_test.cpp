@@ -13,8 +13,7 @@
 #include "tests/support/fake_engine.h"
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::long_dance_test {
 
 using testing_support::SyntheticClip;
 
@@ -53,6 +52,19 @@ TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
     for (size_t t = 0; t < 300; ++t)
       ASSERT_EQ(alone.poses[t].rotations, danced[i].poses[t].rotations);
   }
+}
+
+// As a stream's does, whose last transition is cut, not shortened.
+TEST(DanceLong, OneThatEndsEarlierIsTheBeginning) {
+  const ClipSet set = Clips(false);
+  FakeEngine engine(1);
+  LongPlan plan = PlanLongDances(engine.model(), set, KeyTimes::kNone, 1, Short()).front();
+  const LongDance whole = Runner().DanceLong(engine, {&plan, 1}).front();
+  plan.frames = 200;  // in the middle of a transition
+  const LongDance part = Runner().DanceLong(engine, {&plan, 1}).front();
+  ASSERT_EQ(part.poses.size(), 200U);
+  for (size_t t = 0; t < 200; ++t)
+    ASSERT_EQ(part.poses[t].rotations, whole.poses[t].rotations) << t;
 }
 
 TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
@@ -279,5 +291,4 @@ TEST(EvaluateStress, WarnsOfWhatNobodyCanDoAndMeetsItsKeys) {
   EXPECT_GT(row({"no key", "30"})[5].value, 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::long_dance_test

@@ -12,8 +12,7 @@
 #include "tests/support/fake_engine.h"
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::motion_encoder_test {
 
 using testing_support::SyntheticClip;
 
@@ -93,5 +92,4 @@ TEST(EvaluateEncoded, RealMotionIsNearestAndSeedsVaryOnlyWithNoise) {
   EXPECT_EQ(EvaluateEncoded(evaluation).front().rows[2].cells[1].value, 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::motion_encoder_test

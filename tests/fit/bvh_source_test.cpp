@@ -11,8 +11,7 @@
 #include "model/motion/rotation.h"
 #include "tests/fit/fit_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::bvh_source_test {
 
 using fixtures::Dance;
 
@@ -204,5 +203,4 @@ TEST(BvhSource, NamesTheJointThatIsMissing) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::bvh_source_test

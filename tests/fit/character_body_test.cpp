@@ -11,8 +11,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/proportions.h"
 
-namespace choreo {
-namespace {
+namespace choreo::character_body_test {
 
 using fixtures::Rigged;
 using testing_support::ChildBody;
@@ -93,5 +92,4 @@ TEST(CharacterBody, RefusesWhatIsNoBody) {
   refuse("stand in one place", all, Eigen::Matrix3Xd::Zero(3, 24));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::character_body_test

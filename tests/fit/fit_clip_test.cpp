@@ -9,8 +9,7 @@
 #include "tests/fit/fit_fixtures.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::fit_clip_test {
 
 using fixtures::Positions;
 
@@ -75,5 +74,4 @@ TEST(Fit, NamesWhatIsMissing) {
   EXPECT_THROW(fitter.Next(Eigen::Matrix3Xd::Zero(3, 23)), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::fit_clip_test

@@ -8,8 +8,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/proportions.h"
 
-namespace choreo {
-namespace {
+namespace choreo::guess_bones_test {
 
 using testing_support::ChildBody;
 using testing_support::LongLegs;
@@ -42,5 +41,4 @@ TEST(GuessBones, GuessesNothingOfWhatIsNoBody) {
   EXPECT_NE(MissingBone(GuessBones({}, Eigen::Matrix3Xd(3, 0), {})), "");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::guess_bones_test

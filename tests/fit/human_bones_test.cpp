@@ -4,8 +4,7 @@
 
 #include <sstream>
 
-namespace choreo {
-namespace {
+namespace choreo::human_bones_test {
 
 std::vector<std::string> Words(const std::string& text) {
   std::istringstream words(text);
@@ -170,5 +169,4 @@ TEST(HumanBones, NamesThatSayNothingAreNoBones) {
   EXPECT_TRUE(FindHumanBones({}).bones.empty());
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::human_bones_test

@@ -5,8 +5,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::inverse_kinematics_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -99,5 +98,4 @@ TEST(DrawJoints, MeetsSeveralAtOnce) {
   ExpectSoundLimbs(drawn.pose);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::inverse_kinematics_test

@@ -9,8 +9,7 @@
 #include "model/core/error.h"
 #include "model/fit/recorded_floor.h"
 
-namespace choreo {
-namespace {
+namespace choreo::position_clip_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -166,5 +165,4 @@ TEST(Clip, RefusesRaggedAndNonFiniteFrames) {
   EXPECT_THROW(ValidateClip(clip), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::position_clip_test

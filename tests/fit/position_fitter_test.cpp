@@ -13,8 +13,7 @@
 #include "tests/fit/fit_fixtures.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::position_fitter_test {
 
 using fixtures::Positions;
 
@@ -240,5 +239,4 @@ TEST(Fit, UnwindsATrunk) {
   EXPECT_LT((JointPositions(Smpl(), pose) - targets).colwise().norm().maxCoeff(), 0.001);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::position_fitter_test

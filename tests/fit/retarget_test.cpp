@@ -8,8 +8,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/native_tang2018.h"
 
-namespace choreo {
-namespace {
+namespace choreo::retarget_test {
 
 using testing_support::Native;
 
@@ -95,5 +94,4 @@ TEST(SkeletonJson, ComesBackAsItWas) {
               [&] { SkeletonFromJson(SkeletonToJson(broken)); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::retarget_test

@@ -12,8 +12,7 @@
 #include "tests/fit/fit_fixtures.h"
 #include "tests/support/tang2018_markers.h"
 
-namespace choreo {
-namespace {
+namespace choreo::sources_test {
 
 using fixtures::Dance;
 
@@ -105,5 +104,4 @@ TEST(SourceMapping, IsCheckedAgainstOurSkeleton) {
   EXPECT_THROW(PositionFitter(Smpl(), SourceMapping{}), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::sources_test

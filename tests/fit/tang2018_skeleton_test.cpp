@@ -9,8 +9,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/native_tang2018.h"
 
-namespace choreo {
-namespace {
+namespace choreo::tang2018_skeleton_test {
 
 using testing_support::Native;
 using testing_support::RecordNative;
@@ -97,5 +96,4 @@ TEST(Tang2018Skeleton, RefusesWhatIsNoRecordingOfIt) {
               [&] { MeasureTang2018(std::span(&clip, 1)); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::tang2018_skeleton_test

@@ -12,8 +12,7 @@
 #include "tests/fit/fit_fixtures.h"
 #include "tests/support/proportions.h"
 
-namespace choreo {
-namespace {
+namespace choreo::transfer_test {
 
 using fixtures::Rigged;
 using testing_support::ChildBody;
@@ -191,5 +190,4 @@ TEST(Transfer, OneSpineBoneBendsAsMuchAsThree) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::transfer_test

@@ -11,8 +11,7 @@
 #include "model/core/error.h"
 #include "tests/support/load_checkpoint.h"
 
-namespace choreo {
-namespace {
+namespace choreo::checkpoint_test {
 
 using testing::HasSubstr;
 
@@ -100,5 +99,4 @@ TEST_F(CheckpointTest, AForeignFileIsRefused) {
   EXPECT_THAT(FailureOfLoading(), HasSubstr("no such file"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::checkpoint_test

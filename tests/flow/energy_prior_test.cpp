@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace choreo {
-namespace {
+namespace choreo::energy_prior_test {
 
 using Levels = EnergyPrior::Levels;
 
@@ -93,5 +92,4 @@ TEST(EnergyPrior, WindowsOfOtherLengthsMayCountOtherwise) {
   EXPECT_NEAR(trunk(30), 0.5, 1e-12);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::energy_prior_test

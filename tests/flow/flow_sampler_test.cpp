@@ -7,8 +7,7 @@
 #include "model/motion/rotation.h"
 #include "tests/flow/flow_scene.h"
 
-namespace choreo {
-namespace {
+namespace choreo::flow_sampler_test {
 
 // It has learnt nothing: dances are the prior's.
 class Silent : public FlowNetwork {
@@ -271,5 +270,4 @@ TEST(KnownOfEnergy, TellsNothingOfWhatAKeyLeavesOpen) {
       << "a forearm is something";
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::flow_sampler_test

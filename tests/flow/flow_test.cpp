@@ -7,8 +7,7 @@
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/rotation.h"
 
-namespace choreo {
-namespace {
+namespace choreo::flow_test {
 
 using torch::Tensor;
 
@@ -217,5 +216,4 @@ TEST(FlowPresets, HaveTheSizesThatTheyPromise) {
   EXPECT_THROW(FlowConfig::Preset("large"), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::flow_test

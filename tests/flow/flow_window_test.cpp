@@ -5,8 +5,7 @@
 #include "model/motion/rotation.h"
 #include "tests/flow/flow_scene.h"
 
-namespace choreo {
-namespace {
+namespace choreo::flow_window_test {
 
 TEST(FlowWindow, DecodesWhatItEncodes) {
   const Scene scene = MakeScene(40);
@@ -154,5 +153,4 @@ TEST(WindowFeatures, BeatsHaveAPhaseAndSlowOnesAreHalved) {
   EXPECT_FALSE(PhaseAt(std::vector<double>{3}, 3));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::flow_window_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::motion_prior_test {
 
 // Velocities whose covariance falls off as a Gaussian, as smooth motion's does.
 Eigen::MatrixXd SmoothCovariance() {
@@ -114,5 +113,4 @@ TEST(MotionPrior, WhatRecordingsLackIsToldInTheUnitsOfTheOthers) {
   EXPECT_NEAR(spread[8], others / 14, 1e-12);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::motion_prior_test

@@ -7,8 +7,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
-namespace choreo {
-namespace {
+namespace choreo::torch_kinematics_test {
 
 Pose RandomPose(const Skeleton& skeleton, Random* random) {
   Pose pose;
@@ -52,5 +51,4 @@ TEST(TorchKinematics, LogInvertsExpFromZeroToNearPi) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::torch_kinematics_test

@@ -12,8 +12,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::amass_npz_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -239,5 +238,4 @@ TEST(AmassNpz, RefusesWhatItCannotUse) {
   refuse("0 frames", Motion{}, nullptr);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::amass_npz_test

@@ -11,8 +11,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::bvh_test {
 
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
@@ -215,5 +214,4 @@ TEST(Bvh, SaysWhichFileIsMissing) {
   ExpectError(ErrorCode::kInvalidArgument, "0 frames", [&] { MotionToBvh(kSmpl, Motion{}); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::bvh_test

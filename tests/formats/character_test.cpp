@@ -7,8 +7,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/shell.h"
 
-namespace choreo {
-namespace {
+namespace choreo::character_test {
 
 using nlohmann::json;
 using testing_support::CharacterRig;
@@ -277,5 +276,4 @@ TEST_F(CharacterTest, RefusesFilesThatAreNone) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out.glb"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::character_test

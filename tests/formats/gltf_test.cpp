@@ -16,8 +16,7 @@
 #include "tests/support/mixamo_names.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::gltf_test {
 
 using nlohmann::json;
 using testing_support::Glb;
@@ -236,5 +235,4 @@ TEST_F(GltfTest, SurvivesTruncation) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::gltf_test

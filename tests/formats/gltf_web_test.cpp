@@ -9,8 +9,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::gltf_web_test {
 
 using nlohmann::json;
 
@@ -59,5 +58,4 @@ TEST(GltfWeb, KhronosAndThreeJsAgreeWithUs) {
   EXPECT_EQ(outcome.code, 0) << outcome.said;
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::gltf_web_test

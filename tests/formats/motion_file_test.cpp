@@ -15,8 +15,7 @@
 #include "tests/support/native_tang2018.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::motion_file_test {
 
 const Skeleton& kSmpl = Skeleton::Smpl24();
 
@@ -257,5 +256,4 @@ TEST(MotionFile, RefusesWithThePathInFront) {
               [&] { ReadMotion(folder / "box.bvh", kSmpl); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::motion_file_test

@@ -11,8 +11,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::npz_test {
 
 const std::filesystem::path kByNumpy =
     std::filesystem::path(CHOREO_TEST_DATA) / "amass_by_numpy.npz";
@@ -144,5 +143,4 @@ TEST(Npz, SaysWhereItCannotWrite) {
               [&] { Example().Write(folder / "absent/a.npz"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::npz_test

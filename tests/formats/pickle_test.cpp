@@ -9,8 +9,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::pickle_test {
 
 using namespace std::string_literals;
 
@@ -134,5 +133,4 @@ TEST(PickleTest, DamagedFilesAreRefusedOrRead) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::pickle_test

@@ -18,7 +18,7 @@
 namespace choreo::fuzz {
 namespace {
 
-constexpr unsigned kPatience = 60;  // seconds for one input: more is a hang
+constexpr unsigned kHangs = 60;  // seconds for one input: more is a hang
 constexpr size_t kLongest = 16'384;
 constexpr rlim_t kMemory = 1U << 30U;
 
@@ -111,7 +111,7 @@ class Mutator {
 };
 
 void Run(const Bytes& bytes) {
-  alarm(kPatience);  // its signal ends the program
+  alarm(kHangs);  // its signal ends the program
   LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
 }
 

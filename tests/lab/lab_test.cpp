@@ -14,8 +14,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::lab_test {
 
 using testing::HasSubstr;
 
@@ -238,5 +237,4 @@ TEST_F(LabEval, MeasuresAnyGroupOfTheSplitsFileAndNamesThemAll) {
   EXPECT_THAT(nowhere.said, HasSubstr("choreo-lab: /nope: no such folder"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::lab_test

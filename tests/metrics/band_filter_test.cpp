@@ -4,8 +4,7 @@
 
 #include "tests/metrics/moving_body.h"
 
-namespace choreo {
-namespace {
+namespace choreo::band_filter_test {
 
 using testing_support::Wave;
 
@@ -48,5 +47,4 @@ TEST(BandFilter, FiltersEachCoordinateOfATrack) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::band_filter_test

@@ -7,8 +7,7 @@
 #include "model/core/random.h"
 #include "tests/metrics/moving_body.h"
 
-namespace choreo {
-namespace {
+namespace choreo::critic_test {
 
 using testing_support::Wave;
 
@@ -68,5 +67,4 @@ TEST(Critic, JudgesNoClipThatItHasSeen) {
   EXPECT_TRUE(std::isnan(CriticArea(alone, beside)));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::critic_test

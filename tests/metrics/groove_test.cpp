@@ -5,8 +5,7 @@
 #include "tests/metrics/moving_body.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::groove_test {
 
 using testing_support::Carried;
 using testing_support::Wave;
@@ -75,5 +74,4 @@ TEST(Jerk, OfARecordingsNoiseIsFilteredOut) {
   EXPECT_NEAR(SmoothJerk(dance(0.002), 30) / SmoothJerk(dance(0), 30), 1, 0.1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::groove_test

@@ -5,8 +5,7 @@
 #include "tests/metrics/moving_body.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::speed_spectrum_test {
 
 using testing_support::Carried;
 using testing_support::Wave;
@@ -42,5 +41,4 @@ TEST(SpeedSpectrum, NeedsNineFrames) {
   });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::speed_spectrum_test

@@ -8,8 +8,7 @@
 #include "tests/metrics/moving_body.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::style_classifier_test {
 
 using testing_support::Wave;
 
@@ -59,5 +58,4 @@ TEST(StyleClassifier, WantsToHaveSeenEach) {
   ExpectError(ErrorCode::kInvalidArgument, "styles", [] { StyleClassifier(Dances(1), 4); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::style_classifier_test

@@ -8,8 +8,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::facing_pose_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -30,5 +29,4 @@ TEST(FacingPose, TurnsAreCountedFromTheNearestHeading) {
   EXPECT_NEAR(NearestTurn(7 * kPi + 0.5, 0), -kPi + 0.5, 1e-12);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::facing_pose_test

@@ -8,8 +8,7 @@
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::joint_angles_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -79,5 +78,4 @@ TEST(JointAngles, ErrorsNameJointValueAndRange) {
   refused("elbow", {1}, "--set: \"elbow\" is no joint of smpl24, which has pelvis, left_hip");
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::joint_angles_test

@@ -11,8 +11,7 @@
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::kinematics_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -243,5 +242,4 @@ TEST(Mirror, RefusesASideWithoutCounterpart) {
   EXPECT_THROW(MirrorPairs(skeleton), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::kinematics_test

@@ -8,8 +8,7 @@
 #include "model/core/random.h"
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::leg_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -181,5 +180,4 @@ TEST(Leg, ASkeletonWithoutLegsIsKnown) {
   EXPECT_FALSE(Leg::In(other));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::leg_test

@@ -11,8 +11,7 @@
 #include "model/motion/velocity.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::locomotion_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -200,5 +199,4 @@ TEST(JointJerkTest, IsTheThirdDerivative) {
   EXPECT_NEAR(JointJerk(at(0), at(0.1), at(0.2), at(0.3), 10), 6 * std::sqrt(5.0), 1e-9);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::locomotion_test

@@ -11,8 +11,7 @@
 #include "model/motion/velocity.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::pose_codec_test {
 
 const Skeleton& Smpl() { return Skeleton::Smpl24(); }
 
@@ -66,5 +65,4 @@ TEST(PoseCodec, RefusesOtherShapes) {
   EXPECT_THROW(codec.Decode(Eigen::VectorXf::Zero(81)), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::pose_codec_test

@@ -5,8 +5,7 @@
 
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::pose_faults_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -81,5 +80,4 @@ TEST(DanceFaults, NamesBodiesThatStayInTheAir) {
               ElementsAre("b: the body would be in the air for 2 s, since \"a\"; a jump takes 1"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::pose_faults_test

@@ -9,8 +9,7 @@
 #include "model/motion/motion.h"
 #include "tests/motion/motion_fixtures.h"
 
-namespace choreo {
-namespace {
+namespace choreo::rotation_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 1e-9;
@@ -203,5 +202,4 @@ TEST(Rotation, RightJacobianIsHowTheExponentialMapTurns) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::rotation_test

@@ -7,8 +7,7 @@
 #include "tests/motion/motion_fixtures.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::velocity_factors_test {
 
 class VelocityFactorsTest : public testing::Test {
  protected:
@@ -83,5 +82,4 @@ TEST_F(VelocityFactorsTest, RefuseABodyThatTheyDoNotKnow) {
               [&] { WeighBodyParts(root); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::velocity_factors_test

@@ -30,6 +30,13 @@ class PagesTest(unittest.TestCase):
                     elif anchor:
                         self.assertLessEqual(int(anchor.removeprefix("L")), len(target.read_text().splitlines()))
 
+    def test_files_in_code_exist(self):
+        """`model/dance/validation` and the like: files, folders, or a header with its source."""
+        for page in pages():
+            for name in re.findall(r"`((?:bench|client|docker|docs|examples|model|proto|scripts|server|studio|tests|tls)/[\w./]+)`", (ROOT / page).read_text()):
+                with self.subTest(page=page, name=name):
+                    self.assertTrue(any((ROOT / (name + end)).exists() for end in ("", ".h", ".cpp", ".sh", ".py")), "there is no such file")
+
     def test_every_page_is_led_to(self):
         led_to = {((ROOT / page).parent / link.partition("#")[0]).resolve() for page in pages() for link in links((ROOT / page).read_text())}
         for page in pages():

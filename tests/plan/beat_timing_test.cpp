@@ -7,8 +7,7 @@
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
 
-namespace choreo {
-namespace {
+namespace choreo::beat_timing_test {
 
 // A dancer who turns and walks on evenly: without timing she has no beats of her own.
 std::vector<Pose> EvenWalk(int frames) {
@@ -108,5 +107,4 @@ TEST(BeatTiming, AnEvenCurveStaysOnItself) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::beat_timing_test

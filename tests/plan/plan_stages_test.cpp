@@ -6,8 +6,7 @@
 
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::plan_stages_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -94,5 +93,4 @@ TEST(PlanStages, AllAreApplied) {
   EXPECT_GT((plan[30].rotations.col(16) - before[30].rotations.col(16)).norm(), 1e-3);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::plan_stages_test

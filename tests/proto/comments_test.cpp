@@ -7,8 +7,7 @@
 #include <vector>
 
 /// The .proto files are the API's manual: everything in them says what it is.
-namespace choreo {
-namespace {
+namespace choreo::comments_test {
 
 namespace pb = google::protobuf;
 
@@ -57,5 +56,4 @@ TEST(ProtoCommentsTest, EverythingSaysWhatItIs) {
   EXPECT_GT(seen, 150);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::comments_test

@@ -12,8 +12,7 @@
 
 #include "choreo/v1/choreography.pb.h"
 
-namespace choreo {
-namespace {
+namespace choreo::compatibility_test {
 
 using google::protobuf::DescriptorPool;
 using google::protobuf::DescriptorProto;
@@ -243,5 +242,4 @@ INSTANTIATE_TEST_SUITE_P(
                {"small.Dancer: removed"}}),
     Name);
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::compatibility_test

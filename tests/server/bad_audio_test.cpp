@@ -2,15 +2,14 @@
 
 #include "tests/server/bad_stream.h"
 
-namespace choreo {
-namespace {
+namespace choreo::bad_audio_test {
 
 INSTANTIATE_TEST_SUITE_P(
     Audio, BadStreamTest,
     testing::Values(
         BadStreamCase{
             "Gap",
-            [](const Key&) {
+            [](const KeyMessage&) {
               return Requests{MusicConfigRequest(), AudioRequest(100, 0), AudioRequest(100, 101)};
             },
             grpc::StatusCode::OUT_OF_RANGE,
@@ -18,14 +17,14 @@ INSTANTIATE_TEST_SUITE_P(
             {"101", "100"}},
         BadStreamCase{
             "Overlap",
-            [](const Key&) {
+            [](const KeyMessage&) {
               return Requests{MusicConfigRequest(), AudioRequest(100, 0), AudioRequest(100, 99)};
             },
             grpc::StatusCode::OUT_OF_RANGE,
             "audio.first_sample",
             {"99", "100"}},
         BadStreamCase{"LateStart",
-                      [](const Key&) {
+                      [](const KeyMessage&) {
                         v1::StreamDanceRequest config = MusicConfigRequest();
                         config.mutable_config()->mutable_audio_format()->set_first_sample(5000);
                         return Requests{config};
@@ -34,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "config.audio_format.first_sample",
                       {"5000", "0"}},
         BadStreamCase{"NaN",
-                      [](const Key&) {
+                      [](const KeyMessage&) {
                         v1::StreamDanceRequest audio = AudioRequest(100, 0);
                         const float nan = std::numeric_limits<float>::quiet_NaN();
                         audio.mutable_audio()->mutable_data()->replace(
@@ -45,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "audio.data",
                       {"nan", "42"}},
         BadStreamCase{"HalfASample",
-                      [](const Key&) {
+                      [](const KeyMessage&) {
                         v1::StreamDanceRequest audio = AudioRequest(100, 0);
                         audio.mutable_audio()->mutable_data()->pop_back();
                         return Requests{MusicConfigRequest(), audio};
@@ -54,27 +53,27 @@ INSTANTIATE_TEST_SUITE_P(
                       "audio.data",
                       {"399", "4 bytes"}},
         BadStreamCase{"WithoutFormat",
-                      [](const Key&) {
+                      [](const KeyMessage&) {
                         return Requests{ConfigRequest(), AudioRequest(100, 0)};
                       },
                       kInvalid,
                       "audio",
                       {"config.audio_format"}},
         BadStreamCase{"None",
-                      [](const Key&) { return Requests{MusicConfigRequest()}; },
+                      [](const KeyMessage&) { return Requests{MusicConfigRequest()}; },
                       kInvalid,
                       "audio",
                       {"without a sample"}},
         BadStreamCase{
             "EmptyPieces",
-            [](const Key&) {
+            [](const KeyMessage&) {
               return Requests{MusicConfigRequest(), AudioRequest(0, 0), AudioRequest(0, 0)};
             },
             kInvalid,
             "audio",
             {"without a sample"}},
         BadStreamCase{"TooLong",
-                      [](const Key&) {
+                      [](const KeyMessage&) {
                         v1::StreamDanceRequest config = MusicConfigRequest();
                         config.mutable_config()->mutable_audio_format()->set_sample_rate(8000);
                         Requests requests = {config};
@@ -91,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Music as a file, in one piece.
 auto WithFile(std::string bytes) {
-  return [bytes = std::move(bytes)](const Key&) {
+  return [bytes = std::move(bytes)](const KeyMessage&) {
     v1::StreamDanceRequest config = ConfigRequest();
     config.mutable_config()->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
     v1::StreamDanceRequest audio;
@@ -120,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
     File, BadStreamTest,
     testing::Values(
         BadStreamCase{"None",
-                      [](const Key&) { return Requests{WithFile("")({}).front()}; },
+                      [](const KeyMessage&) { return Requests{WithFile("")({}).front()}; },
                       kInvalid,
                       "audio",
                       {"0 bytes"}},
@@ -151,5 +150,4 @@ TEST_F(MessageLimitTest, OversizeMessagesAreRefused) {
   EXPECT_EQ(Dance({ConfigRequest(), key}).Join().count, 41);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::bad_audio_test

@@ -3,8 +3,7 @@
 
 #include "tests/server/bad_stream.h"
 
-namespace choreo {
-namespace {
+namespace choreo::bad_key_test {
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadStreamTest,
@@ -128,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "keyframes[0].mask.joints[0]",
                       {"24", "23"}},
         BadStreamCase{"TooClose",
-                      [](Key key) {
+                      [](KeyMessage key) {
                         Requests requests = {MusicConfigRequest(), key};
                         key.mutable_keyframe()->set_id("next");
                         key.mutable_keyframe()->set_frame(41);
@@ -139,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "keyframes[1].frame",
                       {"41", "40"}},
         BadStreamCase{"TwoIdsOnOneFrame",
-                      [](Key key) {
+                      [](KeyMessage key) {
                         Requests requests = {MusicConfigRequest(), key};
                         key.mutable_keyframe()->set_id("twin");
                         requests.push_back(key);
@@ -150,5 +149,4 @@ INSTANTIATE_TEST_SUITE_P(
                       {"40", "k"}}),
     NameOf);
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::bad_key_test

@@ -49,7 +49,7 @@ inline void PrintTo(const BadStreamCase& bad, std::ostream* out) { *out << bad.n
 class BadStreamTest : public ServerTest, public testing::WithParamInterface<BadStreamCase> {};
 
 inline constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
-using Key = v1::StreamDanceRequest;
+using KeyMessage = v1::StreamDanceRequest;
 
 /// For INSTANTIATE_TEST_SUITE_P: cases are known by their names.
 inline std::string NameOf(const testing::TestParamInfo<BadStreamCase>& info) {
@@ -59,14 +59,14 @@ inline std::string NameOf(const testing::TestParamInfo<BadStreamCase>& info) {
 // One bad key after a good configuration.
 template <class Change>
 auto WithKey(Change change) {
-  return [change](Key key) -> Requests {
+  return [change](KeyMessage key) -> Requests {
     change(*key.mutable_keyframe());
     return {ConfigRequest(), key};
   };
 }
 template <class Change>
 auto WithConfig(Change change) {
-  return [change](const Key& key) -> Requests {
+  return [change](const KeyMessage& key) -> Requests {
     v1::StreamDanceRequest config = ConfigRequest();
     change(*config.mutable_config());
     return {config, key};

@@ -2,8 +2,7 @@
 
 #include "tests/server/bad_stream.h"
 
-namespace choreo {
-namespace {
+namespace choreo::bad_stream_test {
 
 void FillContinuation(v1::Continuation* from) {
   from->set_skeleton("smpl24");
@@ -37,93 +36,95 @@ TEST_P(BadStreamTest, IsNamedAndTheServerGoesOn) {
 
 INSTANTIATE_TEST_SUITE_P(
     Order, BadStreamTest,
-    testing::Values(
-        BadStreamCase{
-            "Nothing", [](const Key&) { return Requests{}; }, kInvalid, "config", {"missing"}},
-        BadStreamCase{"NoConfig",
-                      [](const Key& key) { return Requests{key}; },
-                      kInvalid,
-                      "config",
-                      {"missing", "first"}},
-        BadStreamCase{"TwoConfigs",
-                      [](const Key&) {
-                        return Requests{ConfigRequest(), ConfigRequest()};
-                      },
-                      kInvalid,
-                      "config",
-                      {"once"}},
-        BadStreamCase{"EmptyMessage",
-                      [](const Key&) {
-                        return Requests{ConfigRequest(), v1::StreamDanceRequest()};
-                      },
-                      kInvalid,
-                      "request",
-                      {"empty"}},
-        BadStreamCase{"HalfCloseAfterConfig",
-                      [](const Key&) { return Requests{ConfigRequest()}; },
-                      kInvalid,
-                      "keyframes_complete",
-                      {"no end"}},
-        BadStreamCase{"KeysAfterComplete",
-                      [](const Key& key) {
-                        v1::StreamDanceRequest complete;
-                        complete.mutable_keyframes_complete();
-                        v1::StreamDanceRequest config = MusicConfigRequest();
-                        return Requests{config, key, complete, key};
-                      },
-                      kInvalid,
-                      "keyframes[1]",
-                      {"keyframes_complete"}},
-        BadStreamCase{"NoBeats",
-                      [](const Key&) {
-                        v1::StreamDanceRequest beats;
-                        beats.mutable_music_beats();
-                        return Requests{ConfigRequest(), beats};
-                      },
-                      kInvalid,
-                      "music_beats[0].times",
-                      {"empty"}},
-        BadStreamCase{"BeatsBackwards",
-                      [](const Key&) {
-                        v1::StreamDanceRequest beats, back;
-                        beats.mutable_music_beats()->add_times(1);
-                        back.mutable_music_beats()->add_times(3);
-                        back.mutable_music_beats()->add_times(2.5);
-                        return Requests{ConfigRequest(), beats, back};
-                      },
-                      kInvalid,
-                      "music_beats[1].times[1]",
-                      {"2.5 s", "3 s"}},
-        BadStreamCase{"GenerateUntilBackwards",
-                      [](const Key&) {
-                        v1::StreamDanceRequest until;
-                        until.mutable_generate_until()->set_frame(50);
-                        v1::StreamDanceRequest back;
-                        back.mutable_generate_until()->set_frame(40);
-                        return Requests{ConfigRequest(), until, back};
-                      },
-                      kInvalid,
-                      "generate_until.frame",
-                      {"40", "50"}},
-        BadStreamCase{"RemovedIdThatNeverWas",
-                      [](const Key& key) {
-                        v1::StreamDanceRequest remove;
-                        remove.mutable_remove_keyframe()->set_id("ghost");
-                        return Requests{ConfigRequest(), key, remove};
-                      },
-                      grpc::StatusCode::NOT_FOUND,
-                      "remove_keyframes[0].id",
-                      {"ghost"}},
-        BadStreamCase{"RemovedTwice",
-                      [](const Key& key) {
-                        v1::StreamDanceRequest until, remove;
-                        until.mutable_generate_until()->set_frame(10);
-                        remove.mutable_remove_keyframe()->set_id("k");
-                        return Requests{ConfigRequest(), until, key, remove, remove};
-                      },
-                      grpc::StatusCode::NOT_FOUND,
-                      "remove_keyframes[1].id",
-                      {"\"k\""}}),
+    testing::Values(BadStreamCase{"Nothing",
+                                  [](const KeyMessage&) { return Requests{}; },
+                                  kInvalid,
+                                  "config",
+                                  {"missing"}},
+                    BadStreamCase{"NoConfig",
+                                  [](const KeyMessage& key) { return Requests{key}; },
+                                  kInvalid,
+                                  "config",
+                                  {"missing", "first"}},
+                    BadStreamCase{"TwoConfigs",
+                                  [](const KeyMessage&) {
+                                    return Requests{ConfigRequest(), ConfigRequest()};
+                                  },
+                                  kInvalid,
+                                  "config",
+                                  {"once"}},
+                    BadStreamCase{"EmptyMessage",
+                                  [](const KeyMessage&) {
+                                    return Requests{ConfigRequest(), v1::StreamDanceRequest()};
+                                  },
+                                  kInvalid,
+                                  "request",
+                                  {"empty"}},
+                    BadStreamCase{"HalfCloseAfterConfig",
+                                  [](const KeyMessage&) { return Requests{ConfigRequest()}; },
+                                  kInvalid,
+                                  "keyframes_complete",
+                                  {"no end"}},
+                    BadStreamCase{"KeysAfterComplete",
+                                  [](const KeyMessage& key) {
+                                    v1::StreamDanceRequest complete;
+                                    complete.mutable_keyframes_complete();
+                                    v1::StreamDanceRequest config = MusicConfigRequest();
+                                    return Requests{config, key, complete, key};
+                                  },
+                                  kInvalid,
+                                  "keyframes[1]",
+                                  {"keyframes_complete"}},
+                    BadStreamCase{"NoBeats",
+                                  [](const KeyMessage&) {
+                                    v1::StreamDanceRequest beats;
+                                    beats.mutable_music_beats();
+                                    return Requests{ConfigRequest(), beats};
+                                  },
+                                  kInvalid,
+                                  "music_beats[0].times",
+                                  {"empty"}},
+                    BadStreamCase{"BeatsBackwards",
+                                  [](const KeyMessage&) {
+                                    v1::StreamDanceRequest beats, back;
+                                    beats.mutable_music_beats()->add_times(1);
+                                    back.mutable_music_beats()->add_times(3);
+                                    back.mutable_music_beats()->add_times(2.5);
+                                    return Requests{ConfigRequest(), beats, back};
+                                  },
+                                  kInvalid,
+                                  "music_beats[1].times[1]",
+                                  {"2.5 s", "3 s"}},
+                    BadStreamCase{"GenerateUntilBackwards",
+                                  [](const KeyMessage&) {
+                                    v1::StreamDanceRequest until;
+                                    until.mutable_generate_until()->set_frame(50);
+                                    v1::StreamDanceRequest back;
+                                    back.mutable_generate_until()->set_frame(40);
+                                    return Requests{ConfigRequest(), until, back};
+                                  },
+                                  kInvalid,
+                                  "generate_until.frame",
+                                  {"40", "50"}},
+                    BadStreamCase{"RemovedIdThatNeverWas",
+                                  [](const KeyMessage& key) {
+                                    v1::StreamDanceRequest remove;
+                                    remove.mutable_remove_keyframe()->set_id("ghost");
+                                    return Requests{ConfigRequest(), key, remove};
+                                  },
+                                  grpc::StatusCode::NOT_FOUND,
+                                  "remove_keyframes[0].id",
+                                  {"ghost"}},
+                    BadStreamCase{"RemovedTwice",
+                                  [](const KeyMessage& key) {
+                                    v1::StreamDanceRequest until, remove;
+                                    until.mutable_generate_until()->set_frame(10);
+                                    remove.mutable_remove_keyframe()->set_id("k");
+                                    return Requests{ConfigRequest(), until, key, remove, remove};
+                                  },
+                                  grpc::StatusCode::NOT_FOUND,
+                                  "remove_keyframes[1].id",
+                                  {"\"k\""}}),
     NameOf);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -270,5 +271,4 @@ INSTANTIATE_TEST_SUITE_P(
                       {"nan", "10000"}}),
     NameOf);
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::bad_stream_test

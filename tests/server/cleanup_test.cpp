@@ -10,8 +10,7 @@
 #include <grpcpp/security/credentials.h>
 
 /// However a call ends, all that it had comes back: its place, its slots, threads and descriptors.
-namespace choreo {
-namespace {
+namespace choreo::cleanup_test {
 
 using std::chrono::milliseconds;
 
@@ -158,5 +157,4 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(NameOf(std::get<0>(of.param))) + NameOf(std::get<1>(of.param));
     });
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::cleanup_test

@@ -10,8 +10,7 @@
 #include "model/core/error.h"
 #include "server/config_flags.h"
 
-namespace choreo {
-namespace {
+namespace choreo::config_test {
 
 CommandLine Parse(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "choreod");
@@ -220,5 +219,4 @@ TEST(ServerConfigTest, ACertificateNeedsItsKey) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::config_test

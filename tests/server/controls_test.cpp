@@ -6,8 +6,7 @@
 
 #include "tests/server/fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::controls_test {
 
 using testing::HasSubstr;
 
@@ -358,5 +357,4 @@ INSTANTIATE_TEST_SUITE_P(
                     ".velocity_factors.speeds: and factors exclude each other"}),
     [](const auto& suite) { return std::string(suite.param.name); });
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::controls_test

@@ -10,8 +10,7 @@
 #include "model/core/error.h"
 #include "model/motion/rotation.h"
 
-namespace choreo {
-namespace {
+namespace choreo::convert_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -127,5 +126,4 @@ TEST(ConvertTest, PcmInBothEncodings) {
   EXPECT_THROW(ToSamples(std::string(12, '\0'), format, "audio"), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::convert_test

@@ -11,8 +11,7 @@
 #include "tests/server/fixture.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::decoding_test {
 
 class DecodingTest : public ServerTest {
  protected:
@@ -109,5 +108,4 @@ TEST_F(DecodingTest, AFileThatSaysThatItIsTooMuchIsRefusedAtOnce) {
   EXPECT_THAT(answer.status.error_message(), testing::HasSubstr("8 channels at 191999 Hz"));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::decoding_test

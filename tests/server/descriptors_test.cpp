@@ -13,8 +13,7 @@
 #include "server/listener.h"
 #include "tests/server/silent_connections.h"
 
-namespace choreo {
-namespace {
+namespace choreo::descriptors_test {
 
 using cli::LocalServer;
 
@@ -120,5 +119,4 @@ TEST(ListenerTest, HandsConnectionsOnUntilItStops) {
   EXPECT_TRUE(Eventually([&] { return early.Closed() + later.Closed() == 4; }));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::descriptors_test

@@ -5,8 +5,7 @@
 
 /// The answer is a function of the ordered messages: not of the load, of how music is cut, of when
 /// a message comes, nor of where a dance was taken up.
-namespace choreo {
-namespace {
+namespace choreo::determinism_test {
 
 class DeterminismTest : public ServerTest {
  protected:
@@ -151,5 +150,4 @@ TEST_F(DeterminismTest, ResumedItIsTheSame) {
                          all.root_positions.begin() + std::ptrdiff_t{31} * 3));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::determinism_test

@@ -9,8 +9,7 @@
 
 #include "tests/server/fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::disorder_test {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
@@ -214,5 +213,4 @@ TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
             << " of these twice and the same; the others were cancelled, or told what is wrong\n";
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::disorder_test

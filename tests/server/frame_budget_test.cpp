@@ -6,8 +6,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_engine.h"
 
-namespace choreo {
-namespace {
+namespace choreo::frame_budget_test {
 
 /// Two models on one engine each, of which each has time for 20 dances: 10 of both.
 class FrameBudgetTest : public ::testing::Test {
@@ -91,5 +90,4 @@ TEST_F(FrameBudgetTest, AboveOneNobodyIsRefused) {
   EXPECT_NEAR(budget.loads()["fake"], 10, 1e-9);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::frame_budget_test

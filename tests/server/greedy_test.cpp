@@ -14,8 +14,7 @@
 
 /// One client that takes all that it can get of something, beside nine that dance in real time from
 /// another address. CHOREO_FAULT_SECONDS makes it longer.
-namespace choreo {
-namespace {
+namespace choreo::greedy_test {
 
 constexpr int kDancers = 9;
 
@@ -170,5 +169,4 @@ INSTANTIATE_TEST_SUITE_P(Beside, GreedyTest,
                                          Greed{"Connections", TakeConnections}),
                          [](const auto& of) { return of.param.name; });
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::greedy_test

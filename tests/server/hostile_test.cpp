@@ -15,8 +15,7 @@
 #include "tests/support/setting.h"
 
 /// Clients that speak HTTP/2 to do harm, and those who are served meanwhile.
-namespace choreo {
-namespace {
+namespace choreo::hostile_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -215,5 +214,4 @@ TEST_F(HostileTest, ConnectionsThatSayNothingHoldUpNobody) {
             << std::chrono::duration<double>(Clock::now() - begin).count() << " s\n";
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::hostile_test

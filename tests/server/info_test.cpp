@@ -13,8 +13,7 @@
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
 
-namespace choreo {
-namespace {
+namespace choreo::info_test {
 
 // Health and reflection are called with raw bytes: their messages are not ours to generate.
 std::string CallRaw(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
@@ -263,5 +262,4 @@ TEST_F(InfoTest, ReflectionListsTheService) {
   EXPECT_NE(answer.find("grpc.health.v1.Health"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::info_test

@@ -10,8 +10,7 @@
 #include "tests/server/fixture.h"
 #include "tests/support/sanitizers.h"
 
-namespace choreo {
-namespace {
+namespace choreo::lifecycle_test {
 
 using std::chrono::milliseconds;
 
@@ -332,5 +331,4 @@ TEST_F(LifecycleTest, AServerMayGoWithCallsInProgress) {
   EXPECT_FALSE(client->Finish().status.ok());
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::lifecycle_test

@@ -7,8 +7,7 @@
 #include "tests/server/raw_call.h"
 
 /// What is refused as it stands on the wire.
-namespace choreo {
-namespace {
+namespace choreo::limits_test {
 
 using testing::HasSubstr;
 
@@ -174,5 +173,4 @@ TEST_F(LimitsTest, AConnectionHasSoManyCalls) {
   EXPECT_THAT(settings, HasSubstr(streams));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::limits_test

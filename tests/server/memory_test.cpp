@@ -13,8 +13,7 @@
 
 /// What hostile clients make a server take of memory. It runs in a process of its own, whose peak
 /// is the server's alone; figures are printed.
-namespace choreo {
-namespace {
+namespace choreo::memory_test {
 
 constexpr int64_t kMiB = 1 << 20;
 
@@ -122,5 +121,4 @@ TEST_F(MemoryTest, MessagesThatNeverEnd) {
   EXPECT_TRUE(RawCall(channel_, "GetServerInfo", "").ok()) << "others are served";
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::memory_test

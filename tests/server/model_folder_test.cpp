@@ -9,8 +9,7 @@
 #include "tests/support/expect_error.h"
 
 // Which files of a folder of models are served.
-namespace choreo {
-namespace {
+namespace choreo::model_folder_test {
 
 TEST_F(ReloadTest, AFileThatCannotBeUsedLeavesWhatWasServed) {
   Write("a.safetensors", "a 1");
@@ -141,5 +140,4 @@ TEST_F(ReloadTest, AFolderThatCannotBeServedIsNoStart) {
   ExpectError(ErrorCode::kInvalidArgument, "Not a directory", [&] { file.Load(); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::model_folder_test

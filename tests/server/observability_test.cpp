@@ -22,8 +22,7 @@
 #include "tests/support/sanitizers.h"
 
 /// What others see of a server: figures for Prometheus, and the lines of its log.
-namespace choreo {
-namespace {
+namespace choreo::observability_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -346,5 +345,4 @@ TEST_F(LogTest, WhatIsNoTraceparentIsLeftOut) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::observability_test

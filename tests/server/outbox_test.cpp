@@ -7,8 +7,7 @@
 
 #include "choreo/v1/choreography.pb.h"
 
-namespace choreo {
-namespace {
+namespace choreo::outbox_test {
 
 using Response = v1::StreamDanceResponse;
 
@@ -161,5 +160,4 @@ TEST_F(OutboxTest, AHoldDefersTheEnd) {
   EXPECT_TRUE(wire.status);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::outbox_test

@@ -8,8 +8,7 @@
 #include "tests/support/setting.h"
 
 /// Four times the dances that an engine has time for. CHOREO_FAULT_SECONDS makes it longer.
-namespace choreo {
-namespace {
+namespace choreo::overload_test {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
@@ -125,5 +124,4 @@ TEST_F(OverloadTest, WhoIsAdmittedDancesAndTheOthersAreToldWhenToComeBack) {
             << " s somebody new is admitted\n";
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::overload_test

@@ -4,8 +4,7 @@
 #include "tests/support/turning_engine.h"
 
 /// Poses as they stand on the wire.
-namespace choreo {
-namespace {
+namespace choreo::poses_test {
 
 /// From its 20th frame on farther away than a float can tell.
 class LostEngine final : public FakeEngine {
@@ -63,5 +62,4 @@ TEST_F(PosesTest, QuaternionsKeepTheirSignsThroughWholeTurns) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::poses_test

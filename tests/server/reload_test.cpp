@@ -7,8 +7,7 @@
 #include "tests/server/reload_fixture.h"
 
 // What dances see of models that come in place of theirs.
-namespace choreo {
-namespace {
+namespace choreo::reload_test {
 
 TEST_F(ReloadTest, ADanceKeepsTheModelThatItBeganWith) {
   Write("a.safetensors", "a 1");
@@ -130,5 +129,4 @@ TEST_F(ReloadTest, AServerMayGoWhileAFormerModelIsDanced) {
   ExpectAlive(0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::reload_test

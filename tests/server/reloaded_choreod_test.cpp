@@ -13,8 +13,7 @@
 #include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::reloaded_choreod_test {
 
 /// choreod itself, and its signals.
 class ReloadedChoreodTest : public testing::Test {
@@ -133,5 +132,4 @@ TEST_F(ReloadedChoreodTest, LeavesWithZeroWhileItIsHungUp) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::reloaded_choreod_test

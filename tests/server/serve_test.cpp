@@ -17,8 +17,7 @@
 #include "tests/support/temporary_folder.h"
 
 /// How a choreod leaves that is asked to, whatever it does at that moment.
-namespace choreo {
-namespace {
+namespace choreo::serve_test {
 
 using testing::HasSubstr;
 
@@ -149,5 +148,4 @@ TEST_F(ServeTest, GoesOnWhereNobodyReadsItsLogAnyMore) {
   EXPECT_THAT(End().said, testing::Not(HasSubstr("StreamDance")));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::serve_test

@@ -15,8 +15,7 @@
 
 /// choreod as people start it, with checkpoints that it can't serve: it leaves at once, with one
 /// line that names the file, what is wrong in it and why.
-namespace choreo {
-namespace {
+namespace choreo::start_test {
 
 Outcome StartWith(const std::filesystem::path& checkpoint) {
   return Shell("'" CHOREOD_PROGRAM "' --log-level critical --listen 127.0.0.1:0 --checkpoint '" +
@@ -127,5 +126,4 @@ TEST_F(StartTest, ARunningServerOutlivesItsCheckpoint) {
   std::cout << "4 dances of " << wanted.size() << " frames, all as before\n";
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::start_test

@@ -9,8 +9,7 @@
 #include "server/call_registry.h"
 #include "tests/server/fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::starvation_test {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
@@ -267,5 +266,4 @@ TEST(CallRegistryTest, AddressesHaveTheirOwnPlaces) {
   EXPECT_TRUE(calls.WaitUntilEmpty(milliseconds(0)));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::starvation_test

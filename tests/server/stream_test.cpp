@@ -8,8 +8,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/server/fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::stream_test {
 
 class StreamTest : public ServerTest {
  protected:
@@ -400,5 +399,4 @@ TEST_F(StreamTest, WithoutASeedOneIsDrawnAndReported) {
   EXPECT_NE(seed(), seed());
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::stream_test

@@ -2,8 +2,7 @@
 
 #include "tests/server/fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::transition_test {
 
 class TransitionTest : public ServerTest {
  protected:
@@ -216,5 +215,4 @@ INSTANTIATE_TEST_SUITE_P(
                        kInvalid, "audio", ""}),
     [](const auto& suite) { return std::string(suite.param.name); });
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::transition_test

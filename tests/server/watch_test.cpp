@@ -8,8 +8,7 @@
 
 #include "tests/server/fixture.h"
 
-namespace choreo {
-namespace {
+namespace choreo::watch_test {
 
 TEST(WatchTest, GoesOnWhereMemoryWasOut) {
   std::atomic<int> looks = 0;
@@ -20,5 +19,4 @@ TEST(WatchTest, GoesOnWhereMemoryWasOut) {
   std::cout << looks << " looks, the first two without memory\n";
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::watch_test

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <atomic>
 #include <fstream>
 #include <optional>
 #include <thread>
@@ -19,8 +20,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo::studio {
-namespace {
+namespace choreo::studio::studio_test {
 
 using ::testing::HasSubstr;
 
@@ -43,6 +43,19 @@ class Opened {
   House house_;
   WebServer web_;
   std::thread thread_;
+};
+
+/// Makes no step while it is held.
+class HeldEngine final : public FakeEngine {
+ public:
+  explicit HeldEngine(const std::atomic<bool>& held) : held_(held) {}
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    held_.wait(true);
+    FakeEngine::Step(in, out);
+  }
+
+ private:
+  const std::atomic<bool>& held_;
 };
 
 class StudioTest : public testing::Test {
@@ -251,6 +264,23 @@ TEST_F(StudioTest, DancesAnIntervalAnew) {
   EXPECT_EQ(end.transition().summary().candidates(0).continuation().frame(), 50);
 }
 
+// What it asked for last is still being made, and can't be stopped.
+TEST_F(StudioTest, APageThatIsClosedHoldsUpNoOther) {
+  std::atomic<bool> held = true;
+  const TestServer slow(std::make_unique<HeldEngine>(held));
+  const Opened studio(slow.address());
+  std::optional<Page> page(std::in_place, studio.port());
+  Request request;
+  request.mutable_transition()->set_frames(20);
+  page->Say(2, request);
+  while (slow.transitions() == 0) std::this_thread::yield();
+  page.reset();
+  const Page other(studio.port());
+  held = false;
+  held.notify_all();
+  EXPECT_EQ(other.welcome().model().name(), "fake");
+}
+
 TEST_F(StudioTest, WritesAndOpensFiles) {
   const Opened studio(server_.address());
   Page page(studio.port());
@@ -332,7 +362,8 @@ TEST_F(StudioTest, RefusesMusicThatIsNone) {
   format->set_sample_rate(16000);
   format->set_channels(0);
   page.Say(2, config);
-  EXPECT_EQ(page.Read().failure().message(), "config.audio_format.channels: 0, must be 1 to 8");
+  EXPECT_EQ(page.Read().failure().message(),
+            "config.audio_format.channels: 0 is not within 1 to 8");
   format->set_channels(1);
   format->set_sample_rate(4'000'000'000);
   page.Say(2, config);
@@ -498,5 +529,4 @@ TEST_F(StudioTest, SurvivesTheLossOfItsServer) {
                          whole.rotations().end()));
 }
 
-}  // namespace
-}  // namespace choreo::studio
+}  // namespace choreo::studio::studio_test

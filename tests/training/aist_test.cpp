@@ -17,8 +17,7 @@
 #include "tests/training/preparation.h"
 
 /// Recordings of our own making in the layout of AIST++.
-namespace choreo {
-namespace {
+namespace choreo::aist_test {
 
 using nlohmann::json;
 using testing::ElementsAre;
@@ -158,5 +157,4 @@ TEST_F(AistTest, AFolderThatIsIncompleteIsRefusedBeforeTheWork) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / (kOne + ".clip")));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::aist_test

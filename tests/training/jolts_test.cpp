@@ -6,8 +6,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::jolts_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -109,5 +108,4 @@ TEST(JoltsTest, DenseJoltsAreCountedAndLeft) {
   EXPECT_EQ(repair.left, 1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::jolts_test

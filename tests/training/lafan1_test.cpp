@@ -14,8 +14,7 @@
 #include "tests/training/preparation.h"
 
 /// Recordings of our own making in the layout of LAFAN1.
-namespace choreo {
-namespace {
+namespace choreo::lafan1_test {
 
 using nlohmann::json;
 using testing::ElementsAre;
@@ -163,5 +162,4 @@ TEST_F(Lafan1Test, AFolderWithoutRecordingsIsAnError) {
               [&] { Prepare(options_); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::lafan1_test

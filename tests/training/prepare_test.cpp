@@ -10,8 +10,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/training/preparation.h"
 
-namespace choreo {
-namespace {
+namespace choreo::prepare_test {
 
 using testing_support::SyntheticClip;
 
@@ -103,5 +102,4 @@ TEST_F(BvhTest, NothingToPrepareIsAnError) {
   EXPECT_THROW(Prepare(options_), Error);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::prepare_test

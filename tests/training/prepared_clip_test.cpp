@@ -10,8 +10,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::prepared_clip_test {
 
 using testing::ElementsAre;
 using testing_support::Native;
@@ -144,5 +143,4 @@ TEST(LoadClips, SaysWhatIsWrongWithAFolder) {
   ExpectError(ErrorCode::kNotFound, "empty: no prepared clips", [&] { load(folder / "empty"); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::prepared_clip_test

@@ -17,8 +17,7 @@
 #include "tests/training/preparation.h"
 
 /// Recordings of our own making in the two layouts of tang2018.
-namespace choreo {
-namespace {
+namespace choreo::tang2018_test {
 
 using nlohmann::json;
 using testing::Contains;
@@ -169,5 +168,4 @@ TEST_F(Tang2018Test, TwoRecordingsOfOneNameAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::tang2018_test

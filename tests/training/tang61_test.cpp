@@ -17,8 +17,7 @@
 #include "tests/training/preparation.h"
 
 /// Recordings of our own making in the layout of tang61.
-namespace choreo {
-namespace {
+namespace choreo::tang61_test {
 
 constexpr double kFps = 25;
 
@@ -129,5 +128,4 @@ TEST(BeatGrid, APurePulseHasAllPowerAtItsPeriod) {
   ExpectError(ErrorCode::kInvalidArgument, "frames", [&] { SpeedPowerAt(clip, 1); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::tang61_test

@@ -15,8 +15,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo {
-namespace {
+namespace choreo::trainer_test {
 
 using testing_support::WriteSyntheticData;
 
@@ -122,6 +121,31 @@ TEST_F(TrainerTest, AFlowGoesOnFromAnother) {
   EXPECT_THAT(ours.card, testing::HasSubstr("[3 clips] for study alone"));
 }
 
+// Whatever it is called: each run's checkpoint has the same name.
+TEST_F(TrainerTest, ARunIsResumedWithTheCheckpointThatItBeganWith) {
+  const TrainOptions base = Options("base", 1);
+  TrainFlow(base);
+  TrainOptions other = Options("other", 1);
+  other.seed = 2;
+  TrainFlow(other);
+  TrainOptions further = Options("further", 2);
+  further.from = base.run / "checkpoint.safetensors";
+  further.stop_after = 1;
+  TrainFlow(further);
+  further.resume = true;
+  further.stop_after = 0;
+  for (const auto& wrong : {other.run / "checkpoint.safetensors", std::filesystem::path()}) {
+    further.from = wrong;
+    EXPECT_THAT([&] { TrainFlow(further); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("from another checkpoint")));
+  }
+  further.from = folder_.path() / "renamed.safetensors";
+  std::filesystem::copy_file(base.run / "checkpoint.safetensors", further.from);
+  TrainFlow(further);
+  EXPECT_THAT(LoadCheckpoint(further.run / "checkpoint.safetensors").card,
+              testing::HasSubstr(HashOf(base.run)));
+}
+
 TEST_F(TrainerTest, ControllersResumeAsIfUndisturbed) {
   TrainOptions options = Options("controllers", 3);
   options.preset = "controllers-paper";
@@ -178,7 +202,7 @@ TEST_F(TrainerTest, TheContinuousFlowResumesAsIfUndisturbedAndGoesOnFromAnother)
   };
   const Safetensors whole = weights(options);
   options.run = folder_.path() / "parts";
-  for (const int64_t stop : {1, 2, 0}) {
+  for (const int64_t stop : {1, 0}) {
     options.stop_after = stop;
     TrainContinuousFlow(options);
     options.resume = true;
@@ -262,5 +286,4 @@ TEST(AdamTest, TakesTheStepsOfTheReference) {
   EXPECT_TRUE(torch::allclose(ours->weight, reference->weight, 1e-5, 1e-7));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::trainer_test

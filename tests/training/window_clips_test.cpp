@@ -12,8 +12,7 @@
 #include "model/training/window_body.h"
 #include "tests/support/synthetic_clips.h"
 
-namespace choreo {
-namespace {
+namespace choreo::window_clips_test {
 
 using testing_support::SyntheticClip;
 using torch::Tensor;
@@ -185,5 +184,4 @@ TEST_F(WindowClipsTest, AStyleOfFewRecordingsIsDrawnAsOften) {
   EXPECT_LT(indian(1), 65);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::window_clips_test

@@ -18,7 +18,7 @@ using torch::Tensor;
 
 // Positions leave open how arms are turned about themselves; so many frames ahead of a key that
 // goes the key's way, or arrival would have it all to do.
-constexpr int kTurnFrames = 30;  // a second
+constexpr double kTurnSeconds = 1;
 // How much of its last turn a joint is expected to go on with. Expected to rest, it lags behind
 // what the network draws; to go on with most of it, elbows swing too far.
 constexpr double kCarry = 0.3;
@@ -112,7 +112,7 @@ void ControllersEngine::StepOne(WalkedTransition* transition, const Pose* previo
   // length first would move hands and feet.
   walk.fitter.Reset(InterpolatePoses(walk.before, walk.last, 1 + kCarry));
   std::optional<Pose> after;
-  if (const int left = walk.frames - walk.frame; walk.target && left <= kTurnFrames)
+  if (const int left = walk.frames - walk.frame; walk.target && left <= kTurnSeconds * model().fps)
     after = InterpolatePoses(walk.last, *walk.target, 1.0 / left);
   out->pose = walk.fitter.Next(positions, after ? &*after : nullptr);
   const Tensor contacts = frame.contacts.contiguous();

@@ -12,7 +12,7 @@ import type { Wire } from './wire';
 
 type Init<S extends Parameters<typeof create>[0]> = MessageInitShape<S>;
 
-/// Poses of what follows that a transition leads into.
+/// Poses of what follows that a transition leads into (kLeadIn of the client).
 const leadIn = 10;
 
 /// What is heard of a dance in progress.

@@ -6,7 +6,7 @@ import type { Step } from './floor_path';
 /// all of them.
 export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null };
 
-/// Keys stand at least so many frames apart.
+/// Keys stand at least so many frames apart (kMinKeyDistance of the program).
 export const closest = 2;
 
 export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg'];

@@ -4,9 +4,10 @@ import type { Step } from './floor_path';
 import type { Key, Project } from './project';
 
 const format = 1; // of the file
+// As the program has them: kLongestDance, kMaxVelocityFactor, kMaxPosition.
 const mostSeconds = 3600;
 const mostLively = 10;
-const most = 1000; // metres from the origin along an axis
+const most = 10000; // metres from the origin along an axis
 
 type Json = Record<string, unknown>;
 /// What a project has to fit.

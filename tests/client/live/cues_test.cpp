@@ -21,8 +21,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace choreo::live {
-namespace {
+namespace choreo::live::cues_test {
 
 TEST(Keyboard, LettersStandForPosesAndTheTerminalIsAsBefore) {
   int master = -1, terminal = -1;
@@ -240,5 +239,4 @@ TEST(LineIn, HearsWhatTheDeviceRecords) {
   unsetenv("ALSA_CONFIG_PATH");
 }
 
-}  // namespace
-}  // namespace choreo::live
+}  // namespace choreo::live::cues_test

@@ -22,8 +22,7 @@
 #include "tests/client/live/osc_receiver.h"
 #include "tests/client/test_music.h"
 
-namespace choreo {
-namespace {
+namespace choreo::live_dance_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -321,5 +320,4 @@ TEST_F(CommandTest, ALiveDanceReadsItsSongBeforeItAsksForAServer) {
   EXPECT_THAT(outcome.said, Not(HasSubstr("127.0.0.1")));
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::live_dance_test

@@ -14,8 +14,7 @@
 #include "tests/client/test_music.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::vmc_test {
 
 struct Placed {
   Eigen::Vector3f position;
@@ -111,5 +110,4 @@ TEST_F(CommandTest, ADanceIsStreamedAsVmcWhileItIsMade) {
   }
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::vmc_test

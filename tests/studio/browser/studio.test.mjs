@@ -255,7 +255,7 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
       ['words.json', '{"keyframes": [{"time": 1, "pose": "kik"}]}', /words\.json:keyframes\[0\]\.pose: .*kik/],
       ['early.json', JSON.stringify({ keyframes: [{ ...key, time: -1 }] }), /keyframes\[0\]\.time: -1/],
       ['late.json', JSON.stringify({ keyframes: [{ ...key, time: 4000 }] }), /the key "a" stands at 4000 s, and may from 0 to 3600/],
-      ['far.json', JSON.stringify({ keyframes: [{ ...key, root_position: [0, 1, 1e30] }] }), /the key "a" is more than 1000 m away/],
+      ['far.json', JSON.stringify({ keyframes: [{ ...key, root_position: [0, 1, 1e30] }] }), /the key "a" is more than 10000 m away/],
       ['twice.json', JSON.stringify({ keyframes: [key, { ...key, time: 2 }] }), /"a" stands for an earlier key already/],
       ['close.json', JSON.stringify({ keyframes: [key, { ...key, id: 'b' }] }), /stand closer than 2 frames/],
       ['turned.json', JSON.stringify({ keyframes: [{ ...key, rotations: Array(24).fill([0, 99, 0]) }] }), /rotations\[0\]: 99 rad exceeds/],

@@ -9,8 +9,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::distance_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -125,5 +124,4 @@ TEST(Pace, PercentilesAreRanks) {
   EXPECT_EQ(Percentile({4, 3, 1, 2}, 0), 1);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::distance_test

@@ -10,8 +10,7 @@
 #include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::control_figures_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -153,5 +152,4 @@ TEST(RepetitionTest, RefusesWhatIsTooShort) {
               [] { MeasureRepetition(Body(), Swinging(14, 1, 0), 30); });
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::control_figures_test

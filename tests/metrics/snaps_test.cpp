@@ -7,8 +7,7 @@
 
 #include "model/motion/kinematics.h"
 
-namespace choreo {
-namespace {
+namespace choreo::snaps_test {
 
 // With limbs that are straight at rest, as SMPL's are not quite.
 Skeleton StraightBody() {
@@ -76,5 +75,4 @@ TEST(Snaps, OfASkeletonWithoutElbowsAreThoseOfItsKnees) {
   EXPECT_EQ(snaps.elbows, 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::snaps_test

@@ -10,8 +10,7 @@
 #include "model/audio/mfcc.h"
 #include "model/core/random.h"
 
-namespace choreo {
-namespace {
+namespace choreo::song_beats_test {
 
 // Clicks of decaying noise at `bpm`, the first after `offset` seconds; MFCC rows [40, frames].
 Eigen::MatrixXf Clicks(double bpm, double offset, double seconds) {
@@ -99,5 +98,4 @@ TEST(BeatAlignment, WithoutBeatsOfEitherKindIsNone) {
   EXPECT_EQ(BeatAlignmentScore({}, music, 30), 0);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::song_beats_test

@@ -10,8 +10,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 
-namespace choreo {
-namespace {
+namespace choreo::dance_features_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -150,5 +149,4 @@ TEST(GeometricFeatures, DoNotDependOnWhereTheDancerStandsOrFaces) {
   EXPECT_LT((OfPoses(poses) - here).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-}  // namespace
-}  // namespace choreo
+}  // namespace choreo::dance_features_test

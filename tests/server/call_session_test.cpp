@@ -1,0 +1,74 @@
+#include "server/call_session.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/fake_engine.h"
+
+namespace choreo::call_session_test {
+
+using Response = v1::StreamDanceResponse;
+
+/// Takes what the test says is taken.
+struct SlowWire : Outbox<Response>::Wire {
+  void Write(const Response* /*message*/) override {}
+  void Finish(const grpc::Status& /*status*/) override {}
+};
+
+struct PausedOrNot {
+  void SetPaused(bool now) { paused = now; }
+  void Cancel() {}
+  bool paused = false;
+};
+
+class Session final : public CallSession<Response, PausedOrNot> {
+ public:
+  using CallSession::Adopt;
+  using CallSession::CallSession;
+};
+
+class CallSessionTest : public testing::Test {
+ protected:
+  static constexpr size_t kOutboxBytes = 100;
+
+  static std::vector<std::unique_ptr<Scheduler>> OneModel() {
+    std::vector<std::unique_ptr<StepEngine>> engines;
+    engines.push_back(std::make_unique<FakeEngine>(1));
+    std::vector<std::unique_ptr<Scheduler>> models;
+    models.push_back(std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{}));
+    return models;
+  }
+  void SendMuch() {
+    Response response;
+    response.mutable_header()->set_model(std::string(2 * kOutboxBytes, 'm'));
+    session.outbox().Send(response);
+  }
+
+  Serving serving{OneModel(), CallLimits{}, FrameShares{}, "", kOutboxBytes, 0, 1};
+  SlowWire wire;
+  Session session{serving, &wire, "StreamDance", Caller{}};
+  std::shared_ptr<PausedOrNot> dance = std::make_shared<PausedOrNot>();
+};
+
+TEST_F(CallSessionTest, WhatIsUnreadBeforeTheDanceIsThereHoldsItUp) {
+  SendMuch();
+  session.Adopt(dance);
+  EXPECT_TRUE(dance->paused);
+  session.outbox().OnWriteDone(true);
+  EXPECT_FALSE(dance->paused);
+}
+
+TEST_F(CallSessionTest, WhatIsReadByThenHoldsUpNothing) {
+  SendMuch();
+  session.outbox().OnWriteDone(true);
+  session.Adopt(dance);
+  EXPECT_FALSE(dance->paused);
+  SendMuch();
+  EXPECT_TRUE(dance->paused);
+}
+
+}  // namespace choreo::call_session_test
