@@ -11,8 +11,7 @@
 namespace choreo::client {
 namespace {
 
-constexpr int64_t kLeadIn = 10;         // poses of what follows that are sent
-constexpr double kMusicBeyond_s = 0.5;  // the last frame hears a little beyond itself
+constexpr int64_t kLeadIn = 10;  // poses of what follows that are sent
 
 using Contacts = std::array<float, 4>;
 

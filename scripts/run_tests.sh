@@ -10,6 +10,7 @@ trap 'rm -f "$report"' EXIT
 # OMP_NUM_THREADS.)
 jobs=$(($(env -u OMP_NUM_THREADS nproc) * 3 / 2))
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+export TSAN_OPTIONS="suppressions=$(cd "$(dirname "$0")/.." && pwd)/tests/tsan.supp ${TSAN_OPTIONS:-}"
 rc=0
 run=(ctest --test-dir "$build" --output-on-failure -j "$jobs" --no-tests=error --output-junit "$report")
 if [[ -t 1 ]]; then

@@ -12,6 +12,7 @@
 #include "model/fit/retarget.h"
 #include "model/motion/canonical.h"
 #include "model/motion/joint_angles.h"
+#include "model/motion/rotation.h"
 
 namespace choreo::cli {
 namespace {
@@ -81,7 +82,7 @@ client::KeyPose ReadNamedPose(const json& value, const std::string& field,
                                                    Rounded(-kMostTurn) + " to " +
                                                    Rounded(kMostTurn));
     }
-    place.heading = degrees * M_PI / 180;
+    place.heading = degrees / kDegrees;
   }
   key.mask.root_position = value.contains("place");
   if (key.mask.root_position) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/edit.h"
 #include "model/audio/beats.h"
 #include "model/audio/onset.h"
 #include "model/core/error.h"
@@ -10,9 +11,6 @@
 
 namespace choreo::cli {
 namespace {
-
-/// The last frames hear a little beyond themselves.
-constexpr double kAfterglow = 0.5;
 
 /// Takes the first `seconds` away.
 void LeaveOut(double seconds, const std::filesystem::path& path, DecodedAudio* audio) {
@@ -45,7 +43,8 @@ std::vector<double> BeatsBefore(const Music& music, double seconds) {
 }
 
 client::Audio AudioFor(const DecodedAudio& song, double seconds) {
-  const auto samples = static_cast<int64_t>(std::ceil((seconds + kAfterglow) * song.sample_rate));
+  const auto samples =
+      static_cast<int64_t>(std::ceil((seconds + client::kMusicBeyond_s) * song.sample_rate));
   const int64_t values = std::min(song.samples(), samples) * song.channels;
   client::Audio out;
   out.format = {client::AudioKind::kPcmFloat, song.sample_rate, song.channels};

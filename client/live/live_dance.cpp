@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "model/core/printable.h"
+#include "model/core/rounded.h"
 
 namespace choreo::live {
 namespace {
@@ -123,7 +124,8 @@ void LiveDance::Follow(const Cue& cue, double now) {
   double at = clock.AtOrBehind(now + ahead, now);
   while (const std::optional<int64_t> near = KeyNear(FrameAt(at)))
     at = clock.AtOrBehind(static_cast<double>(*near + 1) / model_.fps + kLeastWaySeconds, now);
-  if (at > now + ahead + kMostAheadSeconds) return Refuse("a minute of poses waits already");
+  if (at > now + ahead + kMostAheadSeconds)
+    return Refuse(Rounded(kMostAheadSeconds) + " s of poses wait already");
   {
     const std::lock_guard lock(mutex_);
     ++since_.keys_taken;

@@ -11,6 +11,7 @@
 #include "model/core/error.h"
 #include "model/core/limits.h"
 #include "model/core/progress.h"
+#include "model/core/rounded.h"
 #include "model/engine/engine_choice.h"
 #include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
@@ -75,8 +76,8 @@ void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& le
 // CLI::Range lets NaN pass.
 std::string CheckTemperature(const std::string& text) {
   float value = 0;
-  if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= 2) return "";
-  return "'" + text + "' is not a number from 0 to 2";
+  if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= kMaxTemperature) return "";
+  return "'" + text + "' is not a number from 0 to " + Rounded(kMaxTemperature);
 }
 
 std::string Summary(const Arguments& arguments, const Contest& contest) {
@@ -191,9 +192,7 @@ void AddEvalCommand(CLI::App& app) {
           "--liveliness", [arguments] { arguments->tables = kLiveliness; },
           "Only the tables that tell whether the dance lives")
       ->excludes("--controls");
-  command
-      ->add_option("--temperature", arguments->temperature,
-                   "From 0 to 2, instead of the model's own")
+  command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
       ->check(CheckTemperature);
   command->option_defaults()->always_capture_default();
   command->add_option("--split", arguments->split,

@@ -6,6 +6,7 @@
 
 #include "model/core/grid.h"
 #include "model/dance/quality_report.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
@@ -79,7 +80,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
     away.push_back(std::hypot(root.x() - start.x(), root.z() - start.z()));
     heights.push_back(root.y());
     backwards += std::ranges::count_if(hinges, [&](const Hinge& hinge) {
-      return hinge.axis.dot(poses[t].rotations.col(hinge.joint)) < -kBrokenBackwards * M_PI / 180;
+      return hinge.axis.dot(poses[t].rotations.col(hinge.joint)) < -kBrokenBackwards / kDegrees;
     });
   }
   figures.lowest_m = std::ranges::min(heights);

@@ -9,13 +9,14 @@
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
 #include "model/motion/pose_limits.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
 
 constexpr double kMinFrameTime = 1e-5, kMaxFrameTime = 10;
 constexpr double kMaxLength = 1000 * kMaxPosition;  // file units, which may be millimetres
-constexpr double kMaxDegrees = kMaxWoundRotation * 180 / M_PI;
+constexpr double kMaxDegrees = kMaxWoundRotation * kDegrees;
 
 // White space separates tokens; lines count for messages alone.
 class Tokens {

@@ -8,6 +8,7 @@
 #include "model/metrics/band_filter.h"
 #include "model/metrics/joint_track.h"
 #include "model/motion/limb.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
@@ -24,7 +25,7 @@ std::vector<Eigen::Index> LimbEnds(const Skeleton& skeleton) {
   return ends;
 }
 
-constexpr double kSpeed = 240 * M_PI / 180;  // a second
+constexpr double kSpeed = 240 / kDegrees;  // a second
 
 // The angle between the bones above and below a hinge.
 double Flexion(const Hinge& hinge, int lower, const Eigen::Matrix3Xd& joints) {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "model/motion/rotation.h"
+
 namespace choreo {
 namespace {
 
@@ -95,7 +97,7 @@ class Statements {
   bool Fast(int joint, double limit) const { return velocity_.col(joint).norm() > limit; }
   // The angle between two directions lies between the limits, degrees.
   static bool Angle(const Vector3d& a, const Vector3d& b, double low, double high) {
-    const double degrees = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI;
+    const double degrees = std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
     return degrees > low && degrees < high;
   }
   bool Bent(int upper, int hinge, int lower, double high) const {

@@ -1,7 +1,6 @@
 #include "model/motion/kinematics.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "model/core/error.h"
 #include "model/motion/rotation.h"
@@ -85,7 +84,7 @@ PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
   for (int joint = 0; joint < joints; ++joint) {
     if (!mask.Asks(joint)) continue;
     const double angle = RotationDifference(a.rotations.col(joint), b.rotations.col(joint)).norm();
-    error.angle_deg = std::max(error.angle_deg, angle * 180.0 / std::numbers::pi);
+    error.angle_deg = std::max(error.angle_deg, angle * kDegrees);
   }
   return error;
 }
