@@ -85,6 +85,7 @@ void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>
 
 void Run(const AnalyzeOptions& options) {
   RequireOutputs({{"--features", options.features}}, {{"song", options.song}});
+  if (!options.features.empty()) RequireExtension("--features", options.features, ".npy");
   const Music music = ReadMusic(options.song);
   if (!options.features.empty()) {
     const FeatureMatrix rows = Mfcc(music.mono);

@@ -137,10 +137,6 @@ bool HasNumbers(const json& value) {
 
 // The pose of a key that names one, or nothing but joints.
 KeyPose ParseNamed(const json& value, const std::string& field, const Skeleton& skeleton) {
-  for (const char* member : {"place", "facing"}) {
-    if (value.contains(member) && !value.contains("pose"))
-      throw InvalidArgument(field + "." + member, "goes with pose");
-  }
   if (value.contains("pose")) {
     for (const char* member : kPoseMembers) {
       if (!value.contains(member)) continue;
@@ -194,6 +190,10 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
                 "rotations", "smpl_poses", "smpl_trans", "poses", "trans"},
                "a key has id, time or frame, hold, joints, and pose, place, facing; or "
                "root_position, rotations; or smpl_poses, smpl_trans; or poses, trans");
+  for (const char* member : {"place", "facing"}) {
+    if (value.contains(member) && !value.contains("pose"))
+      throw InvalidArgument(field + "." + member, "goes with pose");
+  }
   const bool named = value.contains("pose") || (HasDegrees(value) && !HasNumbers(value));
   KeyPose key = named ? ParseNamed(value, field, skeleton) : ParsePose(value, field, skeleton);
   key.id = "key" + std::to_string(number);

@@ -55,6 +55,12 @@ Project ParseProject(const json& file, const std::string& name) {
     throw InvalidArgument(name + ":studio", "is format " + Shown(file["studio"]) + ", known is " +
                                                 std::to_string(kFormat));
   }
+  // song_data: of the studio's messages, whose song comes along (studio/project_calls).
+  CheckFileMembers(file, name,
+                   {"studio", "song", "song_data", "seconds", "seed", "style", "lively", "path",
+                    "keyframes", "about"},
+                   "a project has studio, song, seconds, seed, style, lively, path, keyframes and "
+                   "perhaps about");
   Project project;
   project.song = Text(file, name, "song");
   project.style = Text(file, name, "style");

@@ -91,6 +91,8 @@ TEST(KeyJointsTest, ErrorsNameTheFieldTheValueAndTheLimit) {
           "keyframes[0].facing: 400 degrees, must be -360 to 360");
   refused(R"("time": 1, "joints": {"head": [0, 0, 0]}, "place": [0, 0])",
           "keyframes[0].place: goes with pose");
+  refused(R"("time": 1, "root_position": [0, 1, 0], "facing": 90)",
+          "keyframes[0].facing: goes with pose");
   refused(R"("time": 1, "joints": {"left_knee": -20})",
           "keyframes[0].joints.left_knee: left_knee is at -20 degrees, must be 0 to 160");
   refused(R"("time": 1, "joints": {"tail": 1})", "keyframes[0].joints: \"tail\" is no joint");

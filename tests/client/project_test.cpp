@@ -106,6 +106,7 @@ TEST_F(ProjectTest, WhatCannotBeIsNamed) {
     ExpectRefused(std::string("p.json:") + member + message);
   };
   with("studio", 2, ": is format 2, known is 1");
+  with("sead", 1, ": is not known; a project has studio");
   with("seconds", 0, ": 0 is not above 0 and up to 3600");
   with("seconds", 1e300, ": 1e+300 is not above 0 and up to 3600");
   with("seed", -1, ": -1 is no whole number from 0 on");
