@@ -6,9 +6,8 @@ build=$1
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 
-# Each test program gets one thread of BLAS: ctest already uses every core, and a half more as many tests wait. (Asked first: nproc heeds
-# OMP_NUM_THREADS.)
-jobs=$(($(env -u OMP_NUM_THREADS nproc) * 3 / 2))
+# Each test program gets one thread of BLAS: ctest already uses every core. (Asked first: nproc heeds OMP_NUM_THREADS.)
+jobs=$(env -u OMP_NUM_THREADS nproc)
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 export TSAN_OPTIONS="suppressions=$(cd "$(dirname "$0")/.." && pwd)/tests/tsan.supp ${TSAN_OPTIONS:-}"
 rc=0
