@@ -145,8 +145,8 @@ std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
                                         const Skeleton& skeleton) {
   const int dimensions = 3 + 3 * skeleton.joints(), width = config.width;
   const int tokens =
-      (config.history_frames + kUsualFrames + kUsualFramesAToken - 1) / kUsualFramesAToken;
-  const int token = kUsualFramesAToken * TokenFrameWidth(dimensions, FrameFeatures());
+      (config.history_frames + kUsualFrames + kFramesAToken - 1) / kFramesAToken;
+  const int token = kFramesAToken * TokenFrameWidth(dimensions, FrameFeatures());
   std::vector<BareProducts::Shape> shapes;
   for (int step = 0; step < config.steps; ++step) {
     shapes.push_back({token, width, tokens});
@@ -156,7 +156,7 @@ std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
       shapes.push_back({width, kMlpRatio * width, tokens});
       shapes.push_back({kMlpRatio * width, width, tokens});
     }
-    shapes.push_back({width, 2 * kUsualFramesAToken * dimensions, tokens});
+    shapes.push_back({width, 2 * kFramesAToken * dimensions, tokens});
   }
   return shapes;
 }

@@ -263,7 +263,7 @@ int main(int argc, char** argv) {
   program.add_option("--song", options.song, "Default: a made-up one, 44.1 kHz.")
       ->check(CLI::ExistingFile);
   program.add_option("--seconds", options.seconds, "Length of a dance.")
-      ->check(choreo::cli::NumberFrom(2, kMaxAudioSeconds))
+      ->check(choreo::cli::NumberFrom(2, choreo::kMaxAudioSeconds))
       ->capture_default_str();
   program.add_option("--streams", options.streams, "Real-time streams at once.")
       ->check(CLI::Range(1, 10000))
