@@ -144,8 +144,7 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
 std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
                                         const Skeleton& skeleton) {
   const int dimensions = 3 + 3 * skeleton.joints(), width = config.width;
-  const int tokens =
-      (config.history_frames + kUsualFrames + kFramesAToken - 1) / kFramesAToken;
+  const int tokens = (config.history_frames + kUsualFrames + kFramesAToken - 1) / kFramesAToken;
   const int token = kFramesAToken * TokenFrameWidth(dimensions, FrameFeatures());
   std::vector<BareProducts::Shape> shapes;
   for (int step = 0; step < config.steps; ++step) {

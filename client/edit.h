@@ -15,7 +15,7 @@
 /// any rate: it is then sampled at the model's, and the new frames are interpolated at its own.
 namespace choreo::client {
 
-/// Music that the last frame hears beyond itself, or a little more.
+/// Seconds of music that the last frame hears beyond itself, or a little more.
 inline constexpr double kMusicBeyond_s = 0.5;
 
 /// A dance, its first frame at the beginning of the music.

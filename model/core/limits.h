@@ -8,15 +8,15 @@
 /// Limits of the API, and where it is found: servers and clients agree on them.
 namespace choreo {
 
-inline constexpr int kMaxTransitionFrames = 1800;    ///< of one transition: a minute
-inline constexpr int64_t kMaxDanceFrames = 108'000;  ///< absolute: an hour
-inline constexpr int kMaxKeys = 1000;                ///< of one stream at a time
-inline constexpr int kMinKeyDistance = 2;            ///< frames between two keys
-inline constexpr int kMaxCandidates = 32;
-inline constexpr double kMaxTemperature = 2;
-inline constexpr double kMinOutputFps = 1, kMaxOutputFps = 120;
+inline constexpr int kMaxTransitionFrames = 1800;                ///< of one transition: a minute
+inline constexpr int64_t kMaxDanceFrames = 108'000;              ///< absolute: an hour
+inline constexpr int kMaxKeys = 1000;                            ///< of one stream at a time
+inline constexpr int kMinKeyDistance = 2;                        ///< frames between two keys
+inline constexpr int kMaxCandidates = 32;                        ///< of one transition
+inline constexpr double kMaxTemperature = 2;                     ///< 0: the mean
+inline constexpr double kMinOutputFps = 1, kMaxOutputFps = 120;  ///< frames sent a second
 
-inline constexpr size_t kMostNameBytes = 64;  ///< of a model: metrics and logs repeat it
+inline constexpr size_t kMostNameBytes = 64;  ///< of a model's name, which metrics and logs repeat
 
 inline constexpr int kDefaultPort = 50051;  ///< of choreod
 inline constexpr int kMaxPort = 65'535;

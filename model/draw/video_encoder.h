@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-inline constexpr double kMinVideoFps = 1, kMaxVideoFps = 120;
+inline constexpr double kMinVideoFps = 1, kMaxVideoFps = 120;  ///< frames a second
 
 struct VideoFormat {
   int width = 1280, height = 720;  ///< pixels, even, 16 to 8192

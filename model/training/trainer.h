@@ -15,9 +15,9 @@ class App;
 
 namespace choreo {
 
-/// Frames from key to key at which models are compared (paper F, Section 5).
+/// Frames from key to key at which models are compared: those of paper F, Table 2, and ten.
 inline constexpr std::array kComparedFrames{10, 30, 60, 90};
-/// The same of paper C's network (paper C, Table 1).
+/// The same of paper C's network (paper C, Tables 2-4).
 inline constexpr std::array kControlledFrames{10, 50, 100, 150};
 
 /// Of paper F's flows, the presets `paper` and `ablation`.

@@ -19,7 +19,7 @@ TEST(PlanOptions, WhatACheckpointDoesNotStateHasItsDefault) {
 TEST(PlanOptions, TimeNeverRunsBackwards) {
   PlanOptions options{.accent = 0.5, .key_accent = 0.51};
   ExpectError(ErrorCode::kInvalidArgument, "config.plan.accent",
-                               [&] { options.Validate("config.plan"); });
+              [&] { options.Validate("config.plan"); });
   options.key_accent = 0.5;
   EXPECT_NO_THROW(options.Validate("config.plan"));
 }
