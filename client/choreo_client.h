@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -45,7 +44,7 @@ struct Options {
   std::filesystem::path token_file = {};
   double connect_timeout_s = 5;  ///< for one attempt at one address
   /// A server of which nothing is heard for so long during a call, not even the answer to a ping,
-  /// is taken for lost, seconds; at least 2, or 0: never. Dances may pause longer.
+  /// is taken for lost, seconds; at least kMinSilence, or 0: never. Dances may pause longer.
   double silence_s = 5;
   double deadline_s = 0;  ///< for a call, from its first attempt to its last frame; 0: none
   /// How long to try again and again, at one address or at all of them, since a call last made
@@ -110,7 +109,7 @@ class RemoteDance {
 struct DanceResult {
   Header header = {};
   Motion motion = {};
-  std::vector<std::array<float, 4>> contacts = {};
+  std::vector<Contacts> contacts = {};
   std::vector<Beat> beats = {};
   std::vector<Warning> warnings = {};
   std::vector<KeyRejected> rejected = {};
@@ -135,7 +134,7 @@ struct TransitionRequest {
 struct TransitionCandidate {
   uint32_t candidate = 0;
   Motion motion = {};
-  std::vector<std::array<float, 4>> contacts = {};
+  std::vector<Contacts> contacts = {};
   Report report = {};
   Continuation continuation = {};
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,8 +32,8 @@ struct Header {
 struct FrameBlock {
   int64_t first_frame = 0;  ///< at Header::fps
   std::vector<Pose> poses = {};
-  std::vector<std::array<float, 4>> contacts = {};  ///< of Skeleton::feet, 0 to 1
-  uint32_t candidate = 0;                           ///< of a transition
+  std::vector<Contacts> contacts = {};  ///< of Skeleton::feet, 0 to 1
+  uint32_t candidate = 0;               ///< of a transition
 };
 
 /// How one key was hit. Distances and angles are the largest of any joint that the key asks for.

@@ -13,8 +13,6 @@ namespace {
 
 constexpr int64_t kLeadIn = 10;  // poses of what follows that are sent
 
-using Contacts = std::array<float, 4>;
-
 /// New frames, at the model's rate, from `first` on.
 struct Part {
   int64_t first = 0;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,7 +20,7 @@ inline constexpr double kMusicBeyond_s = 0.5;
 /// A dance, its first frame at the beginning of the music.
 struct FinishedDance {
   Motion motion = {};
-  std::vector<std::array<float, 4>> contacts = {};  ///< one a frame, or none at all
+  std::vector<Contacts> contacts = {};  ///< one a frame, or none at all
 };
 
 /// How the new frames are danced.

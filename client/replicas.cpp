@@ -10,6 +10,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "model/core/limits.h"
+#include "model/core/rounded.h"
 #include "tls/pem.h"
 
 namespace choreo::client {
@@ -17,7 +19,6 @@ namespace {
 
 constexpr double kLongestBackoff = 2;        // seconds
 constexpr size_t kMostTokenBytes = 4 << 10;  // gRPC's headers have 8 KiB in all
-constexpr double kLeastSilence = 2;          // seconds; servers take no pings that come much faster
 
 /// Calls take turns at all addresses of a name, but for those that say that they do not serve.
 constexpr const char* kServiceConfig = R"({
@@ -86,8 +87,8 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   CheckNotNegative("retry_s", options_.retry_s);
   CheckNotNegative("silence_s", options_.silence_s);
 
-  if (options_.silence_s > 0 && options_.silence_s < kLeastSilence) {
-    throw InvalidArgument("silence_s", "neither 0 nor at least 2 s");
+  if (options_.silence_s > 0 && options_.silence_s < kMinSilence) {
+    throw InvalidArgument("silence_s", "neither 0 nor at least " + Rounded(kMinSilence) + " s");
   }
 
   const auto credentials = Credentials(options_);

@@ -8,6 +8,10 @@ target_compile_options(choreo_options INTERFACE -Wall -Wextra -Wpedantic -Wshado
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized;-Wno-subobject-linkage>)
 target_include_directories(choreo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
+# Sources of a target are compiled together, so many at a time: headers cost more than what is in most of them. So names that a source
+# has for itself differ within a library, and each file of tests is a namespace of its own.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 20)
+
 function(choreo_library name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK;PRIVATE_LINK")
   add_library(choreo_${name} STATIC ${ARG_SOURCES})
@@ -40,8 +44,6 @@ function(choreo_test name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")
   choreo_executable(${name} SOURCES ${ARG_SOURCES} LINK ${ARG_LINK} GTest::gmock GTest::gtest_main)
   choreo_compile_quickly(${name})
-  # Each file is a namespace of its own, so that many may be compiled together.
-  set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
   add_dependencies(choreo_tests ${name})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

@@ -6,33 +6,28 @@ set -euo pipefail
 page=$(realpath "${3:-$(dirname "$0")/../docs/contract.md}")
 report=${2:+$(realpath "$2")}
 cd "$(dirname "$0")/.."
-known=$(ctest --test-dir "$1" -N | sed -n 's/  # GetParam.*//; s/^ *Test *#[0-9]*: //p')
-skipped=$([[ -z $report ]] || grep -oE '<testcase name="[^"]*".* status="notrun"' "$report" | sed 's/  # GetParam[^"]*//; s/<testcase name="//; s/".*//' || true)
-missing=0
-count=0
+tests() { ctest --test-dir "$1" -N | sed -n 's/  # GetParam.*//; s/^ *Test *#[0-9]*: //p'; }
+targets() { sed -nE 's/^([a-z]+):.*/make \1/p' Makefile; }
+skipped() { [[ -z $report ]] || grep -oE '<testcase name="[^"]*".* status="notrun"' "$report" | sed 's/  # GetParam[^"]*//; s/<testcase name="//; s/".*//'; }
 # Names stand in backticks behind the first column of a table; a test's begins with a capital, or a * in its place, and has a dot.
-while read -r name; do
-  count=$((count + 1))
-  if [[ $name == make\ * ]]; then
-    grep -qE "^${name#make }:" Makefile && continue
-    echo "$page: there is no $name" >&2
-  else
-    pattern=${name//./\\.}
-    pattern=${pattern//\*/.*}
-    matches=$(grep -xE "$pattern" <<<"$known" || true)
-    if [[ -z $matches ]]; then
-      echo "$page: there is no $name" >&2
-    elif [[ -z $(grep -vxF -f <(echo "$skipped") <<<"$matches" || true) ]]; then
-      echo "$page: $name was skipped" >&2
-    else
-      continue
-    fi
-  fi
-  missing=1
-done < <(sed -n 's/^|[^|]*|\(.*\)|$/\1/p' "$page" | grep -oE '`([A-Z*][^` ]*\.[^` ]*|make [a-z]+)`' | tr -d '`')
-if ((count == 0)); then
-  echo "$page: names no test" >&2
-  exit 1
-fi
-echo "$count names looked up"
-exit "$missing"
+names() { sed -n 's/^|[^|]*|\(.*\)|$/\1/p' "$page" | grep -oE '`([A-Z*][^` ]*\.[^` ]*|make [a-z]+)`' | tr -d '`'; }
+awk -v page="$page" '
+  FILENAME == ARGV[1] { ran[$0] = 1; next }
+  FILENAME == ARGV[2] { delete ran[$0]; skipped[$0] = 1; next }
+  { ++count }
+  $0 in ran { next }
+  {
+    pattern = "^" $0 "$"
+    gsub(/\./, "[.]", pattern)
+    gsub(/\*/, ".*", pattern)
+    for (test in ran) if (test ~ pattern) next
+    why = "there is no " $0
+    for (test in skipped) if (test ~ pattern) why = $0 " was skipped"
+    print page ": " why >"/dev/stderr"
+    missing = 1
+  }
+  END {
+    if (!count) { print page ": names no test" >"/dev/stderr"; exit 1 }
+    print count " names looked up"
+    exit missing
+  }' <(tests "$1"; targets) <(skipped) <(names)

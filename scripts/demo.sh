@@ -13,7 +13,7 @@ mkdir -p "$out"
 "$choreo" convert "$out/dance.npz" "$out/dance.glb"
 "$choreo" render "$out/dance.npz" --report "$out/report.json" --out "$out/sheet.png" \
   --title "24 s of \"Escape from chaosland\"; key poses are framed"
-"$choreo" render "$out/dance.npz" --report "$out/report.json" --video "$out/dance.mp4" --song "$song" --size 960x540
+"$choreo" render "$out/dance.npz" --report "$out/report.json" --video "$out/dance.mp4" --song "$song" --size 640x360
 
 # The same song, led along a path, the left arm livelier than the rest.
 "$choreo" dance "$song" --seconds 10 --path "$(dirname "$0")/../examples/path.json" --velocity left_arm=1.5 \

@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "model/core/error.h"
+#include "model/core/limits.h"
 #include "server/connection_limits.h"
 #include "server/listener.h"
 #include "server/metrics.h"
@@ -35,7 +36,7 @@ using std::chrono::milliseconds;
 /// A client that vanished without a word is noticed after these.
 constexpr int kKeepaliveMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
-constexpr int kClientPingMs = 500;  // clients may ping this often, to notice a silent network
+constexpr auto kClientPingMs = static_cast<int>(1000 * kMinSilence / 4);
 /// Of the time to drain: streams that are still there in it end at their next transition, where
 /// others take them over without dancing anything twice.
 constexpr double kMovingShare = 0.25;

@@ -22,14 +22,14 @@
 namespace choreo {
 namespace {
 
-using Request = v1::StreamDanceRequest;
-using Response = v1::StreamDanceResponse;
+using DanceRequest = v1::StreamDanceRequest;
+using DanceResponse = v1::StreamDanceResponse;
 
 /// Longer pieces of music are not digested on gRPC's own threads.
 constexpr size_t kLongAudioBytes = 64 << 10;
 
 /// The session of a StreamDance. Messages are handled one at a time.
-class DanceSession final : public CallSession<Response, DanceStream>,
+class DanceSession final : public CallSession<DanceResponse, DanceStream>,
                            public DanceSink,
                            public std::enable_shared_from_this<DanceSession> {
  public:
@@ -37,20 +37,20 @@ class DanceSession final : public CallSession<Response, DanceStream>,
       : CallSession(serving, wire, "StreamDance", std::move(caller)), file_(serving.file_music) {}
 
   /// False where the call fails for it.
-  bool Read(const grpc::ByteBuffer& bytes, Request* request) {
+  bool Read(const grpc::ByteBuffer& bytes, DanceRequest* request) {
     Guard([&] { ReadMessage(bytes, request); });
     return outbox().open();
   }
 
   /// Who handles a message (null: the half-close) that takes long; null: whoever has it.
-  TaskPool* PoolFor(const Request* request) const {
+  TaskPool* PoolFor(const DanceRequest* request) const {
     const bool ends_music = request == nullptr || request->has_end_of_audio();
     if (ends_music && !file_.empty()) return &serving_.decoding;
     const bool is_long = request && request->audio().data().size() > kLongAudioBytes;
     return is_long ? &serving_.tasks : nullptr;
   }
 
-  void Handle(const Request& request) {
+  void Handle(const DanceRequest& request) {
     Guard([&] {
       Admit();
       Take(request);
@@ -70,9 +70,9 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   // ---- DanceSink
 
   void OnFrames(int64_t first_frame, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>> contacts) override {
+                std::span<const Contacts> contacts) override {
     CountFrames(poses.size());
-    Response response;
+    DanceResponse response;
     FromFrames(first_frame, poses, contacts, encoding_, response.mutable_frames());
     outbox().Send(std::move(response));
   }
@@ -81,13 +81,13 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     if (const auto* key = std::get_if<KeyReached>(&event)) {
       serving_.tally.key_error_m.Add(key->arrival.raw_error_m);
     }
-    Response response;
+    DanceResponse response;
     FromEvent(event, scheduler_->model().fps, response.mutable_event());
     outbox().Send(std::move(response));
   }
 
   void OnContinuation(const Continuation& continuation) override {
-    Response response;
+    DanceResponse response;
     FromContinuation(continuation, scheduler_->model(), seed_, audio_ ? &*audio_ : nullptr,
                      response.mutable_continuation());
     outbox().Send(std::move(response));
@@ -95,7 +95,7 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   }
 
   void OnSummary(const QualityReport& report) override {
-    Response response;
+    DanceResponse response;
     v1::DanceSummary* summary = response.mutable_summary();
     FromReport(report, summary->mutable_report());
     FillTiming(static_cast<double>(report.frames) / scheduler_->model().fps,
@@ -107,8 +107,8 @@ class DanceSession final : public CallSession<Response, DanceStream>,
   void OnError(const Error& error) override { EndIn(error); }
 
  private:
-  void Take(const Request& request) {
-    if (request.request_case() == Request::REQUEST_NOT_SET) {
+  void Take(const DanceRequest& request) {
+    if (request.request_case() == DanceRequest::REQUEST_NOT_SET) {
       throw InvalidArgument("request", "empty; one of its fields must be there");
     }
     if (request.has_config()) return Configure(request.config());
@@ -116,25 +116,25 @@ class DanceSession final : public CallSession<Response, DanceStream>,
     const auto stream = dance();
     if (!stream) return;
     switch (request.request_case()) {
-      case Request::kAudio:
+      case DanceRequest::kAudio:
         return TakeAudio(*stream, request.audio());
-      case Request::kKeyframe:
+      case DanceRequest::kKeyframe:
         return TakeKeyframe(*stream, request.keyframe());
-      case Request::kRemoveKeyframe:
+      case DanceRequest::kRemoveKeyframe:
         return stream->RemoveKey(request.remove_keyframe().id());
-      case Request::kControls:
+      case DanceRequest::kControls:
         return stream->SetControls(ToControls(request.controls(), stream->NextControls()));
-      case Request::kMusicBeats:
+      case DanceRequest::kMusicBeats:
         return TakeBeats(*stream, request.music_beats());
-      case Request::kGenerateUntil:
+      case DanceRequest::kGenerateUntil:
         return stream->GenerateUntil(request.generate_until().frame());
-      case Request::kKeyframesComplete:
+      case DanceRequest::kKeyframesComplete:
         return stream->KeysComplete();
-      case Request::kEndOfAudio:
+      case DanceRequest::kEndOfAudio:
         DecodeFile(*stream);
         return stream->EndOfAudio();
-      case Request::kConfig:
-      case Request::REQUEST_NOT_SET:
+      case DanceRequest::kConfig:
+      case DanceRequest::REQUEST_NOT_SET:
         return;  // see above
     }
   }
@@ -212,19 +212,19 @@ class DanceSession final : public CallSession<Response, DanceStream>,
 };
 
 class StreamReactor final
-    : public SessionReactor<grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>, Response,
-                            DanceSession> {
+    : public SessionReactor<grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
+                            DanceResponse, DanceSession> {
  public:
   StreamReactor(Serving& serving, grpc::CallbackServerContext* context)
       : SessionReactor(serving, context) {
-    const Outbox<Response>::Hold hold(session_->outbox());
+    const Outbox<DanceResponse>::Hold hold(session_->outbox());
     Enter([this] { session_->outbox().RequestRead(); });
   }
 
   void Read() override { StartRead(&bytes_); }
 
   void OnReadDone(bool ok) override {
-    auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
+    auto hold = std::make_shared<Outbox<DanceResponse>::Hold>(session_->outbox());
     if (ok && !session_->Read(bytes_, &request_)) return;
     TaskPool* pool = session_->PoolFor(ok ? &request_ : nullptr);
     if (pool == nullptr || !session_->outbox().open()) return Process(ok);
@@ -245,7 +245,7 @@ class StreamReactor final
   }
 
   grpc::ByteBuffer bytes_;
-  Request request_;
+  DanceRequest request_;
 };
 
 }  // namespace

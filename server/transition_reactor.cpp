@@ -19,11 +19,8 @@
 namespace choreo {
 namespace {
 
-using Request = v1::GenerateTransitionRequest;
-using Response = v1::GenerateTransitionResponse;
-
 /// The session of a GenerateTransition.
-class TransitionSession final : public CallSession<Response, TransitionGroup>,
+class TransitionSession final : public CallSession<v1::GenerateTransitionResponse, TransitionGroup>,
                                 public GroupSink,
                                 public std::enable_shared_from_this<TransitionSession> {
  public:
@@ -32,9 +29,10 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
 
   /// Takes long: reads and digests the music, that of a file among its like. The call lasts at
   /// least as long as `hold`, so there are never more files waiting than calls.
-  void Start(const grpc::ByteBuffer& bytes, std::shared_ptr<Outbox<Response>::Hold> hold) {
+  void Start(const grpc::ByteBuffer& bytes,
+             std::shared_ptr<Outbox<v1::GenerateTransitionResponse>::Hold> hold) {
     Guard([&] {
-      Request message;
+      v1::GenerateTransitionRequest message;
       ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       scheduler_ = serving_.models.Find(message.config().model(), "config.model");
@@ -60,9 +58,9 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   // ---- GroupSink
 
   void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>> contacts) override {
+                std::span<const Contacts> contacts) override {
     CountFrames(poses.size());
-    Response response;
+    v1::GenerateTransitionResponse response;
     v1::Frames* frames = response.mutable_frames();
     FromFrames(first_frame, poses, contacts, encoding_, frames);
     frames->set_candidate(static_cast<uint32_t>(candidate));
@@ -70,13 +68,13 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   }
 
   void OnWarning(const DanceWarning& warning) override {
-    Response response;
+    v1::GenerateTransitionResponse response;
     FromEvent(warning, scheduler_->model().fps, response.mutable_event());
     outbox().Send(std::move(response));
   }
 
   void OnDone(std::span<const CandidateReport> ranked) override {
-    Response response;
+    v1::GenerateTransitionResponse response;
     v1::TransitionSummary* summary = response.mutable_summary();
     int64_t frames = 0;
     for (const CandidateReport& report : ranked) {
@@ -107,7 +105,7 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
     if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
   }
 
-  void Begin(const Request& message, GroupRequest request) {
+  void Begin(const v1::GenerateTransitionRequest& message, GroupRequest request) {
     const ModelInfo& model = scheduler_->model();
     request.Validate(model);
     encoding_ = message.config().encoding();
@@ -126,13 +124,14 @@ class TransitionSession final : public CallSession<Response, TransitionGroup>,
   uint64_t seed_ = 0;
 };
 
-class TransitionReactor final : public SessionReactor<grpc::ServerWriteReactor<grpc::ByteBuffer>,
-                                                      Response, TransitionSession> {
+class TransitionReactor final
+    : public SessionReactor<grpc::ServerWriteReactor<grpc::ByteBuffer>,
+                            v1::GenerateTransitionResponse, TransitionSession> {
  public:
   TransitionReactor(Serving& serving, grpc::CallbackServerContext* context,
                     const grpc::ByteBuffer& request)
       : SessionReactor(serving, context) {
-    auto hold = std::make_shared<Outbox<Response>::Hold>(session_->outbox());
+    auto hold = std::make_shared<Outbox<v1::GenerateTransitionResponse>::Hold>(session_->outbox());
     Enter([&] {
       session_->Admit();
       serving.tasks.Post([session = session_, hold, &request]() mutable {

@@ -74,7 +74,7 @@ void FromSkeleton(const Skeleton& skeleton, v1::Skeleton* out) {
 }
 
 void FromFrames(int64_t first_frame, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>> contacts, v1::RotationEncoding encoding,
+                std::span<const Contacts> contacts, v1::RotationEncoding encoding,
                 v1::Frames* out) {
   out->set_first_frame(first_frame);
   out->set_count(static_cast<int32_t>(poses.size()));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -14,8 +13,7 @@ namespace choreo {
 
 void FromSkeleton(const Skeleton& skeleton, v1::Skeleton* out);
 void FromFrames(int64_t first_frame, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>> contacts, v1::RotationEncoding encoding,
-                v1::Frames* out);
+                std::span<const Contacts> contacts, v1::RotationEncoding encoding, v1::Frames* out);
 /// `audio_format` null: no music.
 void FromContinuation(const Continuation& continuation, const ModelInfo& model, uint64_t seed,
                       const v1::AudioFormat* audio_format, v1::Continuation* out);

@@ -14,6 +14,7 @@
 #include "client/cli/dance_display.h"
 #include "client/cli/dance_keys.h"
 #include "client/cli/interruption.h"
+#include "client/cli/json_fields.h"
 #include "client/cli/key_faults.h"
 #include "client/cli/key_file.h"
 #include "client/cli/music.h"
@@ -99,7 +100,10 @@ std::filesystem::path PartialPath(const std::filesystem::path& out) {
 /// Without a song: as long as the path and the keys need.
 double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& controls,
                            const client::ModelDescription& model) {
-  if (options.seconds) return *options.seconds;
+  if (options.seconds) {
+    CheckInADance(*options.seconds, "--seconds");
+    return *options.seconds;
+  }
   int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
   for (const std::string& source : KeySources(options.keys)) {
     for (const client::KeyPose& key : ReadKeys(source, model.skeleton))

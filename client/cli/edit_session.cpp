@@ -90,6 +90,14 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   }
   edit.from = frame == 0 ? -1 : Before(frame);
   edit.to = frame == frames_ - 1 ? frames_ : Behind(frame);
+  for (const int64_t other : {edit.from, edit.to}) {
+    if (other < 0 || other == frames_ || std::abs(frame - other) >= kMinKeyDistance) continue;
+    throw InvalidArgument("--at", InFull(at_s) + " s lies " +
+                                      std::to_string(std::abs(frame - other)) + " frame from " +
+                                      (keys_.contains(other) ? "the key" : "an end of the dance,") +
+                                      " at " + Rounded(Seconds(other)) + " s, must be at least " +
+                                      std::to_string(kMinKeyDistance) + " frames from it");
+  }
   if (const auto next = keys_.find(edit.to); next != keys_.end())
     edit.to_id = next->second["id"].get<std::string>();
   DropWarnings(edit.from, edit.to);

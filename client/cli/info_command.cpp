@@ -21,35 +21,35 @@ struct InfoOptions {
 
 /// {"name": "median", "trunk": 0.012, ...}: metres a frame.
 nlohmann::ordered_json ToJson(const client::ModelDescription::VelocityReference& reference) {
-  nlohmann::ordered_json json;
-  json["name"] = reference.name;
+  nlohmann::ordered_json out;
+  out["name"] = reference.name;
   for (size_t part = 0; part < reference.speeds.size(); ++part)
-    json[std::string(kBodyPartNames[part])] = reference.speeds[part];
-  return json;
+    out[std::string(kBodyPartNames[part])] = reference.speeds[part];
+  return out;
 }
 
 nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
-  nlohmann::ordered_json json;
-  json["name"] = model.name;
-  json["fingerprint"] = model.fingerprint;
-  json["fps"] = model.fps;
-  json["history_frames"] = model.history_frames;
-  json["default_temperature"] = model.default_temperature;
-  json["latency_frames"] = model.latency_frames;
-  json["max_transition_frames"] = model.max_transition_frames;
-  json["controls"] = model.controls;
-  json["takes_music"] = model.takes_music;
-  json["deterministic"] = model.deterministic;
-  json["styles"] = model.styles;
-  json["velocity_references"] = nlohmann::ordered_json::array();
+  nlohmann::ordered_json out;
+  out["name"] = model.name;
+  out["fingerprint"] = model.fingerprint;
+  out["fps"] = model.fps;
+  out["history_frames"] = model.history_frames;
+  out["default_temperature"] = model.default_temperature;
+  out["latency_frames"] = model.latency_frames;
+  out["max_transition_frames"] = model.max_transition_frames;
+  out["controls"] = model.controls;
+  out["takes_music"] = model.takes_music;
+  out["deterministic"] = model.deterministic;
+  out["styles"] = model.styles;
+  out["velocity_references"] = nlohmann::ordered_json::array();
   for (const auto& reference : model.velocity_references)
-    json["velocity_references"].push_back(ToJson(reference));
-  json["skeleton"] = {{"name", model.skeleton.name}, {"joints", model.skeleton.joint_names}};
-  json["licence"] = model.licence;
+    out["velocity_references"].push_back(ToJson(reference));
+  out["skeleton"] = {{"name", model.skeleton.name}, {"joints", model.skeleton.joint_names}};
+  out["licence"] = model.licence;
   // The card is JSON of the model's own; shown as text if a server sends anything else.
   const auto card = nlohmann::ordered_json::parse(model.card, nullptr, false);
-  json["card"] = card.is_discarded() ? nlohmann::ordered_json(model.card) : card;
-  return json;
+  out["card"] = card.is_discarded() ? nlohmann::ordered_json(model.card) : card;
+  return out;
 }
 
 /// As people read it: texts bare, lists and objects as "name value, name value".
@@ -85,16 +85,16 @@ void PrintAncestors(const nlohmann::ordered_json& card) {
 /// A member of a model's card a line; of the validation, a line a length. All of what it went on
 /// from is in --json.
 void PrintCard(const std::string& card) {
-  const auto json = nlohmann::ordered_json::parse(card, nullptr, false);
-  if (!json.is_object()) return;
-  for (const auto& [name, value] : json.items()) {
+  const auto all = nlohmann::ordered_json::parse(card, nullptr, false);
+  if (!all.is_object()) return;
+  for (const auto& [name, value] : all.items()) {
     if (name == "validation" && value.is_array()) {
       for (const auto& row : value) std::printf("  validation: %s\n", Plain(row).c_str());
     } else if (name == "data" && value.is_object()) {
       for (const auto& [part, content] : value.items())
         std::printf("  data, %s: %s\n", part.c_str(), Plain(content).c_str());
     } else if (name == "from") {
-      PrintAncestors(json);
+      PrintAncestors(all);
     } else if (name != "licence") {  // said above
       std::printf("  %s: %s\n", name.c_str(), Plain(value).c_str());
     }
@@ -128,20 +128,20 @@ void PrintStyles(const client::ModelDescription& model) {
 
 void PrintServer(const client::ServerDescription& server, const InfoOptions& options) {
   if (options.json) {
-    nlohmann::ordered_json json;
-    json["version"] = server.version;
-    json["devices"] = server.devices;
-    json["slots"] = server.slots;
-    json["active_streams"] = server.active_streams;
-    json["limits"] = {{"max_audio_s", server.limits.max_audio_s},
-                      {"max_keyframes", server.limits.max_keyframes},
-                      {"max_transition_frames", server.limits.max_transition_frames},
-                      {"max_candidates", server.limits.max_candidates},
-                      {"max_streams", server.limits.max_streams},
-                      {"max_message_bytes", server.limits.max_message_bytes}};
+    nlohmann::ordered_json out;
+    out["version"] = server.version;
+    out["devices"] = server.devices;
+    out["slots"] = server.slots;
+    out["active_streams"] = server.active_streams;
+    out["limits"] = {{"max_audio_s", server.limits.max_audio_s},
+                     {"max_keyframes", server.limits.max_keyframes},
+                     {"max_transition_frames", server.limits.max_transition_frames},
+                     {"max_candidates", server.limits.max_candidates},
+                     {"max_streams", server.limits.max_streams},
+                     {"max_message_bytes", server.limits.max_message_bytes}};
     for (const client::ModelDescription& model : server.models)
-      json["models"].push_back(ToJson(model));
-    std::cout << json.dump(2) << std::endl;
+      out["models"].push_back(ToJson(model));
+    std::cout << out.dump(2) << std::endl;
     return;
   }
   std::printf("choreod %s, %d slots, %d calls in progress, on", server.version.c_str(),
@@ -164,10 +164,10 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
 
 void Run(const InfoOptions& options) {
   if (options.poses && options.json) {
-    auto json = nlohmann::ordered_json::array();
+    auto out = nlohmann::ordered_json::array();
     for (const LibraryPose& pose : PoseLibrary())
-      json.push_back({{"id", pose.id}, {"description", pose.description}});
-    std::cout << json.dump(2) << std::endl;
+      out.push_back({{"id", pose.id}, {"description", pose.description}});
+    std::cout << out.dump(2) << std::endl;
     return;
   }
   if (options.poses) {

@@ -195,17 +195,20 @@ Moment ParseMoment(const json& value, const std::string& field) {
   return moment;
 }
 
+void CheckInADance(double seconds, const std::string& field) {
+  if (seconds <= kLongestDance) return;
+  std::ostringstream message;
+  message << seconds << " s is beyond " << kLongestDance << " s, the longest dance";
+  throw InvalidArgument(field, message.str());
+}
+
 void AppendFrame(const json& value, const std::string& field, double fps,
                  std::vector<int64_t>* frames) {
   const Moment moment = ParseMoment(value, field);
   const int64_t frame = moment.frame.value_or(std::llround(moment.time_s * fps));
   const std::string when = field + (moment.frame ? ".frame" : ".time");
   const double seconds = static_cast<double>(frame) / fps;
-  if (seconds > kLongestDance) {
-    std::ostringstream message;
-    message << seconds << " s is beyond " << kLongestDance << " s, the longest dance";
-    throw InvalidArgument(when, message.str());
-  }
+  CheckInADance(seconds, when);
   if (!frames->empty() && frame == frames->back()) {
     std::ostringstream message;
     message << "is frame " << frame

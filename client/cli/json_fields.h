@@ -26,6 +26,8 @@ bool IsFrameNumber(const Json& value) {
 inline constexpr double kMaxSeconds = 1e9;
 /// Seconds of the longest dance.
 inline constexpr double kLongestDance = kMaxDanceFrames / kModelFps;
+/// Throws Error(kInvalidArgument) of this field for seconds beyond it.
+void CheckInADance(double seconds, const std::string& field);
 
 /// A value as messages show it: at most 40 characters.
 std::string Shown(const nlohmann::json& value);

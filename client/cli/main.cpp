@@ -8,12 +8,19 @@
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
 #include "client/cli/misspelling.h"
+#include "client/cli/options.h"
 #include "model/core/error.h"
 #include "model/core/programs.h"
 
 namespace {
 
 constexpr int kInterrupted = 130;  // as shells say it of Ctrl-C
+
+int Fail(const std::exception& error) {
+  if (choreo::cli::Interruption::Came()) return kInterrupted;
+  std::cerr << "choreo: " << error.what() << std::endl;
+  return choreo::kFailed;
+}
 
 }  // namespace
 
@@ -47,9 +54,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // Help and version come this way too, with code 0.
     return program.exit(error) == 0 ? 0 : choreo::kMisused;
+  } catch (const choreo::Error& error) {
+    return Fail(choreo::cli::AsTyped(error));
   } catch (const std::exception& error) {
-    if (choreo::cli::Interruption::Came()) return kInterrupted;
-    std::cerr << "choreo: " << error.what() << std::endl;
-    return choreo::kFailed;
+    return Fail(error);
   }
 }

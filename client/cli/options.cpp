@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 #include "client/cli/json_fields.h"
@@ -86,6 +87,17 @@ void AddStyle(CLI::App& command, std::string& style) {
   command.add_option("--style", style,
                      "How to dance, as happy or tired: a style that `choreo info` lists. Default: "
                      "as it comes.");
+}
+
+Error AsTyped(const Error& error) {
+  static const std::map<std::string_view, std::string> kOptions = {
+      {"config.style", "--style"}, {"config.temperature", "--temperature"},
+      {"video.fps", "--fps"},      {"video.height", "--size"},
+      {"video.width", "--size"},
+  };
+  const auto option = kOptions.find(error.field());
+  if (option == kOptions.end()) return error;
+  return {error.code(), option->second, std::string(error.what()).substr(error.field().size() + 2)};
 }
 
 void NoteDeterministic(const client::ModelDescription& model,

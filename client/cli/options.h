@@ -48,6 +48,9 @@ void NoteDeterministic(const client::ModelDescription& model,
 /// `--seed`: a whole number of 64 bits, never negative.
 void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);
 
+/// An error of what an option sets, as the library or the server names it, by the option's name.
+Error AsTyped(const Error& error);
+
 /// An option that may be given more than once. Each takes one value: what follows is another
 /// argument, such as a song.
 template <typename Value>

@@ -67,7 +67,7 @@ class LiveDance {
 
   const client::Header& header() const { return header_; }
   const Motion& motion() const { return motion_; }
-  const std::vector<std::array<float, 4>>& contacts() const { return contacts_; }
+  const std::vector<Contacts>& contacts() const { return contacts_; }
 
  private:
   // Of the thread that runs.
@@ -101,7 +101,7 @@ class LiveDance {
 
   client::Header header_;
   Motion motion_;
-  std::vector<std::array<float, 4>> contacts_;
+  std::vector<Contacts> contacts_;
   std::exception_ptr failure_;
   std::unique_ptr<PosePlayer> player_;
   std::atomic<bool> over_ = false;

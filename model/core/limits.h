@@ -18,6 +18,10 @@ inline constexpr double kMinOutputFps = 1, kMaxOutputFps = 120;  ///< frames sen
 
 inline constexpr size_t kMostNameBytes = 64;  ///< of a model's name, which metrics and logs repeat
 
+/// Seconds of silence after which a client may take a server for lost at the soonest: it pings at
+/// half of that, and servers allow twice as many pings.
+inline constexpr double kMinSilence = 2;
+
 inline constexpr int kDefaultPort = 50051;  ///< of choreod
 inline constexpr int kMaxPort = 65'535;
 

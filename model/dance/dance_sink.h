@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -34,7 +33,7 @@ class DanceSink {
   virtual ~DanceSink() = default;
   /// Output rate; `first_frame` counts output frames from time 0. The spans live for the call.
   virtual void OnFrames(int64_t first_frame, std::span<const Pose> poses,
-                        std::span<const std::array<float, 4>> contacts) = 0;
+                        std::span<const Contacts> contacts) = 0;
   virtual void OnEvent(const DanceEvent& event) = 0;
   /// At each transition's end, after its frames and events.
   virtual void OnContinuation(const Continuation& continuation) = 0;

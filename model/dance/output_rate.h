@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,7 +12,7 @@ namespace choreo {
 struct OutputFrames {
   int64_t first_frame = 0;  ///< of time 0 on, at the output's rate
   std::vector<Pose> poses;
-  std::vector<std::array<float, 4>> contacts;
+  std::vector<Contacts> contacts;
 };
 
 /// Resamples a dance while it goes by: a frame that falls between two of the model's waits for the

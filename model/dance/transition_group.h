@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -26,7 +25,7 @@ class GroupSink {
  public:
   virtual ~GroupSink() = default;
   virtual void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
-                        std::span<const std::array<float, 4>> contacts) = 0;
+                        std::span<const Contacts> contacts) = 0;
   virtual void OnWarning(const DanceWarning& warning) = 0;
   /// Last: the candidates, best first.
   virtual void OnDone(std::span<const CandidateReport> ranked) = 0;

@@ -11,12 +11,11 @@ namespace choreo {
 namespace {
 
 constexpr int kWidth = 1100, kLeastHeight = 640;
-constexpr double kBody = 460;               // pixels in the middle, for the body
-constexpr double kLine = 15, kMargin = 24;  // of a name, and around all
+constexpr double kBody = 460;             // pixels in the middle, for the body
+constexpr double kLine = 15, kEdge = 24;  // of a name, and around all
 constexpr double kText = 11;
 constexpr size_t kLongestName = 36;  // bytes
-constexpr Colour kPaper = Colour::Hex(0xfbf9f6), kQuiet = Colour::Hex(0x8f887c);
-constexpr Colour kInk = Colour::Hex(0x2c2a26), kTaken = Colour::Hex(0xb3402e);
+constexpr Colour kQuiet = Colour::Hex(0x8f887c), kTaken = Colour::Hex(0xb3402e);
 
 // Cut where a character begins.
 std::string Shown(const std::string& name) {
@@ -49,9 +48,9 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
   }
   const size_t most = std::max(columns[0].size(), columns[1].size());
   const int height =
-      std::max(kLeastHeight, static_cast<int>(kLine * static_cast<double>(most) + 2 * kMargin));
+      std::max(kLeastHeight, static_cast<int>(kLine * static_cast<double>(most) + 2 * kEdge));
   const double scale =
-      std::min((height - 4 * kMargin) / std::max(1e-9, size.y()), kBody / std::max(1e-9, size.x()));
+      std::min((height - 4 * kEdge) / std::max(1e-9, size.y()), kBody / std::max(1e-9, size.x()));
   const auto x = [&](const ChartBone& bone) {
     return kWidth / 2.0 + scale * (bone.place.x() - middle.x());
   };
@@ -71,9 +70,9 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
     cairo_stroke(cr);
   }
   for (const int side : {0, 1}) {
-    const double edge = side == 0 ? kMargin : kWidth - kMargin;
+    const double edge = side == 0 ? kEdge : kWidth - kEdge;
     const auto lines = static_cast<double>(std::max<size_t>(1, columns[side].size()));
-    const double pitch = std::min((height - 2 * kMargin) / lines, 3 * kLine);
+    const double pitch = std::min((height - 2 * kEdge) / lines, 3 * kLine);
     double line = (height - pitch * (lines - 1)) / 2;
     for (const ChartBone& bone : columns[side]) {
       const bool taken = !bone.means.empty();

@@ -12,6 +12,8 @@
 /// What the pictures of this folder have in common: a cairo surface that frees itself, and text.
 namespace choreo {
 
+inline constexpr Colour kPaper = Colour::Hex(0xffffff), kInk = Colour::Hex(0x24292f);
+
 enum class Align { kLeft, kCentre, kRight };
 
 /// An RGB picture in memory. Not thread-safe; different canvases are independent.

@@ -20,8 +20,6 @@ constexpr int kLabel = 24;  // below each tile
 constexpr double kFont = 13;
 constexpr double kCorner = 8;
 
-constexpr Colour kPaper = Colour::Hex(0xffffff);
-constexpr Colour kInk = Colour::Hex(0x2b2b2b);
 constexpr Colour kFaint = Colour::Hex(0x85807a);
 const FrameStyle kPlain,
     kKeyPose = {.background = Colour::Hex(0xfff6dd), .floor = Colour::Hex(0xf3e4b8)};

@@ -11,11 +11,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kFont = 14;
+constexpr double kLabelSize = 14;
 constexpr double kTitleFont = 18;
 
-constexpr Colour kPaper = Colour::Hex(0xffffff);
-constexpr Colour kInk = Colour::Hex(0x24292f);
 constexpr Colour kGrid = Colour::Hex(0xe1e4e8);
 // Told apart by colour-blind eyes too (Okabe and Ito 2008), without the yellow.
 constexpr Colour kLines[] = {Colour::Hex(0x0072b2), Colour::Hex(0xd55e00), Colour::Hex(0x009e73),
@@ -139,21 +137,21 @@ void DrawSeries(const Canvas& canvas, const Plot& plot, const std::vector<Stroke
 // Under the title, in as many lines as it takes; `top` is moved below it.
 void DrawLegend(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
                 double left, double right, double& top) {
-  constexpr double kSample = 26, kGap = 22, kLine = 20;
+  constexpr double kSample = 26, kBetween = 22, kPitch = 20;
   double x = left;
-  double y = top + kLine / 2;
+  double y = top + kPitch / 2;
   for (size_t i = 0; i < plot.series.size(); ++i) {
-    const double width = kSample + 6 + canvas.TextWidth(plot.series[i].label, kFont) + kGap;
-    if (x > left && x + width > right) x = left, y += kLine;
+    const double width = kSample + 6 + canvas.TextWidth(plot.series[i].label, kLabelSize) + kBetween;
+    if (x > left && x + width > right) x = left, y += kPitch;
     Select(canvas, strokes[i]);
     if (!plot.x_names.empty()) cairo_set_line_width(canvas.cr(), 10);  // a bar's colour
     DrawLine(canvas, x, y, x + kSample, y);
     cairo_set_dash(canvas.cr(), nullptr, 0, 0);
     canvas.SetColour(kInk);
-    canvas.Text(plot.series[i].label, x + kSample + 6, y, kFont);
+    canvas.Text(plot.series[i].label, x + kSample + 6, y, kLabelSize);
     x += width;
   }
-  if (!plot.series.empty()) top = y + kLine;
+  if (!plot.series.empty()) top = y + kPitch;
 }
 
 }  // namespace
@@ -193,7 +191,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   Axis y_axis(ys.low, ys.high, bottom, top, 56);
   double widest = 0;
   for (const Tick& tick : y_axis.ticks()) {
-    widest = std::max(widest, canvas.TextWidth(tick.label, kFont));
+    widest = std::max(widest, canvas.TextWidth(tick.label, kLabelSize));
   }
   const double left = 24 + (plot.y_label.empty() ? 0 : 26) + widest + 8;
   if (plot.map) {
@@ -207,7 +205,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   if (bars) {
     double widest_name = 0;
     for (const std::string& name : plot.x_names)
-      widest_name = std::max(widest_name, canvas.TextWidth(name, kFont));
+      widest_name = std::max(widest_name, canvas.TextWidth(name, kLabelSize));
     x_axis.Name(plot.x_names, widest_name + 8);
   }
 
@@ -217,7 +215,7 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
     canvas.SetColour(kGrid);
     DrawLine(canvas, left, y, right, y);
     canvas.SetColour(kInk);
-    canvas.Text(tick.label, left - 8, y, kFont, Align::kRight);
+    canvas.Text(tick.label, left - 8, y, kLabelSize, Align::kRight);
   }
   for (const Tick& tick : x_axis.ticks()) {
     const double x = std::round(x_axis.At(tick.value)) + 0.5;
@@ -225,15 +223,15 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
     DrawLine(canvas, x, top, x, bottom);
     canvas.SetColour(kInk);
     DrawLine(canvas, x, bottom, x, bottom + 5);
-    canvas.Text(tick.label, x, bottom + 17, kFont, Align::kCentre);
+    canvas.Text(tick.label, x, bottom + 17, kLabelSize, Align::kCentre);
   }
   canvas.SetColour(kInk);
   DrawLine(canvas, left, std::round(bottom) + 0.5, right, std::round(bottom) + 0.5);
-  canvas.Text(plot.x_label, (left + right) / 2, plot.height - 20, kFont, Align::kCentre);
+  canvas.Text(plot.x_label, (left + right) / 2, plot.height - 20, kLabelSize, Align::kCentre);
   cairo_save(cr);
   cairo_translate(cr, 26, (top + bottom) / 2);
   cairo_rotate(cr, -M_PI / 2);
-  canvas.Text(plot.y_label, 0, 0, kFont, Align::kCentre);
+  canvas.Text(plot.y_label, 0, 0, kLabelSize, Align::kCentre);
   cairo_restore(cr);
 
   cairo_save(cr);

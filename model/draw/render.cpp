@@ -17,7 +17,7 @@ using Eigen::Vector3f;
 
 constexpr float kLampSpread = 0.10f;   // radians
 constexpr float kShadowBias = 0.012f;  // metres off the surface: parts overlap at the joints
-constexpr float kGrid = 0.5f;  // metres between the lines on the floor, which the world fixes
+constexpr float kFloorGrid = 0.5f;  // metres between the lines on the floor, which the world fixes
 constexpr float kGridHalfWidth = 0.008f;  // metres
 
 Vector3f Linear(const Colour& colour) {
@@ -240,7 +240,7 @@ class Renderer {
 
   // How much of a stretch of the floor, `width` wide around `at`, the grid's lines cover.
   static float Lines(float at, float width) {
-    const float from_line = std::abs(at - kGrid * std::round(at / kGrid));
+    const float from_line = std::abs(at - kFloorGrid * std::round(at / kFloorGrid));
     const float covered = (kGridHalfWidth + 0.5f * width - from_line) / width;
     return std::clamp(covered, 0.0f, std::min(1.0f, 2 * kGridHalfWidth / width));
   }

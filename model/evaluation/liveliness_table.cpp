@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 
+#include "model/core/rounded.h"
+#include "model/evaluation/band_table.h"
 #include "model/evaluation/evaluation.h"
 #include "model/evaluation/lively_figures.h"
 #include "model/evaluation/long_figures.h"
@@ -10,7 +11,6 @@
 #include "model/evaluation/transition_judge.h"
 #include "model/metrics/critic.h"
 #include "model/metrics/pose_distance.h"
-#include "model/metrics/speed_spectrum.h"
 
 namespace choreo {
 namespace {
@@ -103,7 +103,8 @@ void AddMovement(const KeyedDances& dances, Table* table) {
     const double ratio = danced[i].median_speed / real[i].median_speed;
     within.push_back({danced[i].clip, ratio >= kSlowest && ratio <= kFastest ? 100.0 : 0.0});
   }
-  Add("dances at 0.7 to 1.4 of it %", 100, {}, Mean(within), {}, table);
+  Add("dances at " + Rounded(kSlowest) + " to " + Rounded(kFastest) + " of it %", 100, {},
+      Mean(within), {}, table);
   const auto path = [](const LivelyFigures& one) { return one.limbs.path; };
   const auto chord = [](const LivelyFigures& one) { return one.limbs.chord; };
   const auto wandering = [&](const LivelyDances& some) {
@@ -238,62 +239,6 @@ Table LivelinessTable(const Evaluation& evaluation, const Method& method,
   return table;
 }
 
-// [kBands, joints], mean over windows, floor and height together.
-Eigen::MatrixXd MeanPower(const LivelyDances& dances, double fps) {
-  Eigen::MatrixXd sum;
-  int windows = 0;
-  const auto length = static_cast<std::ptrdiff_t>(std::lround(2 * fps));
-  for (const LivelyFigures& dance : dances) {
-    const JointTrack& track = dance.track;
-    for (auto from = track.begin(); track.end() - from >= length; from += length, ++windows) {
-      const Eigen::MatrixXd power = SpeedSpectrum(JointTrack(from, from + length), fps);
-      if (windows == 0) sum.setZero(kBands, power.cols() / 2);
-      for (Eigen::Index joint = 0; joint < sum.cols(); ++joint)
-        sum.col(joint) += power.col(2 * joint) + power.col(2 * joint + 1);
-    }
-  }
-  return sum / std::max(1, windows);
-}
-
-std::string WithoutSide(const std::string& joint) {
-  for (const std::string side : {"left_", "right_"})
-    if (joint.starts_with(side)) return joint.substr(side.size());
-  return joint;
-}
-
-// The root of the danced power over the real one; left and right as one.
-Table BandTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances) {
-  const ModelInfo& model = method.engine->model();
-  Table table =
-      evaluation.NewTable("liveliness_bands", "How fast in which band", {"joint"}, &method);
-  table.note =
-      "Speed over real motion's by frequency, through the same keys; the pelvis in the world, all "
-      "else as seen from it.";
-  const std::vector<std::string>& joints = model.skeleton.joint_names;
-  const Eigen::MatrixXd theirs = MeanPower(dances.real, model.fps);
-  const Eigen::MatrixXd ours = MeanPower(dances.seeds[0], model.fps);
-  std::vector<std::string> names;
-  for (const std::string& joint : joints) {
-    const std::string name = WithoutSide(joint);
-    if (std::ranges::find(names, name) != names.end()) continue;
-    names.push_back(name);
-    Eigen::VectorXd above = Eigen::VectorXd::Zero(kBands), below = above;
-    for (Eigen::Index j = 0; j < ours.cols(); ++j) {
-      if (WithoutSide(joints[j]) != name) continue;
-      above += ours.col(j);
-      below += theirs.col(j);
-    }
-    table.Begin({name});
-    for (int band = 0; band < kBands; ++band) {
-      char heading[64];
-      std::snprintf(heading, sizeof(heading), "%g to %g Hz", kBandEdges[band],
-                    kBandEdges[band + 1]);
-      table.Put(heading, 2, below[band] > 0 ? std::sqrt(above[band] / below[band]) : NAN);
-    }
-  }
-  return table;
-}
-
 }  // namespace
 
 std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation) {
@@ -302,7 +247,8 @@ std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation) {
     if (!method.Judged()) continue;
     const KeyedDances dances = DanceKeyed(evaluation, method);
     tables.push_back(LivelinessTable(evaluation, method, dances));
-    if (!dances.real.empty()) tables.push_back(BandTable(evaluation, method, dances));
+    if (!dances.real.empty())
+      tables.push_back(BandTable(evaluation, method, dances.real, dances.seeds[0]));
   }
   return tables;
 }

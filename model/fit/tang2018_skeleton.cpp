@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "model/core/error.h"
 #include "model/fit/mapping_builder.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
 
-constexpr double kWaistLean = 19 * std::numbers::pi / 180;
+constexpr double kWaistLean = 19 / kDegrees;
 
 /// Mean over clips of the median distance of two points.
 class Lengths {

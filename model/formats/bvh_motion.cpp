@@ -13,8 +13,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kSameOffset = 0.001;  // metres
-constexpr double kMetresBelow = 5;     // a body of less units than these is in metres
+constexpr double kMetresBelow = 5;  // a body of less units than these is in metres
 
 constexpr BvhChannel kRotations[] = {BvhChannel::kZRotation, BvhChannel::kXRotation,
                                      BvhChannel::kYRotation};
@@ -34,7 +33,7 @@ BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
     if (channel <= BvhChannel::kZPosition) {
       local.position[axis] = value;
     } else {
-      local.rotation *= Eigen::AngleAxisd(value * M_PI / 180, Eigen::Vector3d::Unit(axis)).matrix();
+      local.rotation *= Eigen::AngleAxisd(value / kDegrees, Eigen::Vector3d::Unit(axis)).matrix();
     }
   }
   return local;
@@ -106,7 +105,7 @@ std::optional<std::vector<int>> FindJoints(const BvhFile& file, const Skeleton& 
     const int parent = joint.parent < 0 ? -1 : found[joint.parent];
     if (index < 0 || skeleton.parents[index] != parent) return std::nullopt;
     const Eigen::Vector3d offset = joint.offset / layout.units_per_metre;
-    if (parent >= 0 && (offset - skeleton.offsets.col(index)).norm() > kSameOffset)
+    if (parent >= 0 && (offset - skeleton.offsets.col(index)).norm() > kSameBone)
       return std::nullopt;
   }
   if (std::ssize(found) - std::ranges::count(found, -1) != skeleton.joints()) return std::nullopt;
@@ -196,7 +195,7 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
     for (const int joint : blocks.ours) {
       if (joint < 0) continue;
       euler.col(joint) = EulerZxy(ExpMap(pose.rotations.col(joint)), euler.col(joint));
-      values.segment<3>(row) = euler.col(joint) / (M_PI / 180);
+      values.segment<3>(row) = euler.col(joint) * kDegrees;
       row += 3;
     }
   }

@@ -12,8 +12,6 @@
 namespace choreo {
 namespace {
 
-constexpr double kSameRest = 0.002;  // metres
-
 // The nodes that are our joints, or nothing if the file's skeleton is another one.
 std::optional<std::vector<int>> FindOurs(const GltfNodes& file, const Skeleton& skeleton) {
   const Eigen::Matrix3Xd rest = PlacesOf(file.PlaceAtRest());
@@ -25,7 +23,7 @@ std::optional<std::vector<int>> FindOurs(const GltfNodes& file, const Skeleton& 
       const int parent = nodes[skeleton.parents[joint]];
       const Eigen::Vector3d offset = rest.col(node) - rest.col(parent);
       if (file.parents[node] != parent ||
-          (offset - skeleton.offsets.col(joint)).norm() > kSameRest) {
+          (offset - skeleton.offsets.col(joint)).norm() > kSameBone) {
         return std::nullopt;
       }
     }

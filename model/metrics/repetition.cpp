@@ -11,10 +11,10 @@
 namespace choreo {
 namespace {
 
-constexpr double kWindow = 0.5;  // seconds
-constexpr double kLag = 1.0;     // seconds
-constexpr double kStill = 0.15;  // m/s
-constexpr double kAlike = 0.05;  // metres
+constexpr double kWindow = 0.5;         // seconds
+constexpr double kLag = 1.0;            // seconds
+constexpr double kRestingSpeed = 0.15;  // m/s
+constexpr double kAlike = 0.05;         // metres
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Repetition MeasureRepetition(const Skeleton& skeleton, std::span<const Pose> pos
     Eigen::RowVectorXd way = Eigen::RowVectorXd::Zero(skeleton.joints());
     for (int i = begin + 1; i < begin + window; ++i)
       way += (local[i] - local[i - 1]).colwise().norm();
-    return way.maxCoeff() / (window - 1) * fps < kStill;
+    return way.maxCoeff() / (window - 1) * fps < kRestingSpeed;
   };
   const auto are_alike = [&](int a, int b) {
     double distance = 0;

@@ -9,10 +9,6 @@
 
 namespace choreo {
 
-/// Foot contacts c_t of paper F, Section 3.2.1: left ankle, left toes, right ankle, right toes; 1
-/// on the floor, 0 off it. A model's may lie in between.
-using Contacts = std::array<float, 4>;
-
 /// Metres above its height in the rest pose: a joint up to the first is on the floor, one beyond
 /// the second has left it.
 inline constexpr double kDownHeight = 0.04, kUpHeight = 0.07;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "model/core/grid.h"
@@ -14,6 +15,10 @@ struct Pose {
   Eigen::Matrix3Xd
       rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
 };
+
+/// Foot contacts c_t of paper F, Section 3.2.1: left ankle, left toes, right ankle, right toes; 1
+/// on the floor, 0 off it. A model's may lie in between.
+using Contacts = std::array<float, 4>;
 
 /// Frames at a constant rate. Exponential-map branches are continuous from frame to frame.
 struct Motion {

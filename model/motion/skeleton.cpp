@@ -174,7 +174,7 @@ void Skeleton::RequireRoles() const {
 
 bool SameBones(const Skeleton& a, const Skeleton& b) {
   return a.joint_names == b.joint_names && a.parents == b.parents &&
-         (a.offsets - b.offsets).colwise().norm().maxCoeff() < 0.001;
+         (a.offsets - b.offsets).colwise().norm().maxCoeff() <= kSameBone;
 }
 
 std::vector<Hinge> Hinges(const Skeleton& skeleton) {

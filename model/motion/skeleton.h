@@ -61,8 +61,10 @@ int IndexOf(const std::vector<std::string>& names, std::string_view name);
 /// Whether `node` is `ancestor` or hangs from it. `parents`: -1 for none.
 bool IsBelow(int node, int ancestor, const std::vector<int>& parents);
 
-/// Whether poses of one are poses of the other: the same joints and tree, bones that differ by less
-/// than a millimetre (files and messages round them).
+/// Bones that differ by no more, metres, are the same: files round both ends to a millimetre.
+inline constexpr double kSameBone = 0.002;
+
+/// Whether poses of one are poses of the other: the same joints, tree and bones.
 bool SameBones(const Skeleton& a, const Skeleton& b);
 
 /// A knee or elbow, which bends about one axis. `axis` is in the frame of the bone above at rest;

@@ -97,17 +97,21 @@ class FlowMatchingRun : public TrainingRun {
       KeepStyles(base.model->config().styles, *model_, &weights);
       ImportTensors(weights, "", model_.get());
     }
-    Measure();
     model_->to(device_);
-    matching_ = std::make_unique<FlowMatching>(model_);
     average_ = ContinuousFlow(config, train_.skeleton());
     average_->to(device_);
-    Copy(1);
     average_->eval();
     Open(model_.get());
   }
 
  protected:
+  // What a run that is resumed has in its state.
+  void Prepare() override {
+    Measure();
+    matching_ = std::make_unique<FlowMatching>(model_);
+    Copy(1);
+  }
+
   void TrainStep() override {
     // Bits do not depend on how many are drawn ahead: each has random numbers of its own.
     const size_t ahead = std::max(2U, std::thread::hardware_concurrency()) - 1;

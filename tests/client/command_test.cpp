@@ -210,7 +210,10 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
   expect_failure("dance " + At("song.wav") + Server() + "--out x.mp4",
                  "must be .npz, .bvh or .glb");
   expect_failure("dance " + At("song.wav") + Server() + "--out /absent/x.npz", "no folder /absent");
-  expect_failure("dance " + At("song.wav") + Server() + "--temperature 9", "temperature");
+  expect_failure("dance " + At("song.wav") + Server() + "--temperature 9",
+                 "choreo: --temperature: 9 is not in [0, 2]");
+  expect_failure("dance " + At("song.wav") + Server() + "--style odd",
+                 "choreo: --style: \"odd\" is no style of");
   expect_failure("dance " + At("noise.wav") + Server(), "noise.wav");
   expect_failure("transition --from swan --to kick --out " + At("t.npz") + Server(),
                  "swan: is no pose of the library");

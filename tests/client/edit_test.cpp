@@ -268,8 +268,12 @@ TEST_F(EditTest, SaysWhatCannotBe) {
   expect_failure("--key kick --at 11",
                  "11 s lies behind the dance, which has its last frame at 9.97 s");
   expect_failure("--key kick --at " + Seconds(keys_[1] + 1) + " --report " + At("report.json"),
-                 "from: " + std::to_string(keys_[1]) + " with a key at frame " +
-                     std::to_string(keys_[1] + 1) + ": must be at least 2 before it");
+                 "s lies 1 frame from the key at ");
+  expect_failure(
+      "--key kick --at 3 --key groove --at 3.03",
+      "--at: 3.03 s lies 1 frame from the key at 3 s, must be at least 2 frames from it");
+  expect_failure("--key kick --at 0.03",
+                 "--at: 0.03 s lies 1 frame from an end of the dance, at 0 s");
   expect_failure("--key kick --at 2 --report " + At("other.json"), "far stands at frame 900");
   std::ofstream(folder_ / "huge.json")
       << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 18446744073709551615}]})";

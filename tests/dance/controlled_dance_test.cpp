@@ -299,8 +299,7 @@ TEST_F(ControlledDanceTest, MovingTheSceneMovesTheDance) {
 /// Keeps what a group says.
 class GroupRecorder : public GroupSink {
  public:
-  void OnFrames(int, int64_t, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>>) override {
+  void OnFrames(int, int64_t, std::span<const Pose> poses, std::span<const Contacts>) override {
     std::lock_guard lock(mutex_);
     recording_.poses.insert(recording_.poses.end(), poses.begin(), poses.end());
   }

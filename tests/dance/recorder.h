@@ -19,7 +19,7 @@ namespace choreo {
 struct Recording {
   int64_t first_frame = -1;
   std::vector<Pose> poses;
-  std::vector<std::array<float, 4>> contacts;
+  std::vector<Contacts> contacts;
   std::vector<KeyReached> reached;
   std::vector<KeyRejection> rejected;
   std::vector<DanceWarning> warnings;
@@ -40,7 +40,7 @@ class Recorder : public DanceSink {
   std::function<void(size_t frames)> on_frames;
 
   void OnFrames(int64_t first_frame, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>> contacts) override {
+                std::span<const Contacts> contacts) override {
     if (on_frames) on_frames(Snapshot().poses.size() + poses.size());
     std::lock_guard lock(mutex_);
     Note();

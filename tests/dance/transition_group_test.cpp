@@ -13,7 +13,7 @@ namespace choreo::transition_group_test {
 class GroupRecorder : public GroupSink {
  public:
   void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
-                std::span<const std::array<float, 4>>) override {
+                std::span<const Contacts>) override {
     std::lock_guard lock(mutex_);
     frames.resize(std::max(frames.size(), static_cast<size_t>(candidate) + 1));
     auto& list = frames[static_cast<size_t>(candidate)];

@@ -28,7 +28,7 @@ class EncodingTest : public testing::TestWithParam<v1::RotationEncoding> {};
 TEST_P(EncodingTest, OutAndInAgain) {
   const Pose pose = SomePose();
   v1::Frames frames;
-  const std::array<float, 4> contacts = {0.25F, 0.5F, 0.75F, 1.0F};
+  const Contacts contacts = {0.25F, 0.5F, 0.75F, 1.0F};
   FromFrames(17, {&pose, 1}, {&contacts, 1}, GetParam(), &frames);
   EXPECT_EQ(frames.first_frame(), 17);
   EXPECT_EQ(frames.count(), 1);
@@ -61,7 +61,7 @@ TEST(ConvertTest, QuaternionsAreContinuous) {
     Pose pose;
     pose.rotations = Eigen::Matrix3Xd::Zero(3, 1);
     pose.rotations(1, 0) = 0.02 * step;
-    const std::array<float, 4> contacts = {};
+    const Contacts contacts = {};
     v1::Frames frames;
     FromFrames(0, {&pose, 1}, {&contacts, 1}, v1::ROTATION_ENCODING_QUATERNION, &frames);
     const Eigen::Vector4d now(frames.rotations(0), frames.rotations(1), frames.rotations(2),

@@ -47,6 +47,14 @@ Answer::Joined Answer::Join(uint32_t candidate) const {
   return joined;
 }
 
+std::vector<std::string> Answer::ReachedKeys() const {
+  std::vector<std::string> ids;
+  for (const v1::Event& event : events) {
+    if (event.has_keyframe_reached()) ids.push_back(event.keyframe_reached().id());
+  }
+  return ids;
+}
+
 void Answer::Take(const v1::StreamDanceResponse& response) {
   EXPECT_FALSE(summary) << "something comes after the summary";
   if (response.has_header()) {

@@ -56,6 +56,8 @@ struct Answer {
     bool operator==(const Joined&) const = default;
   };
   Joined Join(uint32_t candidate = 0) const;
+  /// Ids of keys, in the order in which they were reached.
+  std::vector<std::string> ReachedKeys() const;
 
   void Take(const v1::StreamDanceResponse& response);
   void Take(const v1::GenerateTransitionResponse& response);

@@ -1,11 +1,8 @@
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <thread>
 
-#include "model/motion/kinematics.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::stream_test {
@@ -33,14 +30,6 @@ class StreamTest : public ServerTest {
     client.SendEndOfAudio();
     client.SendKeyframesComplete();
     return client.Finish();
-  }
-
-  static std::vector<std::string> ReachedKeys(const Answer& answer) {
-    std::vector<std::string> ids;
-    for (const v1::Event& event : answer.events) {
-      if (event.has_keyframe_reached()) ids.push_back(event.keyframe_reached().id());
-    }
-    return ids;
   }
 };
 
@@ -73,7 +62,7 @@ TEST_F(StreamTest, DancesThroughItsKeys) {
   EXPECT_NEAR(joined.rotations[40 * 72 + 3 * elbow + 1], 0.8, 1e-5);
   EXPECT_NEAR(joined.rotations[90 * 72 + 3 * elbow + 1], 1.5, 1e-5);
 
-  EXPECT_EQ(ReachedKeys(answer), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(answer.ReachedKeys(), (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(answer.continuations.size(), 2U);
   EXPECT_EQ(answer.continuations[0].frame(), 41);
   EXPECT_EQ(answer.continuations[0].seed(), 7U);
@@ -159,99 +148,6 @@ TEST_F(StreamTest, TheLastBeatOfAContinuationMayLieBehindAllMusic) {
     EXPECT_THAT(Dance({request}).status.error_message(),
                 testing::HasSubstr("config.continuation.last_beat: "));
   }
-}
-
-TEST_F(StreamTest, LateKeysAreRejectedByEvent) {
-  Start();
-  DanceClient client(stub());
-  v1::DanceConfig config = Config();
-  config.set_frames(120);
-  client.Send(config);
-  client.SendGenerateUntil(1);  // keys will be edited
-  client.SendKeyframe(Key("a", 50));
-  client.SendKeyframe(Key("b", 100));
-  client.SendGenerateUntil(60);
-  ASSERT_TRUE(client.ReadFrames(51));
-  client.SendKeyframe(Key("late", 20));
-  client.SendKeyframe(Key("b", 90));  // moved, in time
-  const Answer& answer = client.Finish();
-  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
-  EXPECT_EQ(answer.Join().count, 120);
-  const auto rejected = std::find_if(answer.events.begin(), answer.events.end(),
-                                     [](const auto& e) { return e.has_keyframe_rejected(); });
-  ASSERT_NE(rejected, answer.events.end());
-  EXPECT_EQ(rejected->frame(), 20);
-  EXPECT_EQ(rejected->keyframe_rejected().id(), "late");
-  EXPECT_GE(rejected->keyframe_rejected().earliest_frame(), 60);
-  ASSERT_EQ(answer.summary->report().keyframes_size(), 2);
-  EXPECT_EQ(answer.summary->report().keyframes(1).frame(), 90);
-}
-
-TEST_F(StreamTest, KeysAreAddedMovedAndRemovedBehindTheFrontier) {
-  Start();
-  DanceClient client(stub());
-  v1::DanceConfig config = Config();
-  config.set_frames(120);
-  client.Send(config);
-  client.SendGenerateUntil(1);  // keys will be edited
-  client.SendKeyframe(Key("a", 30));
-  client.SendKeyframe(Key("b", 60));
-  client.SendKeyframe(Key("c", 90));
-  client.SendGenerateUntil(31);
-  ASSERT_TRUE(client.ReadFrames(31));
-  v1::StreamDanceRequest remove;
-  remove.mutable_remove_keyframe()->set_id("b");
-  client.Send(remove);
-  client.SendKeyframe(Key("c", 100));
-  v1::Keyframe added = Key("d", 75);
-  added.mutable_pose()->clear_root_position();
-  client.SendKeyframe(added);
-  const Answer& answer = client.Finish();
-  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
-  EXPECT_EQ(answer.Join().count, 120);
-  EXPECT_EQ(ReachedKeys(answer), (std::vector<std::string>{"a", "d", "c"}));
-  const v1::QualityReport& report = answer.summary->report();
-  ASSERT_EQ(report.keyframes_size(), 3);
-  EXPECT_EQ(report.keyframes(1).frame(), 75);
-  EXPECT_EQ(report.keyframes(2).frame(), 100);
-}
-
-TEST_F(StreamTest, TimesAndIntervalsPlaceKeys) {
-  Start();
-  DanceClient client(stub());
-  client.Send(Config());
-  v1::Keyframe first = Key("first", 0);
-  first.set_time(1.01);  // nearest frame: 30
-  client.SendKeyframe(first);
-  v1::Keyframe second = Key("second", 0, 0.1, 0.5);
-  second.set_interval_after_previous(25);
-  client.SendKeyframe(second);
-  const Answer& answer = client.Finish();
-  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
-  ASSERT_EQ(answer.summary->report().keyframes_size(), 2);
-  EXPECT_EQ(answer.summary->report().keyframes(0).frame(), 30);
-  EXPECT_EQ(answer.summary->report().keyframes(1).frame(), 55);
-}
-
-TEST_F(StreamTest, MaskedKeysLeaveTheRestAlone) {
-  Start();
-  const auto elbow = static_cast<size_t>(Skeleton::Smpl24().left_elbow);
-  auto dance = [&](float other_elbow) {
-    v1::Keyframe key = Key("masked", 40);
-    key.mutable_pose()->clear_root_position();
-    key.mutable_mask()->add_joints(static_cast<int>(elbow));
-    const int right = 3 * Skeleton::Smpl24().right_elbow + 1;
-    key.mutable_pose()->set_rotations(right, other_elbow);  // masked out
-    DanceClient client(stub());
-    client.Send(Config());
-    client.SendKeyframe(key);
-    return client.Finish();
-  };
-  const Answer answer = dance(0);
-  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
-  const Answer::Joined joined = answer.Join();
-  EXPECT_NEAR(joined.rotations[40 * 72 + 3 * elbow + 1], 0.8, 1e-5);
-  EXPECT_TRUE(joined == dance(1.2F).Join());
 }
 
 TEST_F(StreamTest, OutputRateAndEncoding) {
@@ -353,39 +249,6 @@ TEST_F(StreamTest, BeatsMayComeAheadOfTheFrontier) {
   }
   EXPECT_EQ(times, (std::vector<double>{2.0, 2.5})) << "the transition under way has none";
   EXPECT_EQ(warnings, std::vector{v1::WARNING_CODE_BEATS_TOO_LATE});
-}
-
-// Frames leave up to generate_until, and the key behind it moves, in whatever order keys came.
-TEST_F(StreamTest, KeysMoveWhileTheWayThereIsDanced) {
-  Start();
-  const auto dance = [this](bool move) {
-    DanceClient client(stub());
-    v1::DanceConfig config = Config();
-    config.set_frames(150);
-    config.set_generate_until(0);
-    client.Send(config);
-    client.SendKeyframe(Key("b", 110));
-    client.SendKeyframe(Key("a", 60, -0.2, 0.9, 1.5F));
-    client.SendGenerateUntil(20);
-    EXPECT_TRUE(client.ReadFrames(20));
-    if (move) client.SendKeyframe(Key("a", 50, -0.2, 0.9, 1.5F));
-    for (int64_t frame = 21; frame <= 40; ++frame) client.SendGenerateUntil(frame);
-    EXPECT_TRUE(client.ReadFrames(40));
-    return client.Finish();
-  };
-  const Answer plain = dance(false), moved = dance(true);
-  ASSERT_TRUE(plain.status.ok()) << plain.status.error_message();
-  ASSERT_TRUE(moved.status.ok()) << moved.status.error_message();
-  EXPECT_EQ(ReachedKeys(moved), (std::vector<std::string>{"a", "b"}));
-  EXPECT_EQ(moved.summary->report().keyframes(0).frame(), 50);
-  EXPECT_LE(moved.summary->report().keyframes(0).errors().final_error_m(), 1e-3);
-  const Answer::Joined a = plain.Join(), b = moved.Join();
-  EXPECT_TRUE(std::equal(a.rotations.begin(), a.rotations.begin() + std::ptrdiff_t{20} * 72,
-                         b.rotations.begin()));
-  EXPECT_FALSE(a == b);
-  ASSERT_FALSE(moved.continuations.empty());
-  EXPECT_EQ(moved.continuations[0].frame(), 20) << "there the way to the former place ends";
-  EXPECT_EQ(plain.continuations[0].frame(), 61);
 }
 
 TEST_F(StreamTest, WithoutASeedOneIsDrawnAndReported) {

@@ -1,6 +1,7 @@
 // The path on the stage's floor: drawn with the pointer, shown as a line with a dot for each second.
 import * as THREE from 'three';
 import type { Spot, Step } from './floor_path';
+import { colour } from './palette';
 
 const width = 0.035; // metres
 const height = 0.006; // above the floor, so that it is not hidden by it
@@ -10,7 +11,7 @@ export class FloorLine {
   readonly scene = new THREE.Group();
   private stroke: Spot[] | null = null;
   private shown: unknown[] = [];
-  private readonly paint = new THREE.MeshBasicMaterial({ color: '#c4491f', transparent: true, opacity: 0.85, side: THREE.DoubleSide, depthWrite: false });
+  private readonly paint = new THREE.MeshBasicMaterial({ color: colour('accent'), transparent: true, opacity: 0.85, side: THREE.DoubleSide, depthWrite: false });
 
   begin(spot: Spot) {
     this.stroke = [spot];

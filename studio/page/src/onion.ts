@@ -2,10 +2,10 @@
 import * as THREE from 'three';
 import type { Doll } from './doll';
 import type { Pose } from './body';
+import { colour } from './palette';
 import * as studio from './studio';
 
 const frames = [-15, -10, -5, 5, 10, 15];
-const [earlier, later] = ['#2f7fa8', '#c9a227'];
 
 export class Onion {
   readonly scene = new THREE.Group();
@@ -43,7 +43,7 @@ export class Onion {
   private put(by: number, pose: Pose, opacity: number) {
     let skin = this.skins.get(by);
     if (!skin) {
-      skin = this.doll.another().fade(by < 0 ? earlier : later, opacity);
+      skin = this.doll.another().fade(colour(by < 0 ? 'right' : 'gold'), opacity);
       this.skins.set(by, skin);
       this.scene.add(skin.scene);
     }

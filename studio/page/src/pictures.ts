@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import type { Pose } from './body';
 import { heading, turned } from './body';
 import type { Doll } from './doll';
+import { looks, makeSky, makeSun } from './scenery';
 
 const [width, height] = [104, 132];
 
@@ -15,9 +16,9 @@ export class Pictures {
   constructor(private readonly doll: Doll) {
     this.renderer.setSize(width, height);
     this.renderer.setPixelRatio(1.5);
-    const lamp = new THREE.DirectionalLight('#fff6e8', 2);
+    const lamp = makeSun();
     lamp.position.set(1, 3, 2.4);
-    this.scene.add(new THREE.HemisphereLight('#ffffff', '#b8a88f', 1.9), lamp, doll.scene);
+    this.scene.add(makeSky(looks.light.sky), lamp, doll.scene);
     this.camera.position.set(1.2, 1.15, 4.1);
     this.camera.lookAt(0, 0.96, 0);
   }

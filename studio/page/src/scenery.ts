@@ -1,10 +1,10 @@
 // What the stage looks like: floor, light and shadow, in light and dark.
 import * as THREE from 'three';
 
-/// Colours and how bright the lights are.
+/// The floor's colours, and how bright the lights are.
 export const looks = {
-  light: { back: '#fbf9f6', floor: '#ece6dc', line: '#d9d0c2', sky: 1.9, lamp: 2.0 },
-  dark: { back: '#16181c', floor: '#23272e', line: '#343a44', sky: 1.3, lamp: 1.7 },
+  light: { floor: '#ece6dc', line: '#d9d0c2', sky: 1.9, lamp: 2.0 },
+  dark: { floor: '#23272e', line: '#343a44', sky: 1.3, lamp: 1.7 },
 };
 
 /// A round floor that fades into the background, with lines half a metre apart.
@@ -47,8 +47,15 @@ export function makeFloor() {
   return floor;
 }
 
+/// A light from one side.
+export const makeSun = () => new THREE.DirectionalLight('#fff6e8', 2);
+
+/// A light from everywhere.
+export const makeSky = (brightness: number) => new THREE.HemisphereLight('#ffffff', '#b8a88f', brightness);
+
+/// A sun that throws shadows.
 export function makeLamp() {
-  const lamp = new THREE.DirectionalLight('#fff6e8', 2);
+  const lamp = makeSun();
   lamp.castShadow = true;
   lamp.shadow.mapSize.set(1024, 1024);
   lamp.shadow.radius = 5;

@@ -8,8 +8,9 @@ import { FloorLine } from './floor_line';
 import type { Motion } from './motion';
 import { canPull, floorHandle, handles, pull } from './reach';
 import type { Handle } from './reach';
-import { floorTexture, looks, makeFloor, makeLamp } from './scenery';
 import { Onion } from './onion';
+import { colour } from './palette';
+import { floorTexture, looks, makeFloor, makeLamp, makeSky } from './scenery';
 import * as studio from './studio';
 
 const middle = 0.92; // metres: what the camera looks at
@@ -31,7 +32,7 @@ export class Stage {
   private readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
   private readonly controls: OrbitControls;
   private readonly lamp = makeLamp();
-  private readonly sky = new THREE.HemisphereLight('#ffffff', '#b8a88f', 1.8);
+  private readonly sky = makeSky(looks.light.sky);
   private readonly floor = makeFloor();
   private readonly others: Doll[] = [];
   private readonly ghost: Doll;
@@ -54,7 +55,7 @@ export class Stage {
     this.sharpen();
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.ghost = doll.another().fade('#c9a227', 0.28);
+    this.ghost = doll.another().fade(colour('gold'), 0.28);
     this.ghost.scene.visible = false;
     this.onion = new Onion(doll);
     this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots, this.line.scene, this.onion.scene);
@@ -96,29 +97,29 @@ export class Stage {
 
   private dress(isDark: boolean) {
     this.isDark = isDark;
-    const { back, floor, line, sky, lamp } = looks[isDark ? 'dark' : 'light'];
-    this.scene.background = new THREE.Color(back);
+    const look = looks[isDark ? 'dark' : 'light'];
+    this.scene.background = new THREE.Color(colour('paper'));
     this.floor.material.map?.dispose();
-    this.floor.material.map = floorTexture({ back, floor, line, sky, lamp });
+    this.floor.material.map = floorTexture(look);
     this.floor.material.needsUpdate = true;
-    this.sky.intensity = sky;
-    this.lamp.intensity = lamp;
+    this.sky.intensity = look.sky;
+    this.lamp.intensity = look.lamp;
   }
 
   private makeDots() {
-    const dot = (colour: string, radius: number) =>
-      new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.9 }));
+    const dot = (color: string, radius: number) =>
+      new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true, opacity: 0.9 }));
     for (const handle of handles) {
-      const colour = handle.id.startsWith('left') ? '#e8663d' : handle.id.startsWith('right') ? '#2f7fa8' : '#c9a227';
+      const side = handle.id.startsWith('left') ? 'left' : handle.id.startsWith('right') ? 'right' : 'gold';
       const rim = dot('#ffffff', 0.034);
-      const core = dot(colour, 0.026);
+      const core = dot(colour(side), 0.026);
       rim.renderOrder = 1;
       core.renderOrder = 2;
       const both = new THREE.Group().add(rim, core);
       both.name = handle.id;
       this.dots.add(both);
     }
-    const ring = new THREE.Mesh(new THREE.RingGeometry(0.3, 0.34, 48), new THREE.MeshBasicMaterial({ color: '#c9a227', depthTest: false, transparent: true, opacity: 0.9 }));
+    const ring = new THREE.Mesh(new THREE.RingGeometry(0.3, 0.34, 48), new THREE.MeshBasicMaterial({ color: colour('gold'), depthTest: false, transparent: true, opacity: 0.9 }));
     ring.rotation.x = -Math.PI / 2;
     ring.renderOrder = 1;
     const disc = new THREE.Group().add(ring);

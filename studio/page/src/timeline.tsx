@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import WaveSurfer from 'wavesurfer.js';
 import type { Pose } from './body';
+import { colour } from './palette';
 import type { Key } from './project';
 import * as studio from './studio';
 
@@ -54,7 +55,6 @@ function Wave() {
   const { value } = studio.shownSong;
   useEffect(() => {
     if (!value) return;
-    const style = getComputedStyle(document.documentElement);
     const wave = WaveSurfer.create({
       container: box.current!,
       media: studio.audio,
@@ -67,8 +67,8 @@ function Wave() {
       barWidth: 2,
       barGap: 1,
       barRadius: 2,
-      waveColor: style.getPropertyValue('--wave'),
-      progressColor: style.getPropertyValue('--wave-done'),
+      waveColor: colour('wave'),
+      progressColor: colour('wave-done'),
     });
     return () => wave.destroy();
   }, [value, zoom.value, isDark.value]);

@@ -1,4 +1,4 @@
-#include "model/fit/recorded_floor.h"
+#include "model/training/recorded_floor.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,233 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "client/cli/key_file.h"
+#include "client/convert.h"
+#include "model/motion/kinematics.h"
+#include "studio/keeper.h"
+#include "tests/studio/fixture.h"
+
+namespace choreo::studio::dances_test {
+
+using ::testing::HasSubstr;
+
+// The same frames as the client library gets: the studio adds the song and its beats, no more.
+TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const std::string clicks = Clicks(4);
+  ASSERT_TRUE(page.Ask(SongRequest("clicks.wav", clicks)).has_song());
+  const LibraryPose& kick = page.welcome().poses(6);
+  page.Say(2, DanceRequest(120, 7));
+  page.Say(2, KeyRequest(kick, 45));
+  page.Say(2, Complete());
+  const v1::Frames frames = ReadDance(page);
+  ASSERT_EQ(frames.count(), 120);
+
+  const Song song = HearSong(folder_ / "clicks.wav", "clicks.wav", 600);
+  client::KeyPose key{.id = kick.id(), .frame = 45};
+  key.pose.root_position = {kick.pose().root_position().x(), kick.pose().root_position().y(),
+                            kick.pose().root_position().z()};
+  key.pose.rotations =
+      Eigen::Map<const Eigen::Matrix3Xf>(kick.pose().rotations().data(), 3, 24).cast<double>();
+  client::DanceConfig config{.seed = 7, .frames = 120};
+  config.music_beats = cli::BeatsBefore(song.music, song.heard.seconds());
+  const client::DanceResult own = studio.house().client().Dance(config, {key}, song.audio);
+  ASSERT_EQ(own.motion.frames.size(), 120U);
+  for (int frame = 0; frame < 120; ++frame) {
+    for (int i = 0; i < 72; ++i) {
+      ASSERT_EQ(frames.rotations(72 * frame + i),
+                static_cast<float>(own.motion.frames[static_cast<size_t>(frame)].rotations(i)))
+          << "frame " << frame;
+    }
+  }
+}
+
+// Of a key that no body could dance, once all are there; and of one that an interval leads to.
+TEST_F(StudioTest, TellsOfImpossibleKeys) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  LibraryPose sunk = page.welcome().poses(6);
+  sunk.mutable_pose()->mutable_root_position()->set_y(0.2F);
+  page.Say(2, DanceRequest(90, 7));
+  page.Say(2, KeyRequest(page.welcome().poses(6), 30));
+  page.Say(2, KeyRequest(sunk, 60));
+  page.Say(2, Complete());
+  const auto next_warning = [&](auto event_of) {
+    while (true) {
+      const v1::Event event = event_of(page.Read());
+      if (event.has_warning()) return event;
+    }
+  };
+  const v1::Event told = next_warning([](const Response& said) { return said.dance().event(); });
+  EXPECT_EQ(told.frame(), 60);
+  EXPECT_THAT(told.warning().message(), HasSubstr("floor"));
+
+  Request request;
+  v1::GenerateTransitionRequest* transition = request.mutable_transition();
+  transition->set_frames(20);
+  transition->set_target_id("sunk");
+  *transition->mutable_target() = sunk.pose();
+  page.Say(3, request);
+  const v1::Event again =
+      next_warning([](const Response& said) { return said.transition().event(); });
+  EXPECT_EQ(again.frame(), 19);
+  EXPECT_THAT(again.warning().message(), HasSubstr("key \"sunk\": "));
+}
+
+TEST_F(StudioTest, DancesInAStyle) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  EXPECT_THAT(page.welcome().model().styles(), testing::ElementsAre("calm", "wild"));
+  const auto danced = [&](const std::string& style) {
+    Request request = DanceRequest(20, 7);
+    request.mutable_dance()->mutable_config()->set_style(style);
+    page.Say(2, request);
+    page.Say(2, Complete());
+    return ReadDance(page).SerializeAsString();
+  };
+  const std::string calm = danced("");
+  EXPECT_EQ(calm, danced("calm"));
+  EXPECT_NE(calm, danced("wild"));
+}
+
+// What a moved key does: from the frames before it onto it, and into those that follow.
+TEST_F(StudioTest, DancesAnIntervalAnew) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request request;
+  v1::GenerateTransitionRequest* transition = request.mutable_transition();
+  const v1::Pose rest = client::ToProto(RestPose(Skeleton::Smpl24()));
+  *transition->mutable_config()->mutable_history()->add_poses() = rest;
+  transition->mutable_config()->mutable_history()->set_first_frame(30);
+  transition->set_frames(20);
+  *transition->mutable_target() = page.welcome().poses(0).pose();
+  transition->set_candidates(2);
+  page.Say(2, request);
+  EXPECT_TRUE(page.Read().transition().has_header());
+  for (uint32_t candidate = 0; candidate < 2; ++candidate) {
+    const v1::Frames frames = page.Read().transition().frames();
+    EXPECT_EQ(frames.count(), 20);
+    EXPECT_EQ(frames.first_frame(), 30);
+  }
+  const Response end = page.Read();
+  ASSERT_EQ(end.transition().summary().candidates_size(), 2);
+  EXPECT_EQ(end.transition().summary().candidates(0).continuation().frame(), 50);
+}
+
+// What the microphone of a page hears: frames come while it sounds, and the song has no part in it.
+TEST_F(StudioTest, DancesToMusicAsItSounds) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const auto dance = [&](float loudness) {
+    Request config;
+    v1::DanceConfig* asked = config.mutable_dance()->mutable_config();
+    asked->set_seed(7);
+    asked->set_generate_until(0);
+    asked->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+    asked->mutable_audio_format()->set_sample_rate(16000);
+    asked->mutable_audio_format()->set_channels(1);
+    page.Say(2, config);
+    Request grant, piece, end;
+    grant.mutable_dance()->mutable_generate_until()->set_frame(30);
+    page.Say(2, grant);
+    std::vector<float> samples(32000);
+    for (size_t i = 0; i < samples.size(); ++i) samples[i] = i % 8000 < 200 ? loudness : 0;
+    piece.mutable_dance()->mutable_audio()->set_data(samples.data(),
+                                                     samples.size() * sizeof(float));
+    page.Say(2, piece);
+    v1::Frames all;
+    const auto read = [&] {
+      const Response response = page.Read();
+      EXPECT_FALSE(response.has_failure()) << response.failure().message();
+      all.set_count(all.count() + response.dance().frames().count());
+      all.mutable_rotations()->MergeFrom(response.dance().frames().rotations());
+      return !response.has_failure() && !response.dance().has_summary();
+    };
+    while (all.count() < 30 && read()) continue;
+    EXPECT_EQ(all.count(), 30);  // while it sounds
+    end.mutable_dance()->mutable_end_of_audio();
+    page.Say(2, end);
+    page.Say(2, Complete());
+    while (read()) continue;
+    EXPECT_EQ(all.count(), 60);
+    return all.SerializeAsString();
+  };
+  const std::string silent = dance(0);
+  ASSERT_TRUE(page.Ask(SongRequest("clicks.wav", Clicks(2))).has_song());
+  EXPECT_EQ(dance(0), silent);
+  EXPECT_NE(dance(0.5F), silent);
+}
+
+TEST_F(StudioTest, RefusesMusicThatIsNone) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request config;
+  v1::AudioFormat* format = config.mutable_dance()->mutable_config()->mutable_audio_format();
+  format->set_encoding(v1::AUDIO_ENCODING_FILE);
+  page.Say(2, config);
+  EXPECT_THAT(page.Read().failure().message(), HasSubstr("config.audio_format.encoding"));
+  format->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+  format->set_sample_rate(16000);
+  format->set_channels(0);
+  page.Say(2, config);
+  EXPECT_EQ(page.Read().failure().message(),
+            "config.audio_format.channels: 0 is not within 1 to 8");
+  format->set_channels(1);
+  format->set_sample_rate(4'000'000'000);
+  page.Say(2, config);
+  EXPECT_THAT(page.Read().failure().message(), HasSubstr("config.audio_format.sample_rate: "));
+  format->set_sample_rate(16000);
+  page.Say(3, config);
+  Request piece;
+  piece.mutable_dance()->mutable_audio()->set_data("abc");
+  page.Say(3, piece);
+  Response end = page.Read();
+  while (end.has_dance()) end = page.Read();
+  EXPECT_EQ(end.failure().message(), "audio.data: 3 bytes are no whole floats");
+  // A dance to the song takes no other music.
+  page.Say(4, DanceRequest(40, 1));
+  piece.mutable_dance()->mutable_audio()->set_data("abcd");
+  page.Say(4, piece);
+  end = page.Read();
+  while (end.has_dance()) end = page.Read();
+  EXPECT_THAT(end.failure().message(), HasSubstr("samples"));
+}
+
+// A choreod of our own that is killed in the middle of a dance comes back, and the dance goes on.
+TEST_F(StudioTest, SurvivesTheLossOfItsServer) {
+  const Keeper keeper{std::filesystem::path(FAKE_CHOREOD)};
+  const Opened studio(keeper.address());
+  Page page(studio.port());
+  page.Say(2, DanceRequest(60, 3));
+  page.Say(2, KeyRequest(page.welcome().poses(1), 30));
+  v1::Frames all;
+  const auto take = [&](const Response& response) {
+    ASSERT_FALSE(response.has_failure()) << response.failure().message();
+    all.set_count(all.count() + response.dance().frames().count());
+    all.mutable_rotations()->MergeFrom(response.dance().frames().rotations());
+  };
+  while (all.count() < 31) take(page.Read());
+  kill(keeper.process(), SIGKILL);
+  page.Say(2, Complete());
+  bool has_resumed = false;
+  for (;;) {
+    const Response response = page.Read();
+    has_resumed = has_resumed || response.has_resumed();
+    take(response);
+    if (HasFatalFailure() || response.dance().has_summary()) break;
+  }
+  EXPECT_TRUE(has_resumed);
+  EXPECT_EQ(all.count(), 60);
+
+  Page calm(studio.port());
+  calm.Say(2, DanceRequest(60, 3));
+  calm.Say(2, KeyRequest(calm.welcome().poses(1), 30));
+  calm.Say(2, Complete());
+  const v1::Frames whole = ReadDance(calm);
+  EXPECT_TRUE(std::equal(all.rotations().begin(), all.rotations().end(), whole.rotations().begin(),
+                         whole.rotations().end()));
+}
+
+}  // namespace choreo::studio::dances_test

@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client/cli/key_file.h"
+#include "client/cli/photo_pose.h"
+#include "client/convert.h"
+#include "tests/studio/fixture.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo::studio::files_test {
+
+using ::testing::HasSubstr;
+
+TEST_F(StudioTest, HearsASongAndComposesOnItsBeats) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const Response heard = page.Ask(SongRequest("clicks.wav", Clicks(12)));
+  ASSERT_TRUE(heard.has_song()) << heard.failure().message();
+  EXPECT_NEAR(heard.song().tempo(), 120, 3);
+  EXPECT_EQ(heard.song().suggested_size(), 5);
+  EXPECT_EQ(heard.song().peaks_size(), 480);
+  Request compose;
+  compose.mutable_compose()->set_seconds(12);
+  const Response keys = page.Ask(compose);
+  EXPECT_GE(keys.keyframes().keyframes_size(), 5);
+}
+
+TEST_F(StudioTest, RefusesASongThatIsLongerThanADance) {
+  Clicks(5);
+  ExpectError(ErrorCode::kInvalidArgument, "long.wav: is longer than 4 s",
+              [&] { HearSong(folder_ / "clicks.wav", "long.wav", 4); });
+  EXPECT_NEAR(HearSong(folder_ / "clicks.wav", "long.wav", 5).heard.seconds(), 5, 1e-3);
+}
+
+TEST_F(StudioTest, WritesAndOpensFiles) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  page.Say(2, DanceRequest(40, 1));
+  page.Say(2, KeyRequest(page.welcome().poses(2), 30));
+  page.Say(2, Complete());
+  const v1::Frames frames = ReadDance(page);
+  for (const std::string name : {"dance.npz", "dance.glb", "dance.bvh"}) {
+    Request write;
+    write.mutable_export_()->set_name(name);
+    *write.mutable_export_()->mutable_clip()->mutable_frames() = frames;
+    write.mutable_export_()->mutable_clip()->set_frame_rate(30);
+    const Response file = page.Ask(write);
+    ASSERT_TRUE(file.has_file()) << file.failure().message();
+    Request open;
+    *open.mutable_open() = file.file();
+    const Response clip = page.Ask(open);
+    ASSERT_TRUE(clip.has_clip()) << clip.failure().message();
+    EXPECT_EQ(clip.clip().frame_rate(), 30);
+    ASSERT_EQ(clip.clip().frames().count(), 40) << name;
+    for (int i = 0; i < frames.root_positions_size(); ++i)
+      EXPECT_NEAR(clip.clip().frames().root_positions(i), frames.root_positions(i), 1e-4) << name;
+  }
+}
+
+TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  std::string landmarks = "[";
+  for (int i = 0; i < 33; ++i) {
+    const std::string number = std::to_string(i);
+    landmarks += (i ? ",{\"x\":" : "{\"x\":") + std::to_string(0.3 * std::sin(i)) +
+                 ",\"y\":" + std::to_string(0.05 * i - 0.8) + ",\"z\":0." + number + "}";
+  }
+  landmarks += "]";
+  Request request;
+  request.mutable_landmarks()->set_name("beach.jpg");
+  request.mutable_landmarks()->set_data(landmarks);
+  const Response seen = page.Ask(request);
+  ASSERT_TRUE(seen.has_pose()) << seen.failure().message();
+  EXPECT_EQ(seen.pose().id(), "beach");
+  const Pose pose = cli::ParseLandmarkPose(landmarks, "beach.jpg", studio.house().model().skeleton);
+  EXPECT_EQ(seen.pose().pose().SerializeAsString(), client::ToProto(pose).SerializeAsString());
+  for (const char* bad : {"", "[]", "{", "[1]", "\xff"}) {
+    request.mutable_landmarks()->set_data(bad);
+    EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("beach.jpg")) << bad;
+  }
+}
+
+TEST_F(StudioTest, TellsHowJointsTurnAndReadsKeyFiles) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const Skeleton& skeleton = studio.house().model().skeleton;
+  ASSERT_EQ(page.welcome().turns_size(), skeleton.joints());
+  const JointTurn& elbow = page.welcome().turns(skeleton.Find("left_elbow"));
+  EXPECT_EQ(elbow.part(), v1::BODY_PART_LEFT_ARM);
+  EXPECT_EQ(elbow.hinge_size(), 3);
+  EXPECT_EQ(elbow.low(), 0);
+  EXPECT_EQ(elbow.high(), 160);
+  EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).part(), v1::BODY_PART_TRUNK);
+  EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).hinge_size(), 0);
+
+  const std::string text =
+      R"({"keyframes": [{"time": 2, "joints": {"left_elbow": 60}}, {"time": 1, "pose": "kick", "hold": 0.1}]})";
+  Request request;
+  request.mutable_keys()->set_name("mine.json");
+  request.mutable_keys()->set_data(text);
+  const Response answer = page.Ask(request);
+  ASSERT_TRUE(answer.has_keyframes()) << answer.failure().message();
+  const std::vector<client::KeyPose> keys = cli::ParseKeyFile(text, "mine.json", skeleton);
+  ASSERT_EQ(answer.keyframes().keyframes_size(), 3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(answer.keyframes().keyframes(i).SerializeAsString(),
+              client::ToProto(keys[static_cast<size_t>(i)]).SerializeAsString());
+  }
+  EXPECT_EQ(answer.keyframes().keyframes(0).mask().joints_size(), 1);
+  for (const char* bad : {"", "[]", "{", R"({"keyframes": [{}]})", "\xff"}) {
+    request.mutable_keys()->set_data(bad);
+    EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("mine.json")) << bad;
+  }
+}
+
+}  // namespace choreo::studio::files_test
