@@ -13,8 +13,8 @@ SOURCES = $(shell git ls-files '*.cpp' '*.h')
 
 .PHONY: help demo studio test programs build build-packages packages test-packages bench verify format lint
 
-# What compiling does not need is installed meanwhile.
-MAKEFLAGS += --jobs=2
+# What compiling does not need is installed meanwhile; several goals are reached one after the other.
+MAKEFLAGS += $(if $(word 2,$(MAKECMDGOALS)),,--jobs=2)
 
 help:  ## Show this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-9s %s\n", $$1, $$2}'

@@ -128,7 +128,7 @@ struct TransitionRequest {
   int64_t audio_first_sample =
       0;  ///< number of its first sample, counted from the start of the music
   std::vector<Pose> after = {};  ///< frames to lead into, at most 60
-  int candidates = 1;            ///< 1 to 32
+  int candidates = 1;            ///< 1 to kMaxCandidates
 };
 
 struct TransitionCandidate {

@@ -32,7 +32,7 @@ struct Audio {
   std::vector<std::byte> bytes = {};  ///< of kFile
 };
 
-/// A pose to be hit: to 1 mm and 0.1 degrees.
+/// A pose to be hit.
 struct KeyPose {
   std::string id = {};                ///< unique; sent again, it replaces the key
   std::optional<int64_t> frame = {};  ///< at the model's rate; or else:

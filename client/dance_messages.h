@@ -36,13 +36,16 @@ struct FrameBlock {
   uint32_t candidate = 0;               ///< of a transition
 };
 
+/// What a dance promises of its keys: how far off any joint may be, in metres and degrees.
+inline constexpr double kMostKeyError_m = 0.001, kMostKeyError_deg = 0.1;
+
 /// How one key was hit. Distances and angles are the largest of any joint that the key asks for.
 struct KeyReached {
   std::string id = {};
   int64_t frame = 0;
   double raw_error_m = 0;      ///< of the model's own frame, made after frames steered to the key
-  double final_error_m = 0;    ///< of the frame that was sent; at most 0.001
-  double final_error_deg = 0;  ///< the same; at most 0.1
+  double final_error_m = 0;    ///< of the frame that was sent
+  double final_error_deg = 0;  ///< the same
   double correction_m = 0;     ///< furthest that a joint was moved on the way to the key
 };
 

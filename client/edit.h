@@ -27,7 +27,7 @@ struct FinishedDance {
 struct EditOptions {
   ModelDescription model = {};             ///< of the client's server
   uint64_t seed = 0;                       ///< same seed, same edit
-  std::optional<double> temperature = {};  ///< 0 to 2
+  std::optional<double> temperature = {};  ///< 0 to kMaxTemperature
   std::string style = {};                  ///< one of the model's; empty: as it comes
   Audio audio = {};                        ///< the song from its start, kPcmFloat; or none
   std::vector<double> music_beats = {};    ///< as DanceConfig::music_beats

@@ -61,6 +61,19 @@ bool IsOfThisMachine(const std::string& address) {
   return host == "localhost" || host == "[::1]";
 }
 
+// What gRPC would take for another port.
+void CheckAddress(const std::string& address) {
+  if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
+  if (address.starts_with("unix:")) return;
+  const std::string port = address.substr(address.rfind(':') + 1);
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  if (port.empty() || !std::ranges::all_of(port, is_digit)) return;
+  if (port.size() > 5 || std::stoi(port) < 1 || std::stoi(port) > kMaxPort) {
+    throw InvalidArgument("addresses", address + ": port " + port + " is not in [1, " +
+                                           std::to_string(kMaxPort) + "]");
+  }
+}
+
 void CheckToken(const Options& options) {
   if (options.token_file.empty() || options.tls) return;
   for (const std::string& address : options.addresses) {
@@ -112,7 +125,7 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   grpc::ChannelArguments balanced = arguments;
   balanced.SetServiceConfigJSON(kServiceConfig);
   for (const std::string& address : options_.addresses) {
-    if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
+    CheckAddress(address);
     const auto channel = grpc::CreateCustomChannel(address, credentials, balanced);
     servers_.push_back({address, channel, v1::Choreography::NewStub(channel),
                         grpc::health::v1::Health::NewStub(

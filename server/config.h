@@ -19,7 +19,7 @@ struct ServerConfig {
   std::vector<std::filesystem::path> checkpoints;
   std::filesystem::path models;  ///< a folder of checkpoints instead (ModelFolder); empty: none
   std::string device = "auto";   ///< auto, cpu, or cuda:N[,N...]
-  std::string engine = "auto";   ///< auto (packed on the CPU), torch, packed
+  std::string engine = "auto";   ///< one of kEngineKindNames
   int slots = 0;                 ///< transitions in progress at once, for each model; see Slots
   int max_waiting = 64;          ///< of GenerateTransition that may wait for a slot, for each model
   int max_streams = 64;          ///< calls in progress at once; those beyond are refused

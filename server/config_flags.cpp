@@ -81,10 +81,9 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_MAX_NETWORK_MIB")
       ->capture_default_str();
   app.add_option("--kernels", config.kernels,
-                 "Instructions of the packed engine: portable, avx2, avx512, avx512_bf16 or "
-                 "amx_bf16. Without it, the fastest here. Replicas on different CPUs take over "
-                 "each other's dances "
-                 "where all have the slowest one's.")
+                 "Instructions of the packed engine, one of " + KernelNames() +
+                     ". Without it, the fastest here. Replicas on different CPUs take over each "
+                     "other's dances where all have the slowest one's.")
       ->envname("CHOREO_KERNELS");
   // CLI11 looks at variables only after the file: this one is its default, which must be there.
   const char* file = std::getenv("CHOREO_CONFIG");

@@ -15,7 +15,7 @@ namespace choreo {
 namespace {
 
 /// A file longer than this is none of ours.
-constexpr size_t kMostTokenBytes = 1 << 20;
+constexpr size_t kMostTokensBytes = 1 << 20;
 constexpr size_t kMostOfLines = 60;  // characters of a list of line numbers
 
 // Schemes are the same in either case (RFC 7235).
@@ -40,7 +40,7 @@ Tokens::Tokens(std::filesystem::path file) : file_(std::move(file)) {
   Replace(std::move(content.holders));
 }
 
-std::string Tokens::Read() const { return ReadSmallFile("--tokens", file_, kMostTokenBytes); }
+std::string Tokens::Read() const { return ReadSmallFile("--tokens", file_, kMostTokensBytes); }
 
 Tokens::Content Tokens::Parse(const std::string& text) {
   Content content;

@@ -1,42 +1,18 @@
 #include "studio/desk.h"
 
-#include <fstream>
 #include <type_traits>
 #include <utility>
 
-#include "client/cli/choreography.h"
 #include "client/cli/key_faults.h"
-#include "client/cli/key_file.h"
-#include "client/cli/photo_pose.h"
-#include "client/cli/pose_library.h"
 #include "client/convert.h"
-#include "client/edit.h"
-#include "model/formats/motion_file.h"
+#include "studio/answers.h"
 #include "studio/from_page.h"
-#include "studio/scratch_folder.h"
 #include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {
 
 constexpr size_t kMostDances = 8;  // at once, of one page
-
-/// A file in a folder of ours by the page's name for it, of which only the extension is believed.
-std::filesystem::path PlaceFor(const ScratchFolder& folder, const std::string& name) {
-  return folder.path() / ("file" + SmallExtension(name));
-}
-
-void Write(const std::filesystem::path& path, const std::string& data) {
-  std::ofstream file(path, std::ios::binary);
-  file << data;
-  if (!file.flush()) throw Error(ErrorCode::kInternal, path.string(), "cannot be written");
-}
-
-/// What an error says of a file of ours, by the page's name for it.
-std::string Named(const std::string& message, const std::string& path, const std::string& name) {
-  const size_t at = message.find(path);
-  return at == std::string::npos ? message : std::string(message).replace(at, path.size(), name);
-}
 
 }  // namespace
 
@@ -205,123 +181,34 @@ void Desk::Do(const Request& request) {
   const uint32_t call = request.call();
   switch (request.request_case()) {
     case Request::kSong:
-      return HearSongOf(call, request.song());
+      return TakeSong(call, request.song());
     case Request::kTransition:
-      return Transition(call, request.transition());
+      for (Response& part : MakeTransition(house_, song().get(), request.transition()))
+        Answer(call, std::move(part));
+      return;
     case Request::kCompose:
-      return ComposeKeys(call, request.compose());
+      return Answer(call, ComposeKeys(house_, song().get(), request.compose()));
     case Request::kExport:
-      return WriteClip(call, request.export_());
+      return Answer(call, WriteClip(house_, request.export_()));
     case Request::kOpen:
-      return ReadClip(call, request.open());
+      return Answer(call, ReadClip(house_, request.open()));
     case Request::kLandmarks:
-      return MakePhotoPose(call, request.landmarks());
+      return Answer(call, MakePhotoPose(house_, request.landmarks()));
     case Request::kKeys:
-      return ReadKeys(call, request.keys());
+      return Answer(call, ReadKeys(house_, request.keys()));
     default:
       throw InvalidArgument("request", "is none that this studio knows");
   }
 }
 
-void Desk::HearSongOf(uint32_t call, const File& file) {
-  const ScratchFolder folder;
-  const std::filesystem::path path = PlaceFor(folder, file.name());
-  Write(path, file.data());
-  auto heard = std::make_shared<const Song>(HearSong(path, file.name(), house_.most_seconds()));
+void Desk::TakeSong(uint32_t call, const File& file) {
+  std::shared_ptr<const Song> heard = HearSongOf(house_, file);
   Response response;
   *response.mutable_song() = heard->heard;
   {
     const std::lock_guard lock(mutex_);
     song_ = std::move(heard);
   }
-  Answer(call, std::move(response));
-}
-
-void Desk::Transition(uint32_t call, const v1::GenerateTransitionRequest& asked) {
-  client::TransitionRequest request = FromProto(asked, house_.model().skeleton);
-  const std::shared_ptr<const Song> music = song();
-  if (music) {
-    const int64_t first = request.config.continuation ? request.config.continuation->frame
-                                                      : request.config.first_frame;
-    client::SetMusic(music->audio, house_.model(), first, &request);
-    request.config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
-  }
-  client::TransitionResult made = house_.client().GenerateTransition(request);
-  if (request.target) {
-    const int64_t first = request.config.continuation ? request.config.continuation->frame
-                                                      : request.config.first_frame;
-    const client::KeyPose key{.id = request.target_id,
-                              .frame = first + request.frames - 1,
-                              .pose = *request.target,
-                              .mask = request.target_mask};
-    for (client::Warning& fault :
-         cli::KeyFaults(std::vector{key}, house_.model().fps, house_.model().skeleton))
-      made.warnings.push_back(std::move(fault));
-  }
-  for (v1::GenerateTransitionResponse& part : ToProto(made)) {
-    Response response;
-    *response.mutable_transition() = std::move(part);
-    Answer(call, std::move(response));
-  }
-}
-
-void Desk::ComposeKeys(uint32_t call, const Compose& request) {
-  cli::CompositionRequest composition{.seconds = request.seconds(), .seed = request.seed()};
-  composition.named = "compose.seconds";
-  if (const std::shared_ptr<const Song> music = song())
-    composition.beats = music->music.track.Seconds();
-  Response response;
-  response.mutable_keyframes();
-  const auto library = cli::PosesToDance(house_.model().skeleton);
-  for (const client::KeyPose& key : cli::ComposeKeys(composition, library))
-    *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
-  Answer(call, std::move(response));
-}
-
-void Desk::WriteClip(uint32_t call, const Export& request) {
-  const ScratchFolder folder;
-  RequireMotionFile(request.name());
-  const std::filesystem::path path = PlaceFor(folder, request.name());
-  const client::FinishedDance dance = FromProto(request.clip(), house_.model().skeleton);
-  WriteMotion(path, house_.model().skeleton, dance.motion,
-              dance.contacts.empty() ? nullptr : &dance.contacts);
-  Response response;
-  response.mutable_file()->set_name(request.name());
-  response.mutable_file()->set_data(ReadBytes(path));
-  Answer(call, std::move(response));
-}
-
-void Desk::ReadClip(uint32_t call, const File& file) {
-  const ScratchFolder folder;
-  RequireMotionFile(file.name());
-  const std::filesystem::path path = PlaceFor(folder, file.name());
-  Write(path, file.data());
-  client::FinishedDance dance;
-  try {
-    dance.motion = ReadMotion(path, house_.model().skeleton);
-  } catch (const Error& error) {
-    throw Error(error.code(), "", Named(error.what(), path.string(), file.name()));
-  }
-  Response response;
-  *response.mutable_clip() = ToProto(dance);
-  Answer(call, std::move(response));
-}
-
-void Desk::MakePhotoPose(uint32_t call, const File& landmarks) {
-  Response response;
-  LibraryPose* pose = response.mutable_pose();
-  pose->set_id(std::filesystem::path(landmarks.name()).stem().string());
-  *pose->mutable_pose() = client::ToProto(
-      cli::ParseLandmarkPose(landmarks.data(), landmarks.name(), house_.model().skeleton));
-  Answer(call, std::move(response));
-}
-
-void Desk::ReadKeys(uint32_t call, const File& file) {
-  Response response;
-  response.mutable_keyframes();
-  for (const client::KeyPose& key :
-       cli::ParseKeyFile(file.data(), file.name(), house_.model().skeleton))
-    *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   Answer(call, std::move(response));
 }
 

@@ -51,13 +51,7 @@ class Desk {
   /// The calls that are done one after another.
   void Work();
   void Do(const Request& request);
-  void HearSongOf(uint32_t call, const File& file);
-  void Transition(uint32_t call, const v1::GenerateTransitionRequest& request);
-  void ComposeKeys(uint32_t call, const Compose& request);
-  void WriteClip(uint32_t call, const Export& request);
-  void ReadClip(uint32_t call, const File& file);
-  void MakePhotoPose(uint32_t call, const File& landmarks);
-  void ReadKeys(uint32_t call, const File& file);
+  void TakeSong(uint32_t call, const File& file);
 
   std::shared_ptr<const Song> song() const;
   void Answer(uint32_t call, Response response);

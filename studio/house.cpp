@@ -1,10 +1,8 @@
 #include "studio/house.h"
 
-#include <fstream>
-#include <iterator>
-
 #include "client/cli/pose_library.h"
 #include "client/convert.h"
+#include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/joint_angles.h"
 #include "model/motion/kinematics.h"
@@ -20,7 +18,7 @@ std::string BodyAtRest(const Skeleton& skeleton) {
   const ScratchFolder folder;
   const std::filesystem::path path = folder.path() / "body.glb";
   WriteMotion(path, skeleton, {.frames = {RestPose(skeleton)}});
-  return ReadBytes(path);
+  return ReadFile(path);
 }
 
 JointTurn TurnOf(const Skeleton& skeleton, int joint) {
@@ -38,12 +36,6 @@ JointTurn TurnOf(const Skeleton& skeleton, int joint) {
 }
 
 }  // namespace
-
-std::string ReadBytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 House::House(const client::Options& server, const std::filesystem::path& song,
              const std::filesystem::path& photo_model)
@@ -66,7 +58,7 @@ House::House(const client::Options& server, const std::filesystem::path& song,
   if (song.empty()) return;
   song_ = std::make_shared<const Song>(HearSong(song, song.string(), most_seconds_));
   welcome_.mutable_song()->set_name(song.filename().string());
-  welcome_.mutable_song()->set_data(ReadBytes(song));
+  welcome_.mutable_song()->set_data(ReadFile(song));
   *welcome_.mutable_heard() = song_->heard;
 }
 

@@ -39,7 +39,4 @@ class House {
   Welcome welcome_;
 };
 
-/// The bytes of a file. Throws Error(kNotFound) where it cannot be opened.
-std::string ReadBytes(const std::filesystem::path& path);
-
 }  // namespace choreo::studio

@@ -49,9 +49,7 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
     // What is longer is not decoded to its end.
     song.music = cli::ReadMusic(path, most_seconds);
   } catch (const Error& error) {
-    std::string message = error.what();
-    if (message.starts_with(error.field() + ": ")) message.erase(0, error.field().size() + 2);
-    throw Error(error.code(), name, message);
+    throw error.Of(name);
   }
   const double seconds = song.music.audio.seconds();
   if (seconds > most_seconds)

@@ -128,12 +128,10 @@ Error ControlOptions::InTermsOf(const Error& error) const {
   for (const std::string_view prefix : {"controls[0].", "controls."}) {
     if (!field.starts_with(prefix)) continue;
     field.remove_prefix(prefix.size());
-    const std::string message = std::string(error.what()).substr(error.field().size() + 2);
-    if (field == "velocity_factors.reference")
-      return {error.code(), "--velocity-reference", message};
-    if (field.starts_with("velocity_factors")) return {error.code(), "--velocity", message};
+    if (field == "velocity_factors.reference") return error.Of("--velocity-reference");
+    if (field.starts_with("velocity_factors")) return error.Of("--velocity");
     if (!field.starts_with("root_path")) break;
-    if (field == "root_path") return {error.code(), "--path", message};
+    if (field == "root_path") return error.Of("--path");
     const size_t bracket = field.find('[');
     size_t index = 0;
     if (bracket != std::string_view::npos)
@@ -144,10 +142,8 @@ Error ControlOptions::InTermsOf(const Error& error) const {
                          : !two_a_point                         ? ""
                          : index % 2 == 0                       ? ".x"
                                                                 : ".z";
-    return {
-        error.code(),
-        PathName() + ":points[" + std::to_string(two_a_point ? index / 2 : index) + "]" + member,
-        message};
+    return error.Of(PathName() + ":points[" + std::to_string(two_a_point ? index / 2 : index) +
+                    "]" + member);
   }
   return error;
 }

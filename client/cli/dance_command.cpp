@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -41,6 +40,7 @@ struct DanceOptions {
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::string style;
+  std::string style_name = "--style";  // where it is said
   double fps = 0;
   ControlOptions controls;
   std::string model;
@@ -66,7 +66,10 @@ void TakeProject(DanceOptions* options) {
   }
   if (!options->seconds) options->seconds = project.seconds;
   if (!options->seed) options->seed = project.seed;
-  if (options->style.empty()) options->style = project.style;
+  if (options->style.empty() && !project.style.empty()) {
+    options->style = project.style;
+    options->style_name = options->project + ":style";
+  }
   options->controls.path_text = project.path;
   options->controls.path_text_name = options->project + ":path";
   // Of several sources the last that speaks of a part counts: those of the command line.
@@ -86,24 +89,15 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
   std::vector<NamedFile> inputs = options.controls.Files();
   inputs.push_back({"song", options.song});
   for (const std::string& keys : KeySources(options.keys))
-    inputs.push_back({"--keyframes", FileOf(keys)});
+    inputs.push_back({options.project.empty() ? "--keyframes" : "--project", FileOf(keys)});
   RequireOutputs({{"--out", path}, {"--report", options.report}}, inputs);
   return path;
-}
-
-/// Beside what was to be written: dance.npz, dance.partial.npz.
-std::filesystem::path PartialPath(const std::filesystem::path& out) {
-  std::filesystem::path path = out;
-  return path.replace_filename(out.stem().string() + ".partial" + out.extension().string());
 }
 
 /// Without a song: as long as the path and the keys need.
 double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& controls,
                            const client::ModelDescription& model) {
-  if (options.seconds) {
-    CheckInADance(*options.seconds, "--seconds");
-    return *options.seconds;
-  }
+  if (options.seconds) return *options.seconds;
   int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
   for (const std::string& source : KeySources(options.keys)) {
     for (const client::KeyPose& key : ReadKeys(source, model.skeleton))
@@ -179,6 +173,7 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
               << " s) are in " << partial.string() << '\n';
       std::cerr << message.str();
     }
+    if (error.field() == "config.style") throw error.Of(options.style_name);
     throw InTermsOf(keys, options.controls.InTermsOf(error));
   }
   return dance;
@@ -206,6 +201,7 @@ void Run(const DanceOptions& options) {
     std::cerr << "note: the model \"" << model.name
               << "\" takes no music; the song gives the dance its length and its beats\n";
   }
+  CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
   const DanceLength length{std::llround(seconds * model.fps), model.fps};
   const DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
   options.controls.RequireBegun(controls, length);
@@ -236,8 +232,7 @@ void Run(const DanceOptions& options) {
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
   if (!options.report.empty()) WriteFile(options.report, ReportJson(written));
   std::cout << ReportText(written) << out.string() << std::endl;
-  constexpr std::chrono::milliseconds kPatience{50};
-  while (show && !show->Over(kPatience)) Interruption::Check();
+  while (show && !show->Over()) Interruption::Check();
   CheckKeys(written);
 }
 
@@ -249,17 +244,16 @@ void AddDanceCommand(CLI::App& program) {
       program.add_subcommand("dance",
                              "Dance to a song, through key poses, and write the motion.\n"
                              "Alone, as in `choreo dance song.ogg`, it takes key poses of the "
-                             "library that ships, on beats of the music.");
+                             "library that ships, on beats "
+                             "of the music.");
   command
       ->add_option("song", options->song,
                    "WAV, FLAC, Ogg or MP3 file. Without one the dance is silent.")
       ->check(CLI::ExistingFile);
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses: a JSON key file, or one key of it (keys.json@ID), or poses of a motion "
-              "file, as in "
-              "walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 "
-              "(the pose at 1.2 s at second 4 of the dance). May be given more than once. none: no "
-              "key at all. "
+              "file, as in walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 (the pose at 1.2 "
+              "s at second 4 of the dance). May be given more than once. none: no key at all. "
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
   AddAllowBends(*command, options->allow_bends);
   command
@@ -283,8 +277,7 @@ void AddDanceCommand(CLI::App& program) {
       ->add_option("--fps", options->fps, "Frames a second that are written; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   options->controls.AddTo(*command);
-  command->add_option("-m,--model", options->model,
-                      "Model of the server to dance with; default: its first.");
+  AddModel(*command, options->model);
   command->add_option("-o,--out", options->out,
                       "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song, or "
                       "dance.npz. A file that is there is replaced.");

@@ -55,7 +55,7 @@ void AddEditCommand(CLI::App& program) {
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
       "away. A key at the frame of another one replaces it.");
-  command->add_option("dance", options->dance, ".npz, .bvh or .glb file.")
+  command->add_option("dance", options->dance, MotionFileExtensions() + " file.")
       ->required()
       ->check(CLI::ExistingFile);
   AddRepeated(*command, "-k,--key", options->keys,
@@ -86,7 +86,7 @@ void AddEditCommand(CLI::App& program) {
   AddTemperature(*command, options->temperature);
   AddStyle(*command, options->style);
   options->controls.AddTo(*command);
-  command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
+  AddModel(*command, options->model);
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
       ->required();
   options->server.AddTo(*command);

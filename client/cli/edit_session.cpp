@@ -91,12 +91,8 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   edit.from = frame == 0 ? -1 : Before(frame);
   edit.to = frame == frames_ - 1 ? frames_ : Behind(frame);
   for (const int64_t other : {edit.from, edit.to}) {
-    if (other < 0 || other == frames_ || std::abs(frame - other) >= kMinKeyDistance) continue;
-    throw InvalidArgument("--at", InFull(at_s) + " s lies " +
-                                      std::to_string(std::abs(frame - other)) + " frame from " +
-                                      (keys_.contains(other) ? "the key" : "an end of the dance,") +
-                                      " at " + Rounded(Seconds(other)) + " s, must be at least " +
-                                      std::to_string(kMinKeyDistance) + " frames from it");
+    if (other >= 0 && other < frames_)
+      CheckDistance(at_s, other, keys_.contains(other) ? "the key" : "an end of the dance,");
   }
   if (const auto next = keys_.find(edit.to); next != keys_.end())
     edit.to_id = next->second["id"].get<std::string>();
@@ -168,7 +164,19 @@ void EditSession::CheckKeys() const {
       throw InvalidArgument("--key", same->second + " and " + options_.keys[i] +
                                          " both ask for frame " + std::to_string(same->first));
     }
+    if (same != sources.begin()) CheckDistance(options_.at_s[i], std::prev(same)->first, "the key");
+    if (std::next(same) != sources.end())
+      CheckDistance(options_.at_s[i], std::next(same)->first, "the key");
   }
+}
+
+void EditSession::CheckDistance(double at_s, int64_t other, const std::string& what) const {
+  const int64_t distance = std::abs(Frame(at_s) - other);
+  if (distance >= kMinKeyDistance) return;
+  throw InvalidArgument("--at", InFull(at_s) + " s lies " + std::to_string(distance) +
+                                    " frame from " + what + " at " + Rounded(Seconds(other)) +
+                                    " s, must be at least " + std::to_string(kMinKeyDistance) +
+                                    " frames from it");
 }
 
 void EditSession::CheckAround(double seconds) const {

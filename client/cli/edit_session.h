@@ -56,6 +56,8 @@ class EditSession {
   void ReadKeys();
   void CheckKeys() const;
   void CheckAround(double seconds) const;
+  /// Throws where a key at this second would be too near to `what` at this frame.
+  void CheckDistance(double at_s, int64_t other, const std::string& what) const;
   int64_t Around() const;
   /// How far the edit of a key may reach at most, in frames.
   int64_t Reach() const;

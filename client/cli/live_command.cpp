@@ -210,8 +210,7 @@ void AddLiveCommand(CLI::App& program) {
   AddTemperature(*command, options->temperature);
   command->add_option("--fps", options->fps, "Frames a second; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
-  command->add_option("-m,--model", options->model,
-                      "Model of the server to dance with; default: its first.");
+  AddModel(*command, options->model);
   AddVmc(*command, options->vmc);
   command->add_option("-o,--out", options->out,
                       "FILE.npz, FILE.bvh or FILE.glb to write the dance to.");

@@ -83,6 +83,10 @@ void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
       "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);
 }
 
+void AddModel(CLI::App& command, std::string& model) {
+  command.add_option("-m,--model", model, "Model of the server; default: its first.");
+}
+
 void AddStyle(CLI::App& command, std::string& style) {
   command.add_option("--style", style,
                      "How to dance, as happy or tired: a style that `choreo info` lists. Default: "
@@ -91,13 +95,19 @@ void AddStyle(CLI::App& command, std::string& style) {
 
 Error AsTyped(const Error& error) {
   static const std::map<std::string_view, std::string> kOptions = {
-      {"config.style", "--style"}, {"config.temperature", "--temperature"},
-      {"video.fps", "--fps"},      {"video.height", "--size"},
+      {"addresses", "--server"},
+      {"ca_certificate", "--ca"},
+      {"client_certificate", "--client-cert"},
+      {"client_key", "--client-key"},
+      {"config.style", "--style"},
+      {"config.temperature", "--temperature"},
+      {"token_file", "--token-file"},
+      {"video.fps", "--fps"},
+      {"video.height", "--size"},
       {"video.width", "--size"},
   };
   const auto option = kOptions.find(error.field());
-  if (option == kOptions.end()) return error;
-  return {error.code(), option->second, std::string(error.what()).substr(error.field().size() + 2)};
+  return option == kOptions.end() ? error : error.Of(option->second);
 }
 
 void NoteDeterministic(const client::ModelDescription& model,

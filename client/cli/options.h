@@ -36,6 +36,8 @@ void AddVmc(CLI::App& command, std::string& address);
 
 /// `--temperature`.
 void AddTemperature(CLI::App& command, std::optional<double>& temperature);
+/// `--model`, one of the server's.
+void AddModel(CLI::App& command, std::string& model);
 /// `--style`, one that `choreo info` lists.
 void AddStyle(CLI::App& command, std::string& style);
 /// What the help of every option says that chooses among dances.

@@ -68,4 +68,9 @@ void RequireExtension(const std::string& option, const std::filesystem::path& pa
     throw InvalidArgument(option, path.string() + " does not end in " + extension);
 }
 
+std::filesystem::path PartialPath(const std::filesystem::path& out) {
+  std::filesystem::path path = out;
+  return path.replace_filename(out.stem().string() + ".partial" + out.extension().string());
+}
+
 }  // namespace choreo::cli

@@ -22,4 +22,7 @@ void RequireOutputs(const std::vector<NamedFile>& outputs, const std::vector<Nam
 void RequireExtension(const std::string& option, const std::filesystem::path& path,
                       const std::string& extension);
 
+/// Where a part of it goes, beside what was to be written: dance.npz, dance.partial.npz.
+std::filesystem::path PartialPath(const std::filesystem::path& out);
+
 }  // namespace choreo::cli

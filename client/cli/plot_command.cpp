@@ -164,7 +164,7 @@ void AddPlotCommand(CLI::App& program) {
       ->required()
       ->check(CLI::IsMember(
           {"path", "height", "trunk", "left_arm", "right_arm", "left_leg", "right_leg"}));
-  command->add_option("motions", options->motions, ".npz, .bvh or .glb files.")
+  command->add_option("motions", options->motions, MotionFileExtensions() + " files.")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--out", options->out, "PNG file to write.")->required();

@@ -6,6 +6,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
+#include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
@@ -57,10 +58,12 @@ void DrawFilm(const RenderOptions& options, const SkeletonMotion& dance, std::ve
   VideoOptions film = options.film;
   film.keys = std::move(keys);
   char end = 0;
-  if (std::sscanf(options.size.c_str(), "%dx%d%c", &film.format.width, &film.format.height, &end) !=
-      2) {
+  if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &film.format.width, &film.format.height,
+                  &end) != 2) {
     throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in " + SizeText({}));
   }
+  // Nothing is filmed to a song that is over.
+  if (film.format.song_start_s > 0) ReadMusic(film.format.song, 1, film.format.song_start_s);
   std::unique_ptr<ProgressBar> bar;
   film.on_frame = [&](int64_t frames) {
     Interruption::Check();
@@ -97,7 +100,7 @@ void AddRenderCommand(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand(
       "render", "Draw a motion: as a contact sheet (--out), as a video with its song (--video).");
-  command->add_option("motion", options->motion, ".npz, .bvh or .glb file.")
+  command->add_option("motion", options->motion, MotionFileExtensions() + " file.")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--out", options->out, "Contact sheet to write, a PNG file.");

@@ -145,15 +145,16 @@ void AddTransitionCommand(CLI::App& program) {
       ->check(TimeInSeconds())
       ->capture_default_str();
   command
-      ->add_option("--candidates", options->candidates,
-                   "Alternatives; the best is FILE, the others FILE.2, ... " + kOfChance)
+      ->add_option(
+          "--candidates", options->candidates,
+          "Alternatives; the best is FILE, the others are FILE.2.npz and so on. " + kOfChance)
       ->check(WholeNumberFrom(1, kMaxCandidates))
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   AddStyle(*command, options->style);
   options->controls.AddTo(*command);
-  command->add_option("-m,--model", options->model, "Model of the server; default: its first.");
+  AddModel(*command, options->model);
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
       ->required();
   command->add_option("--report", options->report, "JSON file to write the best one's report to.");

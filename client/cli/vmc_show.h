@@ -19,8 +19,8 @@ class VmcShow {
 
   /// Each message of the dance, in order.
   void Take(const client::Message& message);
-  /// Whether the last frame is out, if need be after `patience`.
-  bool Over(std::chrono::milliseconds patience) { return !player_ || player_->Shown(patience); }
+  /// Whether the last frame is out, if need be after a moment.
+  bool Over() { return !player_ || player_->Shown(); }
 
  private:
   live::VmcSender sender_;

@@ -60,8 +60,6 @@ std::optional<double> BeatHitChance(const std::vector<double>& beats, int64_t fr
 }
 
 void CheckKeys(const WrittenDance& dance) {
-  constexpr double kDistance = 0.001;  // metres
-  constexpr double kAngle = 0.1;       // degrees
   for (const WrittenKey& key : dance.keys) {
     double distance = key.reached.final_error_m;
     double angle = key.reached.final_error_deg;
@@ -69,11 +67,11 @@ void CheckKeys(const WrittenDance& dance) {
       distance = std::max(distance, key.error.position_m);
       angle = std::max(angle, key.error.angle_deg);
     }
-    if (distance <= kDistance && angle <= kAngle) continue;
+    if (distance <= client::kMostKeyError_m && angle <= client::kMostKeyError_deg) continue;
     throw Error(ErrorCode::kInternal, key.reached.id,
                 "was missed by " + Rounded(1000 * distance) + " mm and " + Rounded(angle) +
-                    " degrees, more than " + Rounded(1000 * kDistance) + " mm or " +
-                    Rounded(kAngle) + " degrees");
+                    " degrees, more than " + Rounded(1000 * client::kMostKeyError_m) + " mm or " +
+                    Rounded(client::kMostKeyError_deg) + " degrees");
   }
 }
 

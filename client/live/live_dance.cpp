@@ -59,8 +59,7 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
   }
   reader.join();
   if (failure_) std::rethrow_exception(failure_);
-  constexpr std::chrono::milliseconds kPatience{50};
-  while (player_ && !player_->Shown(kPatience) && observer_.go_on()) continue;
+  while (player_ && !player_->Shown() && observer_.go_on()) continue;
   Add(since_, &all_);
   all_.seconds = since_.seconds;
   observer_.figures(all_);

@@ -31,7 +31,7 @@ class PosePlayer {
   void Push(int64_t first_frame, std::span<const Pose> poses);
   Clock::time_point Due(int64_t frame) const;
   /// Whether all that was pushed is shown, if need be after `patience`.
-  bool Shown(std::chrono::milliseconds patience);
+  bool Shown(std::chrono::milliseconds patience = std::chrono::milliseconds(50));
 
  private:
   void Play();

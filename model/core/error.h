@@ -32,6 +32,12 @@ class Error : public std::runtime_error {
 
   ErrorCode code() const noexcept { return code_; }
   const std::string& field() const noexcept { return field_; }
+  /// The same of this field, whose name was another one where it was found.
+  Error Of(const std::string& field) const {
+    std::string message = what();
+    if (!field_.empty() && message.starts_with(field_ + ": ")) message.erase(0, field_.size() + 2);
+    return {code_, field, message};
+  }
 
  private:
   /// what() would end there.

@@ -17,6 +17,8 @@ inline constexpr double kMaxTemperature = 2;                     ///< 0: the mea
 inline constexpr double kMinOutputFps = 1, kMaxOutputFps = 120;  ///< frames sent a second
 
 inline constexpr size_t kMostNameBytes = 64;  ///< of a model's name, which metrics and logs repeat
+inline constexpr size_t kMaxIdLength = 256;   ///< bytes, of a key
+inline constexpr size_t kMaxFingerprintLength = 1024;  ///< bytes
 
 /// Seconds of silence after which a client may take a server for lost at the soonest: it pings at
 /// half of that, and servers allow twice as many pings.

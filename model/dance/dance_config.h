@@ -70,8 +70,8 @@ struct DanceConfig : DanceStart {
 
 /// GenerateTransition: one transition, several candidates of it, ranked.
 struct GroupRequest : DanceStart {
-  int candidates = 1;       ///< 1..32, numbered from 0
-  int frames = 0;           ///< 1..min(1800, the model's longest)
+  int candidates = 1;       ///< 1..kMaxCandidates, numbered from 0
+  int frames = 0;           ///< 1..min(kMaxTransitionFrames, the model's longest)
   int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
   std::optional<Target> target;
   std::string target_id = "target";  ///< how warnings and the report call it

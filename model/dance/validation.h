@@ -15,9 +15,6 @@
 /// the limit, as in "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
 namespace choreo {
 
-inline constexpr size_t kMaxIdLength = 256;            ///< bytes
-inline constexpr size_t kMaxFingerprintLength = 1024;  ///< bytes
-
 /// The value; throws unless it is in [least, most].
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);
 

@@ -141,7 +141,8 @@ void DrawLegend(const Canvas& canvas, const Plot& plot, const std::vector<Stroke
   double x = left;
   double y = top + kPitch / 2;
   for (size_t i = 0; i < plot.series.size(); ++i) {
-    const double width = kSample + 6 + canvas.TextWidth(plot.series[i].label, kLabelSize) + kBetween;
+    const double width =
+        kSample + 6 + canvas.TextWidth(plot.series[i].label, kLabelSize) + kBetween;
     if (x > left && x + width > right) x = left, y += kPitch;
     Select(canvas, strokes[i]);
     if (!plot.x_names.empty()) cairo_set_line_width(canvas.cr(), 10);  // a bar's colour

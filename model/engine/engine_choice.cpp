@@ -16,6 +16,15 @@ std::string Describe(const AvailableDevices& available) {
          list;
 }
 
+std::string Listed(std::span<const std::string_view> names) {
+  std::string all;
+  for (const std::string_view name : names) {
+    if (!all.empty()) all += ", ";
+    all += name;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string Device::name() const {
@@ -53,14 +62,9 @@ std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& 
   }
 }
 
-std::string EngineKindNames() {
-  std::string names;
-  for (const std::string_view name : kEngineKindNames) {
-    if (!names.empty()) names += ", ";
-    names += name;
-  }
-  return names;
-}
+std::string EngineKindNames() { return Listed(kEngineKindNames); }
+
+std::string KernelNames() { return Listed(kKernelNames); }
 
 EngineKind ParseEngineKind(std::string_view text, const std::string& field) {
   const auto name = std::ranges::find(kEngineKindNames, text);

@@ -48,8 +48,9 @@ inline constexpr std::array<std::string_view, 4> kEngineKindNames = {"auto", "to
 inline constexpr std::array<std::string_view, 5> kKernelNames = {"portable", "avx2", "avx512",
                                                                  "avx512_bf16", "amx_bf16"};
 
-/// "auto, torch, ...", for messages.
+/// "auto, torch, ...", for help and messages.
 std::string EngineKindNames();
+std::string KernelNames();
 
 /// Throws Error(kInvalidArgument, field) for another name.
 EngineKind ParseEngineKind(std::string_view text, const std::string& field = "engine");

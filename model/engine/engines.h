@@ -27,7 +27,7 @@ const char* BuildIdentity();
 AvailableDevices TorchDevices();
 
 /// Threads of one of LibTorch's matrix products or operations, process-wide. Call before engines
-/// step. Throws Error(kInvalidArgument) unless threads is in [1, 1024].
+/// step. Throws Error(kInvalidArgument) unless threads is in [1, kMaxMathThreads].
 void SetTorchThreads(int threads);
 
 /// Loads a checkpoint once and makes an engine on each device, with `slots` slots each; engines of

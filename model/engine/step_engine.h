@@ -116,8 +116,7 @@ struct StepInput {
 
 struct StepOutput {
   Pose pose;  ///< canonical frame, as the model has it: arrival and post-processing come after
-  /// Left ankle, left toes, right ankle, right toes; probability-like, [0, 1].
-  Contacts contacts = {};
+  Contacts contacts = {};  ///< probability-like, [0, 1]
   /// Of this frame, nats (model's standardised space, log-determinants included).
   float log_likelihood = 0;
 };

@@ -1,6 +1,5 @@
 #include "model/fit/fit_problem.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -15,16 +14,6 @@ constexpr double kMostDamping = 1e2;
 
 // What the parent's rotation weighs beside landmarks, square metres.
 constexpr double kStays = 1e-4, kTrunkStays = 0.02;
-
-// The rotation that best turns what made the right factors of a correlation matrix onto what made
-// its left factors (Kabsch).
-Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& correlation) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
-  return u * svd.matrixV().transpose();
-}
 
 }  // namespace
 

@@ -95,7 +95,7 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
 std::optional<Skeleton> BvhSkeleton(const BvhFile& file);
 
 /// The inverse of MotionToBvh, whatever the layout; none unless the file has exactly this skeleton:
-/// names, parents and rest offsets (1 mm).
+/// names, parents and rest offsets (kSameBone).
 std::optional<Motion> BvhToMotion(const BvhFile& file, const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -79,13 +79,8 @@ const Format* FindFormat(const std::filesystem::path& path) {
 
 const Format& FormatOf(const std::filesystem::path& path) {
   if (const Format* format = FindFormat(path)) return *format;
-  std::string known;
-  for (const Format& format : kFormats) {
-    const bool last = &format == std::end(kFormats) - 1;
-    known += std::string(known.empty() ? "" : last ? " or " : ", ") + format.extension;
-  }
-  throw InvalidArgument(path.string(),
-                        "has the extension '" + path.extension().string() + "', must be " + known);
+  throw InvalidArgument(path.string(), "has the extension '" + path.extension().string() +
+                                           "', must be " + MotionFileExtensions());
 }
 
 SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) try {
@@ -102,6 +97,15 @@ SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) t
 
 std::string SmallExtension(const std::filesystem::path& path) {
   return boost::algorithm::to_lower_copy(path.extension().string(), std::locale::classic());
+}
+
+std::string MotionFileExtensions() {
+  std::string known;
+  for (const Format& format : kFormats) {
+    const bool last = &format == std::end(kFormats) - 1;
+    known += std::string(known.empty() ? "" : last ? " or " : ", ") + format.extension;
+  }
+  return known;
 }
 
 bool IsMotionFile(const std::filesystem::path& path) { return FindFormat(path) != nullptr; }

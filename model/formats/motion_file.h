@@ -19,6 +19,9 @@ std::string SmallExtension(const std::filesystem::path& path);
 /// (amass_npz.h), `.bvh` (bvh.h) and `.glb` (gltf.h).
 bool IsMotionFile(const std::filesystem::path& path);
 
+/// ".npz, .bvh or .glb", for help and messages.
+std::string MotionFileExtensions();
+
 /// Throws Error(kInvalidArgument) whose field is the path, naming the formats, unless IsMotionFile.
 void RequireMotionFile(const std::filesystem::path& path);
 

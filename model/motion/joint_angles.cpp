@@ -13,7 +13,6 @@
 namespace choreo {
 namespace {
 
-constexpr double kMostBend = 160;
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
 // Degrees either way about each axis, by a part of the joint's name.
@@ -33,7 +32,7 @@ std::optional<Hinge> HingeAt(const Skeleton& skeleton, int joint) {
 }  // namespace
 
 AngleRange RangeOf(const Skeleton& skeleton, int joint) {
-  if (HingeAt(skeleton, joint)) return {0, kMostBend};
+  if (HingeAt(skeleton, joint)) return {0, kFolded};
   const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];
   for (const auto& [part, most] : kMostTurn) {
     if (name.find(part) != std::string::npos) return {-most, most};

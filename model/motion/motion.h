@@ -16,8 +16,8 @@ struct Pose {
       rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
 };
 
-/// Foot contacts c_t of paper F, Section 3.2.1: left ankle, left toes, right ankle, right toes; 1
-/// on the floor, 0 off it. A model's may lie in between.
+/// Foot contacts c_t of paper F, Section 3.2.1, of Skeleton::feet in their order: 1 on the floor, 0
+/// off it. A model's may lie in between.
 using Contacts = std::array<float, 4>;
 
 /// Frames at a constant rate. Exponential-map branches are continuous from frame to frame.

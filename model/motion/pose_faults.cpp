@@ -10,6 +10,8 @@
 namespace choreo {
 namespace {
 
+constexpr double kRounding = 0.01;  // degrees: of files that say a limit itself
+
 constexpr double kUnderFloor = 0.05;  // metres that a rounded pose may be
 constexpr double kInAir = 0.15;       // metres; less may be tiptoe
 constexpr double kLongestJump = 1.0;  // seconds
@@ -65,7 +67,7 @@ std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
     const double bend = kDegrees * hinge.axis.dot(pose.rotations.col(hinge.joint));
     const bool backwards = bend < 0;
     const double limit = backwards ? kBrokenBackwards : kFolded;
-    if (std::abs(bend) <= limit) continue;
+    if (std::abs(bend) <= limit + kRounding) continue;
     faults.push_back(skeleton.joint_names[static_cast<size_t>(hinge.joint)] + " bends " +
                      RoundedBeyond(std::abs(bend), limit) + " degrees" +
                      (backwards ? " backwards" : "") + ", further than " + Rounded(limit));

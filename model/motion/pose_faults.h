@@ -11,7 +11,6 @@
 namespace choreo {
 
 inline constexpr double kHighestJump = 1.2;  ///< metres that feet are above the floor
-inline constexpr double kFolded = 165;       ///< degrees that a knee or an elbow bends at most
 
 /// Of one pose, as far as `mask` asks for it: "left_foot is 12 cm under the floor", "the body hangs
 /// 1.5 m above the floor", "right_knee bends 40 degrees backwards, further than 15".

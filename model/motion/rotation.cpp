@@ -1,5 +1,6 @@
 #include "model/motion/rotation.h"
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 
@@ -83,6 +84,13 @@ Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn) {
 Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected) {
   const Eigen::Vector3d other = OtherWayRound(turn);
   return (other - expected).squaredNorm() < (turn - expected).squaredNorm() ? other : turn;
+}
+
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& m) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d u = svd.matrixU();
+  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
+  return u * svd.matrixV().transpose();
 }
 
 Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r) {

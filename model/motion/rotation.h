@@ -48,6 +48,9 @@ Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn);
 /// Of the two, the one nearer to `expected`.
 Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);
 
+/// The rotation that a matrix is nearest to (Kabsch): the chordal mean of a sum of rotations.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& m);
+
 /// First two columns of the matrix, stacked.
 Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r);
 /// Gram-Schmidt; throws Error(kInvalidArgument) where the two columns are zero or parallel.

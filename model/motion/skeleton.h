@@ -20,8 +20,7 @@ struct Skeleton {
   /// Joints that the motion mathematics asks for by role.
   int left_hip = -1, right_hip = -1, left_knee = -1, right_knee = -1;
   int left_shoulder = -1, right_shoulder = -1, left_elbow = -1, right_elbow = -1;
-  /// Left ankle, left toes, right ankle, right toes: the order of paper F's contacts c_t
-  /// (Section 3.2.1).
+  /// Left ankle, left toes, right ankle, right toes.
   std::array<int, 4> feet = {-1, -1, -1, -1};
 
   int joints() const { return static_cast<int>(parents.size()); }
@@ -61,8 +60,8 @@ int IndexOf(const std::vector<std::string>& names, std::string_view name);
 /// Whether `node` is `ancestor` or hangs from it. `parents`: -1 for none.
 bool IsBelow(int node, int ancestor, const std::vector<int>& parents);
 
-/// Bones that differ by no more, metres, are the same: files round both ends to a millimetre.
-inline constexpr double kSameBone = 0.002;
+/// Bones that differ by no more, metres, are the same: files and messages round them.
+inline constexpr double kSameBone = 0.001;
 
 /// Whether poses of one are poses of the other: the same joints, tree and bones.
 bool SameBones(const Skeleton& a, const Skeleton& b);
@@ -75,7 +74,8 @@ struct Hinge {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length
 };
 
-inline constexpr double kMostHingeBend = 2.7;   ///< radians: a calf on its thigh
+inline constexpr double kMostHingeBend = 2.7;   ///< radians that plans and fits bend it at most
+inline constexpr double kFolded = 165;          ///< degrees that any body bends it at most
 inline constexpr double kBrokenBackwards = 15;  ///< degrees: more than real limbs, or recordings
 
 /// Left knee, right knee, left elbow, right elbow: those that the skeleton has.

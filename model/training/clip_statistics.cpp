@@ -1,6 +1,5 @@
 #include "model/training/clip_statistics.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -23,13 +22,6 @@ Eigen::VectorXd Velocity(const Pose& before, const Pose& now) {
     velocity.segment<3>(3 + 3 * j) =
         RotationDifference(before.rotations.col(j), now.rotations.col(j));
   return velocity;
-}
-
-// The rotation that a sum of rotations is nearest to: their chordal mean.
-Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& sum) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  return svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace

@@ -16,11 +16,11 @@
 #include "model/core/grid.h"
 #include "model/core/progress.h"
 #include "model/fit/fit_clip.h"
-#include "model/training/recorded_floor.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/training/jolts.h"
 #include "model/training/prepared_clip.h"
+#include "model/training/recorded_floor.h"
 #include "model/training/recordings.h"
 
 namespace choreo {

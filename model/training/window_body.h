@@ -17,7 +17,7 @@ class WindowBody {
   /// How far the batch's real joints go where their coordinates change by a little:
   /// [batch, w, dimensions] → [batch, w, joints, 3] metres. Differentiable, linear.
   torch::Tensor Move(const WindowBatch& batch, const torch::Tensor& dx) const;
-  /// Left ankle, left toes, right ankle, right toes.
+  /// Skeleton::feet.
   const torch::Tensor& feet() const { return feet_; }
 
  private:

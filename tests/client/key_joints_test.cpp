@@ -94,7 +94,7 @@ TEST(KeyJointsTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   refused(R"("time": 1, "root_position": [0, 1, 0], "facing": 90)",
           "keyframes[0].facing: goes with pose");
   refused(R"("time": 1, "joints": {"left_knee": -20})",
-          "keyframes[0].joints.left_knee: left_knee is at -20 degrees, must be 0 to 160");
+          "keyframes[0].joints.left_knee: left_knee is at -20 degrees, must be 0 to 165");
   refused(R"("time": 1, "joints": {"tail": 1})", "keyframes[0].joints: \"tail\" is no joint");
   refused(R"("time": 1, "joints": {})", "keyframes[0].joints: names no joint");
   refused(R"("time": 1, "pose": "kick", "joints": "arms")", "is not a list of joint names");

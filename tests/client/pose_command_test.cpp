@@ -94,7 +94,7 @@ TEST_F(PoseCommandTest, ErrorsNameTheOptionTheValueAndTheLimit) {
     return recipe;
   };
   refused(set("left_elbow=200"),
-          "--set left_elbow=200: left_elbow is at 200 degrees, must be 0 to 160");
+          "--set left_elbow=200: left_elbow is at 200 degrees, must be 0 to 165");
   refused(set("left_elbow"), "--set left_elbow: has no =, as in left_elbow=90");
   refused(set("left_elbow=x"), "--set left_elbow=x: \"x\" is not a number");
   refused(set("tail=1"), "--set tail=1: \"tail\" is no joint of smpl24, which has pelvis");

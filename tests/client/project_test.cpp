@@ -123,7 +123,7 @@ TEST_F(ProjectTest, WhatCannotBeIsNamed) {
        ":points[0].x");
   project_ = good;
   project_["style"] = "foxtrot";
-  ExpectRefused("foxtrot");
+  ExpectRefused("p.json:style: \"foxtrot\"");
   project_ = good;
   project_.erase("studio");
   ExpectRefused("p.json:studio: is missing: a key file goes with --keyframes");

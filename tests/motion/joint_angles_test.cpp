@@ -70,8 +70,8 @@ TEST(JointAngles, ErrorsNameJointValueAndRange) {
       RotationFromDegrees(Body(), RequireJoint(Body(), name, "--set"), degrees, "--set");
     });
   };
-  refused("left_elbow", {200}, "--set: left_elbow is at 200 degrees, must be 0 to 160");
-  refused("right_knee", {-5}, "right_knee is at -5 degrees, must be 0 to 160");
+  refused("left_elbow", {200}, "--set: left_elbow is at 200 degrees, must be 0 to 165");
+  refused("right_knee", {-5}, "right_knee is at -5 degrees, must be 0 to 165");
   refused("neck", {0, 0, 95}, "neck is at 95 degrees about z, must be -80 to 80");
   refused("left_elbow", {1, 2, 3}, "left_elbow takes one number, the degrees of its bend");
   refused("neck", {1}, "neck takes three numbers, degrees about x, y and z; there are 1");

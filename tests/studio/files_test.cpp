@@ -90,7 +90,7 @@ TEST_F(StudioTest, TellsHowJointsTurnAndReadsKeyFiles) {
   EXPECT_EQ(elbow.part(), v1::BODY_PART_LEFT_ARM);
   EXPECT_EQ(elbow.hinge_size(), 3);
   EXPECT_EQ(elbow.low(), 0);
-  EXPECT_EQ(elbow.high(), 160);
+  EXPECT_EQ(elbow.high(), 165);
   EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).part(), v1::BODY_PART_TRUNK);
   EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).hinge_size(), 0);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "model/core/atomic_file.h"
 #include "studio/web_server.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
@@ -40,7 +41,7 @@ class StudioTest : public testing::Test {
  protected:
   std::string Clicks(double seconds) {
     WriteClicks(folder_ / "clicks.wav", seconds);
-    return ReadBytes(folder_ / "clicks.wav");
+    return ReadFile(folder_ / "clicks.wav");
   }
   static Request SongRequest(const std::string& name, const std::string& data) {
     Request request;

@@ -11,8 +11,12 @@ export class FloorLine {
   readonly scene = new THREE.Group();
   private stroke: Spot[] | null = null;
   private shown: unknown[] = [];
-  private readonly paint = new THREE.MeshBasicMaterial({ color: colour('accent'), transparent: true, opacity: 0.85, side: THREE.DoubleSide, depthWrite: false });
+  private readonly paint = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.85, side: THREE.DoubleSide, depthWrite: false });
 
+  /// Takes the page's colours as they are now.
+  dress() {
+    this.paint.color.set(colour('accent'));
+  }
   begin(spot: Spot) {
     this.stroke = [spot];
   }

@@ -1,20 +1,20 @@
 // The stage: floor, light, camera, the dancers, and the handles of the pose that is being made.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { Figure } from './body';
 import type { Pose } from './body';
 import { Doll } from './doll';
 import { FloorLine } from './floor_line';
+import { HandleDots, openHandles, placesOf } from './handle_dots';
 import type { Motion } from './motion';
-import { canPull, floorHandle, handles, pull } from './reach';
+import { floorHandle, handles, pull } from './reach';
 import type { Handle } from './reach';
 import { Onion } from './onion';
+import { apart, OtherTakes } from './other_takes';
 import { colour } from './palette';
 import { floorTexture, looks, makeFloor, makeLamp, makeSky } from './scenery';
 import * as studio from './studio';
 
 const middle = 0.92; // metres: what the camera looks at
-const apart = 1.25; // metres between takes
 const ground = new THREE.Plane(new THREE.Vector3(0, 1, 0), 0);
 const farthest = 9; // metres from where the camera looks: a path may lead there
 const photoWidth = 272; // pixels of the stage at most (style.css)
@@ -34,10 +34,10 @@ export class Stage {
   private readonly lamp = makeLamp();
   private readonly sky = makeSky(looks.light.sky);
   private readonly floor = makeFloor();
-  private readonly others: Doll[] = [];
+  private readonly others: OtherTakes;
   private readonly ghost: Doll;
   private readonly onion: Onion;
-  private readonly dots = new THREE.Group();
+  private readonly dots = new HandleDots();
   private readonly line = new FloorLine();
   private posing: Pose | null = null;
   private seat: THREE.Vector3 | null = null; // from which somebody got up to draw
@@ -58,8 +58,8 @@ export class Stage {
     this.ghost = doll.another().fade(colour('gold'), 0.28);
     this.ghost.scene.visible = false;
     this.onion = new Onion(doll);
-    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots, this.line.scene, this.onion.scene);
-    this.makeDots();
+    this.others = new OtherTakes(doll);
+    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene, this.others.scene);
     this.camera.position.set(1.5, 1.35, 4.4);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.set(0, middle, 0);
@@ -81,7 +81,7 @@ export class Stage {
   /// Where a handle is on the page; null while no pose is bent.
   whereIs(id: string) {
     if (!this.posing) return null;
-    const { x, y } = this.toScreen(this.places(this.posing).get(id)!);
+    const { x, y } = this.toScreen(placesOf(this.posing).get(id)!);
     const { left, top } = this.canvas.getBoundingClientRect();
     return { x: x + left, y: y + top };
   }
@@ -90,7 +90,7 @@ export class Stage {
   nudge(id: string, by: THREE.Vector3) {
     const handle = [...handles, floorHandle].find((some) => some.id === id);
     if (!handle || !this.posing) return;
-    const to = this.places(this.posing).get(id)!.add(by);
+    const to = placesOf(this.posing).get(id)!.add(by);
     this.posing = pull(studio.skeleton, this.posing, handle, to, studio.movable.value);
     studio.bendSoon(this.posing);
   }
@@ -99,46 +99,12 @@ export class Stage {
     this.isDark = isDark;
     const look = looks[isDark ? 'dark' : 'light'];
     this.scene.background = new THREE.Color(colour('paper'));
+    this.line.dress();
     this.floor.material.map?.dispose();
     this.floor.material.map = floorTexture(look);
     this.floor.material.needsUpdate = true;
     this.sky.intensity = look.sky;
     this.lamp.intensity = look.lamp;
-  }
-
-  private makeDots() {
-    const dot = (color: string, radius: number) =>
-      new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true, opacity: 0.9 }));
-    for (const handle of handles) {
-      const side = handle.id.startsWith('left') ? 'left' : handle.id.startsWith('right') ? 'right' : 'gold';
-      const rim = dot('#ffffff', 0.034);
-      const core = dot(colour(side), 0.026);
-      rim.renderOrder = 1;
-      core.renderOrder = 2;
-      const both = new THREE.Group().add(rim, core);
-      both.name = handle.id;
-      this.dots.add(both);
-    }
-    const ring = new THREE.Mesh(new THREE.RingGeometry(0.3, 0.34, 48), new THREE.MeshBasicMaterial({ color: colour('gold'), depthTest: false, transparent: true, opacity: 0.9 }));
-    ring.rotation.x = -Math.PI / 2;
-    ring.renderOrder = 1;
-    const disc = new THREE.Group().add(ring);
-    disc.name = floorHandle.id;
-    this.dots.add(disc);
-  }
-
-  /// Where the handles of a pose are in the world.
-  private places(pose: Pose) {
-    const figure = new Figure(studio.skeleton, pose);
-    const out = new Map<string, THREE.Vector3>();
-    for (const { id, joint } of handles) out.set(id, figure.places[studio.skeleton.find(joint)].clone());
-    out.set(floorHandle.id, new THREE.Vector3(pose.root[0], 0, pose.root[2]));
-    return out;
-  }
-
-  /// The handles that can be pulled now.
-  private open() {
-    return [...handles, floorHandle].filter((handle) => canPull(studio.skeleton, handle, studio.movable.value));
   }
 
   private toScreen(point: THREE.Vector3) {
@@ -171,13 +137,13 @@ export class Stage {
     }
     if (!this.posing) return;
     const { left, top } = this.canvas.getBoundingClientRect();
-    const places = this.places(this.posing);
+    const places = placesOf(this.posing);
     const away = (id: string) => {
       const { x, y } = this.toScreen(places.get(id)!);
       const off = Math.hypot(x - event.clientX + left, y - event.clientY + top);
       return id === floorHandle.id ? Math.min(off, Math.abs(off - 30)) : off;
     };
-    const [handle] = this.open().sort((a, b) => away(a.id) - away(b.id));
+    const [handle] = openHandles().sort((a, b) => away(a.id) - away(b.id));
     if (!handle || away(handle.id) > near) return;
     event.stopImmediatePropagation();
     this.canvas.setPointerCapture(event.pointerId);
@@ -222,17 +188,10 @@ export class Stage {
     else if (motion) doll.follow(motion, time);
     const centre = doll.place().clone();
     const takes = studio.takes.value;
-    const marks = this.drawTakes(time, centre);
+    const marks = this.others.show(time, centre, this.camera, this.middle).map((place) => this.toScreen(place));
     this.drawGhost(time);
     this.onion.show(time, takes.length > 0);
-    this.dots.visible = !!this.posing;
-    if (this.posing) {
-      const open = this.open().map(({ id }) => id);
-      for (const [id, place] of this.places(this.posing)) {
-        this.dots.getObjectByName(id)!.visible = open.includes(id);
-        this.dots.getObjectByName(id)!.position.copy(place).setY(id === floorHandle.id ? 0.004 : place.y);
-      }
-    }
+    this.dots.show(this.posing);
     const isSet = studio.areCornersShown.value || !!studio.askedCorners.value;
     const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps, isSet ? studio.corners.value : null, studio.heldCorner.value);
     this.look(this.middle);
@@ -260,7 +219,7 @@ export class Stage {
       this.renderer.setSize(width, height, false);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
-      for (const part of [this.ghost.scene, this.dots, this.line.scene, this.onion.scene]) part.visible = false;
+      for (const part of [this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene]) part.visible = false;
     }
     this.doll.follow(motion, time);
     this.look(this.doll.place());
@@ -292,26 +251,6 @@ export class Stage {
       this.renderer.setPixelRatio(this.renderer.getPixelRatio() * 0.75);
       this.rate = 60;
     }
-  }
-
-  /// The other takes, beside the dancer from left to right; where their names go on the screen.
-  private drawTakes(time: number, centre: THREE.Vector3) {
-    const takes = studio.takes.value;
-    while (this.others.length < takes.length) {
-      this.others.push(this.doll.another());
-      this.scene.add(this.others.at(-1)!.scene);
-    }
-    const side = new THREE.Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion).setY(0).normalize();
-    this.middle.copy(side).multiplyScalar((takes.length * apart) / 2).add(centre);
-    const marks = [this.toScreen(centre.clone().setY(2))];
-    this.others.forEach((other, i) => {
-      other.scene.visible = i < takes.length;
-      if (!other.scene.visible) return;
-      other.follow(takes[i].motion, time);
-      other.scene.position.copy(side).multiplyScalar((i + 1) * apart);
-      marks.push(this.toScreen(other.place().clone().add(other.scene.position).setY(2)));
-    });
-    return takes.length ? marks : [];
   }
 
   /// The chosen key, where it will be hit.

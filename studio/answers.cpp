@@ -1,0 +1,126 @@
+#include "studio/answers.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "client/cli/choreography.h"
+#include "client/cli/key_faults.h"
+#include "client/cli/key_file.h"
+#include "client/cli/photo_pose.h"
+#include "client/cli/pose_library.h"
+#include "client/convert.h"
+#include "client/edit.h"
+#include "model/core/atomic_file.h"
+#include "model/formats/motion_file.h"
+#include "studio/from_page.h"
+#include "studio/scratch_folder.h"
+#include "studio/to_page.h"
+
+namespace choreo::studio {
+namespace {
+
+/// A file in a folder of ours by the page's name for it, of which only the extension is believed.
+std::filesystem::path PlaceFor(const ScratchFolder& folder, const std::string& name) {
+  return folder.path() / ("file" + SmallExtension(name));
+}
+
+/// What an error says of a file of ours, by the page's name for it.
+std::string Named(const std::string& message, const std::string& path, const std::string& name) {
+  const size_t at = message.find(path);
+  return at == std::string::npos ? message : std::string(message).replace(at, path.size(), name);
+}
+
+}  // namespace
+
+std::shared_ptr<const Song> HearSongOf(const House& house, const File& file) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = PlaceFor(folder, file.name());
+  WriteFile(path, file.data());
+  return std::make_shared<const Song>(HearSong(path, file.name(), house.most_seconds()));
+}
+
+std::vector<Response> MakeTransition(const House& house, const Song* music,
+                                     const v1::GenerateTransitionRequest& asked) {
+  client::TransitionRequest request = FromProto(asked, house.model().skeleton);
+  const int64_t first =
+      request.config.continuation ? request.config.continuation->frame : request.config.first_frame;
+  if (music) {
+    client::SetMusic(music->audio, house.model(), first, &request);
+    request.config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
+  }
+  client::TransitionResult made = house.client().GenerateTransition(request);
+  if (request.target) {
+    const client::KeyPose key{.id = request.target_id,
+                              .frame = first + request.frames - 1,
+                              .pose = *request.target,
+                              .mask = request.target_mask};
+    for (client::Warning& fault :
+         cli::KeyFaults(std::vector{key}, house.model().fps, house.model().skeleton))
+      made.warnings.push_back(std::move(fault));
+  }
+  std::vector<Response> answers;
+  for (v1::GenerateTransitionResponse& part : ToProto(made))
+    *answers.emplace_back().mutable_transition() = std::move(part);
+  return answers;
+}
+
+Response ComposeKeys(const House& house, const Song* music, const Compose& request) {
+  cli::CompositionRequest composition{.seconds = request.seconds(), .seed = request.seed()};
+  composition.named = "compose.seconds";
+  if (music) composition.beats = music->music.track.Seconds();
+  Response response;
+  response.mutable_keyframes();
+  const auto library = cli::PosesToDance(house.model().skeleton);
+  for (const client::KeyPose& key : cli::ComposeKeys(composition, library))
+    *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
+  return response;
+}
+
+Response WriteClip(const House& house, const Export& request) {
+  const ScratchFolder folder;
+  RequireMotionFile(request.name());
+  const std::filesystem::path path = PlaceFor(folder, request.name());
+  const client::FinishedDance dance = FromProto(request.clip(), house.model().skeleton);
+  WriteMotion(path, house.model().skeleton, dance.motion,
+              dance.contacts.empty() ? nullptr : &dance.contacts);
+  Response response;
+  response.mutable_file()->set_name(request.name());
+  response.mutable_file()->set_data(ReadFile(path));
+  return response;
+}
+
+Response ReadClip(const House& house, const File& file) {
+  const ScratchFolder folder;
+  RequireMotionFile(file.name());
+  const std::filesystem::path path = PlaceFor(folder, file.name());
+  WriteFile(path, file.data());
+  client::FinishedDance dance;
+  try {
+    dance.motion = ReadMotion(path, house.model().skeleton);
+  } catch (const Error& error) {
+    throw Error(error.code(), "", Named(error.what(), path.string(), file.name()));
+  }
+  Response response;
+  *response.mutable_clip() = ToProto(dance);
+  return response;
+}
+
+Response MakePhotoPose(const House& house, const File& landmarks) {
+  Response response;
+  LibraryPose* pose = response.mutable_pose();
+  pose->set_id(std::filesystem::path(landmarks.name()).stem().string());
+  *pose->mutable_pose() = client::ToProto(
+      cli::ParseLandmarkPose(landmarks.data(), landmarks.name(), house.model().skeleton));
+  return response;
+}
+
+Response ReadKeys(const House& house, const File& file) {
+  Response response;
+  response.mutable_keyframes();
+  for (const client::KeyPose& key :
+       cli::ParseKeyFile(file.data(), file.name(), house.model().skeleton))
+    *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
+  return response;
+}
+
+}  // namespace choreo::studio

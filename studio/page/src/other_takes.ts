@@ -1,0 +1,34 @@
+// Other takes of an interval, beside the dancer from left to right.
+import * as THREE from 'three';
+import type { Doll } from './doll';
+import * as studio from './studio';
+
+export const apart = 1.25; // metres between takes
+const nameHeight = 2; // metres above the floor
+
+export class OtherTakes {
+  readonly scene = new THREE.Group();
+  private readonly dolls: Doll[] = [];
+
+  constructor(private readonly doll: Doll) {}
+
+  /// `middle` becomes that of all dancers; returns where their names go, none where there is one take.
+  show(time: number, centre: THREE.Vector3, camera: THREE.Camera, middle: THREE.Vector3) {
+    const takes = studio.takes.value;
+    while (this.dolls.length < takes.length) {
+      this.dolls.push(this.doll.another());
+      this.scene.add(this.dolls.at(-1)!.scene);
+    }
+    const side = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion).setY(0).normalize();
+    middle.copy(side).multiplyScalar((takes.length * apart) / 2).add(centre);
+    const names = [centre.clone().setY(nameHeight)];
+    this.dolls.forEach((doll, i) => {
+      doll.scene.visible = i < takes.length;
+      if (!doll.scene.visible) return;
+      doll.follow(takes[i].motion, time);
+      doll.scene.position.copy(side).multiplyScalar((i + 1) * apart);
+      names.push(doll.place().clone().add(doll.scene.position).setY(nameHeight));
+    });
+    return takes.length ? names : [];
+  }
+}
