@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "model/engine/engine_choice.h"
+
 namespace choreo {
 namespace {
 

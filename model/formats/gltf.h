@@ -18,12 +18,12 @@ namespace choreo {
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
 
 /// The first animation of a file: of `wanted`, if any, of SMPL's skeleton or of the file's own
-/// (own_skeleton.h), where names, parents and rest offsets (kSameBone) are theirs; any other skeleton is
-/// fitted to SMPL's (fit/fit_clip.h). At the rate of extras.fps, else of the channel with most
-/// keys, or 30 where that is below 20: few keys are poses to pass. Throws Error(kNotFound) where
-/// the file cannot be opened, Error(kInvalidArgument) whose field is the path and whose message
-/// names the part: no glTF, no animation, cubic splines, sparse accessors, data outside its buffer,
-/// files beside this one, more than a million frames.
+/// (own_skeleton.h), where names, parents and rest offsets (kSameBone) are theirs; any other
+/// skeleton is fitted to SMPL's (fit/fit_clip.h). At the rate of extras.fps, else of the channel
+/// with most keys, or 30 where that is below 20: few keys are poses to pass. Throws
+/// Error(kNotFound) where the file cannot be opened, Error(kInvalidArgument) whose field is the
+/// path and whose message names the part: no glTF, no animation, cubic splines, sparse accessors,
+/// data outside its buffer, files beside this one, more than a million frames.
 SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted = nullptr);
 
 }  // namespace choreo
