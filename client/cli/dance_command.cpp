@@ -244,8 +244,7 @@ void AddDanceCommand(CLI::App& program) {
       program.add_subcommand("dance",
                              "Dance to a song, through key poses, and write the motion.\n"
                              "Alone, as in `choreo dance song.ogg`, it takes key poses of the "
-                             "library that ships, on beats "
-                             "of the music.");
+                             "library that ships, on beats of the music.");
   command
       ->add_option("song", options->song,
                    "WAV, FLAC, Ogg or MP3 file. Without one the dance is silent.")

@@ -116,13 +116,13 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
 
 }  // namespace
 
-bool HasNumbers(const json& key) {
-  return std::ranges::any_of(kPoseMembers, [&](const char* name) { return key.contains(name); });
+bool HasNumbers(const json& value) {
+  return std::ranges::any_of(kPoseMembers, [&](const char* name) { return value.contains(name); });
 }
 
-void RefuseNumbers(const json& key, const std::string& field) {
+void RefuseNumbers(const json& value, const std::string& field) {
   for (const char* member : kPoseMembers) {
-    if (!key.contains(member)) continue;
+    if (!value.contains(member)) continue;
     throw InvalidArgument(field + "." + member, "stands beside pose; only one may be there");
   }
 }

@@ -6,15 +6,21 @@
 
 namespace choreo::stream_keys_test {
 
-class StreamKeysTest : public ServerTest {};
+class StreamKeysTest : public ServerTest {
+ protected:
+  // A dance of 120 frames whose keys will be edited.
+  void Begin(DanceClient& client) {
+    v1::DanceConfig config = Config();
+    config.set_frames(120);
+    client.Send(config);
+    client.SendGenerateUntil(1);
+  }
+};
 
 TEST_F(StreamKeysTest, LateKeysAreRejectedByEvent) {
   Start();
   DanceClient client(stub());
-  v1::DanceConfig config = Config();
-  config.set_frames(120);
-  client.Send(config);
-  client.SendGenerateUntil(1);  // keys will be edited
+  Begin(client);
   client.SendKeyframe(Key("a", 50));
   client.SendKeyframe(Key("b", 100));
   client.SendGenerateUntil(60);
@@ -37,10 +43,7 @@ TEST_F(StreamKeysTest, LateKeysAreRejectedByEvent) {
 TEST_F(StreamKeysTest, KeysAreAddedMovedAndRemovedBehindTheFrontier) {
   Start();
   DanceClient client(stub());
-  v1::DanceConfig config = Config();
-  config.set_frames(120);
-  client.Send(config);
-  client.SendGenerateUntil(1);  // keys will be edited
+  Begin(client);
   client.SendKeyframe(Key("a", 30));
   client.SendKeyframe(Key("b", 60));
   client.SendKeyframe(Key("c", 90));
