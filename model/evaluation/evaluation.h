@@ -100,6 +100,7 @@ std::vector<Table> EvaluateNearness(const Evaluation& evaluation);
 ///   liveliness_SET      a figure a row. Through the clips' own poses each 2 s: lively_figures.h,
 ///                       how far seeds and songs part, hits on beats that it was told of, Frechet
 ///                       distances, the critic. Without keys: long_figures.h.
+///   weight_SET          weight_table.h, with keys and without
 ///   liveliness_bands_SET  how fast joints go in each band of frequency
 /// Everything is danced as it is served. Figures named "÷ real" are the sum over dances over the
 /// same of the clips. No rows of keyed dances where no clip has 20 s.

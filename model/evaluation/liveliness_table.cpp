@@ -9,6 +9,7 @@
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/long_plans.h"
 #include "model/evaluation/transition_judge.h"
+#include "model/evaluation/weight_table.h"
 #include "model/metrics/critic.h"
 #include "model/metrics/pose_distance.h"
 
@@ -194,19 +195,32 @@ void AddCritic(const Evaluation& evaluation, const KeyedDances& dances, double f
           table);
 }
 
-void AddFree(const Evaluation& evaluation, const Method& method, Table* table) {
-  const EvalOptions& options = evaluation.options;
-  if (options.free_dances == 0) return;
+// What is danced without keys.
+struct FreeDances {
+  std::vector<LongFigures> whole;
+  LivelyDances lively;
+};
+
+FreeDances DanceFree(const Evaluation& evaluation, const Method& method) {
   const ModelInfo& model = method.engine->model();
-  const RealRange real = MeasureReal(evaluation.set, model).range;
+  const EvalOptions& options = evaluation.options;
   const std::vector<LongPlan> plans =
       PlanLongDances(model, evaluation.set, KeyTimes::kNone, options.free_dances, options);
-  std::vector<LongFigures> dances;
-  std::vector<float> speeds;
-  for (const LongDance& chain : evaluation.runner.DanceLong(*method.engine, plans)) {
-    dances.push_back(MeasureLong(model.skeleton, model.fps, chain.poses, {}));
-    speeds.push_back(static_cast<float>(dances.back().median_speed));
+  const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.engine, plans);
+  FreeDances free;
+  for (size_t i = 0; i < plans.size(); ++i) {
+    free.whole.push_back(MeasureLong(model.skeleton, model.fps, chains[i].poses, {}));
+    free.lively.push_back(MeasureLiveliness(model, plans[i], chains[i].poses));
   }
+  return free;
+}
+
+void AddFree(const Evaluation& evaluation, const ModelInfo& model,
+             const std::vector<LongFigures>& dances, Table* table) {
+  if (dances.empty()) return;
+  const RealRange real = MeasureReal(evaluation.set, model).range;
+  std::vector<float> speeds;
+  for (const LongFigures& dance : dances) speeds.push_back(static_cast<float>(dance.median_speed));
   const auto share = [&](auto is) {
     return 100.0 * std::ranges::count_if(dances, is) / static_cast<double>(dances.size());
   };
@@ -218,8 +232,8 @@ void AddFree(const Evaluation& evaluation, const Method& method, Table* table) {
   AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }), table);
 }
 
-Table LivelinessTable(const Evaluation& evaluation, const Method& method,
-                      const KeyedDances& dances) {
+Table LivelinessTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances,
+                      const FreeDances& free) {
   const double fps = method.engine->model().fps;
   Table table = evaluation.NewTable("liveliness", "Does it live", {"figure"}, &method);
   if (!dances.real.empty()) {
@@ -229,10 +243,10 @@ Table LivelinessTable(const Evaluation& evaluation, const Method& method,
     AddCritic(evaluation, dances, fps, &table);
   }
   AddFrechet(evaluation, method, &table);
-  AddFree(evaluation, method, &table);
+  AddFree(evaluation, method.engine->model(), free.whole, &table);
   table.note = std::to_string(dances.real.size()) + " clips, " + std::to_string(kSeeds) +
                " seeds, the clips' own poses each 2 s as keys and nothing else of them; free: " +
-               std::to_string(evaluation.options.free_dances) +
+               std::to_string(free.whole.size()) +
                " dances without keys. The critic is fair where it finds real motion against real "
                "between 0.45 and 0.55; dancers of the training clips are real ones, who dance "
                "something else.";
@@ -246,7 +260,10 @@ std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation) {
   for (const Method& method : evaluation.methods) {
     if (!method.Judged()) continue;
     const KeyedDances dances = DanceKeyed(evaluation, method);
-    tables.push_back(LivelinessTable(evaluation, method, dances));
+    const FreeDances free = DanceFree(evaluation, method);
+    tables.push_back(LivelinessTable(evaluation, method, dances, free));
+    std::ranges::move(WeightTable(evaluation, method, dances.real, dances.seeds, free.lively),
+                      std::back_inserter(tables));
     if (!dances.real.empty())
       tables.push_back(BandTable(evaluation, method, dances.real, dances.seeds[0]));
   }

@@ -4,6 +4,7 @@
 
 #include "model/dance/quality_report.h"
 #include "model/evaluation/beat_table.h"
+#include "model/metrics/contrast.h"
 
 namespace choreo {
 
@@ -16,6 +17,7 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
   figures.track = TrackJoints(model.skeleton, whole);
   figures.speeds = MeanSpeeds(figures.track, model.fps);
   figures.median_speed = Percentile(figures.speeds, 0.5);
+  figures.turns = WindowTurns(whole, model.fps);
   std::vector<int> keys;
   for (const auto& [frame, pose] : plan.keys) keys.push_back(frame + 1);
   figures.limbs = MeasureLimbTravel(model.skeleton, figures.track, keys);

@@ -20,6 +20,7 @@ struct LivelyFigures {
   double knee_snaps = 0, elbow_snaps = 0;  ///< CountSnaps, a minute
   JointTrack track;                        ///< from the pose before the first frame on
   std::vector<float> speeds;               ///< mean joint speed of each frame, m/s
+  std::vector<double> turns;               ///< WindowTurns, from that pose on
 };
 
 /// `poses`: the dance of this plan, or what stands in for it.

@@ -1,0 +1,100 @@
+#include "model/metrics/balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/core/error.h"
+#include "model/core/quantile.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kFloorShare = 0.05;
+constexpr double kLeastHover = 0.15;         // m, of the lowest joint
+constexpr double kCentreOutside = 0.10;      // m
+constexpr double kZeroMomentOutside = 0.15;  // m
+
+std::vector<BodyPoints> PointsOf(const BalanceGauge& gauge, const JointTrack& track) {
+  std::vector<BodyPoints> points;
+  points.reserve(track.size());
+  for (const Eigen::Matrix3Xd& joints : track) points.push_back(gauge.Of(joints));
+  return points;
+}
+
+// The longest run of frames above `least` that is no flight, in frames.
+int LongestHover(const JointTrack& track, const std::vector<Balance>& balance, double least) {
+  int longest = 0;
+  for (size_t from = 0; from < track.size();) {
+    size_t to = from;
+    double sum = 0;
+    for (; to < track.size() && track[to].row(1).minCoeff() > least; ++to)
+      sum += balance[to].acceleration.y();
+    const auto frames = static_cast<int>(to - from);
+    if (frames > 0 && sum / frames > -kThrown) longest = std::max(longest, frames);
+    from = to + 1;
+  }
+  return longest;
+}
+
+// Frames that each foot stays down, each time.
+std::vector<double> ContactLengths(const std::vector<Balance>& balance) {
+  std::vector<double> lengths;
+  for (const size_t foot : {0, 2}) {
+    int length = 0;
+    for (const Balance& frame : balance) {
+      if (frame.on_floor[foot] || frame.on_floor[foot + 1]) {
+        ++length;
+      } else if (length > 0) {
+        lengths.push_back(length), length = 0;
+      }
+    }
+    if (length > 0) lengths.push_back(length);
+  }
+  return lengths;
+}
+
+}  // namespace
+
+double DancedFloor(const Skeleton& skeleton, const JointTrack& track) {
+  std::vector<double> heights;
+  for (const Eigen::Matrix3Xd& joints : track) {
+    heights.push_back(
+        std::min({joints(1, skeleton.feet[0]) - kAnkleAboveSole, joints(1, skeleton.feet[1]),
+                  joints(1, skeleton.feet[2]) - kAnkleAboveSole, joints(1, skeleton.feet[3])}));
+  }
+  return Quantile(std::move(heights), kFloorShare);
+}
+
+WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTrack& track,
+                            double floor) {
+  if (!BalanceGauge::Fits(skeleton))
+    throw InvalidArgument("skeleton", skeleton.Describe() + " lacks joints that have mass");
+  if (track.empty()) throw InvalidArgument("track", "0 frames, at least 1 is needed");
+  const BalanceGauge gauge(skeleton, fps, floor);
+  const std::vector<BodyPoints> points = PointsOf(gauge, track);
+  std::vector<Balance> balance;
+  balance.reserve(track.size());
+  for (size_t t = 0; t < track.size(); ++t) balance.push_back(gauge.At(points, t));
+  const auto share = [&](auto is) {
+    return static_cast<double>(std::ranges::count_if(balance, is)) /
+           static_cast<double>(balance.size());
+  };
+  const auto hovers = [](const Balance& frame) { return frame.foot_height > kSoleHeight; };
+  WeightFigures figures;
+  figures.hover_share = share(hovers);
+  std::vector<double> falls;
+  for (const Balance& frame : balance)
+    if (hovers(frame)) falls.push_back(frame.acceleration.y());
+  figures.hover_acceleration = falls.empty() ? NAN : Median(std::move(falls));
+  figures.longest_hover_s = LongestHover(track, balance, floor + kLeastHover) / fps;
+  figures.zmp_outside = share(
+      [](const Balance& frame) { return frame.zmp_outside.value_or(0) > kZeroMomentOutside; });
+  figures.centre_outside =
+      share([](const Balance& frame) { return frame.centre_outside.value_or(0) > kCentreOutside; });
+  figures.supported = share(&Balance::Supported);
+  std::vector<double> contacts = ContactLengths(balance);
+  figures.contact_frames = contacts.empty() ? 0 : Median(std::move(contacts));
+  return figures;
+}
+
+}  // namespace choreo

@@ -1,0 +1,60 @@
+#include "model/metrics/contrast.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kStandstill = 1e-3;  // m/s, whose logarithm is that of less
+
+std::ptrdiff_t WindowFrames(double fps) { return std::lround(kContrastSeconds * fps); }
+
+}  // namespace
+
+std::vector<double> WindowTurns(std::span<const Pose> poses, double fps) {
+  std::vector<double> turns;
+  const auto length = static_cast<size_t>(WindowFrames(fps));
+  double before = 0, turned = 0;
+  for (size_t t = 0; t < poses.size(); ++t) {
+    const double heading = Heading(ExpMap(poses[t].rotations.col(0)));
+    if (t > 0) turned += WrapAngle(heading - before);
+    before = heading;
+    if (t > 0 && t % length == 0) turns.push_back(std::exchange(turned, 0));
+  }
+  return turns;
+}
+
+double HandsAtRest(const Skeleton& skeleton, double fps, const JointTrack& track) {
+  int64_t still = 0, all = 0;
+  for (const int elbow : {skeleton.left_elbow, skeleton.right_elbow}) {
+    const auto wrist = std::ranges::find(skeleton.parents, elbow);
+    if (elbow < 0 || wrist == skeleton.parents.end())
+      throw InvalidArgument("skeleton", skeleton.Describe() + " lacks elbows or wrists");
+    const auto joint = wrist - skeleton.parents.begin();
+    for (size_t t = 1; t < track.size(); ++t, ++all)
+      if ((track[t].col(joint) - track[t - 1].col(joint)).norm() * fps < kRestSpeed) ++still;
+  }
+  return all > 0 ? static_cast<double>(still) / static_cast<double>(all) : 0;
+}
+
+double PaceSpread(double fps, const JointTrack& track) {
+  const std::vector<float> speeds = MeanSpeeds(track, fps);
+  const auto length = WindowFrames(fps);
+  std::vector<double> paces;
+  for (auto from = speeds.begin(); speeds.end() - from >= length; from += length) {
+    const double mean = std::accumulate(from, from + length, 0.0) / static_cast<double>(length);
+    paces.push_back(std::log(std::max(mean, kStandstill)));
+  }
+  if (paces.size() < 2) return NAN;
+  const Eigen::Map<const Eigen::ArrayXd> all(paces.data(), std::ssize(paces));
+  return std::sqrt((all - all.mean()).square().sum() / static_cast<double>(paces.size() - 1));
+}
+
+}  // namespace choreo

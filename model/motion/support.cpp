@@ -1,0 +1,145 @@
+#include "model/motion/support.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "model/core/gaussian_mean.h"
+#include "model/motion/body_mass.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kSmoothFrames = 1.5;
+constexpr int64_t kSmoothReach = 6;  // four standard deviations
+static_assert(BalanceGauge::kReach == kSmoothReach + 1);
+
+// Above zero where a, b, c turn left.
+double Turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const Eigen::Vector2d ab = b - a, ac = c - a;
+  return ab.x() * ac.y() - ab.y() * ac.x();
+}
+
+// Counter-clockwise, by Andrew's monotone chain.
+std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points) {
+  const auto before = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  };
+  std::ranges::sort(points, before);
+  if (points.size() < 3) return points;
+  std::vector<Eigen::Vector2d> hull;
+  const auto walk = [&](auto from, auto to) {
+    const size_t start = hull.size();
+    for (auto point = from; point != to; ++point) {
+      while (hull.size() >= start + 2 && Turn(hull[hull.size() - 2], hull.back(), *point) <= 0)
+        hull.pop_back();
+      hull.push_back(*point);
+    }
+    hull.pop_back();  // the other half begins with it
+  };
+  walk(points.begin(), points.end());
+  walk(points.rbegin(), points.rend());
+  return hull;
+}
+
+double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                         const Eigen::Vector2d& b) {
+  const Eigen::Vector2d ab = b - a;
+  const double square = ab.squaredNorm();
+  const double t = square > 0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0;
+  return (p - a - t * ab).norm();
+}
+
+// The floor that feet stand on in the rest pose: as high as the lower of the toes there.
+double RestFloor(const Skeleton& skeleton) {
+  const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
+  return std::min(rest(1, skeleton.feet[1]), rest(1, skeleton.feet[3]));
+}
+
+}  // namespace
+
+double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others) {
+  const std::vector<Eigen::Vector2d> hull = ConvexHull(std::move(others));
+  double nearest = INFINITY;
+  bool within = hull.size() > 2;
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    nearest = std::min(nearest, DistanceToSegment(point, a, b));
+    within = within && Turn(a, b, point) >= 0;
+  }
+  return within ? 0 : nearest;
+}
+
+bool BalanceGauge::Fits(const Skeleton& skeleton) { return MassWeights(skeleton).size() > 0; }
+
+BalanceGauge::BalanceGauge(const Skeleton& skeleton, double fps, double floor)
+    : feet_(skeleton.feet), weights_(MassWeights(skeleton)), fps_(fps), floor_(floor) {}
+
+BodyPoints BalanceGauge::Of(const Eigen::Matrix3Xd& joints) const {
+  BodyPoints points;
+  points.centre = joints * weights_;
+  for (int foot = 0; foot < 4; ++foot) {
+    points.feet.col(foot) = joints.col(feet_[static_cast<size_t>(foot)]);
+    if (foot % 2 == 0) points.feet(1, foot) -= kAnkleAboveSole;
+  }
+  return points;
+}
+
+Balance BalanceGauge::At(std::span<const BodyPoints> frames, size_t at) const {
+  const auto last = static_cast<int64_t>(frames.size()) - 1;
+  const auto centre = [&](int64_t i) -> Eigen::Vector3d {
+    if (i < 0) return 2 * frames[0].centre - frames[std::min(-i, last)].centre;
+    if (i > last)
+      return 2 * frames[last].centre - frames[std::max<int64_t>(2 * last - i, 0)].centre;
+    return frames[i].centre;
+  };
+  const auto smooth = [&](int64_t i) {
+    return GaussianMean(i - kSmoothReach, i + kSmoothReach, i, kSmoothFrames,
+                        Eigen::Vector3d(Eigen::Vector3d::Zero()), centre);
+  };
+  const auto frame = static_cast<int64_t>(at);
+  Balance balance;
+  balance.centre = smooth(frame);
+  balance.acceleration =
+      (smooth(frame - 1) - 2 * balance.centre + smooth(frame + 1)) * (fps_ * fps_);
+  const Eigen::Matrix<double, 3, 4>& feet = frames[at].feet;
+  balance.foot_height = feet.row(1).minCoeff() - floor_;
+  std::vector<Eigen::Vector2d> support;
+  for (int foot = 0; foot < 4; ++foot) {
+    balance.on_floor[static_cast<size_t>(foot)] = feet(1, foot) - floor_ < kSoleHeight;
+    if (balance.on_floor[static_cast<size_t>(foot)])
+      support.emplace_back(feet(0, foot), feet(2, foot));
+  }
+  if (support.empty()) return balance;
+  const Eigen::Vector2d below(balance.centre.x(), balance.centre.z());
+  balance.centre_outside = DistanceToHull(below, support);
+  if (balance.Thrown()) return balance;
+  const double height = balance.centre.y() - floor_;
+  const Eigen::Vector2d push(balance.acceleration.x(), balance.acceleration.z());
+  balance.zmp_outside =
+      DistanceToHull(below - height / (balance.acceleration.y() + kGravity) * push, support);
+  return balance;
+}
+
+SupportMeter::SupportMeter(const Skeleton& skeleton, double fps)
+    : gauge_(skeleton, fps, RestFloor(skeleton)) {}
+
+void SupportMeter::Add(const Eigen::Matrix3Xd& joints) {
+  constexpr size_t kAll = 2 * BalanceGauge::kReach + 1;
+  if (last_.size() == kAll) last_.erase(last_.begin());
+  last_.push_back(gauge_.Of(joints));
+  if (last_.size() <= BalanceGauge::kReach) return;
+  ++judged_;
+  if (gauge_.At(last_, last_.size() - 1 - BalanceGauge::kReach).Supported()) ++supported_;
+}
+
+double SupportMeter::Share() const {
+  int64_t judged = judged_, supported = supported_;
+  const size_t open = std::min<size_t>(last_.size(), BalanceGauge::kReach);
+  for (size_t at = last_.size() - open; at < last_.size(); ++at, ++judged)
+    if (gauge_.At(last_, at).Supported()) ++supported;
+  return judged > 0 ? static_cast<double>(supported) / static_cast<double>(judged) : 1;
+}
+
+}  // namespace choreo
