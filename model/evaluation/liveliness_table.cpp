@@ -262,10 +262,10 @@ std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation) {
     const KeyedDances dances = DanceKeyed(evaluation, method);
     const FreeDances free = DanceFree(evaluation, method);
     tables.push_back(LivelinessTable(evaluation, method, dances, free));
+    if (dances.real.empty()) continue;
+    tables.push_back(BandTable(evaluation, method, dances.real, dances.seeds[0]));
     std::ranges::move(WeightTable(evaluation, method, dances.real, dances.seeds, free.lively),
                       std::back_inserter(tables));
-    if (!dances.real.empty())
-      tables.push_back(BandTable(evaluation, method, dances.real, dances.seeds[0]));
   }
   return tables;
 }

@@ -14,13 +14,6 @@ constexpr double kLeastHover = 0.15;         // m, of the lowest joint
 constexpr double kCentreOutside = 0.10;      // m
 constexpr double kZeroMomentOutside = 0.15;  // m
 
-std::vector<BodyPoints> PointsOf(const BalanceGauge& gauge, const JointTrack& track) {
-  std::vector<BodyPoints> points;
-  points.reserve(track.size());
-  for (const Eigen::Matrix3Xd& joints : track) points.push_back(gauge.Of(joints));
-  return points;
-}
-
 // The longest run of frames above `least` that is no flight, in frames.
 int LongestHover(const JointTrack& track, const std::vector<Balance>& balance, double least) {
   int longest = 0;
@@ -65,16 +58,24 @@ double DancedFloor(const Skeleton& skeleton, const JointTrack& track) {
   return Quantile(std::move(heights), kFloorShare);
 }
 
-WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTrack& track,
-                            double floor) {
+std::vector<Balance> BalanceOf(const Skeleton& skeleton, double fps, const JointTrack& track,
+                               double floor) {
   if (!BalanceGauge::Fits(skeleton))
     throw InvalidArgument("skeleton", skeleton.Describe() + " lacks joints that have mass");
   if (track.empty()) throw InvalidArgument("track", "0 frames, at least 1 is needed");
   const BalanceGauge gauge(skeleton, fps, floor);
-  const std::vector<BodyPoints> points = PointsOf(gauge, track);
+  std::vector<BodyPoints> points;
+  points.reserve(track.size());
+  for (const Eigen::Matrix3Xd& joints : track) points.push_back(gauge.Of(joints));
   std::vector<Balance> balance;
   balance.reserve(track.size());
   for (size_t t = 0; t < track.size(); ++t) balance.push_back(gauge.At(points, t));
+  return balance;
+}
+
+WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTrack& track,
+                            double floor) {
+  const std::vector<Balance> balance = BalanceOf(skeleton, fps, track, floor);
   const auto share = [&](auto is) {
     return static_cast<double>(std::ranges::count_if(balance, is)) /
            static_cast<double>(balance.size());

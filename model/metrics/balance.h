@@ -14,6 +14,11 @@ namespace choreo {
 /// toes or ankle less 5 cm. At least one frame, all four foot joints.
 double DancedFloor(const Skeleton& skeleton, const JointTrack& track);
 
+/// Of each frame. `floor`: its height, metres. Throws Error(kInvalidArgument) for a skeleton that
+/// BalanceGauge doesn't fit, or no frames.
+std::vector<Balance> BalanceOf(const Skeleton& skeleton, double fps, const JointTrack& track,
+                               double floor);
+
 struct WeightFigures {
   double hover_share = 0;  ///< frames in which both feet are more than 5 cm above the floor
   /// Median vertical acceleration of the centre of mass in those, m/s^2: -9.81 for who jumps, 0 for
@@ -29,9 +34,8 @@ struct WeightFigures {
   double contact_frames = 0;  ///< median time that a foot stays on the floor, frames; 0 without
 };
 
-/// `floor`: its height, metres. Frames in which no foot is on the floor are not outside of the
-/// feet: they hover. Throws Error(kInvalidArgument) for a skeleton that BalanceGauge doesn't fit,
-/// or no frames.
+/// Frames in which no foot is on the floor are not outside of the feet: they hover. Floor and
+/// errors are BalanceOf's.
 WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTrack& track,
                             double floor);
 

@@ -10,7 +10,6 @@
 namespace choreo {
 namespace {
 
-constexpr int kProjections = 128;
 constexpr size_t kFolds = 5, kDeals = 5;
 constexpr double kStill = 0.005;  // m/s
 constexpr uint64_t kSeed = 24;
@@ -19,7 +18,8 @@ constexpr uint64_t kSeed = 24;
 // be said; [features, windows].
 class Lift {
  public:
-  explicit Lift(Eigen::Index features) : weights_(kProjections, features), biases_(kProjections) {
+  Lift(Eigen::Index features, int projections)
+      : weights_(projections, features), biases_(projections) {
     Random random(kSeed);
     const double scale = 1 / std::sqrt(static_cast<double>(features));
     for (double& weight : weights_.reshaped()) weight = scale * random.Normal();
@@ -27,9 +27,9 @@ class Lift {
   }
 
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& features) const {
-    Eigen::MatrixXd lifted(features.rows() + kProjections, features.cols());
+    Eigen::MatrixXd lifted(features.rows() + weights_.rows(), features.cols());
     lifted.topRows(features.rows()) = features;
-    lifted.bottomRows(kProjections) = ((weights_ * features).colwise() + biases_).cwiseMax(0);
+    lifted.bottomRows(weights_.rows()) = ((weights_ * features).colwise() + biases_).cwiseMax(0);
     return lifted;
   }
 
@@ -110,7 +110,7 @@ double AreaUnderCurve(const std::vector<double>& high, const std::vector<double>
   return above / (static_cast<double>(high.size()) * low.size());
 }
 
-double CriticArea(const CriticWindows& real, const CriticWindows& danced) {
+double CriticArea(const CriticWindows& real, const CriticWindows& danced, int projections) {
   double sum = 0, weights = 0;
   for (size_t fold = 0; fold < kFolds; ++fold) {
     const Eigen::MatrixXd seen_real = Gather(real, fold, false);
@@ -122,7 +122,7 @@ double CriticArea(const CriticWindows& real, const CriticWindows& danced) {
       continue;
     const Eigen::MatrixXd seen = SideBySide<Eigen::MatrixXd>({seen_real, seen_danced});
     const Scale scale(seen);
-    const Lift lift(seen.rows());
+    const Lift lift(seen.rows(), projections);
     const Eigen::MatrixXd lifted = lift(scale.Apply(seen));
     const Scale again(lifted);
     const Eigen::VectorXd direction = Learn(again.Apply(lifted), seen_real.cols());

@@ -23,11 +23,13 @@ struct CriticWindows {
 /// counting half; 0.5 tells nothing, 1 all. NaN where either is empty.
 double AreaUnderCurve(const std::vector<double>& high, const std::vector<double>& low);
 
-/// The area under the curve of a ridge regression on the features and 128 fixed random rectified
-/// projections of them. Folds by clip, five at most: each window is judged by one that has seen
-/// nothing of its clip; areas are means over folds, whose scales differ. NaN for fewer than two
-/// clips. Deterministic.
-double CriticArea(const CriticWindows& real, const CriticWindows& danced);
+inline constexpr int kCriticProjections = 128;
+/// The area under the curve of a ridge regression on the features and `projections` fixed random
+/// rectified projections of them. Folds by clip, five at most: each window is judged by one that
+/// has seen nothing of its clip; areas are means over folds, whose scales differ. NaN for fewer
+/// than two clips. Deterministic.
+double CriticArea(const CriticWindows& real, const CriticWindows& danced,
+                  int projections = kCriticProjections);
 
 /// The same for real motion against itself, each clip's windows dealt at random to both sides, mean
 /// of five deals. Between 0.45 and 0.55 the critic is fair; else there is too little motion.

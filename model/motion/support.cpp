@@ -103,7 +103,7 @@ Balance BalanceGauge::At(std::span<const BodyPoints> frames, size_t at) const {
   balance.centre = smooth(frame);
   balance.acceleration =
       (smooth(frame - 1) - 2 * balance.centre + smooth(frame + 1)) * (fps_ * fps_);
-  const Eigen::Matrix<double, 3, 4>& feet = frames[at].feet;
+  const Eigen::Matrix<double, 3, 4>& feet = balance.feet = frames[at].feet;
   balance.foot_height = feet.row(1).minCoeff() - floor_;
   std::vector<Eigen::Vector2d> support;
   for (int foot = 0; foot < 4; ++foot) {

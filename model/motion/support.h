@@ -31,10 +31,11 @@ struct BodyPoints {
 
 /// A frame's.
 struct Balance {
-  Eigen::Vector3d centre;        ///< of mass, smoothed, metres
-  Eigen::Vector3d acceleration;  ///< its, m/s^2
-  std::array<bool, 4> on_floor;  ///< of Skeleton::feet
-  double foot_height = 0;        ///< of the lowest foot above the floor, metres
+  Eigen::Vector3d centre;            ///< of mass, smoothed, metres
+  Eigen::Vector3d acceleration;      ///< its, m/s^2
+  Eigen::Matrix<double, 3, 4> feet;  ///< BodyPoints::feet
+  std::array<bool, 4> on_floor;      ///< of Skeleton::feet
+  double foot_height = 0;            ///< of the lowest foot above the floor, metres
   /// How far centre and zero moment point are outside of the hull of what is on the floor, metres;
   /// none where nothing is, and no zero moment point of a body that is thrown.
   std::optional<double> centre_outside, zmp_outside;

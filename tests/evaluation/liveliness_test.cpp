@@ -162,7 +162,7 @@ TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
                                        {"model", Method::Kind::kEngine, &engine}};
   const auto tables = Evaluate(set, methods);
   const auto again = Evaluate(set, methods);
-  ASSERT_EQ(tables.size(), 6U);
+  ASSERT_EQ(tables.size(), 8U);
   for (size_t i = 0; i < tables.size(); ++i) EXPECT_EQ(ToJson(tables[i]), ToJson(again[i]));
   EXPECT_EQ(tables[0].name, "liveliness_set_other");
   EXPECT_GT(Value(tables[0], "seeds differ cm", "danced"), 0);
@@ -172,8 +172,9 @@ TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
     EXPECT_TRUE(std::isfinite(row.cells[2].value)) << row.labels[0];
   }
   EXPECT_EQ(tables[1].name, "liveliness_bands_set_other");
-  EXPECT_EQ(tables[2].name, "liveliness_set");
-  EXPECT_EQ(ToJson(tables[2])["rows"], ToJson(tables[0])["rows"]);
+  EXPECT_EQ(tables[2].name, "weight_set_other");
+  EXPECT_EQ(tables[3].name, "liveliness_set");
+  EXPECT_EQ(ToJson(tables[3])["rows"], ToJson(tables[0])["rows"]);
   EXPECT_EQ(tables[1].rows[0].labels[0], "pelvis");
   for (const TableRow& row : tables.back().rows) EXPECT_LE(row.cells[3].value, row.cells[2].value);
 }
