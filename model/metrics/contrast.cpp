@@ -38,8 +38,11 @@ double HandsAtRest(const Skeleton& skeleton, double fps, const JointTrack& track
     if (elbow < 0 || wrist == skeleton.parents.end())
       throw InvalidArgument("skeleton", skeleton.Describe() + " lacks elbows or wrists");
     const auto joint = wrist - skeleton.parents.begin();
+    const auto reach = [&](size_t t) -> Eigen::Vector3d {
+      return track[t].col(joint) - track[t].col(0);
+    };
     for (size_t t = 1; t < track.size(); ++t, ++all)
-      if ((track[t].col(joint) - track[t - 1].col(joint)).norm() * fps < kRestSpeed) ++still;
+      if ((reach(t) - reach(t - 1)).norm() * fps < kRestSpeed) ++still;
   }
   return all > 0 ? static_cast<double>(still) / static_cast<double>(all) : 0;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "model/core/gaussian_mean.h"
 #include "model/motion/body_mass.h"
 #include "model/motion/kinematics.h"
 
@@ -12,8 +11,6 @@ namespace choreo {
 namespace {
 
 constexpr double kSmoothFrames = 1.5;
-constexpr int64_t kSmoothReach = 6;  // four standard deviations
-static_assert(BalanceGauge::kReach == kSmoothReach + 1);
 
 // Above zero where a, b, c turn left.
 double Turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
@@ -74,7 +71,19 @@ double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d>
 bool BalanceGauge::Fits(const Skeleton& skeleton) { return MassWeights(skeleton).size() > 0; }
 
 BalanceGauge::BalanceGauge(const Skeleton& skeleton, double fps, double floor)
-    : feet_(skeleton.feet), weights_(MassWeights(skeleton)), fps_(fps), floor_(floor) {}
+    : feet_(skeleton.feet), weights_(MassWeights(skeleton)), floor_(floor) {
+  double sum = 0;
+  for (int i = 1 - kReach; i < kReach; ++i) {
+    const double away = i / kSmoothFrames;
+    sum += smooth_[i + kReach] = std::exp(-0.5 * away * away);
+  }
+  for (double& weight : smooth_) weight /= sum;
+  const int last = 2 * kReach;
+  for (int i = 0; i <= last; ++i) {
+    const double before = i > 0 ? smooth_[i - 1] : 0, behind = i < last ? smooth_[i + 1] : 0;
+    bend_[i] = (before - 2 * smooth_[i] + behind) * fps * fps;
+  }
+}
 
 BodyPoints BalanceGauge::Of(const Eigen::Matrix3Xd& joints) const {
   BodyPoints points;
@@ -94,15 +103,12 @@ Balance BalanceGauge::At(std::span<const BodyPoints> frames, size_t at) const {
       return 2 * frames[last].centre - frames[std::max<int64_t>(2 * last - i, 0)].centre;
     return frames[i].centre;
   };
-  const auto smooth = [&](int64_t i) {
-    return GaussianMean(i - kSmoothReach, i + kSmoothReach, i, kSmoothFrames,
-                        Eigen::Vector3d(Eigen::Vector3d::Zero()), centre);
-  };
-  const auto frame = static_cast<int64_t>(at);
   Balance balance;
-  balance.centre = smooth(frame);
-  balance.acceleration =
-      (smooth(frame - 1) - 2 * balance.centre + smooth(frame + 1)) * (fps_ * fps_);
+  for (int i = -kReach; i <= kReach; ++i) {
+    const Eigen::Vector3d near = centre(static_cast<int64_t>(at) + i);
+    balance.centre += smooth_[i + kReach] * near;
+    balance.acceleration += bend_[i + kReach] * near;
+  }
   const Eigen::Matrix<double, 3, 4>& feet = balance.feet = frames[at].feet;
   balance.foot_height = feet.row(1).minCoeff() - floor_;
   std::vector<Eigen::Vector2d> support;

@@ -31,10 +31,10 @@ struct BodyPoints {
 
 /// A frame's.
 struct Balance {
-  Eigen::Vector3d centre;            ///< of mass, smoothed, metres
-  Eigen::Vector3d acceleration;      ///< its, m/s^2
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of mass, smoothed, metres
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< its, m/s^2
   Eigen::Matrix<double, 3, 4> feet;  ///< BodyPoints::feet
-  std::array<bool, 4> on_floor;      ///< of Skeleton::feet
+  std::array<bool, 4> on_floor = {};  ///< of Skeleton::feet
   double foot_height = 0;            ///< of the lowest foot above the floor, metres
   /// How far centre and zero moment point are outside of the hull of what is on the floor, metres;
   /// none where nothing is, and no zero moment point of a body that is thrown.
@@ -51,6 +51,8 @@ struct Balance {
 /// c'' / (c''_y + g), h being c's height above the floor. Immutable; thread-safe.
 class BalanceGauge {
  public:
+  static constexpr int kReach = 7;  ///< four standard deviations, and the frame beyond them
+
   /// Whether it can be made for a skeleton: one with MassWeights.
   static bool Fits(const Skeleton& skeleton);
 
@@ -61,12 +63,15 @@ class BalanceGauge {
   BodyPoints Of(const Eigen::Matrix3Xd& joints) const;
   /// Balance at frame `at` of `frames`, from at most kReach frames to either side.
   Balance At(std::span<const BodyPoints> frames, size_t at) const;
-  static constexpr int kReach = 7;
 
  private:
   std::array<int, 4> feet_;
   Eigen::VectorXd weights_;
-  double fps_, floor_;
+  double floor_;
+  // What the frames from kReach before to kReach behind weigh in the smoothed centre, and in its
+  // second derivative.
+  std::array<double, 2 * kReach + 1> smooth_ = {};
+  std::array<double, 2 * kReach + 1> bend_ = {};
 };
 
 /// Counts supported frames while a dance goes by: a few numbers in all. The floor is y = 0, on

@@ -34,10 +34,14 @@ TEST(WindowTurns, CountWholeTurnsAndWhichWayTheyGo) {
 
 TEST(HandsAtRest, AreThoseThatAreSlow) {
   const auto share = [](double speed) {
-    return HandsAtRest(Body(), 30,
-                       Carried(61, [&](double s) { return Eigen::Vector3d(speed * s, 0, 0); }));
+    JointTrack track = Carried(61, [](double s) { return Eigen::Vector3d(s, 0, 0); });
+    for (size_t t = 0; t < track.size(); ++t) {
+      for (const char* wrist : {"left_wrist", "right_wrist"})
+        track[t](1, Body().Find(wrist)) += speed * static_cast<double>(t) / 30;
+    }
+    return HandsAtRest(Body(), 30, track);
   };
-  EXPECT_EQ(share(0), 1);
+  EXPECT_EQ(share(0), 1);  // though the body walks
   EXPECT_EQ(share(0.9 * kRestSpeed), 1);
   EXPECT_EQ(share(1.1 * kRestSpeed), 0);
   // One of the two for half of the time.
