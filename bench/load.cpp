@@ -13,6 +13,7 @@
 #include "client/cli/local_server.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
+#include "client/cli/pose_library.h"
 #include "model/audio/format.h"
 #include "model/audio/mfcc.h"
 #include "model/core/error.h"
@@ -29,7 +30,7 @@ struct Options {
   double seconds = 8;
   std::vector<int> streams = {1, 20, 50, 60, 200};
   std::vector<int> addresses = {1, 4};
-  std::vector<std::string> tables = {"chunks", "live", "closed", "minutes"};
+  std::vector<std::string> tables = {"chunks", "live", "beside", "closed", "minutes"};
 };
 
 double Since(Clock::time_point start) {
@@ -113,6 +114,23 @@ class Load {
     }
   }
 
+  /// One live dance beside calls that want all there is.
+  void Beside() {
+    std::printf(
+        "\n| beside one live dance | frames p50 ms | p95 | p99 | max | missed %% | others' frames/s "
+        "|\n|---|---|---|---|---|---|---|\n");
+    DanceBeside("nothing", [](const std::atomic<bool>&) { return 0; });
+    for (const auto& [frames, candidates] : {std::pair(1800, 32), {600, 32}, {300, 8}}) {
+      const std::string name = std::to_string(frames) + " frames, " + std::to_string(candidates) +
+                               " candidates, again and again";
+      DanceBeside(name, [&, frames = frames, candidates = candidates](const auto& over) {
+        return AskForTransitions(frames, candidates, over);
+      });
+    }
+    DanceBeside("5,000 times 1800 frames, 32 candidates, with 1 ms each",
+                [this](const std::atomic<bool>& over) { return AskWithoutTime(5'000, over); });
+  }
+
   /// Dances as fast as they come, one behind the other.
   void Closed() {
     std::printf(
@@ -193,6 +211,68 @@ class Load {
   }
 
  private:
+  // `others` returns soon after the flag that it is given, with how many frames it was given.
+  void DanceBeside(const std::string& name,
+                   const std::function<int64_t(const std::atomic<bool>&)>& others) {
+    std::atomic<bool> over = false;
+    int64_t frames = 0;
+    std::thread beside([&] { frames = others(over); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // they are at it
+    const Clock::time_point start = Clock::now();
+    Lateness lateness = DanceLive(client_, song_, {.seed = 1});
+    const double took = Since(start);
+    over = true;
+    beside.join();
+    if (lateness.all_ms.empty())
+      throw Error(ErrorCode::kResourceExhausted, "", "a dance beside " + name + " was refused");
+    std::printf("| %s ", name.c_str());
+    PrintFrames(lateness);
+    std::printf("| %.0f |\n", static_cast<double>(frames) / took);
+    std::fflush(stdout);
+  }
+
+  client::TransitionRequest Transition(int frames, int candidates) const {
+    client::TransitionRequest request;
+    request.frames = frames;
+    request.candidates = candidates;
+    request.target = cli::PoseLibrary().front().pose;
+    return request;
+  }
+
+  int64_t AskForTransitions(int frames, int candidates, const std::atomic<bool>& over) const {
+    // What is in progress when the dance is over is given up.
+    const client::Client client({.addresses = {server_.address()},
+                                 .deadline_s = options_.seconds + 1,
+                                 .retry_s = 0});
+    int64_t made = 0;
+    while (!over) {
+      try {
+        for (const auto& candidate :
+             client.GenerateTransition(Transition(frames, candidates)).candidates)
+          made += static_cast<int64_t>(candidate.motion.frames.size());
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::kDeadlineExceeded) throw;
+      }
+    }
+    return made;
+  }
+
+  // Calls whose time is over when they are heard.
+  int64_t AskWithoutTime(int calls, const std::atomic<bool>& over) const {
+    constexpr int kCallers = 50;
+    const client::Client client(
+        {.addresses = {server_.address()}, .deadline_s = 1e-3, .retry_s = 0});
+    Together(kCallers, [&](int) {
+      for (int i = 0; i < calls / kCallers && !over; ++i) {
+        try {
+          client.GenerateTransition(Transition(1800, 32));
+        } catch (const Error&) {  // as was to be expected
+        }
+      }
+    });
+    return 0;
+  }
+
   Lateness Live(int streams, double shortest_s, double longest_s, int addresses = 1) {
     // The first one reaches the server as we do; what is one address' own is gone with it.
     std::vector<std::unique_ptr<Relay>> relays;
@@ -235,10 +315,14 @@ class Load {
   }
 
   static void PrintLateness(Lateness& lateness) {
-    std::printf("| %.1f | %.1f | %.1f | %.1f | %.1f | %.0f | %.2f ",
-                Percentile(lateness.first_ms, 0.5), Percentile(lateness.first_ms, 0.99),
-                Percentile(lateness.all_ms, 0.5), Percentile(lateness.all_ms, 0.95),
-                Percentile(lateness.all_ms, 0.99), Percentile(lateness.all_ms, 1),
+    std::printf("| %.1f | %.1f ", Percentile(lateness.first_ms, 0.5),
+                Percentile(lateness.first_ms, 0.99));
+    PrintFrames(lateness);
+  }
+  static void PrintFrames(Lateness& lateness) {
+    std::printf("| %.1f | %.1f | %.1f | %.0f | %.2f ", Percentile(lateness.all_ms, 0.5),
+                Percentile(lateness.all_ms, 0.95), Percentile(lateness.all_ms, 0.99),
+                Percentile(lateness.all_ms, 1),
                 100.0 * lateness.missed / static_cast<double>(lateness.all_ms.size()));
   }
 
@@ -277,6 +361,7 @@ int main(int argc, char** argv) {
       {"idle", &Load::Idle},  // first: memory that others gave back would hide what it takes
       {"chunks", &Load::Chunks},
       {"live", &Load::Streams},
+      {"beside", &Load::Beside},
       {"closed", &Load::Closed},
       {"minutes", &Load::Minutes}};
   std::vector<std::string> names;

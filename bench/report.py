@@ -54,6 +54,8 @@ def load_figures(text, room, paper):
             if addresses == "1":
                 figures[f"load/{where}/{streams}/first p99 ms"] = float(first)
                 figures[f"load/{where}/{streams}/p99 ms"] = float(late)
+    for others, _, _, late, *_ in table_rows(text, "beside one live dance"):
+        figures[f"load/beside/{others}/p99 ms"] = float(late)
     for row in table_rows(text, "dances at once,"):
         figures[f"load/closed/{row[0]}"] = float(row[2])
     for row in table_rows(paper, "dances at once,"):
@@ -130,6 +132,9 @@ def bars(figures, gpu):
         rows.append((f"`default`: streams of the sizes tried with p99 lateness under {LIVE_LATENESS} ms", within, 200, 500, ""))
     if "load/live/50/first p99 ms" in figures:
         rows.append(("first frame after the audio that allows it, 50 streams, p99, ms", figures["load/live/50/first p99 ms"], 100, 30, "ms"))
+    beside = [late for name, late in figures.items() if name.startswith("load/beside/")]
+    if beside:
+        rows.append(("one live dance beside calls that want all there is, p99 lateness, ms", max(beside), 50, 33, "ms"))
     if "load/idle KiB" in figures:
         rows.append(("memory per idle stream, KiB", figures["load/idle KiB"], 256, 64, "KiB"))
     for name in ("load/minute 10 ÷ 1, time", "load/minute 10 ÷ 1, memory"):

@@ -15,6 +15,7 @@ Scheduler::Scheduler(std::vector<std::unique_ptr<StepEngine>> engines, Options o
   check("max_batch", options.max_batch, 1);
   check("max_admissions", options.max_admissions, 1);
   check("max_sleep", options.max_sleep.count(), 0);
+  check("bulk_yields", options.bulk_yields.count(), 0);
   impl_->options = options;
   int slots_of_all = 0;
   const std::string fingerprint = engines[0]->model().fingerprint;

@@ -20,7 +20,7 @@ class StepJob {
  public:
   virtual ~StepJob() = default;
 
-  /// Read once, when the job gets its slot.
+  /// Read once, when its admission begins.
   virtual const TransitionSpec& spec() const = 0;
 
   /// The next frame's input but for `slot`; false while it can't be made yet (its audio has not
@@ -49,16 +49,19 @@ class StepJob {
   /// earliest goes first when not all fit into one step, or into the slots.
   virtual double NextDeadline() const = 0;
 
-  /// Read before each step; a cancelled job frees its slot at once. May be called from any worker
-  /// thread at any time, so it must be thread-safe (an atomic flag).
+  /// Read before each step and each slice of an admission; a cancelled job frees its slot at once.
+  /// May be called from any worker thread at any time, so it must be thread-safe (an atomic flag).
   virtual bool Cancelled() const = 0;
 };
 
 /// Feeds engines, one worker thread each: ready jobs step together, earliest deadline first, and
-/// few are admitted between two steps, so that a crowd does not stop those who dance. Who waits is
-/// given a slot when one is left, or when somebody who has one has slept for `max_sleep`. Jobs of
-/// dances are never refused for want of room. Jobs of groups hold half of the slots at most (at
-/// least one); their frames are made where no frame of a dance is due.
+/// between two steps comes a slice of an admission, theirs who is due first, so that neither a
+/// crowd nor a long transition stops those who dance. Who waits is given a slot when one is left,
+/// or when somebody who has one has slept for `max_sleep`. Jobs of dances are never refused for
+/// want of room. Jobs of groups hold half of the slots at most (at least one).
+///
+/// Real time goes before bulk: what groups want is made where no dance wants anything that is due
+/// within `bulk_yields`. A dance that is farther ahead of its listener yields to them in turn.
 ///
 /// Thread-safe; submitting never blocks. A job is held until its OnDone has returned.
 class Scheduler {
@@ -67,8 +70,13 @@ class Scheduler {
     int max_waiting = 64;  ///< jobs of groups beyond their slots that may wait for one, >= 0
     /// Most slots of one engine stepped at once, >= 1; its batch() at most.
     int max_batch = kMostSlots;
-    /// Most jobs that one engine admits between two steps, >= 1, earliest deadlines first.
+    /// Most slices of admissions that one engine makes between two steps, >= 1, earliest deadlines
+    /// first.
     int max_admissions = 1;
+    /// For so long before it is due a dance's work goes before that of groups, >= 0. As long as
+    /// what a listener has in hand, so that no call of others is ever heard; far longer than a
+    /// slice, or the music of a dance, takes.
+    std::chrono::milliseconds bulk_yields{1000};
     /// How long a job that sleeps keeps its slot while others wait for one, >= 0.
     std::chrono::milliseconds max_sleep{500};
   };
@@ -87,9 +95,9 @@ class Scheduler {
   struct Histograms {
     Histogram::Snapshot batch;        ///< frames of a step
     Histogram::Snapshot step_s;       ///< seconds of a step
-    Histogram::Snapshot admission_s;  ///< seconds of an admission
+    Histogram::Snapshot admission_s;  ///< seconds of an admission, all of its slices
     /// Seconds that a frame of a dance came after it was due, or after it could be made where that
-    /// was later; 0 where it came in time.
+    /// was later; 0 where it came in time. Waiting for a slot and for admission counts.
     Histogram::Snapshot lateness_s;
   };
 

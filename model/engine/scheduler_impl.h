@@ -37,11 +37,12 @@ struct Scheduler::Impl {
     double deadline = 0;  ///< Lock: mutex while it has no worker, else of the worker's thread
 
     // Of the worker's thread alone:
-    int slot = -1;                 ///< of the engine, once admitted
-    bool asleep = false;           ///< NextInput said no, and no Wake has come since
+    int slot = -1;                 ///< of the engine, once its admission has begun
+    bool asleep = true;            ///< it could make no frame, and no Wake has come since
     bool restarts = false;         ///< it was parked, and is to begin anew
-    double admission_s = 0;        ///< what its admission took
-    int frames = 0;                ///< made since
+    double admission_s = 0;        ///< what its admission took so far
+    int asked_frames = 0;          ///< of its spec
+    int frames = 0;                ///< made since its admission
     Clock::time_point moved_at{};  ///< when it was admitted or last made a frame
     Clock::time_point awake_at{};  ///< since when it is not asleep
   };
@@ -62,7 +63,7 @@ struct Scheduler::Impl {
 
     // Of the worker's thread alone. Capacities are reserved at the start: a round allocates
     // nothing.
-    std::vector<Entry*> arrivals;                    ///< have a slot, not yet admitted
+    std::vector<Entry*> arrivals;                    ///< have a slot, not yet (all) admitted
     std::vector<std::shared_ptr<StepJob>> suspects;  ///< woken while they have no slot
     std::vector<Entry*> active;                      ///< admitted to the engine
     std::vector<Entry*> ready;                       ///< of `active`, those not asleep
@@ -126,9 +127,11 @@ struct Scheduler::Impl {
   bool BeginRound(Worker* worker, bool* stopped);
   void EndEverything(Worker* worker);
   void AdmitArrivals(Worker* worker);
+  void LookAtArrivals(Worker* worker);
+  Entry* NextToAdmit(Worker* worker);
   void GatherBatch(Worker* worker);
   void StepBatch(Worker* worker);
-  bool Admit(Worker* worker, Entry* entry);
+  bool AdmitSlice(Worker* worker, Entry* entry);
   void Leave(Worker* worker, Entry* entry, const Error* failure);
   static void FreeSlot(Worker* worker, Entry* entry);
 
@@ -136,11 +139,13 @@ struct Scheduler::Impl {
   static bool GoesFirst(const Entry* a, const Entry* b) {
     return a->deadline != b->deadline ? a->deadline < b->deadline : a->order < b->order;
   }
-  /// What it has to be compared with now. A group's frame is never overdue, a dance's is: so that
-  /// is made first.
-  static double DeadlineAt(const Entry& entry, Clock::time_point now);
-  /// Whether a dance's listener waits for the job's next frame. Nobody does for those of groups.
-  static bool IsDue(const Entry& entry, Clock::time_point now);
+  /// What it has to be compared with now, if its job says `deadline`. Nobody listens to what groups
+  /// make: it is due when real time ends.
+  double DueAt(const Entry& entry, double deadline, Clock::time_point now) const;
+  /// Up to when a dance's work goes before that of groups.
+  double RealTimeEnd(Clock::time_point now) const;
+  bool InRealTime(const Entry& entry, Clock::time_point now) const;
+  void SetDeadline(Entry* entry, Clock::time_point now) const;
   /// Stats of the frame that was made at `now`, before its job takes it.
   void CountLateness(const Entry& entry, Clock::time_point now);
 };

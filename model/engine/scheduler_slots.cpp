@@ -18,13 +18,20 @@ double DeadlineOf(const StepJob& job) {
 
 }  // namespace
 
-double Scheduler::Impl::DeadlineAt(const Entry& entry, Clock::time_point now) {
-  const double deadline = DeadlineOf(*entry.job);
-  return entry.of_group ? std::max(deadline, Seconds(now)) : deadline;
+double Scheduler::Impl::RealTimeEnd(Clock::time_point now) const {
+  return Seconds(now) + std::chrono::duration<double>(options.bulk_yields).count();
 }
 
-bool Scheduler::Impl::IsDue(const Entry& entry, Clock::time_point now) {
-  return !entry.of_group && DeadlineOf(*entry.job) <= Seconds(now);
+double Scheduler::Impl::DueAt(const Entry& entry, double deadline, Clock::time_point now) const {
+  return entry.of_group ? std::max(deadline, RealTimeEnd(now)) : deadline;
+}
+
+bool Scheduler::Impl::InRealTime(const Entry& entry, Clock::time_point now) const {
+  return !entry.of_group && DeadlineOf(*entry.job) <= RealTimeEnd(now);
+}
+
+void Scheduler::Impl::SetDeadline(Entry* entry, Clock::time_point now) const {
+  entry->deadline = DueAt(*entry, DeadlineOf(*entry->job), now);
 }
 
 void Scheduler::Impl::CountLateness(const Entry& entry, Clock::time_point now) {
@@ -59,6 +66,7 @@ void Scheduler::Impl::Accept(std::span<const std::shared_ptr<StepJob>> jobs, boo
     own.back()->job = job;
     own.back()->of_group = of_group;
     own.back()->deadline = DeadlineOf(*job);
+    own.back()->awake_at = Clock::now();
   }
   Worker* here = current;
   const bool inherits = !of_group && here != nullptr && here->owner == this && here->in_on_done &&
@@ -119,8 +127,10 @@ void Scheduler::Impl::GiveSlot(Entry* entry, Worker* worker) {
 // Of those who wait and may have a slot the one that is due first, unless the heir is due earlier.
 Scheduler::Impl::Entry* Scheduler::Impl::TakeNextWaiting(const Entry* heir) {
   if (phase == Phase::kStopped) return nullptr;
+  const Clock::time_point now = Clock::now();
   auto next = slotless.end();
   for (auto at = slotless.begin(); at != slotless.end(); ++at) {
+    (*at)->deadline = DueAt(**at, (*at)->deadline, now);
     const bool may = !(*at)->parked && !((*at)->of_group && groups_active >= group_slots);
     if (may && (next == slotless.end() || GoesFirst(*at, *next))) next = at;
   }
@@ -187,6 +197,7 @@ void Scheduler::Impl::LookAtSuspects(Worker* worker) {
         slotless.erase(at);
         entry->parked = false;
         entry->deadline = deadline;
+        entry->awake_at = Clock::now();
         Place(entry);
       }
     }

@@ -78,11 +78,7 @@ bool Scheduler::Impl::BeginRound(Worker* worker, bool* stopped) {
 void Scheduler::Impl::EndEverything(Worker* worker) {
   const Error stopping(ErrorCode::kUnavailable, "", "the scheduler is stopped");
   while (!worker->active.empty()) Leave(worker, worker->active.back(), &stopping);
-  while (!worker->arrivals.empty()) {
-    Entry* arrival = worker->arrivals.back();
-    worker->arrivals.pop_back();
-    Leave(worker, arrival, &stopping);
-  }
+  while (!worker->arrivals.empty()) Leave(worker, worker->arrivals.back(), &stopping);
   for (;;) {
     std::unique_ptr<Entry> entry;
     {
@@ -96,14 +92,42 @@ void Scheduler::Impl::EndEverything(Worker* worker) {
 }
 
 void Scheduler::Impl::AdmitArrivals(Worker* worker) {
-  for (int admitted = 0; admitted < options.max_admissions && !worker->arrivals.empty();) {
-    const Clock::time_point now = Clock::now();
-    for (Entry* entry : worker->arrivals) entry->deadline = DeadlineAt(*entry, now);
-    const auto first = std::ranges::min_element(worker->arrivals, GoesFirst);
-    Entry* entry = *first;
-    worker->arrivals.erase(first);
-    if (Admit(worker, entry)) ++admitted;
+  for (int slices = 0; slices < options.max_admissions;) {
+    LookAtArrivals(worker);
+    Entry* next = NextToAdmit(worker);
+    if (next == nullptr) return;
+    if (AdmitSlice(worker, next)) ++slices;
   }
+}
+
+// Who is cancelled leaves, however far its admission is. Since when the others could dance, but
+// for their admission, counts for lateness.
+void Scheduler::Impl::LookAtArrivals(Worker* worker) {
+  for (size_t i = 0; i < worker->arrivals.size();) {
+    Entry* entry = worker->arrivals[i];
+    if (entry->job->Cancelled()) {
+      const Error cancelled(ErrorCode::kCancelled, "", "cancelled");
+      Leave(worker, entry, &cancelled);  // another stands at i now, or none
+      continue;
+    }
+    if (!entry->of_group && entry->asleep) {
+      entry->asleep = !entry->job->Ready();
+      if (entry->asleep) entry->awake_at = Clock::now();
+    }
+    ++i;
+  }
+}
+
+// The arrival that is due first; null: none, or bulk alone while a dance can go on.
+Scheduler::Impl::Entry* Scheduler::Impl::NextToAdmit(Worker* worker) {
+  if (worker->arrivals.empty()) return nullptr;
+  const Clock::time_point now = Clock::now();
+  for (Entry* entry : worker->arrivals) SetDeadline(entry, now);
+  Entry* first = *std::ranges::min_element(worker->arrivals, GoesFirst);
+  const auto can_go_on = [&](const Entry* entry) {
+    return !entry->asleep && InRealTime(*entry, now);
+  };
+  return first->of_group && std::ranges::any_of(worker->active, can_go_on) ? nullptr : first;
 }
 
 void Scheduler::Impl::GatherBatch(Worker* worker) {
@@ -120,12 +144,12 @@ void Scheduler::Impl::GatherBatch(Worker* worker) {
     ++i;
   }
   const Clock::time_point now = Clock::now();
-  const auto is_due = [now](const Entry* entry) { return IsDue(*entry, now); };
-  if (std::ranges::any_of(worker->ready, is_due)) {
+  const auto in_real_time = [&](const Entry* entry) { return InRealTime(*entry, now); };
+  if (std::ranges::any_of(worker->ready, in_real_time)) {
     std::erase_if(worker->ready, [](const Entry* entry) { return entry->of_group; });
   }
   if (worker->ready.size() > limit) {
-    for (Entry* entry : worker->ready) entry->deadline = DeadlineAt(*entry, now);
+    for (Entry* entry : worker->ready) SetDeadline(entry, now);
     std::ranges::sort(worker->ready, GoesFirst);
   }
   worker->batch.clear();
@@ -185,23 +209,29 @@ void Scheduler::Impl::StepBatch(Worker* worker) {
 
 // ---- One job's way ------------------------------------------------------------------------------
 
-// Starts a job in the place that it was given; false if it is cancelled or refused, and has left.
-bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
+// Starts a job in the place that it was given, or goes on with it; false if it is refused, and has
+// left.
+bool Scheduler::Impl::AdmitSlice(Worker* worker, Entry* entry) {
   bool in_engine = false;
   try {
-    if (entry->job->Cancelled()) throw Error(ErrorCode::kCancelled, "", "cancelled");
     if (std::exchange(entry->restarts, false)) entry->job->OnRestart();
-    const TransitionSpec& spec = entry->job->spec();
+    const TransitionSpec* spec = entry->slot < 0 ? &entry->job->spec() : nullptr;
     const Clock::time_point begin = Clock::now();
     in_engine = true;
-    entry->slot = worker->engine->Admit(spec);
+    if (spec != nullptr) {
+      entry->slot = worker->engine->BeginAdmission(*spec);
+      entry->asked_frames = spec->frames;
+    }
+    const bool more = worker->engine->ContinueAdmission(entry->slot);
     in_engine = false;
     entry->moved_at = Clock::now();
-    entry->admission_s = std::chrono::duration<double>(entry->moved_at - begin).count();
-    entry->frames = 0;
+    entry->admission_s += std::chrono::duration<double>(entry->moved_at - begin).count();
+    if (more) return true;
     admission_seconds.Add(entry->admission_s);
-    entry->asleep = false;
-    entry->awake_at = begin;
+    if (entry->of_group) worker->cost->AddTransition(entry->admission_s, entry->asked_frames);
+    // Nobody has to be told that it is ready: its first input is asked for.
+    if (std::exchange(entry->asleep, false)) entry->awake_at = entry->moved_at;
+    std::erase(worker->arrivals, entry);
     worker->active.push_back(entry);
     return true;
   } catch (...) {
@@ -216,11 +246,16 @@ bool Scheduler::Impl::Admit(Worker* worker, Entry* entry) {
 void Scheduler::Impl::FreeSlot(Worker* worker, Entry* entry) {
   worker->engine->Release(std::exchange(entry->slot, -1));
   std::erase(worker->active, entry);
-  worker->cost->AddTransition(entry->admission_s, entry->frames);
+  const double admission_s = std::exchange(entry->admission_s, 0);
+  const int frames = std::exchange(entry->frames, 0);
+  // What a dance asked for and never took was its to pay for. Bulk that ends early takes nothing
+  // from dances, so it makes their frames no dearer.
+  if (!entry->of_group) worker->cost->AddTransition(admission_s, frames);
 }
 
 // Frees a job's slot, tells the job, and passes the slot on.
 void Scheduler::Impl::Leave(Worker* worker, Entry* entry, const Error* failure) {
+  std::erase(worker->arrivals, entry);
   if (entry->slot >= 0) FreeSlot(worker, entry);
   std::unique_ptr<Entry> own;
   {

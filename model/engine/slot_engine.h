@@ -11,9 +11,9 @@
 
 namespace choreo {
 
-/// An engine that keeps in each slot a `Transition`, made when it is admitted and gone when it is
-/// released; its `SlotProgress progress() const` says how far it is. Here stands who has which slot
-/// and what is refused; subclasses begin transitions and step them.
+/// An engine that keeps in each slot a `Transition`, made when its admission begins and gone when
+/// it is released; its `SlotProgress progress() const` says how far it is. Here stands who has
+/// which slot and what is refused; subclasses begin transitions and step them.
 template <typename Transition>
 class SlotEngine : public StepEngine {
  public:
@@ -24,7 +24,7 @@ class SlotEngine : public StepEngine {
     return static_cast<int>(std::ranges::count(slots_, false, kTaken));
   }
 
-  int Admit(const TransitionSpec& spec) final {
+  int BeginAdmission(const TransitionSpec& spec) final {
     ValidateSpec(spec, info_);
     const auto free = std::ranges::find(slots_, false, kTaken);
     if (free == slots_.end()) {
@@ -35,6 +35,8 @@ class SlotEngine : public StepEngine {
     free->emplace(Begin(spec, slot));
     return slot;
   }
+
+  bool ContinueAdmission(int slot) final { return Continue(*slots_[static_cast<size_t>(slot)]); }
 
   void Step(std::span<const StepInput> in, std::span<StepOutput> out) final {
     if (in.size() != out.size()) {
@@ -53,6 +55,8 @@ class SlotEngine : public StepEngine {
 
   /// The spec is valid.
   virtual Transition Begin(const TransitionSpec& spec, int slot) = 0;
+  /// As ContinueAdmission: of those who begin a transition at once, nothing is left.
+  virtual bool Continue(Transition& /*transition*/) { return false; }
   /// So are the inputs, as many as outputs.
   virtual void StepSlots(std::span<const StepInput> in, std::span<StepOutput> out) = 0;
 

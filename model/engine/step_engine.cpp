@@ -74,9 +74,23 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
   }
 }
 
+int StepEngine::Admit(const TransitionSpec& spec) {
+  const int slot = BeginAdmission(spec);
+  try {
+    while (ContinueAdmission(slot)) {
+    }
+  } catch (...) {
+    Release(slot);
+    throw;
+  }
+  return slot;
+}
+
 void ValidateStep(const StepInput& input, const std::optional<SlotProgress>& progress,
                   const ModelInfo& model) {
   if (!progress) throw InvalidArgument("slot", std::to_string(input.slot) + " holds no transition");
+  if (progress->being_admitted)
+    throw InvalidArgument("slot", std::to_string(input.slot) + " is still being admitted");
   if (progress->frame >= progress->frames) {
     throw InvalidArgument("slot", std::to_string(input.slot) + " has made its " +
                                       std::to_string(progress->frames) + " frames already");

@@ -126,6 +126,7 @@ struct SlotProgress {
   int frame = 0;       ///< next to be stepped
   int frames = 0;      ///< N
   bool hears = false;  ///< its model listens to the rows of its music
+  bool being_admitted = false;  ///< it can't be stepped yet
 };
 
 /// Throws Error(kInvalidArgument) unless the input's slot holds a transition, which has made
@@ -145,10 +146,15 @@ class StepEngine {
   virtual int free_slots() const = 0;
   /// How many slots it steps best together: with more, the first would wait for the last.
   virtual int batch() const { return 64; }
-  /// Takes a slot, numbered 0 to slots() - 1, and computes what is known before the loop. Throws
-  /// Error(kResourceExhausted) with no slot free, Error(kInvalidArgument) for a spec of the wrong
-  /// shape.
-  virtual int Admit(const TransitionSpec& spec) = 0;
+  /// Takes a slot, numbered 0 to slots() - 1, for a transition. Throws Error(kResourceExhausted)
+  /// with no slot free, Error(kInvalidArgument) for a spec of the wrong shape.
+  virtual int BeginAdmission(const TransitionSpec& spec) = 0;
+  /// Computes a slice of what is known before the loop: short enough that a frame which is due can
+  /// wait for it. True while more is left; the slot can be stepped after false. Between two slices
+  /// other slots may step, and the slot may be released. What it computes does not depend on that.
+  virtual bool ContinueAdmission(int /*slot*/) { return false; }
+  /// Both, to the end.
+  int Admit(const TransitionSpec& spec);
   /// Steps every named slot by one frame; a slot is named at most once. `out` has the size of `in`.
   virtual void Step(std::span<const StepInput> in, std::span<StepOutput> out) = 0;
   /// Frees a slot; at any time.

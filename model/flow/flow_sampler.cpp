@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "model/core/random.h"
 #include "model/motion/canonical.h"
@@ -225,24 +226,38 @@ std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& n
   return way;
 }
 
+TransitionSampler::TransitionSampler(WindowRequest request, const FlowNoise& noise)
+    : request_(std::move(request)), noise_(noise), emitted_(request_.history) {}
+
+bool TransitionSampler::Continue(const FlowModelParts& model, const FlowNetwork& network) {
+  const int most = model.config.window_frames;
+  const int windows = (request_.frames + most - 1) / most;
+  const int frames = request_.frames * (windows_ + 1) / windows - frames_;
+  const GroundFrame ground = GroundFrame::Of(emitted_.back());
+  FlowNoise noise = noise_;
+  noise.first_frame += frames_;
+  WindowRequest window = request_.Part(
+      frames_, frames, std::span(emitted_).last(request_.history.size()), ground);
+  for (const Pose& pose : SampleWindow(model, network, std::move(window), noise)) {
+    emitted_.push_back(ground.ToWorld(pose));
+    MakeContinuous(emitted_.back(), emitted_[emitted_.size() - 2]);
+  }
+  frames_ += frames;
+  return ++windows_ < windows;
+}
+
+std::vector<Pose> TransitionSampler::TakePoses() {
+  std::vector<Pose> poses = std::exchange(emitted_, {});
+  poses.erase(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(request_.history.size()));
+  return poses;
+}
+
 std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                    const WindowRequest& request, const FlowNoise& noise) {
-  const int blocks = (request.frames + model.config.window_frames - 1) / model.config.window_frames;
-  std::vector<Pose> emitted = request.history;  // in the transition's frame
-  const size_t tau = request.history.size();
-  for (int block = 0, from = 0; block < blocks; ++block) {
-    const int frames = request.frames * (block + 1) / blocks - from;
-    const GroundFrame ground = GroundFrame::Of(emitted.back());
-    FlowNoise from_here = noise;
-    from_here.first_frame += from;
-    WindowRequest here = request.Part(from, frames, std::span(emitted).last(tau), ground);
-    for (const Pose& pose : SampleWindow(model, network, std::move(here), from_here)) {
-      emitted.push_back(ground.ToWorld(pose));
-      MakeContinuous(emitted.back(), emitted[emitted.size() - 2]);
-    }
-    from += frames;
+  TransitionSampler sampler(request, noise);
+  while (sampler.Continue(model, network)) {
   }
-  return {emitted.begin() + static_cast<std::ptrdiff_t>(tau), emitted.end()};
+  return sampler.TakePoses();
 }
 
 }  // namespace choreo

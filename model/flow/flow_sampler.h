@@ -66,9 +66,29 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
                                WindowRequest request, const FlowNoise& noise);
 
-/// Samples a transition of any length: windows of at most config.window_frames, one after another,
-/// each in its own canonical frame; their key is the transition's, however far it is. `request` is
-/// of the whole transition (frames == to_key where there is a key).
+/// A transition of any length on its way: windows of at most config.window_frames, sampled one
+/// after another, each in its own canonical frame; their key is the transition's, however far it
+/// is.
+class TransitionSampler {
+ public:
+  /// `request` is of the whole transition (frames == to_key where there is a key); at least a
+  /// frame.
+  TransitionSampler(WindowRequest request, const FlowNoise& noise);
+
+  /// Samples the next window; true while more are left.
+  bool Continue(const FlowModelParts& model, const FlowNetwork& network);
+  /// All frames, once no window is left.
+  std::vector<Pose> TakePoses();
+
+ private:
+  WindowRequest request_;
+  FlowNoise noise_;
+  std::vector<Pose> emitted_;  // behind the history, in the request's frame
+  int windows_ = 0;            // sampled
+  int frames_ = 0;             // of those
+};
+
+/// All windows of a transition.
 std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                    const WindowRequest& request, const FlowNoise& noise);
 

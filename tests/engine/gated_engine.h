@@ -39,18 +39,7 @@ class Gate {
     std::unique_lock lock(mutex_);
     return Wait(lock, [&] { return steps_.size() >= count; });
   }
-  /// The seeds of the slots of each step begun, in the order of the batch.
-  std::vector<std::vector<uint64_t>> steps() const {
-    std::lock_guard lock(mutex_);
-    return steps_;
-  }
-
- private:
-  friend class GatedEngine;
-  template <typename Condition>
-  bool Wait(std::unique_lock<std::mutex>& lock, Condition condition) {
-    return changed_.wait_for(lock, std::chrono::minutes(1), condition);
-  }
+  /// A step stands at the gate until it may pass.
   void Enter(std::vector<uint64_t> seeds) {
     std::unique_lock lock(mutex_);
     steps_.push_back(std::move(seeds));
@@ -58,7 +47,17 @@ class Gate {
     Wait(lock, [this] { return !closed_ || permits_ > 0; });
     if (closed_) --permits_;
   }
+  /// The seeds of the slots of each step begun, in the order of the batch.
+  std::vector<std::vector<uint64_t>> steps() const {
+    std::lock_guard lock(mutex_);
+    return steps_;
+  }
 
+ private:
+  template <typename Condition>
+  bool Wait(std::unique_lock<std::mutex>& lock, Condition condition) {
+    return changed_.wait_for(lock, std::chrono::minutes(1), condition);
+  }
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool closed_ = false;
@@ -75,8 +74,8 @@ class GatedEngine : public FakeEngine {
         poison_(poison),
         seeds_(static_cast<size_t>(slots)) {}
 
-  int Admit(const TransitionSpec& spec) override {
-    const int slot = FakeEngine::Admit(spec);
+  int BeginAdmission(const TransitionSpec& spec) override {
+    const int slot = FakeEngine::BeginAdmission(spec);
     seeds_[static_cast<size_t>(slot)] = spec.seed;
     return slot;
   }
@@ -89,6 +88,10 @@ class GatedEngine : public FakeEngine {
     }
     FakeEngine::Step(in, out);
   }
+
+ protected:
+  Gate* gate() const { return gate_; }
+  uint64_t SeedOf(int slot) const { return seeds_[static_cast<size_t>(slot)]; }
 
  private:
   Gate* gate_;

@@ -30,9 +30,9 @@ TEST(WarmUp, MeasuresAStepAloneAndTogether) {
   class SlowEngine final : public FakeEngine {
    public:
     using FakeEngine::FakeEngine;
-    int Admit(const TransitionSpec& spec) override {
+    int BeginAdmission(const TransitionSpec& spec) override {
       std::this_thread::sleep_for(std::chrono::milliseconds(60));
-      return FakeEngine::Admit(spec);
+      return FakeEngine::BeginAdmission(spec);
     }
     void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
       std::this_thread::sleep_for(std::chrono::milliseconds(in.size()));
@@ -52,9 +52,9 @@ TEST(WarmUp, CountsWhatBeatsCost) {
   class GuidedEngine final : public FakeEngine {
    public:
     using FakeEngine::FakeEngine;
-    int Admit(const TransitionSpec& spec) override {
+    int BeginAdmission(const TransitionSpec& spec) override {
       if (spec.beats.empty()) ++unguided;
-      return FakeEngine::Admit(spec);
+      return FakeEngine::BeginAdmission(spec);
     }
     int unguided = 0;
   };

@@ -32,8 +32,8 @@ class BesideEngine : public ControlledEngine {
 /// speed of the arm's joints is the factor, to the letter.
 class SwingingEngine : public ControlledEngine {
  public:
-  int Admit(const TransitionSpec& spec) override {
-    const int slot = ControlledEngine::Admit(spec);
+  int BeginAdmission(const TransitionSpec& spec) override {
+    const int slot = ControlledEngine::BeginAdmission(spec);
     last_[slot] = spec.history.back();
     side_[slot] = 1;
     return slot;

@@ -48,7 +48,7 @@ class FakeEngine : public StepEngine {
                                           [](const Slot& slot) { return !slot.spec.has_value(); }));
   }
 
-  int Admit(const TransitionSpec& spec) override {
+  int BeginAdmission(const TransitionSpec& spec) override {
     ValidateSpec(spec, model_);
     const auto free = std::find_if(slots_.begin(), slots_.end(),
                                    [](const Slot& slot) { return !slot.spec.has_value(); });

@@ -12,8 +12,8 @@ class TurningEngine final : public FakeEngine {
  public:
   TurningEngine(double step, double tilt) : step_(step), tilt_(tilt), frames_(16) {}
 
-  int Admit(const TransitionSpec& spec) override {
-    const int slot = FakeEngine::Admit(spec);
+  int BeginAdmission(const TransitionSpec& spec) override {
+    const int slot = FakeEngine::BeginAdmission(spec);
     // An elbow goes on from where it is; the root's heading is that of the canonical frame.
     frames_[static_cast<size_t>(slot)] = {0, spec.first_frame};
     return slot;

@@ -1,0 +1,115 @@
+#include "model/engine/plan_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "model/plan/plan_stages.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kRounds = 3;       // in which energy is asked for
+constexpr double kAnswer = 0.6;  // of what is missing comes of as much more
+constexpr double kFarthest = 1;  // logarithm of what is asked for over what is wanted
+
+WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
+  WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
+  if (spec.target) {
+    request.key = spec.target->pose;
+    request.mask = spec.target->mask;
+    if (spec.target->height) {
+      request.height = true;
+      request.key->root_position.y() = *spec.target->height;
+    }
+  }
+  request.stage = spec.stage.value_or(Eigen::Vector3d::Zero());
+  request.path = spec.controls.root_path;
+  request.path_heights = spec.controls.path_heights;
+  request.beats = spec.beats;
+  request.energy = spec.controls.velocity_factors.cast<double>();
+  request.asked = spec.controls.parts_asked;
+  if (const auto style = std::ranges::find(styles, spec.style); style != styles.end())
+    request.style = static_cast<int>(style - styles.begin());
+  return request;
+}
+
+}  // namespace
+
+PlanSampling::PlanSampling(const TransitionSpec& spec, const std::vector<std::string>& styles)
+    : history_(spec.history),
+      beats_(spec.beats),
+      keyed_(Keyed(spec)),
+      has_path_(spec.controls.root_path.cols() > 0),
+      has_heights_(spec.controls.path_heights),
+      request_(ToWindowRequest(spec, styles)),
+      noise_{.seed = spec.seed,
+             .candidate = spec.candidate,
+             .first_frame = spec.first_frame,
+             .temperature = spec.temperature},
+      sampler_(std::in_place, request_, noise_),
+      // The mean way is as lively as it is.
+      in_rounds_(noise_.temperature > 0 && request_.energy.cols() > 0 &&
+                 std::ranges::count(request_.asked, true) > 0),
+      wanted_(request_.energy),
+      least_(std::numeric_limits<double>::infinity()) {}
+
+bool PlanSampling::Continue(const ModelInfo& info, const FlowModelParts& parts,
+                            const FlowNetwork& network) {
+  if (!sampler_) {
+    Finish(info, parts);
+    return false;
+  }
+  if (sampler_->Continue(parts, network)) return true;
+  if (EndRound(parts)) {
+    sampler_.emplace(request_, noise_);
+  } else {
+    sampler_.reset();
+  }
+  return true;
+}
+
+bool PlanSampling::EndRound(const FlowModelParts& parts) {
+  std::vector<Pose> poses = sampler_->TakePoses();
+  if (!in_rounds_) {
+    plan_.poses = std::move(poses);
+    return false;
+  }
+  std::vector<Pose> seen = {history_.back()};
+  seen.insert(seen.end(), poses.begin(), poses.end());
+  const auto danced = MeanVelocityFactors(parts.skeleton, seen);
+  const Eigen::VectorXd asked = wanted_.rowwise().mean();
+  double most = 0;
+  for (int part = 0; part < asked.size(); ++part) {
+    const auto at = static_cast<size_t>(part);
+    if (!request_.asked[at]) continue;
+    const double missing = EnergyLevel(asked[part], danced[at]);
+    most = std::max(most, std::abs(missing));
+    more_[at] = std::clamp(more_[at] + missing / kAnswer, -kFarthest, kFarthest);
+    request_.energy.row(part) = std::exp(more_[at]) * wanted_.row(part);
+  }
+  if (most < least_) {
+    least_ = most;
+    plan_.poses = std::move(poses);
+  }
+  return ++round_ < kRounds;
+}
+
+void PlanSampling::Finish(const ModelInfo& info, const FlowModelParts& parts) {
+  FinishPlan({.skeleton = info.skeleton,
+              .history = history_,
+              .beats = beats_,
+              .keyed = keyed_,
+              .has_path = has_path_,
+              .has_heights = has_heights_,
+              .fps = info.fps,
+              .options = parts.config.plan},
+             &plan_.poses);
+  Motion motion{.fps = info.fps, .frames = {history_.back()}};
+  motion.frames.insert(motion.frames.end(), plan_.poses.begin(), plan_.poses.end());
+  plan_.contacts = DetectContacts(info.skeleton, motion);
+  plan_.contacts.erase(plan_.contacts.begin());  // the history's
+}
+
+}  // namespace choreo

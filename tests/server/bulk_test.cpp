@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+
+#include "model/engine/engines.h"
+#include "tests/server/fixture.h"
+
+/// A real server, real clients, and the kernels and checkpoint that are served: what long calls do
+/// to a dance that is listened to.
+namespace choreo::bulk_test {
+
+constexpr int kBulkFrames = 1'800;
+constexpr int kCandidates = 32;
+constexpr int kDanceFrames = 24;  // two transitions, within Scheduler::Options::bulk_yields
+
+/// In which order an engine is asked for what.
+struct Log {
+  enum class Did { kBulkSlice, kDanceSlice, kDanceFrame };
+
+  void Add(Did did) {
+    const std::lock_guard lock(mutex);
+    all.push_back(did);
+  }
+  std::vector<Did> Copy() const {
+    const std::lock_guard lock(mutex);
+    return all;
+  }
+  int64_t Count(Did did) const { return std::ranges::count(Copy(), did); }
+
+  mutable std::mutex mutex;
+  std::vector<Did> all;
+};
+
+/// The engine of a checkpoint, watched.
+class LoggedEngine final : public StepEngine {
+ public:
+  LoggedEngine(std::unique_ptr<StepEngine> engine, std::shared_ptr<Log> log)
+      : engine_(std::move(engine)),
+        log_(std::move(log)),
+        is_bulk_(static_cast<size_t>(engine_->slots())) {}
+
+  const ModelInfo& model() const override { return engine_->model(); }
+  std::string device() const override { return engine_->device(); }
+  int slots() const override { return engine_->slots(); }
+  int free_slots() const override { return engine_->free_slots(); }
+  int batch() const override { return engine_->batch(); }
+  int BeginAdmission(const TransitionSpec& spec) override {
+    const int slot = engine_->BeginAdmission(spec);
+    is_bulk_[static_cast<size_t>(slot)] = spec.frames == kBulkFrames;
+    return slot;
+  }
+  bool ContinueAdmission(int slot) override {
+    log_->Add(is_bulk_[static_cast<size_t>(slot)] ? Log::Did::kBulkSlice : Log::Did::kDanceSlice);
+    return engine_->ContinueAdmission(slot);
+  }
+  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    for (const StepInput& input : in)
+      if (!is_bulk_[static_cast<size_t>(input.slot)]) log_->Add(Log::Did::kDanceFrame);
+    engine_->Step(in, out);
+  }
+  void Release(int slot) noexcept override { engine_->Release(slot); }
+
+ private:
+  const std::unique_ptr<StepEngine> engine_;
+  const std::shared_ptr<Log> log_;
+  std::vector<bool> is_bulk_;
+};
+
+/// A GenerateTransition that reads its answers as they come, until it is cancelled.
+class BulkCall {
+ public:
+  explicit BulkCall(v1::Choreography::Stub& stub, const v1::GenerateTransitionRequest& request)
+      : reader_(stub.GenerateTransition(&context_, request)), thread_([this] { Read(); }) {}
+  ~BulkCall() { Cancel(); }
+
+  void Cancel() {
+    context_.TryCancel();
+    if (thread_.joinable()) thread_.join();
+  }
+  int64_t frames() const { return frames_; }
+  bool over() const { return over_; }
+
+ private:
+  void Read() {
+    v1::GenerateTransitionResponse response;
+    while (reader_->Read(&response)) {
+      if (!response.has_frames()) continue;
+      frames_ += response.frames().root_positions_size() / 3;
+    }
+    reader_->Finish();
+    over_ = true;
+  }
+
+  grpc::ClientContext context_;
+  std::unique_ptr<grpc::ClientReader<v1::GenerateTransitionResponse>> reader_;
+  std::atomic<int64_t> frames_ = 0;
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+class BulkTest : public ServerTest {
+ protected:
+  BulkTest() {
+    SetTorchThreads(1);
+    std::vector<Server::Engines> models(1);
+    models[0].push_back(
+        std::make_unique<LoggedEngine>(MakeEngine(SHIPPED_CHECKPOINT, {}, 2 * kCandidates), log));
+    ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    Connect(std::make_unique<Server>(config, std::move(models)));
+  }
+
+  static v1::GenerateTransitionRequest Bulk() {
+    v1::GenerateTransitionRequest request;
+    *request.mutable_config() = Config();
+    request.set_frames(kBulkFrames);
+    request.set_candidates(kCandidates);
+    return request;
+  }
+  // All that it says is there before its frames are granted in one message: from its first slice on
+  // it waits for nobody but the engine.
+  Answer Dance() {
+    DanceClient client(stub());
+    client.Send(Config());
+    client.SendGenerateUntil(0);
+    client.SendKeyframe(Key("a", kDanceFrames / 2 - 1));
+    client.SendKeyframe(Key("b", kDanceFrames - 1, -0.2, 0.9, 1.5F));
+    client.SendGenerateUntil(kDanceFrames);
+    EXPECT_TRUE(client.ReadFrames(kDanceFrames));
+    return client.Finish();
+  }
+
+  std::shared_ptr<Log> log = std::make_shared<Log>();
+};
+
+TEST_F(BulkTest, ADanceIsDancedBeforeALongCallOfManyCandidatesGoesOn) {
+  const Answer::Joined alone = Dance().Join();
+  ExpectIdle();
+  BulkCall bulk(stub(), Bulk());
+  ExpectEventually([&] { return log->Count(Log::Did::kBulkSlice) > 0; }, "it is being made");
+  const size_t before = log->Copy().size();
+  const Answer answer = Dance();
+  const int64_t delivered = bulk.frames();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_TRUE(answer.Join() == alone);
+  EXPECT_FALSE(bulk.over());
+  EXPECT_LE(delivered, int64_t{kBulkFrames} * kCandidates / 4);
+
+  // Of the call, no slice is made between the dance's first and its last frame.
+  const std::vector<Log::Did> all = log->Copy();
+  const auto of_dance = [](Log::Did did) { return did != Log::Did::kBulkSlice; };
+  const auto first = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(),
+                                  of_dance);
+  const auto last = std::find_if(all.rbegin(), all.rend(), of_dance).base();
+  ASSERT_LT(first, last);
+  EXPECT_EQ(std::count(first, last, Log::Did::kDanceFrame), kDanceFrames);
+  EXPECT_EQ(std::count(first, last, Log::Did::kBulkSlice), 0);
+  // Then it goes on.
+  const int64_t then = log->Count(Log::Did::kBulkSlice);
+  ExpectEventually([&] { return log->Count(Log::Did::kBulkSlice) > then; }, "it goes on");
+}
+
+// As a dance cancels when it is edited, and a page when its reader has left.
+TEST_F(BulkTest, CallsThatAreCancelledCostTheirSliceAtMost) {
+  constexpr int kCalls = 20;
+  for (int i = 0; i < kCalls; ++i) {
+    const int64_t before = log->Count(Log::Did::kBulkSlice);
+    BulkCall bulk(stub(), Bulk());
+    ExpectEventually([&] { return log->Count(Log::Did::kBulkSlice) > before; }, "it is begun");
+    bulk.Cancel();
+  }
+  ExpectIdle();
+  // A window is of 96 frames at most, so all of them would be more than so many slices.
+  constexpr int kAll = kCalls * kCandidates * kBulkFrames / 96;
+  EXPECT_LT(log->Count(Log::Did::kBulkSlice), kAll / 8);
+  EXPECT_TRUE(Dance().status.ok());
+}
+
+}  // namespace choreo::bulk_test
