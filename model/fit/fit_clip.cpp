@@ -16,6 +16,9 @@ constexpr int kRefinementIterations = 2;
 
 // Over which heights are evened out, seconds. Longer than a jump, shorter than a recording's drift.
 constexpr double kGroundWindow = 4.0;
+// The floor's rank among the heights of the lowest joint in it. Dancers who jump are on the floor
+// for more than that; feet that a recording sinks into it are there for less.
+constexpr double kGroundShare = 0.3;
 constexpr double kSizeWindow = 1.0;
 
 }  // namespace
@@ -23,7 +26,7 @@ constexpr double kSizeWindow = 1.0;
 double Ground(const Skeleton& skeleton, Motion& motion) {
   std::vector<double> lowest;
   for (const Pose& pose : motion.frames) lowest.push_back(HeightAboveFloor(skeleton, pose));
-  const std::vector<double> floor = SlowQuantile(lowest, 0.1, kGroundWindow * motion.fps);
+  const std::vector<double> floor = SlowQuantile(lowest, kGroundShare, kGroundWindow * motion.fps);
   for (size_t frame = 0; frame < floor.size(); ++frame) {
     motion.frames[frame].root_position.y() -= floor[frame];
   }

@@ -50,6 +50,23 @@ TEST(Fit, GroundsDriftButNotJumps) {
   }
 }
 
+// Some recordings sink a foot into the floor for half a second: the body must not be lifted for it.
+TEST(Ground, IsNotLedByAFootThatARecordingSinks) {
+  Motion motion;
+  motion.frames.assign(300, RestPose(Smpl()));
+  for (int frame = 150; frame < 168; ++frame) {
+    motion.frames[frame].rotations(0, Smpl().feet[0]) = 0.7;  // toes point downwards
+    motion.frames[frame].root_position.y() -= 0.05;
+  }
+  const Motion before = motion;
+  EXPECT_NEAR(Ground(Smpl(), motion), 0, 0.002);
+  for (int frame = 0; frame < 300; ++frame) {
+    EXPECT_NEAR(motion.frames[frame].root_position.y(), before.frames[frame].root_position.y(),
+                0.005)
+        << frame;
+  }
+}
+
 TEST(Fit, ReportsWhatItDid) {
   const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 14, 20));
   const FitResult result = FitClip(clip, IdentitySource(Smpl()), Smpl());
