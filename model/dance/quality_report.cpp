@@ -39,12 +39,14 @@ QualityMeter::QualityMeter(const Skeleton& skeleton, double fps, int64_t first_f
   if (skeleton.feet[1] < 0 || skeleton.feet[3] < 0) {
     throw InvalidArgument("skeleton", skeleton.Describe() + ": it has no toes");
   }
+  if (BalanceGauge::Fits(skeleton)) support_.emplace(skeleton, fps);
 }
 
 void QualityMeter::Add(const DanceFrame& frame) {
   log_likelihood_sum_ += frame.log_likelihood;
   ++frames_;
   Eigen::Matrix3Xd now = JointPositions(skeleton_, frame.pose);
+  if (support_) support_->Add(now);
   if (!last_positions_.empty()) {
     const Eigen::Matrix3Xd& before = last_positions_.back();
     const Eigen::Matrix3Xd step = now - before;
@@ -89,6 +91,7 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   if (!speed_.empty()) {
     report.skate_ratio = static_cast<double>(skating_steps_) / static_cast<double>(speed_.size());
   }
+  if (support_) report.support = support_->Share();
   for (KeyReport& key : report.keys) {
     // acceleration_[i] is that of frame i + 1.
     const int64_t middle = key.frame - first_frame_ - 1;

@@ -10,6 +10,7 @@
 
 #include "model/dance/transition.h"
 #include "model/motion/skeleton.h"
+#include "model/motion/support.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {
@@ -39,6 +40,9 @@ struct QualityReport {
   /// Share of the steps (pairs of successive frames) in which either foot skates: its toe joint is
   /// below 5 cm in both frames and moves faster than 0.2 m/s over the floor.
   double skate_ratio = 0;
+  /// Share of the frames in which something bears the body (Balance::Supported). Absent for a
+  /// skeleton whose mass is unknown.
+  std::optional<double> support;
   /// Paper F, 4.5.1: of the kinematic beats (KinematicBeats), the share with a music beat at most
   /// two frames away. Absent without music beats, or without kinematic ones.
   std::optional<double> beat_hit_rate;
@@ -75,6 +79,7 @@ class QualityMeter {
   std::vector<KeyReport> keys_;
   double log_likelihood_sum_ = 0;
   int64_t skating_steps_ = 0;
+  std::optional<SupportMeter> support_;
   std::deque<Eigen::Matrix3Xd> last_positions_;  // [3, joints] of the last two frames
   std::vector<float> speed_;         // mean joint speed of step i (frame i -> i + 1), m/s
   std::vector<float> acceleration_;  // largest joint acceleration at frame i + 1, m/s^2

@@ -32,6 +32,20 @@ TEST(QualityReport, SkatingIsAToeThatSlidesNearTheFloor) {
   EXPECT_DOUBLE_EQ(MeasureMotion(skeleton, motion).skate_ratio, 10.0 / 30);
 }
 
+TEST(QualityReport, SupportIsTheShareOfFramesThatAreBorneOrThrown) {
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0, 31)).support, 1);
+  EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0.1, 31)).support, 0);  // she hovers
+  // Half of the time each; where it changes, what is jerked upwards is not thrown.
+  Motion motion = Sliding(0, 0, 50);
+  const Motion hovers = Sliding(0, 0.1, 50);
+  motion.frames.insert(motion.frames.end(), hovers.frames.begin(), hovers.frames.end());
+  EXPECT_NEAR(*MeasureMotion(skeleton, motion).support, 0.5, 0.05);
+  Skeleton headless = skeleton;
+  headless.joint_names[static_cast<size_t>(headless.Find("head"))] = "hat";
+  EXPECT_FALSE(MeasureMotion(headless, motion).support);
+}
+
 TEST(QualityReport, SpeedsArePartsMeansOverFramesThatAreAsked) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   const Motion motion = Sliding(0.3, 0, 31);
