@@ -117,7 +117,8 @@ class Load {
   /// One live dance beside calls that want all there is.
   void Beside() {
     std::printf(
-        "\n| beside one live dance | frames p50 ms | p95 | p99 | max | missed %% | others' frames/s "
+        "\n| beside one live dance | frames p50 ms | p95 | p99 | max | missed %% | others' "
+        "frames/s "
         "|\n|---|---|---|---|---|---|---|\n");
     DanceBeside("nothing", [](const std::atomic<bool>&) { return 0; });
     for (const auto& [frames, candidates] : {std::pair(1800, 32), {600, 32}, {300, 8}}) {
@@ -241,9 +242,8 @@ class Load {
 
   int64_t AskForTransitions(int frames, int candidates, const std::atomic<bool>& over) const {
     // What is in progress when the dance is over is given up.
-    const client::Client client({.addresses = {server_.address()},
-                                 .deadline_s = options_.seconds + 1,
-                                 .retry_s = 0});
+    const client::Client client(
+        {.addresses = {server_.address()}, .deadline_s = options_.seconds + 1, .retry_s = 0});
     int64_t made = 0;
     while (!over) {
       try {
@@ -251,7 +251,11 @@ class Load {
              client.GenerateTransition(Transition(frames, candidates)).candidates)
           made += static_cast<int64_t>(candidate.motion.frames.size());
       } catch (const Error& error) {
-        if (error.code() != ErrorCode::kDeadlineExceeded) throw;
+        // Its time is over, or the server is full and asks it to come back.
+        if (error.code() != ErrorCode::kDeadlineExceeded &&
+            error.code() != ErrorCode::kResourceExhausted)
+          throw;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
       }
     }
     return made;
@@ -359,11 +363,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   const std::vector<std::pair<std::string, void (Load::*)()>> tables = {
       {"idle", &Load::Idle},  // first: memory that others gave back would hide what it takes
-      {"chunks", &Load::Chunks},
-      {"live", &Load::Streams},
-      {"beside", &Load::Beside},
-      {"closed", &Load::Closed},
-      {"minutes", &Load::Minutes}};
+      {"chunks", &Load::Chunks}, {"live", &Load::Streams},   {"beside", &Load::Beside},
+      {"closed", &Load::Closed}, {"minutes", &Load::Minutes}};
   std::vector<std::string> names;
   for (const auto& table : tables) names.push_back(table.first);
   program.add_option("--tables", options.tables, "What to measure.")

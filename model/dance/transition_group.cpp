@@ -193,8 +193,7 @@ void TransitionGroup::Impl::SetPaused(bool paused) {
 }
 
 void TransitionGroup::Impl::Cancel() noexcept {
-  cancelled_ = true;
-  WakeAll();
+  if (!cancelled_.exchange(true)) WakeAll();  // each job that ends so cancels the group again
 }
 
 void TransitionGroup::Impl::Done(CandidateReport report) {

@@ -12,11 +12,11 @@ ContinuousFlowEngine::ContinuousFlowEngine(ModelInfo info, std::string device, i
       network_(std::move(network)) {}
 
 SampledTransition ContinuousFlowEngine::Begin(const TransitionSpec& spec, int /*slot*/) {
-  return {.sampling = PlanSampling(spec, model().styles), .plan = {}};
+  return {.sampling = PlanSampling(model(), *parts_, *network_, spec), .plan = {}};
 }
 
 bool ContinuousFlowEngine::Continue(SampledTransition& transition) {
-  if (transition.sampling->Continue(model(), *parts_, *network_)) return true;
+  if (transition.sampling->Continue()) return true;
   transition.plan = transition.sampling->TakePlan();
   transition.sampling.reset();
   return false;

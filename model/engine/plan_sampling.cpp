@@ -37,40 +37,43 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
 
 }  // namespace
 
-PlanSampling::PlanSampling(const TransitionSpec& spec, const std::vector<std::string>& styles)
-    : history_(spec.history),
+PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
+                           const FlowNetwork& network, const TransitionSpec& spec)
+    : model_(&model),
+      parts_(&parts),
+      network_(&network),
+      history_(spec.history),
       beats_(spec.beats),
       keyed_(Keyed(spec)),
       has_path_(spec.controls.root_path.cols() > 0),
       has_heights_(spec.controls.path_heights),
-      request_(ToWindowRequest(spec, styles)),
+      request_(ToWindowRequest(spec, model.styles)),
       noise_{.seed = spec.seed,
              .candidate = spec.candidate,
              .first_frame = spec.first_frame,
              .temperature = spec.temperature},
-      sampler_(std::in_place, request_, noise_),
+      sampler_(std::in_place, parts, network, request_, noise_),
       // The mean way is as lively as it is.
       in_rounds_(noise_.temperature > 0 && request_.energy.cols() > 0 &&
                  std::ranges::count(request_.asked, true) > 0),
       wanted_(request_.energy),
       least_(std::numeric_limits<double>::infinity()) {}
 
-bool PlanSampling::Continue(const ModelInfo& info, const FlowModelParts& parts,
-                            const FlowNetwork& network) {
+bool PlanSampling::Continue() {
   if (!sampler_) {
-    Finish(info, parts);
+    Finish();
     return false;
   }
-  if (sampler_->Continue(parts, network)) return true;
-  if (EndRound(parts)) {
-    sampler_.emplace(request_, noise_);
+  if (sampler_->Continue()) return true;
+  if (EndRound()) {
+    sampler_.emplace(*parts_, *network_, request_, noise_);
   } else {
     sampler_.reset();
   }
   return true;
 }
 
-bool PlanSampling::EndRound(const FlowModelParts& parts) {
+bool PlanSampling::EndRound() {
   std::vector<Pose> poses = sampler_->TakePoses();
   if (!in_rounds_) {
     plan_.poses = std::move(poses);
@@ -78,7 +81,7 @@ bool PlanSampling::EndRound(const FlowModelParts& parts) {
   }
   std::vector<Pose> seen = {history_.back()};
   seen.insert(seen.end(), poses.begin(), poses.end());
-  const auto danced = MeanVelocityFactors(parts.skeleton, seen);
+  const auto danced = MeanVelocityFactors(parts_->skeleton, seen);
   const Eigen::VectorXd asked = wanted_.rowwise().mean();
   double most = 0;
   for (int part = 0; part < asked.size(); ++part) {
@@ -96,19 +99,19 @@ bool PlanSampling::EndRound(const FlowModelParts& parts) {
   return ++round_ < kRounds;
 }
 
-void PlanSampling::Finish(const ModelInfo& info, const FlowModelParts& parts) {
-  FinishPlan({.skeleton = info.skeleton,
+void PlanSampling::Finish() {
+  FinishPlan({.skeleton = model_->skeleton,
               .history = history_,
               .beats = beats_,
               .keyed = keyed_,
               .has_path = has_path_,
               .has_heights = has_heights_,
-              .fps = info.fps,
-              .options = parts.config.plan},
+              .fps = model_->fps,
+              .options = parts_->config.plan},
              &plan_.poses);
-  Motion motion{.fps = info.fps, .frames = {history_.back()}};
+  Motion motion{.fps = model_->fps, .frames = {history_.back()}};
   motion.frames.insert(motion.frames.end(), plan_.poses.begin(), plan_.poses.end());
-  plan_.contacts = DetectContacts(info.skeleton, motion);
+  plan_.contacts = DetectContacts(model_->skeleton, motion);
   plan_.contacts.erase(plan_.contacts.begin());  // the history's
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/engine/step_engine.h"
-#include "model/flow/flow_sampler.h"
+#include "model/flow/transition_sampler.h"
 #include "model/motion/contacts.h"
 
 namespace choreo {
@@ -17,24 +17,28 @@ struct SampledPlan {
   std::vector<Contacts> contacts;  ///< of each
 };
 
-/// The plan of a transition on its way, slice by slice: windows of the continuous flow, in rounds
-/// where energy is asked for, then the stages of the plan. Whoever makes a slice may stop behind
-/// it. A function of model and spec alone.
+/// The plan of a transition on its way, slice by slice: evaluations of the continuous flow, in
+/// rounds where energy is asked for, then the stages of the plan. Whoever makes a slice may stop
+/// behind it. A function of model and spec alone.
 class PlanSampling {
  public:
-  /// The spec is valid; `styles` are the model's.
-  PlanSampling(const TransitionSpec& spec, const std::vector<std::string>& styles);
+  /// The spec is valid; model, parts and network must outlive it.
+  PlanSampling(const ModelInfo& model, const FlowModelParts& parts, const FlowNetwork& network,
+               const TransitionSpec& spec);
 
-  /// Makes the next slice; true while more are left. `info` is the network's.
-  bool Continue(const ModelInfo& info, const FlowModelParts& parts, const FlowNetwork& network);
+  /// Makes the next slice; true while more are left.
+  bool Continue();
   /// Once none is left.
   SampledPlan TakePlan() { return std::move(plan_); }
 
  private:
   /// Takes what a round has come to; true while another one is to be sampled.
-  bool EndRound(const FlowModelParts& parts);
-  void Finish(const ModelInfo& info, const FlowModelParts& parts);
+  bool EndRound();
+  void Finish();
 
+  const ModelInfo* model_;
+  const FlowModelParts* parts_;
+  const FlowNetwork* network_;
   // Of the spec:
   std::vector<Pose> history_;
   std::vector<double> beats_;
@@ -49,7 +53,7 @@ class PlanSampling {
   // as far as it missed, asked for again; the nearest is danced.
   bool in_rounds_;
   int round_ = 0;
-  Eigen::MatrixXd wanted_;                   // energy, as it was asked for
+  Eigen::MatrixXd wanted_;                    // energy, as it was asked for
   std::array<double, kBodyParts> more_ = {};  // logarithms of what is asked for over that
   double least_;                              // by how much the nearest missed
 };

@@ -123,9 +123,9 @@ struct StepOutput {
 
 /// How far a slot's transition is.
 struct SlotProgress {
-  int frame = 0;       ///< next to be stepped
-  int frames = 0;      ///< N
-  bool hears = false;  ///< its model listens to the rows of its music
+  int frame = 0;                ///< next to be stepped
+  int frames = 0;               ///< N
+  bool hears = false;           ///< its model listens to the rows of its music
   bool being_admitted = false;  ///< it can't be stepped yet
 };
 

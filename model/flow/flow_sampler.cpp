@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "model/core/random.h"
@@ -84,30 +85,35 @@ class Field {
     }
     const bool labelled = !request.beats.empty() || request.style >= 0;
     const double guidance = labelled ? model.config.guidance : 1;
-    Look(request, guidance);
+    AddView(request, guidance);
     request.beats.clear();
     request.style = -1;
-    if (guidance != 1) Look(request, 1 - guidance);
+    if (guidance != 1) AddView(request, 1 - guidance);
   }
 
   int steps() const { return model_.config.steps; }
   double Angle(int step) const { return step * (std::numbers::pi / 2 / steps()); }
 
   // Where the flow stands at w: z = size (cos noise + sin motion), size = 1 / (cos + sin).
-  Eigen::MatrixXd At(const Eigen::MatrixXd& w, int step) {
-    const Eigen::MatrixXd z = SizeAt(step) * w;
-    const Eigen::MatrixXd x = window_.Colour(z);
+  void Stand(const Eigen::MatrixXd& w, int step) {
+    z_ = SizeAt(step) * w;
+    const Eigen::MatrixXd x = window_.Colour(z_);
     poses_.rightCols(x.cols()) = (window_.mean() + x).cast<float>();
     joints_.rightCols(x.cols()) = window_.PlaceJoints(model_.skeleton, x);
-    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(z.rows(), z.cols());
-    for (const View& view : views_) {
-      f += view.weight * network_
-                             .Evaluate(z.cast<float>(), poses_, joints_, mean_, view.frames,
-                                       view.conditions.col(step))
-                             .cast<double>();
-    }
-    return f;
+    step_ = step;
+    seen_ = 0;
+    f_ = Eigen::MatrixXd::Zero(z_.rows(), z_.cols());
   }
+  // F there, as the next view has it; true while more have to be heard.
+  bool Look() {
+    const View& view = views_[seen_];
+    f_ += view.weight * network_
+                            .Evaluate(z_.cast<float>(), poses_, joints_, mean_, view.frames,
+                                      view.conditions.col(step_))
+                            .cast<double>();
+    return ++seen_ < views_.size();
+  }
+  const Eigen::MatrixXd& f() const { return f_; }
 
  private:
   // What the network is told, and what its answer counts.
@@ -115,7 +121,7 @@ class Field {
     Eigen::MatrixXf frames, conditions;
     double weight;
   };
-  void Look(const WindowRequest& request, double weight) {
+  void AddView(const WindowRequest& request, double weight) {
     WindowFeatures seen =
         DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window_);
     views_.push_back({std::move(seen.frames), network_.Condition(seen.whole, times_), weight});
@@ -128,6 +134,9 @@ class Field {
   std::vector<float> times_;  // of each step
   Eigen::MatrixXf mean_, poses_, joints_;
   std::vector<View> views_;
+  Eigen::MatrixXd z_, f_;
+  int step_ = 0;
+  size_t seen_ = 0;  // views of f_
 };
 
 // Whether a key says where limbs are: all but hands and feet, whose joints carry one other at most.
@@ -139,21 +148,6 @@ bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
     if (joint > 0) carried[static_cast<size_t>(skeleton.parents[at])] += carried[at] + 1;
   }
   return true;
-}
-
-// From noise to motion; what is known fades into its noise.
-Eigen::MatrixXd Solve(Field* field, const KnownPath& known, const Eigen::MatrixXd& start) {
-  Eigen::MatrixXd w = start, before;
-  for (int k = 0; k < field->steps(); ++k) {
-    const double angle = field->Angle(k), step = field->Angle(1);
-    for (const int axis : known.axes)
-      w.row(axis) = std::cos(angle) * start.row(axis) + std::sin(angle) * known.z.row(axis);
-    const Eigen::MatrixXd f = field->At(w, k);
-    w += step * (k == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before));
-    w = w.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
-    before = f;
-  }
-  return w;
 }
 
 }  // namespace
@@ -189,73 +183,112 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   return known;
 }
 
-namespace {
+/// A way through the window, as the network sees it from one side.
+class WindowSampler::Way {
+ public:
+  Way(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
+      const FlowNoise& noise)
+      : window_(model.prior, request),
+        temperature_(std::min(noise.temperature, kMaxFlowTemperature)) {
+    FillInEnergy(model, noise, window_, &request);
+    window_.SetEnergy(model.prior, request);
+    known_.emplace(request, window_);
+    const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window_.frames());
+    start_ = temperature_ > 0 ? Noise(model, noise, window_.frames()) : still;
+    w_ = start_;
+    field_.emplace(model, network, std::move(request), window_);
+    needs_mean_ = temperature_ != 1;
+    if (needs_mean_) {
+      field_->Stand(still, 0);
+    } else {
+      BeginStep();
+    }
+  }
+  Way(const Way&) = delete;
+  Way& operator=(const Way&) = delete;
 
-// A way through the window, as the network sees it from one side.
-std::vector<Pose> Sample(const FlowModelParts& model, const FlowNetwork& network,
-                         WindowRequest request, const FlowNoise& noise) {
-  FlowWindow window(model.prior, request);
-  FillInEnergy(model, noise, window, &request);
-  window.SetEnergy(model.prior, request);
-  const KnownPath known(request, window);
-  const double temperature = std::min(noise.temperature, kMaxFlowTemperature);
-  const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window.frames());
-  const Eigen::MatrixXd start = temperature > 0 ? Noise(model, noise, window.frames()) : still;
-  Field field(model, network, std::move(request), window);
-  Eigen::MatrixXd mean_way;
-  if (temperature != 1) mean_way = field.At(still, 0);
-  Eigen::MatrixXd w = temperature > 0 ? Solve(&field, known, start) : start;
-  if (temperature != 1) w = mean_way + temperature * (w - mean_way);
-  Eigen::MatrixXd x = window.Colour(w);
-  for (const int axis : known.axes) x.row(axis) = known.x.row(axis);
-  return window.Decode(x);
+  /// As WindowSampler's.
+  bool Continue() {
+    if (field_->Look()) return true;
+    if (std::exchange(needs_mean_, false)) {
+      mean_way_ = field_->f();
+      if (temperature_ == 0) return false;
+      BeginStep();
+      return true;
+    }
+    EndStep();
+    if (step_ == field_->steps()) return false;
+    BeginStep();
+    return true;
+  }
+
+  std::vector<Pose> Poses() const {
+    Eigen::MatrixXd w = w_;
+    if (temperature_ != 1) w = mean_way_ + temperature_ * (w - mean_way_);
+    Eigen::MatrixXd x = window_.Colour(w);
+    for (const int axis : known_->axes) x.row(axis) = known_->x.row(axis);
+    return window_.Decode(x);
+  }
+
+ private:
+  // From noise to motion; what is known fades into its noise.
+  void BeginStep() {
+    const double angle = field_->Angle(step_);
+    for (const int axis : known_->axes)
+      w_.row(axis) = std::cos(angle) * start_.row(axis) + std::sin(angle) * known_->z.row(axis);
+    field_->Stand(w_, step_);
+  }
+  void EndStep() {
+    const Eigen::MatrixXd& f = field_->f();
+    const double step = field_->Angle(1);
+    w_ += step * (step_ == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before_));
+    w_ = w_.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
+    before_ = f;
+    ++step_;
+  }
+
+  FlowWindow window_;
+  const double temperature_;
+  std::optional<KnownPath> known_;
+  Eigen::MatrixXd start_, w_, before_, mean_way_;
+  std::optional<Field> field_;
+  bool needs_mean_ = false;
+  int step_ = 0;
+};
+
+WindowSampler::WindowSampler(const FlowModelParts& model, const FlowNetwork& network,
+                             WindowRequest request, const FlowNoise& noise)
+    : model_(&model), network_(&network), noise_(noise), request_(std::move(request)) {}
+WindowSampler::~WindowSampler() = default;
+WindowSampler::WindowSampler(WindowSampler&&) noexcept = default;
+WindowSampler& WindowSampler::operator=(WindowSampler&&) noexcept = default;
+
+bool WindowSampler::Continue() {
+  // The mean way is the mirror image of the mirrored request's. A network is not quite as
+  // symmetric: both of its answers are nearer together to the truth than each alone.
+  const bool is_mirrored = noise_.temperature <= 0 && mirrored_.empty();
+  if (!way_) {
+    way_ = std::make_unique<Way>(
+        *model_, *network_,
+        is_mirrored ? Mirror(MirrorPairs(model_->skeleton), request_) : request_, noise_);
+  }
+  if (way_->Continue()) return true;
+  (is_mirrored ? mirrored_ : sampled_) = way_->Poses();
+  way_.reset();
+  return is_mirrored;
 }
 
-}  // namespace
+std::vector<Pose> WindowSampler::TakePoses() {
+  const std::vector<int> pairs = MirrorPairs(model_->skeleton);
+  for (size_t i = 0; i < mirrored_.size(); ++i)
+    sampled_[i] = InterpolatePoses(sampled_[i], Mirror(pairs, mirrored_[i]), 0.5);
+  return std::move(sampled_);
+}
 
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
                                WindowRequest request, const FlowNoise& noise) {
-  if (noise.temperature > 0) return Sample(model, network, std::move(request), noise);
-  // The mean way is the mirror image of the mirrored request's. A network is not quite as
-  // symmetric: both of its answers are nearer together to the truth than each alone.
-  const std::vector<int> pairs = MirrorPairs(model.skeleton);
-  const std::vector<Pose> other = Sample(model, network, Mirror(pairs, request), noise);
-  std::vector<Pose> way = Sample(model, network, std::move(request), noise);
-  for (size_t i = 0; i < way.size(); ++i)
-    way[i] = InterpolatePoses(way[i], Mirror(pairs, other[i]), 0.5);
-  return way;
-}
-
-TransitionSampler::TransitionSampler(WindowRequest request, const FlowNoise& noise)
-    : request_(std::move(request)), noise_(noise), emitted_(request_.history) {}
-
-bool TransitionSampler::Continue(const FlowModelParts& model, const FlowNetwork& network) {
-  const int most = model.config.window_frames;
-  const int windows = (request_.frames + most - 1) / most;
-  const int frames = request_.frames * (windows_ + 1) / windows - frames_;
-  const GroundFrame ground = GroundFrame::Of(emitted_.back());
-  FlowNoise noise = noise_;
-  noise.first_frame += frames_;
-  WindowRequest window = request_.Part(
-      frames_, frames, std::span(emitted_).last(request_.history.size()), ground);
-  for (const Pose& pose : SampleWindow(model, network, std::move(window), noise)) {
-    emitted_.push_back(ground.ToWorld(pose));
-    MakeContinuous(emitted_.back(), emitted_[emitted_.size() - 2]);
-  }
-  frames_ += frames;
-  return ++windows_ < windows;
-}
-
-std::vector<Pose> TransitionSampler::TakePoses() {
-  std::vector<Pose> poses = std::exchange(emitted_, {});
-  poses.erase(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(request_.history.size()));
-  return poses;
-}
-
-std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                   const WindowRequest& request, const FlowNoise& noise) {
-  TransitionSampler sampler(request, noise);
-  while (sampler.Continue(model, network)) {
+  WindowSampler sampler(model, network, std::move(request), noise);
+  while (sampler.Continue()) {
   }
   return sampler.TakePoses();
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -66,30 +67,28 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
                                WindowRequest request, const FlowNoise& noise);
 
-/// A transition of any length on its way: windows of at most config.window_frames, sampled one
-/// after another, each in its own canonical frame; their key is the transition's, however far it
-/// is.
-class TransitionSampler {
+/// The same on its way, an evaluation of the network at a time. Model and network must outlive it.
+class WindowSampler {
  public:
-  /// `request` is of the whole transition (frames == to_key where there is a key); at least a
-  /// frame.
-  TransitionSampler(WindowRequest request, const FlowNoise& noise);
+  WindowSampler(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
+                const FlowNoise& noise);
+  ~WindowSampler();
+  WindowSampler(WindowSampler&&) noexcept;
+  WindowSampler& operator=(WindowSampler&&) noexcept;
 
-  /// Samples the next window; true while more are left.
-  bool Continue(const FlowModelParts& model, const FlowNetwork& network);
-  /// All frames, once no window is left.
+  /// Makes the next evaluation; true while more are left.
+  bool Continue();
+  /// SampleWindow's, once none is left.
   std::vector<Pose> TakePoses();
 
  private:
-  WindowRequest request_;
+  class Way;
+  const FlowModelParts* model_;
+  const FlowNetwork* network_;
   FlowNoise noise_;
-  std::vector<Pose> emitted_;  // behind the history, in the request's frame
-  int windows_ = 0;            // sampled
-  int frames_ = 0;             // of those
+  WindowRequest request_;
+  std::unique_ptr<Way> way_;              // under way; null: not begun
+  std::vector<Pose> mirrored_, sampled_;  // what ways came to
 };
-
-/// All windows of a transition.
-std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                   const WindowRequest& request, const FlowNoise& noise);
 
 }  // namespace choreo

@@ -158,24 +158,26 @@ TEST_F(ContinuousFlowEngineTest, GivesTheSameBitsAloneAndAmongOthers) {
   for (const Dancer& dancer : dancers) ExpectSameBits(dancer.outputs, Dance(dancer.spec));
 }
 
-// Windows are of 16 frames; three rounds where energy is asked for; the plan's stages are the last
-// slice.
+// Windows are of 16 frames, each of four evaluations with beats and four without (at this
+// temperature the mean way, too); three rounds where energy is asked for; the plan's stages are the
+// last slice.
 TEST_F(ContinuousFlowEngineTest, AdmissionsInSlicesGiveTheSameBitsWhateverComesBetween) {
   TransitionSpec lively = Spec(2, 40);
   lively.controls.velocity_factors.setConstant(kBodyParts, lively.frames, 0.05F);
   const std::vector<std::pair<TransitionSpec, int>> wanted = {
-      {Spec(1, 16), 2}, {Spec(3, 40), 4}, {lively, 10}};
+      {Spec(1, 16), 8 + 1}, {Spec(3, 40), 3 * 8 + 1}, {lively, 3 * 3 * 8 + 1}};
   std::vector<Dancer> dancers;
   std::vector<int> slices(wanted.size());
   for (const auto& one : wanted)
     dancers.push_back({one.first, engine_->BeginAdmission(one.first), {}, {}});
   const StepInput early{.slot = dancers[0].slot, .previous = nullptr, .audio_row = {}};
   StepOutput none;
-  ExpectError(ErrorCode::kInvalidArgument, "is still being admitted",
-              [&] { engine_->Step({&early, 1}, {&none, 1}); });
+  ExpectError(ErrorCode::kInvalidArgument, "is still being admitted", [&] {
+    engine_->Step({&early, 1}, {&none, 1});
+  });
   const int abandoned = engine_->BeginAdmission(lively);
   std::vector<bool> more(wanted.size(), true);
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 3 * 3 * 8 + 1; ++round) {
     for (size_t i = 0; i < wanted.size(); ++i) {
       if (!more[i]) continue;
       more[i] = engine_->ContinueAdmission(dancers[i].slot);

@@ -42,8 +42,8 @@ class SlicedTest : public SchedulerTest {
     std::vector<std::unique_ptr<StepEngine>> engines;
     engines.push_back(std::make_unique<SlicedEngine>(slots, &gate_, poison));
     scheduler_ = std::make_unique<Scheduler>(
-        std::move(engines), Scheduler::Options{.max_admissions = admissions_,
-                                               .max_sleep = max_sleep});
+        std::move(engines),
+        Scheduler::Options{.max_admissions = admissions_, .max_sleep = max_sleep});
   }
   std::shared_ptr<FakeJob> SubmitBulk(uint64_t seed, int frames) {
     auto job = Job(seed, frames);
@@ -69,10 +69,10 @@ TEST_F(SlicedTest, ADanceOvertakesAGroupsHalfMadeAdmission) {
   auto dance = SubmitJob(2, 2);
   gate_.Open();
   for (const auto& job : {bulk, dance}) ASSERT_TRUE(job->WaitDone());
-  EXPECT_THAT(gate_.steps(), ElementsAre(ElementsAre(kSlice + 1), ElementsAre(kSlice + 2),
-                                         ElementsAre(kSlice + 2), ElementsAre(2), ElementsAre(2),
-                                         ElementsAre(kSlice + 1), ElementsAre(kSlice + 1),
-                                         ElementsAre(1), ElementsAre(1), ElementsAre(1)));
+  EXPECT_THAT(gate_.steps(),
+              ElementsAre(ElementsAre(kSlice + 1), ElementsAre(kSlice + 2), ElementsAre(kSlice + 2),
+                          ElementsAre(2), ElementsAre(2), ElementsAre(kSlice + 1),
+                          ElementsAre(kSlice + 1), ElementsAre(1), ElementsAre(1), ElementsAre(1)));
 }
 
 // Its listener has more than `bulk_yields` in hand.
@@ -204,8 +204,7 @@ TEST_F(SlicedTest, WhoWasParkedIsAdmittedAnewSliceBySlice) {
   EXPECT_THAT(std::vector(steps.begin() + static_cast<std::ptrdiff_t>(begun), steps.end()),
               ElementsAre(ElementsAre(kSlice + 2), ElementsAre(kSlice + 2), ElementsAre(2),
                           ElementsAre(2), ElementsAre(kSlice + 1), ElementsAre(kSlice + 1),
-                          ElementsAre(kSlice + 1), ElementsAre(1), ElementsAre(1),
-                          ElementsAre(1)));
+                          ElementsAre(kSlice + 1), ElementsAre(1), ElementsAre(1), ElementsAre(1)));
 }
 
 // A lower bound, by construction: both are held for so long before they are admitted.

@@ -1,4 +1,4 @@
-#include "model/flow/flow_sampler.h"
+#include "model/flow/transition_sampler.h"
 
 #include <gtest/gtest.h>
 

@@ -151,8 +151,8 @@ TEST_F(BulkTest, ADanceIsDancedBeforeALongCallOfManyCandidatesGoesOn) {
   // Of the call, no slice is made between the dance's first and its last frame.
   const std::vector<Log::Did> all = log->Copy();
   const auto of_dance = [](Log::Did did) { return did != Log::Did::kBulkSlice; };
-  const auto first = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(),
-                                  of_dance);
+  const auto first =
+      std::find_if(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(), of_dance);
   const auto last = std::find_if(all.rbegin(), all.rend(), of_dance).base();
   ASSERT_LT(first, last);
   EXPECT_EQ(std::count(first, last, Log::Did::kDanceFrame), kDanceFrames);

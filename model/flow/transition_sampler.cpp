@@ -1,0 +1,60 @@
+#include "model/flow/transition_sampler.h"
+
+#include <utility>
+
+#include "model/motion/canonical.h"
+
+namespace choreo {
+
+TransitionSampler::TransitionSampler(const FlowModelParts& model, const FlowNetwork& network,
+                                     WindowRequest request, const FlowNoise& noise)
+    : model_(&model),
+      network_(&network),
+      request_(std::move(request)),
+      noise_(noise),
+      windows_((request_.frames + model.config.window_frames - 1) / model.config.window_frames),
+      emitted_(request_.history) {}
+
+bool TransitionSampler::Continue() {
+  if (!window_) BeginWindow();
+  if (window_->Continue()) return true;
+  EndWindow();
+  return sampled_ < windows_;
+}
+
+void TransitionSampler::BeginWindow() {
+  const int frames = request_.frames * (sampled_ + 1) / windows_ - frames_;
+  ground_ = GroundFrame::Of(emitted_.back());
+  FlowNoise noise = noise_;
+  noise.first_frame += frames_;
+  window_.emplace(
+      *model_, *network_,
+      request_.Part(frames_, frames, std::span(emitted_).last(request_.history.size()), ground_),
+      noise);
+}
+
+void TransitionSampler::EndWindow() {
+  for (const Pose& pose : window_->TakePoses()) {
+    emitted_.push_back(ground_.ToWorld(pose));
+    MakeContinuous(emitted_.back(), emitted_[emitted_.size() - 2]);
+    ++frames_;
+  }
+  ++sampled_;
+  window_.reset();
+}
+
+std::vector<Pose> TransitionSampler::TakePoses() {
+  std::vector<Pose> poses = std::exchange(emitted_, {});
+  poses.erase(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(request_.history.size()));
+  return poses;
+}
+
+std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
+                                   const WindowRequest& request, const FlowNoise& noise) {
+  TransitionSampler sampler(model, network, request, noise);
+  while (sampler.Continue()) {
+  }
+  return sampler.TakePoses();
+}
+
+}  // namespace choreo
