@@ -10,6 +10,9 @@ trap 'rm -f "$report"' EXIT
 jobs=$(env -u OMP_NUM_THREADS nproc)
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 export TSAN_OPTIONS="suppressions=$(cd "$(dirname "$0")/.." && pwd)/tests/tsan.supp ${TSAN_OPTIONS:-}"
+# Processes of this build's programs, one a line.
+running() { find /proc -maxdepth 2 -name exe -lname "$(realpath "$build")/*" 2>/dev/null | cut -d/ -f3 | sort || true; }
+before=$(running)
 rc=0
 run=(ctest --test-dir "$build" --output-on-failure -j "$jobs" --no-tests=error --output-junit "$report")
 if [[ -t 1 ]]; then
@@ -32,5 +35,16 @@ fi
 if grep -q 'name="Contract.NamesTestsThatExist"' "$report"; then
   "$(dirname "$0")/check_contract.sh" "$(realpath "$build")" "$report" >/dev/null || rc=1
 fi
+# No process outlives the tests; one that was told to end may take a moment. Whoever was there before is not theirs.
+for _ in {1..50}; do
+  left=$(comm -13 <(echo "$before") <(running))
+  [[ -z $left ]] && break
+  sleep 0.2
+done
+for process in $left; do
+  echo "run_tests.sh: left behind: $process $(tr '\0' ' ' <"/proc/$process/cmdline" 2>/dev/null)" >&2
+  kill "$process" 2>/dev/null || true
+  rc=1
+done
 echo "$((total - failed - skipped)) passed, $failed failed, $skipped skipped"
 exit "$rc"
