@@ -34,6 +34,8 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
   return target;
 }
 
+constexpr int kFootworkFrames = 300;  // put on their feet at once
+
 // GCC 12's SLP vectoriser folds double -> float -> double of neighbours into nothing (as in Eigen's
 // cast<float>().cast<double>() of a Vector3d at -O3); it can't see through a volatile.
 double ToFloat(double value) {
@@ -102,7 +104,8 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   }
   for (auto place : spec_.controls.root_path.colwise())
     place = ground_.ToLocal(Eigen::Vector3d(place)).unaryExpr(&ToFloat);
-  if (request.foot_lock && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
+  footwork_ = request.footwork;
+  if (footwork_ && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
     foot_lock_.emplace(model.skeleton, model.fps, request.frames, spec_.history, spec_.target);
   }
   if (!request.target || request.arrival_frames <= 0) return;
@@ -121,6 +124,34 @@ void TransitionRun::CheckFinite(const Pose& pose, std::span<const float> contact
                   ", is not a finite pose");
 }
 
+// Of a plan the frames that come next. A long one is put on its feet piece by piece, so that nobody
+// waits for all of it.
+void TransitionRun::PutOnFeet() {
+  const auto from = plan_.begin() + done_;
+  const bool ends = std::distance(from, plan_.end()) <= kFootworkFrames;
+  const auto to = ends ? plan_.end() : from + kFootworkFrames;
+  std::vector<Pose> history = spec_.history;
+  history.insert(history.end(), plan_.begin(), from);
+  FootworkContext context{.skeleton = model_->skeleton,
+                          .history = std::span(history).last(spec_.history.size()),
+                          .keyed = ends && arrival_,
+                          .has_path = spec_.controls.root_path.cols() > 0,
+                          .offset_before = standing_.offset,
+                          .fps = model_->fps,
+                          .options = model_->footwork};
+  if (spec_.target && spec_.target->mask.root_position) {
+    const std::vector<bool> known = KnownPlaces(model_->skeleton, spec_.target->mask);
+    for (size_t side = 0; side < 2; ++side)
+      context.feet_known[side] = known[static_cast<size_t>(model_->skeleton.feet[2 * side + 1])];
+  }
+  std::vector<Pose> piece(from, to);
+  Footwork footwork = StandOnFeet(context, &piece);
+  std::ranges::copy(piece, from);
+  standing_.contacts.insert(standing_.contacts.end(), footwork.contacts.begin(),
+                            footwork.contacts.end());
+  standing_.offset = footwork.offset;
+}
+
 DanceFrame TransitionRun::Take(const StepOutput& raw) {
   CheckFinite(raw.pose, raw.contacts, "as the model makes it");
   if (!std::isfinite(raw.log_likelihood)) {
@@ -129,15 +160,31 @@ DanceFrame TransitionRun::Take(const StepOutput& raw) {
         "the likelihood of frame " + std::to_string(spec_.first_frame + done_) + " is not finite");
   }
   const PoseMask mask = spec_.target ? spec_.target->mask : PoseMask{};
+  if (done_ == 0 && footwork_ && !raw.plan.empty()) {
+    // Of a plan all frames are known: arrival steers them ahead of time, as it will one by one.
+    plan_.assign(raw.plan.begin(), raw.plan.end());
+    if (std::optional<Arrival> arrival = arrival_) {
+      for (Pose& pose : plan_) pose = arrival->Apply(pose);
+    }
+  }
+  const auto at = static_cast<size_t>(done_);
+  if (at < plan_.size() && at == standing_.contacts.size()) PutOnFeet();
   steered_ = arrival_ ? arrival_->Apply(raw.pose) : raw.pose;
   if (arrival_ && spec_.frames - done_ <= arrival_->window()) {
     correction_m_ = std::max(correction_m_,
                              ComparePoses(model_->skeleton, raw.pose, steered_, mask).position_m);
   }
-  const Pose emitted = foot_lock_ ? foot_lock_->Apply(steered_) : steered_;
+  Pose emitted = steered_;
+  Contacts contacts = raw.contacts;
+  if (at < standing_.contacts.size()) {
+    emitted = plan_[at];
+    contacts = standing_.contacts[at];
+  } else if (foot_lock_) {
+    emitted = foot_lock_->Apply(steered_);
+    contacts = foot_lock_->contacts();
+  }
   world_ = RoundToFloat(KeepSigns(ground_.ToWorld(emitted), world_));
-  const Contacts& contacts = foot_lock_ ? foot_lock_->contacts() : raw.contacts;
-  CheckFinite(world_, contacts, "as arrival and foot lock leave it");
+  CheckFinite(world_, contacts, "as arrival and footwork leave it");
   ++done_;
   if (done_ == spec_.frames && spec_.target) {
     const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);

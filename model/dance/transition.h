@@ -12,6 +12,7 @@
 #include "model/engine/step_engine.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
+#include "model/plan/footwork.h"
 
 namespace choreo {
 
@@ -23,13 +24,13 @@ struct TransitionRequest : TransitionSpec {
   std::optional<Pose> after;
   // To measure the model alone: 0 and false.
   int arrival_frames = 12;  ///< Arrival's window
-  bool foot_lock = true;
+  bool footwork = true;
 };
 
 /// One finished frame.
 struct DanceFrame {
   Pose pose;  ///< world; every number is a float's, as it is sent, and the chain goes on from these
-  Contacts contacts = {};    ///< the model's own without foot lock
+  Contacts contacts = {};    ///< the model's own without footwork
   float log_likelihood = 0;  ///< nats
   /// What velocity factors ask of this frame, by BodyPart, metres a frame; none: nothing.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
@@ -101,6 +102,7 @@ class TransitionRun {
   std::optional<RequiredSpeed> required_speed() const;
 
  private:
+  void PutOnFeet();
   void CheckFinite(const Pose& pose, std::span<const float> contacts,
                    const std::string& whose) const;
 
@@ -109,6 +111,10 @@ class TransitionRun {
   std::optional<Target> world_target_;
   GroundFrame ground_;
   std::optional<Arrival> arrival_;
+  bool footwork_;
+  std::vector<Pose> plan_;  // canonical, steered by arrival; its first frames stand on their feet
+  Footwork standing_;       // of those, all contacts
+  // Where the model makes frame after frame and nobody knows its plan.
   std::optional<FootLock> foot_lock_;
   std::optional<ArrivalResult> arrival_result_;
   double correction_m_ = 0;

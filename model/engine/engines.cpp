@@ -171,6 +171,7 @@ Factory LoadContinuousFlow(const Safetensors& content, const std::filesystem::pa
   info.root_path = info.velocity_factors = true;
   info.velocity_references = {Median(config.median_factors)};
   info.styles = config.styles;
+  info.footwork = config.plan.footwork;
   return [info, device, parts, network](int slots) {
     return std::make_unique<ContinuousFlowEngine>(info, device.name(), slots, parts, network);
   };

@@ -11,6 +11,7 @@
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/engine/engine_cost.h"
+#include "model/flow/footwork_options.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
@@ -45,6 +46,7 @@ struct ModelInfo {
   /// The first one, "median", is the default. At least one where velocity factors are taken.
   std::vector<VelocityReference> velocity_references = {};
   std::vector<std::string> styles = {};  ///< that may be asked for
+  FootworkOptions footwork = {};         ///< of models that make whole plans
 };
 
 inline constexpr int kMostSlots = 4096;  ///< of one engine
@@ -119,6 +121,9 @@ struct StepOutput {
   Contacts contacts = {};  ///< probability-like, [0, 1]
   /// Of this frame, nats (model's standardised space, log-determinants included).
   float log_likelihood = 0;
+  /// With frame 0 of a model that makes whole transitions at once: all of its poses, this one
+  /// first. Valid until the slot steps on or is released. Else empty.
+  std::span<const Pose> plan = {};
 };
 
 /// How far a slot's transition is.

@@ -43,7 +43,7 @@ struct Method {
     if (!keys) request->target.reset();
     if (finished) return;
     request->arrival_frames = 0;
-    request->foot_lock = false;
+    request->footwork = false;
   }
 };
 

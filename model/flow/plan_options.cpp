@@ -15,9 +15,10 @@ void PlanOptions::Validate(const std::string& field) const {
   if (whole_key_accent <= no_key_accent)
     throw InvalidArgument(field + ".whole_key_accent", "is not above no_key_accent");
   if (hinge_softness <= 0) throw InvalidArgument(field + ".hinge_softness", "is not above 0");
+  footwork.Validate(field + ".footwork");
 }
 
 CHOREO_JSON_OPTIONS(PlanOptions, accent, key_accent, whole_accent, fastest, on_beat, no_key_accent,
-                    whole_key_accent, hinge_softness)
+                    whole_key_accent, hinge_softness, footwork)
 
 }  // namespace choreo

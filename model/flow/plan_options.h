@@ -3,6 +3,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "model/flow/footwork_options.h"
+
 namespace choreo {
 
 /// How far the stages of model/plan (plan_stages.h) go with what a network proposes. Stored in its
@@ -17,6 +19,7 @@ struct PlanOptions {
   /// Seconds of a transition: up to the one a key has no accent of its own, from the other on all.
   double no_key_accent = 1, whole_key_accent = 2;
   double hinge_softness = 0.03;  ///< radians of bend, over which a hinge is led to a stop
+  FootworkOptions footwork = {};
 
   /// Throws Error(kInvalidArgument, field) where time could run backwards, or a hinge never stop.
   void Validate(const std::string& field) const;

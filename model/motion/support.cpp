@@ -40,12 +40,11 @@ std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
-                         const Eigen::Vector2d& b) {
+Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                                 const Eigen::Vector2d& b) {
   const Eigen::Vector2d ab = b - a;
   const double square = ab.squaredNorm();
-  const double t = square > 0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0;
-  return (p - a - t * ab).norm();
+  return a + (square > 0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0) * ab;
 }
 
 // The floor that feet stand on in the rest pose: as high as the lower of the toes there.
@@ -56,16 +55,22 @@ double RestFloor(const Skeleton& skeleton) {
 
 }  // namespace
 
-double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others) {
+Eigen::Vector2d NearestInHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others) {
   const std::vector<Eigen::Vector2d> hull = ConvexHull(std::move(others));
-  double nearest = INFINITY;
+  Eigen::Vector2d nearest = hull.front();
   bool within = hull.size() > 2;
   for (size_t i = 0; i < hull.size(); ++i) {
     const Eigen::Vector2d &a = hull[i], &b = hull[(i + 1) % hull.size()];
-    nearest = std::min(nearest, DistanceToSegment(point, a, b));
+    const Eigen::Vector2d here = NearestOnSegment(point, a, b);
+    if ((here - point).squaredNorm() < (nearest - point).squaredNorm()) nearest = here;
     within = within && Turn(a, b, point) >= 0;
   }
-  return within ? 0 : nearest;
+  return within ? point : nearest;
+}
+
+double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others) {
+  if (others.empty()) return INFINITY;
+  return (NearestInHull(point, std::move(others)) - point).norm();
 }
 
 bool BalanceGauge::Fits(const Skeleton& skeleton) { return MassWeights(skeleton).size() > 0; }

@@ -20,7 +20,10 @@ inline constexpr double kThrown = 6;
 /// Metres by which feet reach further than their joints: closer, the zero moment point is in them.
 inline constexpr double kSoleReach = 0.15;
 
-/// How far a point of the floor is outside of the convex hull of others, metres; 0 within.
+/// The point of the convex hull of `others`, at least one, that is nearest to a point of the floor:
+/// that point itself, if it is within.
+Eigen::Vector2d NearestInHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
+/// How far it is from there, metres; infinite without others.
 double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
 
 /// What of a frame's joints balance asks for.
@@ -31,11 +34,11 @@ struct BodyPoints {
 
 /// A frame's.
 struct Balance {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of mass, smoothed, metres
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< of mass, smoothed, metres
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< its, m/s^2
-  Eigen::Matrix<double, 3, 4> feet;  ///< BodyPoints::feet
-  std::array<bool, 4> on_floor = {};  ///< of Skeleton::feet
-  double foot_height = 0;            ///< of the lowest foot above the floor, metres
+  Eigen::Matrix<double, 3, 4> feet;                        ///< BodyPoints::feet
+  std::array<bool, 4> on_floor = {};                       ///< of Skeleton::feet
+  double foot_height = 0;  ///< of the lowest foot above the floor, metres
   /// How far centre and zero moment point are outside of the hull of what is on the floor, metres;
   /// none where nothing is, and no zero moment point of a body that is thrown.
   std::optional<double> centre_outside, zmp_outside;

@@ -62,7 +62,7 @@ TEST(InterpolationEngine, WalksTheLineOntoTheKey) {
   InterpolationEngine engine(FakeEngine(1).model(), 2);
   TransitionInput input = InputOf(engine.model(), set, {0, 40}, 20, 0.5F, 0);
   input.request.arrival_frames = 0;
-  input.request.foot_lock = false;
+  input.request.footwork = false;
   const auto result = DanceTransitions(engine, {&input, 1}).front();
   const Pose half = InterpolatePoses(input.request.history.back(), input.request.target->pose, 0.5);
   EXPECT_LT(ComparePoses(engine.model().skeleton, result.frames[9].pose, half).position_m, 1e-5);

@@ -1,0 +1,200 @@
+#include "model/plan/contact_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/motion/support.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kNever = 1e6;       // square metres: what must not be
+constexpr int kTurns = 2;            // in which each foot looks at the other
+constexpr int kAttempts = 3;         // to shorten flights
+constexpr int kLongestStance = 150;  // frames; who stands for longer, steps on the spot
+
+using Standing = std::vector<bool>;  // of each frame
+
+// Sums of four numbers a frame over any stretch of frames.
+class Sums {
+ public:
+  explicit Sums(size_t frames) : sums_(frames + 1, Eigen::Vector4d::Zero()) {}
+  /// Frame by frame.
+  void Set(size_t frame, const Eigen::Vector4d& value) { sums_[frame + 1] = sums_[frame] + value; }
+  Eigen::Vector4d Of(int from, int to) const {
+    return sums_[static_cast<size_t>(to) + 1] - sums_[static_cast<size_t>(from)];
+  }
+
+ private:
+  std::vector<Eigen::Vector4d> sums_;
+};
+
+int FallFrames(double height, double fps) {
+  const double seconds = std::sqrt(2 * std::max(0.0, height) / kGravity);
+  return std::max(1, static_cast<int>(std::ceil(seconds * fps)));
+}
+
+// The best stances of one foot beside the other, which stands where `other` says.
+class FootPlanner {
+ public:
+  /// `grounded`: in which frames nobody may fly.
+  FootPlanner(const FootTrack& foot, const FootTrack& beside, const Standing& other,
+              const Standing& grounded, double fps, const FootworkOptions& options)
+      : foot_(foot),
+        frames_(static_cast<int>(foot.toes.size())),
+        step_cost_(options.step_cost),
+        shortest_step_(std::max(1, static_cast<int>(std::lround(options.shortest_step * fps)))),
+        first_step_(FallFrames(foot.height_before, fps)),
+        last_step_(foot.end == FootTrack::End::kInAir ? FallFrames(foot.heights.back(), fps) : 1),
+        places_(foot.toes.size()),
+        support_(foot.toes.size()) {
+    for (size_t i = 0; i < foot.toes.size(); ++i) {
+      const Eigen::Vector3d& toes = foot.toes[i];
+      const double height = std::max(0.0, foot.heights[i]);
+      const double lift = std::max(0.0, kSoleHeight - foot.heights[i]);
+      places_.Set(i,
+                  {toes.x(), toes.z(), toes.x() * toes.x() + toes.z() * toes.z(), height * height});
+      const double here = foot.unbalanced[i], there = beside.unbalanced[i];
+      const double flight = grounded[i] ? kNever : options.flight_cost;
+      support_.Set(
+          i, {other[i] ? std::min(here, there) : here, other[i] ? there : flight, lift * lift, 0});
+    }
+  }
+
+  std::vector<Stance> Plan() {
+    // Of the frames before each: the least cost where the foot stands last, or is in the air.
+    const auto frames = static_cast<size_t>(frames_);
+    down_.assign(frames + 1, {kNever * frames_, 0});
+    up_ = down_;
+    for (int end = 1; end <= frames_; ++end) {
+      for (int from = std::max(0, end - kLongestStance); from < end; ++from) {
+        Improve(&down_, end, from, StanceCost(from, end - 1) + CostBeforeStance(from));
+        Improve(&up_, end, from, AirCost(from, end - 1) + CostBeforeAir(from));
+      }
+    }
+    return Trace();
+  }
+
+ private:
+  struct Best {
+    double cost;
+    int from;
+  };
+
+  static void Improve(std::vector<Best>* best, int end, int from, double cost) {
+    Best& at = (*best)[static_cast<size_t>(end)];
+    if (cost < at.cost) at = {cost, from};
+  }
+  double CostBeforeStance(int from) const {
+    if (from > 0) return up_[static_cast<size_t>(from)].cost;
+    return foot_.stood ? 0 : kNever;
+  }
+  double CostBeforeAir(int from) const {
+    if (from > 0) return down_[static_cast<size_t>(from)].cost + step_cost_;
+    return foot_.stood ? step_cost_ : 0;
+  }
+
+  bool IsLast(int frame) const { return frame == frames_ - 1; }
+  Eigen::Vector3d PlaceOf(int from, int to) const {
+    if (IsLast(to) && foot_.end == FootTrack::End::kStands) return foot_.toes.back();
+    if (from == 0 && foot_.stood) return foot_.before;
+    const Eigen::Vector4d mean = places_.Of(from, to) / (to - from + 1);
+    return {mean[0], 0, mean[1]};
+  }
+  double StanceCost(int from, int to) const {
+    if (IsLast(to) && foot_.end == FootTrack::End::kInAir) return kNever;
+    const Eigen::Vector3d place = PlaceOf(from, to);
+    const Eigen::Vector4d sum = places_.Of(from, to);
+    const double count = to - from + 1, x = place.x(), z = place.z();
+    double cost = sum[2] - 2 * (x * sum[0] + z * sum[1]) + count * (x * x + z * z) + sum[3] +
+                  support_.Of(from, to)[0];
+    // From where it stands to where the key has it leads a step.
+    if (from == 0 && foot_.stood) cost += count * (place - foot_.before).squaredNorm();
+    return cost;
+  }
+  double AirCost(int from, int to) const {
+    if (IsLast(to) && foot_.end == FootTrack::End::kStands) return kNever;
+    const int fewest = from == 0 && !foot_.stood ? first_step_
+                       : IsLast(to)              ? last_step_
+                                                 : shortest_step_;
+    const Eigen::Vector4d sum = support_.Of(from, to);
+    return sum[1] + sum[2] + kNever * std::max(0, fewest - (to - from + 1));
+  }
+
+  std::vector<Stance> Trace() const {
+    std::vector<Stance> stances;
+    bool stands = down_.back().cost <= up_.back().cost;
+    for (int end = frames_; end > 0; stands = !stands) {
+      const int from = (stands ? down_ : up_)[static_cast<size_t>(end)].from;
+      if (stands) stances.push_back({from, end - 1, PlaceOf(from, end - 1)});
+      end = from;
+    }
+    std::ranges::reverse(stances);
+    return stances;
+  }
+
+  const FootTrack& foot_;
+  const int frames_;
+  const double step_cost_;
+  const int shortest_step_, first_step_, last_step_;
+  Sums places_;  // x, z, their squares, the height's
+  // What the body's support costs while this foot stands, and while it does not; and what it costs
+  // to lift the foot off the floor where the plan does not.
+  Sums support_;
+  std::vector<Best> down_, up_;
+};
+
+Standing StandingIn(const std::vector<Stance>& stances, size_t frames) {
+  Standing standing(frames);
+  for (const Stance& stance : stances)
+    std::fill(standing.begin() + stance.from, standing.begin() + stance.to + 1, true);
+  return standing;
+}
+
+// Marks the frames of flights that last longer; whether there are any.
+bool MarkLongFlights(const std::array<Standing, 2>& standing, double longest, Standing* grounded) {
+  bool any = false;
+  for (size_t from = 0, to = 0; from < grounded->size(); from = to + 1) {
+    for (to = from; to < grounded->size() && !standing[0][to] && !standing[1][to];) ++to;
+    if (static_cast<double>(to - from) <= longest) continue;
+    any = true;
+    for (size_t i = from; i < to; ++i) (*grounded)[i] = true;
+  }
+  return any;
+}
+
+double Lifted(const FootTrack& foot) {
+  double sum = 0;
+  for (const double height : foot.heights) sum += std::max(0.0, height);
+  return sum;
+}
+
+}  // namespace
+
+const Stance* StanceAt(const std::vector<Stance>& stances, int frame) {
+  const auto at = std::ranges::find_if(
+      stances, [frame](const Stance& one) { return one.from <= frame && frame <= one.to; });
+  return at == stances.end() ? nullptr : &*at;
+}
+
+std::array<std::vector<Stance>, 2> PlanContacts(const std::array<FootTrack, 2>& feet, double fps,
+                                                const FootworkOptions& options) {
+  const size_t frames = feet[0].toes.size();
+  std::array<std::vector<Stance>, 2> stances;
+  std::array<Standing, 2> standing = {Standing(frames, true), Standing(frames, true)};
+  Standing grounded(frames, false);
+  // The foot that the plan lifts more begins: the other one carries it.
+  const size_t first = Lifted(feet[0]) > Lifted(feet[1]) ? 0 : 1;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    for (int turn = 0; turn < 2 * kTurns; ++turn) {
+      const size_t side = turn % 2 == 0 ? first : 1 - first, other = 1 - side;
+      stances[side] =
+          FootPlanner(feet[side], feet[other], standing[other], grounded, fps, options).Plan();
+      standing[side] = StandingIn(stances[side], frames);
+    }
+    if (!MarkLongFlights(standing, options.longest_flight * fps, &grounded)) break;
+  }
+  return stances;
+}
+
+}  // namespace choreo

@@ -1,0 +1,246 @@
+#include "model/plan/footwork.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "model/core/gaussian_mean.h"
+#include "model/core/smooth_step.h"
+#include "model/motion/body_mass.h"
+#include "model/motion/contacts.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/limb.h"
+#include "model/motion/support.h"
+#include "model/plan/contact_plan.h"
+#include "model/plan/pelvis_offset.h"
+#include "model/plan/toes_path.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kStillSpeed = 0.3;    // m/s: a low foot that is slower stands
+constexpr int kPasses = 2;             // legs that are moved move the centre of mass, too
+constexpr double kSmoothFrames = 1.5;  // of the centre of mass
+constexpr int kSmoothReach = 4;
+
+class PlanStander {
+ public:
+  PlanStander(const FootworkContext& context, std::vector<Pose>* plan)
+      : context_(context),
+        skeleton_(context.skeleton),
+        legs_(Leg::Of(context.skeleton)),
+        masses_(MassWeights(context.skeleton)),
+        plan_(*plan),
+        frames_(static_cast<int>(plan->size())) {
+    const Eigen::Matrix3Xd rest = JointPositions(skeleton_, RestPose(skeleton_));
+    for (size_t side = 0; side < 2; ++side) {
+      toes_rest_[side] = rest(1, legs_[side].toes);
+      ankle_rest_[side] = rest(1, legs_[side].ankle);
+    }
+    for (const Pose& pose : plan_) planned_.push_back(ForwardKinematics(skeleton_, pose));
+  }
+
+  Footwork Run() {
+    const std::vector<Pose> proposed = plan_;
+    centres_ = Centres();
+    const std::array<FootTrack, 2> feet = {Track(0), Track(1)};
+    stances_ = PlanContacts(feet, context_.fps, context_.options);
+    for (size_t side = 0; side < 2; ++side) {
+      toes_[side] =
+          ToesPath(feet[side], stances_[side], toes_rest_[side], context_.keyed, context_.fps);
+      LayDown(side);
+    }
+    offset_ = Eigen::Matrix3Xd::Zero(3, frames_);
+    for (int pass = 0; pass < kPasses; ++pass) {
+      if (pass > 0) centres_ = Centres();
+      offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
+                             {.returns = context_.keyed,
+                              .heights_alone = context_.has_path,
+                              .before = context_.offset_before,
+                              .fps = context_.fps,
+                              .options = context_.options});
+      plan_ = proposed;
+      PlaceLegs();
+    }
+    Footwork result{.contacts = TellContacts()};
+    result.offset.col(0) = context_.offset_before.col(1);
+    result.offset.rightCols(std::min(2, frames_)) = offset_.rightCols(std::min(2, frames_));
+    return result;
+  }
+
+ private:
+  bool Stands(size_t side, int frame) const { return StanceAt(stances_[side], frame) != nullptr; }
+  bool IsKey(int frame) const { return context_.keyed && frame == frames_ - 1; }
+
+  // The smoothed centre of mass in the frame before the first and in each behind it, as the plan
+  // stands now.
+  std::vector<Eigen::Vector3d> Centres() const {
+    std::vector<Eigen::Vector3d> exact, smooth;
+    const auto add = [&](const Pose& pose) {
+      exact.push_back(JointPositions(skeleton_, pose) * masses_);
+    };
+    std::ranges::for_each(context_.history, add);
+    std::ranges::for_each(plan_, add);
+    const auto last = static_cast<int64_t>(exact.size()) - 1;
+    for (int64_t at = last - frames_; at <= last; ++at) {
+      smooth.push_back(GaussianMean(
+          std::max<int64_t>(0, at - kSmoothReach), std::min(last, at + kSmoothReach), at,
+          kSmoothFrames, Eigen::Vector3d(Eigen::Vector3d::Zero()),
+          [&](int64_t i) -> const Eigen::Vector3d& { return exact[static_cast<size_t>(i)]; }));
+    }
+    return smooth;
+  }
+
+  Eigen::Vector2d ZeroMomentPoint(int frame) const {
+    const auto centre = [&](int i) -> const Eigen::Vector3d& {
+      return centres_[static_cast<size_t>(std::min(i, frames_ - 1) + 1)];
+    };
+    const Eigen::Vector3d& at = centre(frame);
+    const Eigen::Vector3d acceleration =
+        (centre(frame + 1) - 2 * at + centre(frame - 1)) * (context_.fps * context_.fps);
+    const double lever = at.y() / std::max(kGravity / 4, kGravity + acceleration.y());
+    return {at.x() - lever * acceleration.x(), at.z() - lever * acceleration.z()};
+  }
+
+  FootTrack Track(size_t side) const {
+    const Leg& leg = legs_[side];
+    const auto height = [&](const Eigen::Matrix3Xd& at) {
+      return std::min(at(1, leg.toes) - toes_rest_[side], at(1, leg.ankle) - ankle_rest_[side]);
+    };
+    FootTrack track;
+    for (int frame = 0; frame < frames_; ++frame) {
+      const Eigen::Matrix3Xd& at = planned_[static_cast<size_t>(frame)].positions;
+      track.toes.push_back(at.col(leg.toes));
+      track.heights.push_back(height(at));
+      const double outside = DistanceToHull(
+          ZeroMomentPoint(frame),
+          {{at(0, leg.toes), at(2, leg.toes)}, {at(0, leg.ankle), at(2, leg.ankle)}});
+      const double beyond = std::max(0.0, outside - context_.options.sole);
+      track.unbalanced.push_back(beyond * beyond);
+    }
+    const auto& history = context_.history;
+    const Eigen::Matrix3Xd before = JointPositions(skeleton_, history.back());
+    const Eigen::Matrix3Xd earlier =
+        JointPositions(skeleton_, history[history.size() - std::min<size_t>(2, history.size())]);
+    track.before = before.col(leg.toes);
+    track.height_before = height(before);
+    const double speed = (track.before - earlier.col(leg.toes)).norm() * context_.fps;
+    track.stood = track.before.y() - toes_rest_[side] < kUpHeight && speed < kStillSpeed;
+    if (context_.keyed && context_.feet_known[side]) {
+      const bool low = track.toes.back().y() - toes_rest_[side] < kUpHeight;
+      track.end = low ? FootTrack::End::kStands : FootTrack::End::kInAir;
+    }
+    return track;
+  }
+
+  // Feet lie on the floor: where toes are put down, an ankle that would be lower than it stands at
+  // rest is lifted about them. From where it was, and to where the key has it, within
+  // kSettleSeconds.
+  void LayDown(size_t side) {
+    const Leg& leg = legs_[side];
+    const double lay = kSettleSeconds * context_.fps;
+    const auto sunk = [&](const Eigen::Matrix3Xd& at) {
+      return std::max(0.0, ankle_rest_[side] - at(1, leg.ankle));
+    };
+    const double before = sunk(JointPositions(skeleton_, context_.history.back()));
+    const double behind = context_.keyed ? sunk(planned_.back().positions) : 0;
+    for (int frame = 0; frame < frames_; ++frame) {
+      const auto i = static_cast<size_t>(frame);
+      const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / lay)); };
+      const double least =
+          ankle_rest_[side] - fade(frame + 1) * before - fade(frames_ - 1 - frame) * behind;
+      JointPlacement& at = planned_[i];
+      const Eigen::Vector3d ankle = at.positions.col(leg.ankle);
+      const Eigen::Vector3d foot = at.positions.col(leg.toes) - ankle;
+      const double along = std::hypot(foot.x(), foot.z());
+      const double rise = std::max(toes_[side][i].y() - least, -foot.norm());
+      if (foot.y() <= rise || along < 1e-6) continue;
+      const double flat = std::sqrt(std::max(0.0, foot.squaredNorm() - rise * rise)) / along;
+      const Eigen::Vector3d laid(flat * foot.x(), rise, flat * foot.z());
+      at.rotations[static_cast<size_t>(leg.ankle)] =
+          Eigen::Quaterniond::FromTwoVectors(foot, laid).toRotationMatrix() *
+          at.rotations[static_cast<size_t>(leg.ankle)];
+      at.positions.col(leg.toes) = ankle + laid;
+    }
+  }
+
+  std::vector<SupportFrame> Supports() const {
+    std::vector<SupportFrame> supports(plan_.size());
+    for (int frame = 0; frame < frames_; ++frame) {
+      const auto i = static_cast<size_t>(frame);
+      SupportFrame& support = supports[i];
+      support.centre = centres_[i + 1] - offset_.col(frame);
+      const Eigen::Matrix3Xd& at = planned_[i].positions;
+      for (size_t side = 0; side < 2; ++side) {
+        if (!Stands(side, frame)) continue;
+        const Leg& leg = legs_[side];
+        const Eigen::Vector3d toes = toes_[side][i];
+        const Eigen::Vector3d ankle = toes + at.col(leg.ankle) - at.col(leg.toes);
+        support.legs.push_back(
+            {ankle - at.col(leg.hip), (at.col(leg.knee) - at.col(leg.hip)).norm() +
+                                          (at.col(leg.ankle) - at.col(leg.knee)).norm()});
+        support.support.emplace_back(toes.x(), toes.z());
+        support.support.emplace_back(ankle.x(), ankle.z());
+      }
+    }
+    return supports;
+  }
+
+  void PlaceLegs() {
+    const JointPlacement before = ForwardKinematics(skeleton_, context_.history.back());
+    std::array<double, 2> bends = {KneeBend(legs_[0], before), KneeBend(legs_[1], before)};
+    for (int frame = 0; frame < frames_; ++frame) {
+      if (IsKey(frame)) return;
+      const auto i = static_cast<size_t>(frame);
+      plan_[i].root_position += offset_.col(frame);
+      JointPlacement at = planned_[i];
+      at.positions.colwise() += Eigen::Vector3d(offset_.col(frame));
+      for (size_t side = 0; side < 2; ++side) {
+        Eigen::Vector3d toes = toes_[side][i];
+        if (!Stands(side, frame)) toes = WithinReach(legs_[side], at, toes, kStraightestLeg);
+        bends[side] = PlaceToes(legs_[side], skeleton_, at, toes, &plan_[i],
+                                NextBend(bends[side], 1 / context_.fps));
+      }
+    }
+  }
+
+  // The foot keeps its turn, so its ankle moves with its toes.
+  std::vector<Contacts> TellContacts() const {
+    std::vector<Contacts> contacts(plan_.size());
+    for (int frame = 0; frame < frames_; ++frame) {
+      const auto i = static_cast<size_t>(frame);
+      for (size_t side = 0; side < 2; ++side) {
+        if (!Stands(side, frame)) continue;
+        const Eigen::Matrix3Xd& at = planned_[i].positions;
+        const double ankle =
+            toes_[side][i].y() + at(1, legs_[side].ankle) - at(1, legs_[side].toes);
+        contacts[i][2 * side] = ankle < ankle_rest_[side] + kDownHeight ? 1.0F : 0.0F;
+        contacts[i][2 * side + 1] = 1.0F;
+      }
+    }
+    return contacts;
+  }
+
+  const FootworkContext& context_;
+  const Skeleton& skeleton_;
+  const std::array<Leg, 2> legs_;
+  const Eigen::VectorXd masses_;
+  std::vector<Pose>& plan_;
+  const int frames_;
+  std::array<double, 2> toes_rest_, ankle_rest_;  // heights at rest
+  std::vector<JointPlacement> planned_;           // as the plan was proposed
+  std::vector<Eigen::Vector3d> centres_;
+  std::array<std::vector<Stance>, 2> stances_;
+  std::array<std::vector<Eigen::Vector3d>, 2> toes_;
+  Eigen::Matrix3Xd offset_;  // of the pelvis
+};
+
+}  // namespace
+
+Footwork StandOnFeet(const FootworkContext& context, std::vector<Pose>* plan) {
+  if (plan->empty() || !Leg::In(context.skeleton) || MassWeights(context.skeleton).size() == 0)
+    return {};
+  return PlanStander(context, plan).Run();
+}
+
+}  // namespace choreo

@@ -1,0 +1,220 @@
+#include "model/plan/pelvis_offset.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "model/motion/support.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kRounds = 3;
+constexpr double kLightest = 0.25;  // of its weight that a sinking body keeps at least
+constexpr double kPushSeconds =
+    0.27;  // before and after a flight the legs may push as gravity does
+constexpr double kFirm =
+    30;  // of falling and of standing in the end, beside what counts frame by frame
+
+double Square(double value) { return value * value; }
+
+// Normal equations of residuals that are linear in a few unknowns each.
+class LeastSquares {
+ public:
+  explicit LeastSquares(int unknowns)
+      : normal_(unknowns, unknowns), right_(Eigen::VectorXd::Zero(unknowns)) {}
+
+  /// A factor of an unknown; one whose number is below 0 has its value already.
+  struct Term {
+    int unknown;
+    double factor, value = 0;
+  };
+
+  /// Adds weight times (sum of factor x - wanted)².
+  void Add(std::initializer_list<Term> terms, double wanted, double weight) {
+    for (const Term& term : terms) {
+      if (term.unknown < 0) wanted -= term.factor * term.value;
+    }
+    for (const Term& row : terms) {
+      if (row.unknown < 0) continue;
+      right_[row.unknown] += weight * row.factor * wanted;
+      for (const Term& column : terms) {
+        if (column.unknown >= 0)
+          entries_.emplace_back(row.unknown, column.unknown, weight * row.factor * column.factor);
+      }
+    }
+  }
+  Eigen::VectorXd Solve() {
+    normal_.setFromTriplets(entries_.begin(), entries_.end());
+    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
+                                 Eigen::NaturalOrdering<int>>(normal_)
+        .solve(right_);
+  }
+
+ private:
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::SparseMatrix<double> normal_;
+  Eigen::VectorXd right_;
+};
+
+class PelvisSolver {
+ public:
+  PelvisSolver(const std::vector<SupportFrame>& frames, const Eigen::Vector3d& centre_before,
+               const PelvisRules& rules)
+      : frames_(frames),
+        centre_before_(centre_before),
+        rules_(rules),
+        count_(static_cast<int>(frames.size())),
+        moved_(rules.returns ? count_ - 1 : count_),
+        step_(1 / Square(rules.fps)),
+        offset_(Eigen::Matrix3Xd::Zero(3, count_)),
+        pushes_(frames.size()) {
+    const int push = static_cast<int>(std::lround(kPushSeconds * rules.fps));
+    const auto bears = [](const SupportFrame& frame) { return !frame.support.empty(); };
+    const auto first = std::ranges::find_if(frames, bears);
+    const auto last = std::find_if(frames.rbegin(), frames.rend(), bears).base();
+    first_borne_ = static_cast<int>(first - frames.begin());
+    last_borne_ = static_cast<int>(last - frames.begin()) - 1;
+    for (int frame = 0; frame < count_; ++frame) {
+      if (!Leaps(frame)) continue;
+      for (int i = std::max(0, frame - push); i < std::min(count_, frame + push + 1); ++i)
+        pushes_[static_cast<size_t>(i)] = true;
+    }
+  }
+
+  Eigen::Matrix3Xd Solve() {
+    if (moved_ <= 0) return offset_;
+    for (int round = 0; round < kRounds; ++round) {
+      LeastSquares problem(3 * moved_);
+      for (int frame = -1; frame < count_; ++frame) AddSmoothness(frame, &problem);
+      for (int frame = 0; frame < moved_; ++frame) {
+        for (int axis = 0; axis < 3; ++axis)
+          problem.Add({{3 * frame + axis, 1}}, 0, 1 / Square(rules_.options.offset));
+        AddReach(frame, &problem);
+        if (Leaps(frame)) AddFall(frame, &problem);
+        if (!Flies(frame)) frame + 1 < count_ ? AddBalance(frame, &problem) : AddCapture(&problem);
+      }
+      offset_.leftCols(moved_) = problem.Solve().reshaped(3, moved_);
+    }
+    return offset_;
+  }
+
+ private:
+  const SupportFrame& At(int frame) const { return frames_[static_cast<size_t>(frame)]; }
+  bool Flies(int frame) const { return At(frame).support.empty(); }
+  // In a flight that begins and ends within the plan, and is as long as it is high.
+  bool Leaps(int frame) const {
+    return Flies(frame) && frame > first_borne_ && frame < last_borne_;
+  }
+  LeastSquares::Term Term(int frame, int axis, double factor) const {
+    const bool fixed = frame < 0 || frame >= moved_ || (axis != 1 && rules_.heights_alone);
+    return {fixed ? -1 : 3 * frame + axis, factor, Offset(frame, axis)};
+  }
+  double Offset(int frame, int axis) const {
+    if (frame < 0) return rules_.before(axis, 2 + frame);
+    return frame >= count_ ? 0 : offset_(axis, frame);
+  }
+  // The centre of mass as the plan has it; behind the end it goes on.
+  Eigen::Vector3d Planned(int frame) const { return frame < 0 ? centre_before_ : At(frame).centre; }
+  Eigen::Vector3d PlannedStep(int frame) const {
+    return Planned(frame + 1) - 2 * Planned(frame) + Planned(frame - 1);
+  }
+
+  void AddSmoothness(int frame, LeastSquares* problem) const {
+    // Behind a last frame that is no key it goes on as it likes.
+    if (!rules_.returns && frame + 1 >= count_) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool pushes = axis == 1 && frame >= 0 && pushes_[static_cast<size_t>(frame)];
+      const double acceleration = pushes ? kGravity : rules_.options.acceleration;
+      problem->Add({Term(frame - 1, axis, 1), Term(frame, axis, -2), Term(frame + 1, axis, 1)}, 0,
+                   1 / Square(acceleration * step_));
+    }
+  }
+
+  // The way to an ankle shortens by what the pelvis goes along it.
+  void AddReach(int frame, LeastSquares* problem) const {
+    for (const SupportFrame::Leg& leg : At(frame).legs) {
+      const Eigen::Vector3d now = offset_.col(frame), way = leg.to_ankle - now;
+      const double beyond = way.norm() - kStraightestLeg * leg.length;
+      if (beyond <= 0) continue;
+      const Eigen::Vector3d along = way.normalized();
+      problem->Add(
+          {Term(frame, 0, along.x()), Term(frame, 1, along.y()), Term(frame, 2, along.z())},
+          beyond + along.dot(now), 1 / Square(rules_.options.reach));
+    }
+  }
+
+  void AddFall(int frame, LeastSquares* problem) const {
+    problem->Add({Term(frame - 1, 1, 1), Term(frame, 1, -2), Term(frame + 1, 1, 1)},
+                 -PlannedStep(frame).y() - kGravity * step_,
+                 kFirm / Square(rules_.options.acceleration * step_));
+  }
+
+  // The zero moment point c - h c'' / (c''_y + g) moves as the body does, and against its
+  // acceleration; where it should be is the nearest point at the feet.
+  void AddBalance(int frame, LeastSquares* problem) const {
+    if (rules_.heights_alone) return;
+    const auto step = [&](int axis) {
+      return Offset(frame + 1, axis) - 2 * Offset(frame, axis) + Offset(frame - 1, axis);
+    };
+    const Eigen::Vector3d planned = PlannedStep(frame) / step_;
+    const double height = Planned(frame).y() + Offset(frame, 1);
+    const double weight = std::max(kLightest * kGravity, kGravity + planned.y() + step(1) / step_);
+    const double lever = height / weight / step_;
+    Eigen::Vector2d point;
+    for (const int axis : {0, 2}) {
+      point[axis / 2] =
+          Planned(frame)[axis] + Offset(frame, axis) - lever * (planned[axis] * step_ + step(axis));
+    }
+    const Eigen::Vector2d to = NearestInHull(point, At(frame).support) - point;
+    const double share = to.norm() > rules_.options.sole ? 1 - rules_.options.sole / to.norm() : 0;
+    for (const int axis : {0, 2}) {
+      const double now = Offset(frame, axis) - lever * step(axis);
+      problem->Add({Term(frame - 1, axis, -lever), Term(frame, axis, 1 + 2 * lever),
+                    Term(frame + 1, axis, -lever)},
+                   now + share * to[axis / 2], 1 / Square(rules_.options.balance));
+    }
+  }
+
+  // Who is to stand behind an open end, too, has the capture point c + c' sqrt(h / g) at the feet
+  // there (Pratt 2006): else the cheapest way is to topple.
+  void AddCapture(LeastSquares* problem) const {
+    if (rules_.heights_alone) return;
+    const int frame = count_ - 1;
+    const double lead = std::sqrt((Planned(frame).y() + Offset(frame, 1)) / kGravity) * rules_.fps;
+    Eigen::Vector2d point;
+    for (const int axis : {0, 2}) {
+      const double planned = Planned(frame)[axis] - Planned(frame - 1)[axis];
+      point[axis / 2] = Planned(frame)[axis] + lead * planned + Captured(axis, lead);
+    }
+    const Eigen::Vector2d to = NearestInHull(point, At(frame).support) - point;
+    const double share = to.norm() > rules_.options.sole ? 1 - rules_.options.sole / to.norm() : 0;
+    for (const int axis : {0, 2}) {
+      problem->Add({Term(frame, axis, 1 + lead), Term(frame - 1, axis, -lead)},
+                   Captured(axis, lead) + share * to[axis / 2],
+                   kFirm / Square(rules_.options.balance));
+    }
+  }
+  double Captured(int axis, double lead) const {
+    return Offset(count_ - 1, axis) + lead * (Offset(count_ - 1, axis) - Offset(count_ - 2, axis));
+  }
+
+  const std::vector<SupportFrame>& frames_;
+  const Eigen::Vector3d& centre_before_;
+  const PelvisRules& rules_;
+  const int count_, moved_;
+  const double step_;  // seconds squared from frame to frame
+  Eigen::Matrix3Xd offset_;
+  int first_borne_, last_borne_;  // frames in which a foot stands
+  std::vector<bool> pushes_;      // whether a leap is near
+};
+
+}  // namespace
+
+Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
+                              const Eigen::Vector3d& centre_before, const PelvisRules& rules) {
+  return PelvisSolver(frames, centre_before, rules).Solve();
+}
+
+}  // namespace choreo

@@ -1,0 +1,133 @@
+#include "model/plan/contact_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace choreo::contact_plan_test {
+
+constexpr double kFps = 30;
+constexpr int kFrames = 60;
+
+// Feet that stand `apart` from the middle, on the floor, below the body.
+FootTrack Standing(double x) {
+  FootTrack foot;
+  foot.before = {x, 0.02, 0};
+  foot.stood = true;
+  foot.toes.assign(kFrames, foot.before);
+  foot.heights.assign(kFrames, 0);
+  foot.unbalanced.assign(kFrames, 0);
+  return foot;
+}
+
+void Lift(FootTrack* foot, int from, int to, double height) {
+  for (int i = from; i < to; ++i) {
+    foot->heights[static_cast<size_t>(i)] = height;
+    foot->toes[static_cast<size_t>(i)].y() += height;
+  }
+}
+
+int FramesInAir(const std::array<std::vector<Stance>, 2>& stances) {
+  int count = 0;
+  for (int i = 0; i < kFrames; ++i)
+    count += StanceAt(stances[0], i) == nullptr && StanceAt(stances[1], i) == nullptr;
+  return count;
+}
+
+TEST(PlanContacts, WhoStandsStands) {
+  for (const auto& stances : PlanContacts({Standing(0.1), Standing(-0.1)}, kFps, {})) {
+    ASSERT_EQ(stances.size(), 1U);
+    EXPECT_EQ(stances[0].from, 0);
+    EXPECT_EQ(stances[0].to, kFrames - 1);
+  }
+}
+
+TEST(PlanContacts, AFootThatThePlanLiftsIsInTheAirAndTheOtherCarries) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  Lift(&feet[0], 20, 35, 0.3);
+  const auto stances = PlanContacts(feet, kFps, {});
+  ASSERT_EQ(stances[0].size(), 2U);
+  EXPECT_NEAR(stances[0][0].to, 19, 1);
+  EXPECT_NEAR(stances[0][1].from, 35, 1);
+  EXPECT_EQ(stances[1].size(), 1U);
+}
+
+TEST(PlanContacts, AGlidingFootSteps) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (FootTrack& foot : feet) {
+    for (size_t i = 0; i < kFrames; ++i) foot.toes[i].z() = 0.02 * static_cast<double>(i + 1);
+  }
+  const auto stances = PlanContacts(feet, kFps, {});
+  EXPECT_GE(stances[0].size() + stances[1].size(), 4U);
+  EXPECT_EQ(FramesInAir(stances), 0);
+  for (const auto& foot : stances) {
+    for (const Stance& stance : foot) {
+      const double middle = 0.01 * (stance.from + stance.to + 2);
+      if (stance.from == 0) continue;
+      EXPECT_NEAR(stance.place.z(), middle, 1e-9);
+    }
+  }
+}
+
+TEST(PlanContacts, WhoHoversComesDown) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (FootTrack& foot : feet) Lift(&foot, 0, kFrames, 0.12);
+  EXPECT_EQ(FramesInAir(PlanContacts(feet, kFps, {})), 0);
+}
+
+TEST(PlanContacts, NoFlightLastsLongerThanTheLongest) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (FootTrack& foot : feet) Lift(&foot, 20, 28, 0.8);
+  EXPECT_GT(FramesInAir(PlanContacts(feet, kFps, {})), 4);
+  for (FootTrack& foot : feet) Lift(&foot, 28, 50, 0.8);
+  const FootworkOptions options;
+  EXPECT_LE(FramesInAir(PlanContacts(feet, kFps, options)), options.longest_flight * kFps);
+}
+
+TEST(PlanContacts, TheKeyHasTheLastWord) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  feet[0].end = FootTrack::End::kInAir;
+  Lift(&feet[0], kFrames - 1, kFrames, 0.4);
+  feet[1].end = FootTrack::End::kStands;
+  feet[1].toes.back() = {-0.3, 0.05, 0.4};
+  const auto stances = PlanContacts(feet, kFps, {});
+  EXPECT_EQ(StanceAt(stances[0], kFrames - 1), nullptr);
+  const Stance* last = StanceAt(stances[1], kFrames - 1);
+  ASSERT_NE(last, nullptr);
+  EXPECT_EQ(last->place, feet[1].toes.back());
+  // A foot that is up takes the time that a fall takes.
+  EXPECT_EQ(StanceAt(stances[0], kFrames - 5), nullptr);
+}
+
+TEST(PlanContacts, AFootInTheAirLandsNoSoonerThanItFalls) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  feet[0].stood = false;
+  feet[0].height_before = 0.3;
+  const auto stances = PlanContacts(feet, kFps, {});
+  ASSERT_EQ(stances[0].size(), 1U);
+  EXPECT_EQ(stances[0][0].from, 8);  // sqrt(2 0.3 / 9.81) s
+}
+
+TEST(PlanContacts, WhereTheSceneLiesChangesNothing) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (size_t i = 0; i < kFrames; ++i) feet[0].toes[i].z() += 0.015 * static_cast<double>(i);
+  Lift(&feet[1], 10, 20, 0.2);
+  const auto here = PlanContacts(feet, kFps, {});
+  const Eigen::Vector3d by(3, 0, -5);
+  for (FootTrack& foot : feet) {
+    foot.before += by;
+    for (Eigen::Vector3d& toes : foot.toes) toes += by;
+  }
+  const auto there = PlanContacts(feet, kFps, {});
+  for (size_t side = 0; side < 2; ++side) {
+    ASSERT_EQ(here[side].size(), there[side].size());
+    for (size_t i = 0; i < here[side].size(); ++i) {
+      EXPECT_EQ(here[side][i].from, there[side][i].from);
+      Eigen::Vector3d moved = there[side][i].place - here[side][i].place;
+      moved.y() = 0;
+      EXPECT_NEAR((moved - by).norm(), 0, 1e-9);
+    }
+  }
+}
+
+}  // namespace choreo::contact_plan_test

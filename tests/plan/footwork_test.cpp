@@ -1,0 +1,164 @@
+#include "model/plan/footwork.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/limb.h"
+#include "model/motion/rotation.h"
+
+namespace choreo::footwork_test {
+
+constexpr double kFps = 30;
+constexpr int kFrames = 60;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+// Standing with soft knees, moved by `by`.
+Pose At(const Eigen::Vector3d& by) {
+  Pose pose = RestPose(Body());
+  for (const Leg& leg : Leg::Of(Body())) {
+    pose.rotations.col(leg.hip).x() = -0.25;
+    pose.rotations.col(leg.knee).x() = 0.5;
+    pose.rotations.col(leg.ankle).x() = -0.25;
+  }
+  pose.root_position.y() = *StandingHeight(Body(), pose);
+  pose.root_position += by;
+  return pose;
+}
+
+const std::vector<Pose> kHistory(10, At({0, 0, 0}));
+
+FootworkContext Context() { return {.skeleton = Body(), .history = kHistory, .fps = kFps}; }
+
+std::vector<Pose> Glide(double metres_a_frame, double height = 0) {
+  std::vector<Pose> plan;
+  for (int i = 1; i <= kFrames; ++i)
+    plan.push_back(At({0, height * std::min(1.0, i / 10.0), metres_a_frame * i}));
+  return plan;
+}
+
+double LowestFoot(const Pose& pose) {
+  const Eigen::Matrix3Xd at = JointPositions(Body(), pose);
+  double lowest = INFINITY;
+  for (const int foot : {Body().feet[1], Body().feet[3]}) lowest = std::min(lowest, at(1, foot));
+  return lowest;
+}
+
+TEST(StandOnFeet, WhoStandsStays) {
+  std::vector<Pose> plan(kFrames, At({0, 0, 0}));
+  const Footwork footwork = StandOnFeet(Context(), &plan);
+  ASSERT_EQ(footwork.contacts.size(), plan.size());
+  for (size_t i = 0; i < plan.size(); ++i) {
+    EXPECT_LT(ComparePoses(Body(), plan[i], At({0, 0, 0})).position_m, 0.01) << i;
+    EXPECT_EQ(footwork.contacts[i], (Contacts{1, 1, 1, 1}));
+  }
+}
+
+TEST(StandOnFeet, FeetOfAGlidingBodyStandAndStep) {
+  std::vector<Pose> plan = Glide(0.015);
+  const Footwork footwork = StandOnFeet(Context(), &plan);
+  int steps = 0;
+  for (size_t i = 1; i < plan.size(); ++i) {
+    const Eigen::Matrix3Xd before = JointPositions(Body(), plan[i - 1]);
+    const Eigen::Matrix3Xd now = JointPositions(Body(), plan[i]);
+    for (const size_t toes : {1U, 3U}) {
+      const bool stood = footwork.contacts[i - 1][toes] > 0,
+                 stands = footwork.contacts[i][toes] > 0;
+      steps += !stood && stands;
+      const int joint = Body().feet[toes];
+      if (!stood || !stands) continue;
+      EXPECT_LT((now.col(joint) - before.col(joint)).norm(), 0.006) << i;
+    }
+    EXPECT_TRUE(footwork.contacts[i][1] > 0 || footwork.contacts[i][3] > 0);
+  }
+  EXPECT_GE(steps, 3);
+}
+
+TEST(StandOnFeet, WhoHoversIsPutOnTheFloor) {
+  std::vector<Pose> plan = Glide(0.005, 0.12);
+  ASSERT_GT(LowestFoot(plan[kFrames / 2]), 0.1);
+  StandOnFeet(Context(), &plan);
+  for (const Pose& pose : plan) EXPECT_LT(LowestFoot(pose), 0.05);
+}
+
+TEST(StandOnFeet, HeelsStayAboveTheFloor) {
+  std::vector<Pose> plan = Glide(0.005);
+  for (Pose& pose : plan) {
+    for (const Leg& leg : Leg::Of(Body())) pose.rotations.col(leg.ankle).x() -= 0.6;
+  }
+  StandOnFeet(Context(), &plan);
+  const Eigen::Matrix3Xd rest = JointPositions(Body(), RestPose(Body()));
+  for (size_t i = 10; i < plan.size(); ++i) {
+    const Eigen::Matrix3Xd at = JointPositions(Body(), plan[i]);
+    for (const size_t ankle : {0U, 2U})
+      EXPECT_GT(at(1, Body().feet[ankle]), rest(1, Body().feet[ankle]) - 0.01) << i;
+  }
+}
+
+TEST(StandOnFeet, NothingTouchesAKey) {
+  std::vector<Pose> plan = Glide(0.01, 0.1);
+  const Pose key = plan.back();
+  FootworkContext context = Context();
+  context.keyed = true;
+  context.feet_known = {true, true};
+  StandOnFeet(context, &plan);
+  EXPECT_EQ(plan.back().root_position, key.root_position);
+  EXPECT_EQ(plan.back().rotations, key.rotations);
+}
+
+TEST(StandOnFeet, APathKeepsItsPlaceOnTheFloor) {
+  std::vector<Pose> plan = Glide(0.01, 0.1);
+  const std::vector<Pose> proposed = plan;
+  FootworkContext context = Context();
+  context.has_path = true;
+  StandOnFeet(context, &plan);
+  for (size_t i = 0; i < plan.size(); ++i) {
+    EXPECT_EQ(plan[i].root_position.x(), proposed[i].root_position.x());
+    EXPECT_EQ(plan[i].root_position.z(), proposed[i].root_position.z());
+  }
+}
+
+TEST(StandOnFeet, TurningTheSceneTurnsTheDance) {
+  const GroundFrame ground{{2, 0, -1}, 0.7};
+  const auto all = [&](std::vector<Pose> poses) {
+    for (Pose& pose : poses) pose = ground.ToWorld(pose);
+    return poses;
+  };
+  std::vector<Pose> here = Glide(0.012, 0.06);
+  std::vector<Pose> there = all(here);
+  StandOnFeet(Context(), &here);
+  const std::vector<Pose> history = all(kHistory);
+  FootworkContext context = Context();
+  context.history = history;
+  StandOnFeet(context, &there);
+  here = all(here);
+  for (size_t i = 0; i < here.size(); ++i)
+    EXPECT_LT(ComparePoses(Body(), here[i], there[i]).position_m, 1e-6) << i;
+}
+
+TEST(StandOnFeet, LongPlansGoOnWhereTheirPiecesMeet) {
+  std::vector<Pose> plan = Glide(0.012, 0.08);
+  std::vector<Pose> first(plan.begin(), plan.begin() + 30), rest(plan.begin() + 30, plan.end());
+  FootworkContext context = Context();
+  context.offset_before = StandOnFeet(context, &first).offset;
+  context.history = std::span(first).last(10);
+  StandOnFeet(context, &rest);
+  const double before = (first[29].root_position - first[28].root_position).norm();
+  EXPECT_NEAR((rest[0].root_position - first[29].root_position).norm(), before, 0.01);
+}
+
+TEST(StandOnFeet, WhoHasNoLegsIsLeftAlone) {
+  Skeleton legless = Body();
+  legless.feet = {-1, -1, -1, -1};
+  FootworkContext context{.skeleton = legless, .history = kHistory, .fps = kFps};
+  std::vector<Pose> plan = Glide(0.01);
+  EXPECT_TRUE(StandOnFeet(context, &plan).contacts.empty());
+  EXPECT_EQ(plan.back().root_position, Glide(0.01).back().root_position);
+}
+
+}  // namespace choreo::footwork_test

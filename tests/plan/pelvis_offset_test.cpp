@@ -1,0 +1,76 @@
+#include "model/plan/pelvis_offset.h"
+
+#include <gtest/gtest.h>
+
+namespace choreo::pelvis_offset_test {
+
+constexpr double kFps = 30, kHeight = 1;
+constexpr int kFrames = 60;
+
+// Who stands still, feet `beside` the centre of mass.
+std::vector<SupportFrame> Still(double beside) {
+  SupportFrame frame;
+  frame.support = {
+      {beside - 0.05, -0.1}, {beside + 0.05, -0.1}, {beside - 0.05, 0.1}, {beside + 0.05, 0.1}};
+  frame.centre = {0, kHeight, 0};
+  frame.legs = {{.to_ankle = {0, -0.7, 0}, .length = 0.8}};
+  return std::vector<SupportFrame>(kFrames, frame);
+}
+
+TEST(PelvisOffset, WhoIsBalancedStays) {
+  EXPECT_NEAR(PelvisOffset(Still(0), {0, kHeight, 0}, {.fps = kFps}).norm(), 0, 1e-9);
+}
+
+TEST(PelvisOffset, WhoseFeetAreBesideGoesThere) {
+  const Eigen::Matrix3Xd offset = PelvisOffset(Still(0.3), {0, kHeight, 0}, {.fps = kFps});
+  EXPECT_GT(offset(0, kFrames - 1), 0.1);
+  EXPECT_NEAR(offset.row(2).norm(), 0, 1e-9);
+  // The first frame goes on from the one before, in which nothing was moved.
+  EXPECT_LT(offset.col(0).norm(), 0.02);
+}
+
+TEST(PelvisOffset, LegsThatAreTooShortDrawItDown) {
+  std::vector<SupportFrame> frames = Still(0);
+  for (int i = 20; i < 40; ++i) frames[static_cast<size_t>(i)].legs[0].to_ankle.y() = -0.85;
+  const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight, 0}, {.fps = kFps});
+  EXPECT_NEAR(offset(1, 30), 0.985 * 0.8 - 0.85, 0.01);
+}
+
+TEST(PelvisOffset, WhoFliesFalls) {
+  std::vector<SupportFrame> frames = Still(0);
+  for (int i = 25; i < 35; ++i) {
+    frames[static_cast<size_t>(i)].support.clear();
+    frames[static_cast<size_t>(i)].legs.clear();
+  }
+  const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight, 0}, {.fps = kFps});
+  for (int i = 27; i < 33; ++i) {
+    const double acceleration =
+        (offset(1, i + 1) - 2 * offset(1, i) + offset(1, i - 1)) * kFps * kFps;
+    EXPECT_NEAR(acceleration, -9.81, 1.5) << i;
+  }
+  EXPECT_GT(offset(1, 30), offset(1, 20) + 0.05);  // so it leaps
+}
+
+TEST(PelvisOffset, AKeyAndAPathStayWhereTheyAre) {
+  const Eigen::Vector3d before(0, kHeight, 0);
+  const Eigen::Matrix3Xd keyed = PelvisOffset(Still(0.3), before, {.returns = true, .fps = kFps});
+  EXPECT_EQ(keyed.col(kFrames - 1).norm(), 0);
+  EXPECT_GT(keyed(0, kFrames / 2), 0.03);
+  std::vector<SupportFrame> frames = Still(0.3);
+  for (SupportFrame& frame : frames) frame.legs[0].to_ankle.y() = -0.85;
+  const Eigen::Matrix3Xd on_path =
+      PelvisOffset(frames, before, {.heights_alone = true, .fps = kFps});
+  EXPECT_EQ(on_path.row(0).norm() + on_path.row(2).norm(), 0);
+  EXPECT_LT(on_path(1, 30), -0.03);
+}
+
+TEST(PelvisOffset, APieceGoesOnFromTheOneBefore) {
+  Eigen::Matrix<double, 3, 2> before;
+  before << 0.10, 0.11, 0, 0, 0, 0;
+  const Eigen::Matrix3Xd offset =
+      PelvisOffset(Still(0), {0, kHeight, 0}, {.before = before, .fps = kFps});
+  EXPECT_NEAR(offset(0, 0), 0.11, 0.01);
+  EXPECT_LT(offset(0, kFrames - 1), 0.08);
+}
+
+}  // namespace choreo::pelvis_offset_test
