@@ -37,9 +37,12 @@ struct Object {
   std::optional<NpyArray> array = {};  // of a number, too
 };
 
-const std::set<std::string> kKnownGlobals = {"numpy.ndarray", "numpy.dtype",
+const std::set<std::string> kKnownGlobals = {"numpy.ndarray",
+                                             "numpy.dtype",
                                              "numpy.core.multiarray._reconstruct",
-                                             "numpy.core.numeric._frombuffer", "_codecs.encode"};
+                                             "numpy.core.multiarray.scalar",
+                                             "numpy.core.numeric._frombuffer",
+                                             "_codecs.encode"};
 
 /// The machine that pickles are written for, as far as dicts of arrays need it.
 class Unpickler {
@@ -149,6 +152,11 @@ class Unpickler {
       Push(Object{.kind = kDtype, .text = "<" + Item(given, 0, kText)->text});
     } else if (callee == "numpy.core.multiarray._reconstruct") {
       Push(Object{.kind = kArray});  // BUILD fills it
+    } else if (callee == "numpy.core.multiarray.scalar") {
+      PushTuple({});  // the shape of one number
+      const Ref shape = Pop();
+      Push(Object{.kind = kArray});
+      Fill(stack_.back(), shape, Item(given, 0, kDtype), false, Item(given, 1, kText));
     } else if (callee == "numpy.core.numeric._frombuffer") {
       Push(Object{.kind = kArray});
       Fill(stack_.back(), Item(given, 2, kTuple), Item(given, 1, kDtype),

@@ -55,6 +55,19 @@ TEST(PickleTest, ReadsWhatNumpyPickled) {
   }
 }
 
+/// pickle.dumps({'smpl_scaling': np.float32(93.5), 'smpl_loss': np.float64(0.25), 'frames':
+/// np.int64(-70000)}, protocol), as some of AIST++'s files hold them.
+TEST(PickleTest, ReadsNumbersThatNumpyPickled) {
+  for (const char* protocol : {"2", "4"}) {
+    const NpzArchive numbers = Parse(Bytes(std::filesystem::path(CHOREO_TEST_DATA) / "pickles" /
+                                           ("scalars" + std::string(protocol) + ".pkl")));
+    EXPECT_EQ(numbers.Array("smpl_scaling").As<double>(), std::vector<double>{93.5});
+    EXPECT_EQ(numbers.Array("smpl_loss").As<double>(), std::vector<double>{0.25});
+    EXPECT_EQ(numbers.Array("frames").As<int64_t>(), std::vector<int64_t>{-70000});
+    EXPECT_TRUE(numbers.Array("frames").shape.empty());
+  }
+}
+
 TEST(PickleTest, RunsNothing) {
   const TemporaryFolder folder;
   const std::filesystem::path made = folder / "made";
