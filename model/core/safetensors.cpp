@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -58,6 +59,15 @@ const NamedTensor& Safetensors::Get(const std::string& name,
   if (found->second.shape != shape)
     throw InvalidArgument(name, "its shape does not fit the configuration");
   return found->second;
+}
+
+void RoundToBfloat16(NamedTensor* tensor) {
+  for (float& value : tensor->data) {
+    const auto bits = std::bit_cast<uint32_t>(value);
+    if (std::isnan(value)) continue;
+    // Ties to the even one.
+    value = std::bit_cast<float>((bits + 0x7FFFU + ((bits >> 16U) & 1U)) & 0xFFFF0000U);
+  }
 }
 
 Safetensors ReadSafetensors(const std::filesystem::path& path) {

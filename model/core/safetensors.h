@@ -24,6 +24,9 @@ struct Safetensors {
   const NamedTensor& Get(const std::string& name, const std::vector<int64_t>& shape) const;
 };
 
+/// The nearest values that a file keeps in half the bytes.
+void RoundToBfloat16(NamedTensor* tensor);
+
 /// Throws Error(kNotFound) for a missing file and Error(kInvalidArgument) for one that is
 /// truncated, overlapping, not float32 or not safetensors at all; the message names the file and
 /// the tensor.

@@ -51,12 +51,17 @@ void ImportTensors(const Safetensors& content, const std::string& prefix,
     ImportTensor(content, prefix + item.key(), item.value());
 }
 
+std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model, Safetensors weights,
+                           const nlohmann::json& card) {
+  return WriteCheckpointFile(path, std::move(weights), kFlowFormat, model->config(),
+                             model->skeleton(), card);
+}
+
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card) {
   Safetensors content;
   ExportTensors(*model, "", &content);
-  return WriteCheckpointFile(path, std::move(content), kFlowFormat, model->config(),
-                             model->skeleton(), card);
+  return SaveCheckpoint(path, model, std::move(content), card);
 }
 
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) {

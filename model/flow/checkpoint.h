@@ -25,7 +25,11 @@ using Checkpoint = CheckpointOf<FlowModel>;
 /// says which.
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
 
-/// Writes atomically; returns the content hash. `card` is JSON.
+/// Writes atomically; returns the content hash. `card` is JSON. `weights`: what the network's
+/// tensors are to be.
+std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model, Safetensors weights,
+                           const nlohmann::json& card);
+/// The network as it is.
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card);
 

@@ -10,25 +10,39 @@ using torch::indexing::Slice;
 
 CouplingNetworkImpl::CouplingNetworkImpl(int input, int hidden, int output) : hidden_(hidden) {
   lstm_ = register_module(
-      "lstm",
-      torch::nn::LSTM(torch::nn::LSTMOptions(input, hidden).num_layers(kLayers).batch_first(true)));
+      "lstm", torch::nn::LSTM(
+                  torch::nn::LSTMOptions(input, hidden).num_layers(kLstmLayers).batch_first(true)));
   last_ = register_module("last", torch::nn::Linear(hidden, output));
   torch::nn::init::zeros_(last_->weight);
   torch::nn::init::zeros_(last_->bias);
 }
 
-Tensor CouplingNetworkImpl::forward(const Tensor& input, Tensor* state) {
+Tensor CouplingNetworkImpl::RunFused(const Tensor& input, CouplingState* state) {
+  const std::vector<Tensor> weights = lstm_->parameters();  // layer by layer
+  Tensor x = input;
+  for (size_t layer = 0; layer < kLstmLayers; ++layer) {
+    const auto from = weights.begin() + static_cast<std::ptrdiff_t>(4 * layer);
+    x = RunLstmLayer(x, {from[0], from[1], from[2], from[3]}, &(*state)[layer]);
+  }
+  return x;
+}
+
+Tensor CouplingNetworkImpl::forward(const Tensor& input, CouplingState* state) {
   const auto inside = last_->weight.scalar_type(), outside = input.scalar_type();
-  const Tensor x = input.to(inside);
-  // [batch, 2 * layers * hidden] ↔ h, c of [layers, batch, hidden]
-  const int64_t batch = input.size(0);
-  const Tensor split = state->view({batch, 2, kLayers, hidden_}).permute({1, 2, 0, 3}).to(inside);
+  // Serving keeps to LibTorch's own: the reference.
+  if (torch::GradMode::is_enabled() && input.is_cpu() && inside == torch::kFloat32 &&
+      outside == torch::kFloat32)
+    return last_(RunFused(input, state));
+  const auto both = [&](Tensor LstmState::*part) {
+    return torch::stack({(*state)[0].*part, (*state)[1].*part}).to(inside);
+  };
   const auto [output, next] =
-      lstm_->forward(x, std::make_tuple(split[0].contiguous(), split[1].contiguous()));
-  *state = torch::stack({std::get<0>(next), std::get<1>(next)})
-               .permute({2, 0, 1, 3})
-               .reshape({batch, StateWidth()})
-               .to(outside);
+      lstm_->forward(input.to(inside), std::make_tuple(both(&LstmState::h), both(&LstmState::c)));
+  const auto [h, c] = next;
+  for (size_t layer = 0; layer < kLstmLayers; ++layer) {
+    const auto at = static_cast<int64_t>(layer);
+    (*state)[layer] = {h[at].to(outside), c[at].to(outside)};
+  }
   return last_(output).to(outside);
 }
 
@@ -61,7 +75,7 @@ Tensor FlowStepImpl::InverseWeight() const {
 }
 
 std::pair<Tensor, Tensor> FlowStepImpl::Affine(const Tensor& low, const Tensor& condition,
-                                               Tensor* state) {
+                                               CouplingState* state) {
   const Tensor both = network_(torch::cat({low, condition}, -1), state);
   const auto halves = both.chunk(2, -1);
   const Tensor delta = kDeltaFloor + (1 - kDeltaFloor) * torch::sigmoid(halves[1] + kDeltaBias);
@@ -76,7 +90,7 @@ void FlowStepImpl::InitialiseActNorm(const Tensor& x) {
   norm_bias_.copy_(-flat.mean(0));
 }
 
-Tensor FlowStepImpl::Forward(const Tensor& x, const Tensor& condition, Tensor* state,
+Tensor FlowStepImpl::Forward(const Tensor& x, const Tensor& condition, CouplingState* state,
                              Tensor* log_det) {
   const Tensor normed = (x + norm_bias_) * norm_log_scale_.exp();
   const Tensor h = torch::matmul(normed, Weight().t());
@@ -88,12 +102,13 @@ Tensor FlowStepImpl::Forward(const Tensor& x, const Tensor& condition, Tensor* s
 }
 
 Tensor FlowStepImpl::Inverse(const Tensor& z, const Tensor& condition, const Tensor& inverse_weight,
-                             Tensor* state, Tensor* log_det) {
+                             CouplingState* state, Tensor* log_det) {
   const Tensor low = z.index({Ellipsis, Slice(0, low_)});
   const auto [mu, delta] = Affine(low, condition, state);
   const Tensor high = (z.index({Ellipsis, Slice(low_)}) - mu) / delta;
   const Tensor normed = torch::matmul(torch::cat({low, high}, -1), inverse_weight);
-  *log_det = *log_det + norm_log_scale_.sum() + log_diagonal_.sum() + delta.log().sum(-1);
+  if (log_det != nullptr)
+    *log_det = *log_det + norm_log_scale_.sum() + log_diagonal_.sum() + delta.log().sum(-1);
   return normed * (-norm_log_scale_).exp() - norm_bias_;
 }
 
@@ -115,38 +130,57 @@ FlowState CouplingFlowImpl::InitialState(int64_t batch) const {
 
 namespace {
 
-// Cuts the flattened state into one piece a step, runs `visit(k, step, piece)` over the steps and
-// puts the pieces together again.
-template <typename Visit>
-void WithStates(const torch::nn::ModuleList& steps, FlowState* state, bool backwards, Visit visit) {
-  const int count = static_cast<int>(steps->size());
-  std::vector<Tensor> pieces = state->chunk(count, -1);
-  for (int i = 0; i < count; ++i) {
-    const int k = backwards ? count - 1 - i : i;
-    visit(k, *steps->ptr(k)->as<FlowStep>(), &pieces[k]);
+FlowState Joined(const std::vector<CouplingState>& states) {
+  std::vector<Tensor> pieces;
+  for (const CouplingState& state : states) {
+    for (const LstmState& layer : state) pieces.push_back(layer.h);
+    for (const LstmState& layer : state) pieces.push_back(layer.c);
   }
-  *state = torch::cat(pieces, -1);
+  return torch::cat(pieces, -1);
 }
 
 }  // namespace
 
+std::vector<CouplingState> CouplingFlowImpl::Split(const FlowState& state) const {
+  const auto count = static_cast<int64_t>(steps_->size());
+  const std::vector<Tensor> pieces = state.chunk(2 * kLstmLayers * count, -1);
+  std::vector<CouplingState> states(steps_->size());
+  for (size_t k = 0; k < states.size(); ++k) {
+    for (size_t layer = 0; layer < kLstmLayers; ++layer) {
+      const size_t h = 2 * kLstmLayers * k + layer;
+      states[k][layer] = {pieces[h], pieces[h + kLstmLayers]};
+    }
+  }
+  return states;
+}
+
 Tensor CouplingFlowImpl::Forward(const Tensor& x, const Tensor& condition, FlowState* state,
                                  Tensor* log_det) {
   Tensor h = x;
-  WithStates(steps_, state, false, [&](int, FlowStepImpl& step, Tensor* piece) {
-    h = step.Forward(h, condition, piece, log_det);
-  });
+  std::vector<CouplingState> states = Split(*state);
+  for (size_t k = 0; k < states.size(); ++k)
+    h = steps_->ptr(k)->as<FlowStep>()->Forward(h, condition, &states[k], log_det);
+  *state = Joined(states);
+  return h;
+}
+
+Tensor CouplingFlowImpl::Inverse(const Tensor& z, const Tensor& condition,
+                                 const std::vector<Tensor>& inverse_weights,
+                                 std::vector<CouplingState>* states, Tensor* log_det) {
+  Tensor h = z;
+  for (size_t k = states->size(); k-- > 0;)
+    h = steps_->ptr(k)->as<FlowStep>()->Inverse(h, condition, inverse_weights[k], &(*states)[k],
+                                                log_det);
   return h;
 }
 
 Tensor CouplingFlowImpl::Inverse(const Tensor& z, const Tensor& condition,
                                  const std::vector<Tensor>& inverse_weights, FlowState* state,
                                  Tensor* log_det) {
-  Tensor h = z;
-  WithStates(steps_, state, true, [&](int k, FlowStepImpl& step, Tensor* piece) {
-    h = step.Inverse(h, condition, inverse_weights[k], piece, log_det);
-  });
-  return h;
+  std::vector<CouplingState> states = Split(*state);
+  const Tensor x = Inverse(z, condition, inverse_weights, &states, log_det);
+  *state = Joined(states);
+  return x;
 }
 
 std::vector<Tensor> CouplingFlowImpl::InverseWeights() const {
@@ -158,12 +192,13 @@ std::vector<Tensor> CouplingFlowImpl::InverseWeights() const {
 void CouplingFlowImpl::InitialiseActNorm(const Tensor& x, const Tensor& condition) {
   torch::NoGradGuard no_grad;
   Tensor h = x;
-  FlowState state = InitialState(x.size(0));
+  std::vector<CouplingState> states = Split(InitialState(x.size(0)));
   Tensor log_det = torch::zeros({x.size(0), x.size(1)}, x.options());
-  WithStates(steps_, &state, false, [&](int, FlowStepImpl& step, Tensor* piece) {
-    step.InitialiseActNorm(h);
-    h = step.Forward(h, condition, piece, &log_det);
-  });
+  for (size_t k = 0; k < states.size(); ++k) {
+    const auto step = steps_->ptr(k)->as<FlowStep>();
+    step->InitialiseActNorm(h);
+    h = step->Forward(h, condition, &states[k], &log_det);
+  }
 }
 
 }  // namespace choreo

@@ -8,6 +8,7 @@
 #include <torch/types.h>
 
 #include "model/flow/flow_config.h"
+#include "model/flow/lstm_layer.h"
 
 /// The conditional normalizing flow of paper F, Section 3.2.2 and Figure 3: K times ActNorm →
 /// invertible linear (PLU) → affine coupling. Works on standardised features, [batch, time, width];
@@ -17,17 +18,21 @@ namespace choreo {
 /// Recurrent state of every coupling, flattened: [batch, StateWidth()].
 using FlowState = torch::Tensor;
 
+inline constexpr int kLstmLayers = 2;  ///< of a coupling's network
+/// The state of one coupling, layer by layer.
+using CouplingState = std::array<LstmState, kLstmLayers>;
+
 /// The network [a, b] = f(h_lo, condition) of one coupling (Eq. 7): 2-layer LSTM, last layer
 /// zero-initialised.
 class CouplingNetworkImpl : public torch::nn::Module {
  public:
   CouplingNetworkImpl(int input, int hidden, int output);
-  /// `state` [batch, StateWidth()] is read and replaced.
-  torch::Tensor forward(const torch::Tensor& input, torch::Tensor* state);
-  int StateWidth() const { return 2 * kLayers * hidden_; }
+  /// `state` is read and replaced.
+  torch::Tensor forward(const torch::Tensor& input, CouplingState* state);
+  int StateWidth() const { return 2 * kLstmLayers * hidden_; }
 
  private:
-  static constexpr int kLayers = 2;
+  torch::Tensor RunFused(const torch::Tensor& input, CouplingState* state);
   int hidden_;
   torch::nn::LSTM lstm_{nullptr};
   torch::nn::Linear last_{nullptr};
@@ -40,10 +45,10 @@ class FlowStepImpl : public torch::nn::Module {
   FlowStepImpl(int width, int condition, int hidden);
   /// x → z; adds log |det dz/dx| of each frame to `log_det` [batch, time].
   torch::Tensor Forward(const torch::Tensor& x, const torch::Tensor& condition,
-                        torch::Tensor* state, torch::Tensor* log_det);
-  /// z → x; subtracts the same log-determinant.
+                        CouplingState* state, torch::Tensor* log_det);
+  /// z → x; adds the same log-determinant, unless `log_det` is null.
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
-                        const torch::Tensor& inverse_weight, torch::Tensor* state,
+                        const torch::Tensor& inverse_weight, CouplingState* state,
                         torch::Tensor* log_det);
   /// (W^-1)^T of the invertible linear layer, [width, width]; in float64 inside.
   torch::Tensor InverseWeight() const;
@@ -57,7 +62,7 @@ class FlowStepImpl : public torch::nn::Module {
   /// [mu, delta] of Eq. 7 for one half.
   std::pair<torch::Tensor, torch::Tensor> Affine(const torch::Tensor& low,
                                                  const torch::Tensor& condition,
-                                                 torch::Tensor* state);
+                                                 CouplingState* state);
   int low_;                                   ///< width of the half that passes unchanged
   torch::Tensor norm_bias_, norm_log_scale_;  // [width]
   torch::Tensor permutation_, sign_, lower_, upper_, log_diagonal_;  // PLU
@@ -77,6 +82,11 @@ class CouplingFlowImpl : public torch::nn::Module {
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const std::vector<torch::Tensor>& inverse_weights, FlowState* state,
                         torch::Tensor* log_det);
+  /// The same, of states that lie apart; `log_det` may be null.
+  torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
+                        const std::vector<torch::Tensor>& inverse_weights,
+                        std::vector<CouplingState>* states, torch::Tensor* log_det);
+  std::vector<CouplingState> Split(const FlowState& state) const;
   std::vector<torch::Tensor> InverseWeights() const;
   void InitialiseActNorm(const torch::Tensor& x, const torch::Tensor& condition);
   /// Zeros, [batch, StateWidth()].

@@ -13,6 +13,11 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
   FlowConfig config;
   config.name = name;
   if (name == "paper") return config;
+  if (name == "paper-f") {
+    config.hidden = 128;
+    config.condition_width = 128;
+    return config;
+  }
   if (name == "ablation") {
     config.flow_steps = 4;
     config.hidden = 56;
@@ -20,7 +25,7 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     config.history_noise = 0.1;
     return config;
   }
-  throw InvalidArgument("preset", "'" + name + "' is neither paper nor ablation");
+  throw InvalidArgument("preset", "'" + name + "' is none of paper, paper-f, ablation");
 }
 
 }  // namespace choreo

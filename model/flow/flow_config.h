@@ -45,7 +45,9 @@ struct FlowConfig {
   /// Numbers of music that a frame is made of: the rows of its past, and its own.
   int HeardWidth() const { return (history_frames + 1) * audio_features; }
 
-  /// `paper` | `ablation`. Throws Error(kInvalidArgument) for another name.
+  /// `paper` as printed, 99 M weights | `paper-f`, its twentieth: one shared encoding of the
+  /// condition, narrower LSTMs | `ablation`, smaller still. Throws Error(kInvalidArgument) for
+  /// another name.
   static FlowConfig Preset(const std::string& name);
 };
 

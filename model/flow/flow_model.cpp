@@ -3,6 +3,7 @@
 #include <torch/torch.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "model/flow/key_condition.h"
 #include "model/flow/torch_kinematics.h"
@@ -18,6 +19,12 @@ namespace {
 Tensor BoundSample(const Tensor& x) {
   const Tensor inside = x.clamp(-kSampleBound, kSampleBound);
   return inside + (x - inside).tanh();
+}
+
+// log |dy/dx| of that, summed over features: -2 log cosh of what lies beyond the bound.
+Tensor BoundLogDet(const Tensor& x) {
+  const Tensor beyond = (x.abs() - kSampleBound).clamp_min(0);
+  return -2 * (beyond + torch::log1p((-2 * beyond).exp()) - std::numbers::ln2).sum(-1);
 }
 
 }  // namespace
@@ -89,20 +96,26 @@ Tensor FlowModelImpl::Condition(const Tensor& past, const Tensor& audio,
       encode_(torch::silu(encode_past_(past) + encode_audio_(audio) + static_condition)));
 }
 
+Tensor FlowModelImpl::LiveCondition(const Tensor& past, const Tensor& audio,
+                                    const Tensor& has_audio, const Tensor& static_condition) {
+  const Tensor clamped = Standardise(past).clamp(-kFeatureClamp, kFeatureClamp).flatten(1);
+  const Tensor rows = torch::cat({StandardiseAudio(audio, has_audio).flatten(1), has_audio}, 1);
+  return Condition(clamped, rows, static_condition).unsqueeze(1);
+}
+
 FlowModelImpl::StepResult FlowModelImpl::Step(const Tensor& past, const Tensor& audio,
                                               const Tensor& has_audio,
                                               const Tensor& static_condition, const Tensor& noise,
                                               const std::vector<Tensor>& inverse_weights,
                                               FlowState* state) {
-  const Tensor clamped = Standardise(past).clamp(-kFeatureClamp, kFeatureClamp).flatten(1);
-  const Tensor rows = torch::cat({StandardiseAudio(audio, has_audio).flatten(1), has_audio}, 1);
-  const Tensor condition = Condition(clamped, rows, static_condition).unsqueeze(1);
+  const Tensor condition = LiveCondition(past, audio, has_audio, static_condition);
   Tensor log_det = torch::zeros({noise.size(0), 1}, noise.options());
   const Tensor x =
       flow_->Inverse(noise.unsqueeze(1), condition, inverse_weights, state, &log_det).squeeze(1);
   const double log_two_pi = std::log(2 * M_PI);
   const Tensor base = -0.5 * (noise.square().sum(1) + log_two_pi * width_);
-  return {BoundSample(x) * feature_std_ + feature_mean_, base + log_det.squeeze(1)};
+  return {BoundSample(x) * feature_std_ + feature_mean_,
+          base + log_det.squeeze(1) - BoundLogDet(x)};
 }
 
 std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const Tensor& audio,
@@ -158,13 +171,15 @@ Tensor FlowModelImpl::Rollout(const Tensor& history, const Tensor& audio, const 
                               const Tensor& static_condition, const Tensor& noise) {
   const int64_t tau = config_.history_frames, frames = noise.size(1);
   const std::vector<Tensor> inverse_weights = InverseWeights();
-  FlowState state = flow_->InitialState(noise.size(0));
+  std::vector<CouplingState> states = flow_->Split(flow_->InitialState(noise.size(0)));
   std::vector<Tensor> past = history.unbind(1);
   for (int64_t t = 0; t < frames; ++t) {
     const std::vector<Tensor> window(past.end() - tau, past.end());
-    past.push_back(Step(torch::stack(window, 1), audio.narrow(1, t, tau + 1), has_audio,
-                        static_condition.select(1, t), noise.select(1, t), inverse_weights, &state)
-                       .features);
+    const Tensor condition = LiveCondition(torch::stack(window, 1), audio.narrow(1, t, tau + 1),
+                                           has_audio, static_condition.select(1, t));
+    const Tensor x =
+        flow_->Inverse(noise.narrow(1, t, 1), condition, inverse_weights, &states, nullptr);
+    past.push_back(BoundSample(x.squeeze(1)) * feature_std_ + feature_mean_);
   }
   return torch::stack(std::vector<Tensor>(past.begin() + tau, past.end()), 1);
 }

@@ -37,7 +37,7 @@ class FlowModelImpl : public torch::nn::Module {
   /// physical units.
   struct StepResult {
     torch::Tensor features;        ///< [batch, width]
-    torch::Tensor log_likelihood;  ///< [batch] nats, standardised space
+    torch::Tensor log_likelihood;  ///< [batch] nats of these features, standardised space
   };
   /// `past` [batch, tau, width] oldest first; `audio` [batch, tau + 1, audio_features] rows
   /// t-tau..t; `has_audio` [batch, 1]; `static_condition` [batch, static_width()]; `noise` [batch,
@@ -78,6 +78,10 @@ class FlowModelImpl : public torch::nn::Module {
   /// Condition of every frame from standardised, flattened parts.
   torch::Tensor Condition(const torch::Tensor& past, const torch::Tensor& audio,
                           const torch::Tensor& static_condition);
+  /// Condition [batch, 1, condition] of the frame behind `past`, as Step takes it.
+  torch::Tensor LiveCondition(const torch::Tensor& past, const torch::Tensor& audio,
+                              const torch::Tensor& has_audio,
+                              const torch::Tensor& static_condition);
   /// Condition of the N frames behind a history, and their standardised features.
   std::pair<torch::Tensor, torch::Tensor> Windows(const torch::Tensor& features,
                                                   const torch::Tensor& audio,

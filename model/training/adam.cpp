@@ -35,7 +35,7 @@ void Adam::Step(double learning_rate, double max_norm) {
   for (const Entry& entry : entries_) gradients.push_back(entry.parameter.grad());
   const double norm = NormOf(gradients);
   if (!std::isfinite(norm)) return;
-  const double clip = norm > max_norm ? max_norm / norm : 1.0;
+  const double clip = max_norm > 0 && norm > max_norm ? max_norm / norm : 1.0;
   ++steps_;
   const double correct1 = 1 - std::pow(kBeta1, steps_), correct2 = 1 - std::pow(kBeta2, steps_);
   for (Entry& entry : entries_) {

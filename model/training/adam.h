@@ -21,8 +21,8 @@ class Adam {
   /// All parameters of `module`.
   explicit Adam(const torch::nn::Module& module);
 
-  /// Clips the gradient's norm to `max_norm`, then updates. A gradient that is not finite changes
-  /// nothing.
+  /// Clips the gradient's norm to `max_norm` (0: leaves it), then updates. A gradient that is not
+  /// finite changes nothing.
   void Step(double learning_rate, double max_norm);
   void ZeroGrad();
 

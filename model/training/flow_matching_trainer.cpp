@@ -129,7 +129,7 @@ class FlowMatchingRun : public TrainingRun {
     const int most = train_.Longest(model_->config().history_frames);
     const int frames = std::min(kLengths[random.Integer(0, std::size(kLengths))], most);
     WindowClips::Variation variation{.mirror = 0.5,
-                                     .tempo = options().continuous_flow.tempo,
+                                     .tempo = options().tempo,
                                      .partial_key = 0.12,
                                      .beats = 0.8,
                                      .energy = kEnergy,
@@ -215,9 +215,7 @@ class FlowMatchingRun : public TrainingRun {
     ExportTensors(*average_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
       // Half the bytes, and dances have the same figures. The prior stays exact.
-      if (name.ends_with(".weight"))
-        std::ranges::transform(tensor.data, tensor.data.begin(),
-                               [](float weight) -> float { return c10::BFloat16(weight); });
+      if (name.ends_with(".weight")) RoundToBfloat16(&tensor);
     }
     return SaveContinuousFlow(path, average_, weights, card);
   }

@@ -22,6 +22,10 @@ constexpr double kAudioVarianceFloor = 1e-4;
 FlowConfig ConfigOf(const TrainOptions& options, const std::vector<PreparedClip>& clips) {
   FlowConfig config = FlowConfig::Preset(options.preset);
   if (!options.name.empty()) config.name = options.name;
+  if (options.flow.flow_steps > 0) config.flow_steps = options.flow.flow_steps;
+  if (options.flow.hidden > 0) config.hidden = options.flow.hidden;
+  if (options.flow.condition_width >= 0) config.condition_width = options.flow.condition_width;
+  config.temperature = options.flow.temperature;
   config.keys = !options.flow.no_keys;
   config.key_loss = !options.no_key_loss && config.keys;
   config.time_embedding = !options.flow.no_time_embedding;
@@ -77,6 +81,8 @@ class FlowRun : public TrainingRun {
       StartFrom(ParseCheckpoint(content, options.from.string()));
       ImportTensors(content, "", model_.get());
     }
+    rollout_.way = options.flow.rollout_loss;
+    if (!model_->config().key_loss) rollout_.key = 0;
     model_->to(device_);
     Open(model_.get());
   }
@@ -92,13 +98,14 @@ class FlowRun : public TrainingRun {
     MotionBatch batch;
     for (int i = 0; i < kNormalisationBatches; ++i) {
       Random random(options().seed + 7, static_cast<uint32_t>(i + 1));
-      batch = Draw(&random, options().flow.rollout_frames + (i % 3) * 20);
+      batch = Draw(&random, options().shortest + (options().longest - options().shortest) * i /
+                                                     (kNormalisationBatches - 1));
       const int history = model_->config().history_frames;
       seen.push_back(batch.features.narrow(1, history, batch.transition.frames).flatten(0, 1));
     }
     NormaliseFeatures(torch::cat(seen).to(torch::kCPU), model_);
-    model_->InitialiseActNorm(Dequantise(model_, batch.features), batch.audio, batch.has_audio,
-                              model_->Begin(batch.transition));
+    model_->InitialiseActNorm(Dequantise(model_, batch.features, options().flow.dequantise),
+                              batch.audio, batch.has_audio, model_->Begin(batch.transition));
   }
 
   void TrainStep() override {
@@ -111,14 +118,15 @@ class FlowRun : public TrainingRun {
     const MotionBatch batch =
         Draw(&random, options().shortest +
                           static_cast<int>(place * (options().longest - options().shortest + 1)));
-    Descend(LikelihoodLoss(model_, batch, model_->Begin(batch.transition)));
-    if (!model_->config().key_loss) return;
-    const MotionBatch sampled = DrawRollout(&random);
+    Descend(
+        LikelihoodLoss(model_, batch, model_->Begin(batch.transition), options().flow.dequantise));
+    const MotionBatch sampled =
+        batch.First(std::lround(options().flow.rollout_share * batch.features.size(0)));
     Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),
-                        model_->config().temperature));
+                        /*temperature=*/1, rollout_));
   }
 
-  // On fixed windows, without arrival: one roll-out at the served temperature, its L2P over
+  // On fixed windows, without arrival: one roll-out at temperature 1, its L2P over
   // interpolation's; -log p, nats a dimension; the mean joint distance at its key frame.
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
@@ -142,7 +150,6 @@ class FlowRun : public TrainingRun {
       std::vector<float> values(static_cast<size_t>(truth.size(0)) * frames * truth.size(2));
       random.FillNormal(values);
       const torch::Tensor noise =
-          model_->config().temperature *
           torch::from_blob(values.data(), {truth.size(0), frames, truth.size(2)}).to(device_);
       const TrajectoryTensors danced = model_->Decode(model_->Rollout(
           truth.narrow(1, 0, history), batch.audio, batch.has_audio, condition, noise));
@@ -157,7 +164,13 @@ class FlowRun : public TrainingRun {
   }
 
   std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) override {
-    return SaveCheckpoint(path, model_, card);
+    Safetensors weights;
+    ExportTensors(*model_, "", &weights);
+    for (auto& [name, tensor] : weights.tensors) {
+      // Half the bytes. What is inverted exactly stays exact.
+      if (name.find("weight") != std::string::npos) RoundToBfloat16(&tensor);
+    }
+    return SaveCheckpoint(path, model_, std::move(weights), card);
   }
   std::string Limits() const override {
     return "Trained on transitions of " + std::to_string(options().shortest) + " to " +
@@ -174,19 +187,9 @@ class FlowRun : public TrainingRun {
                                     .drop_key = keys ? 0.1 : 1.0,
                                     .drop_audio = 0.15,
                                     .partial_key = keys ? 0.1 : 0.0,
+                                    .tempo = options().tempo,
                                     .hold_history = 0.05};
     return DrawMotion(clips_.train, windows, model_->config().history_frames, frames, variation,
-                      device_, random);
-  }
-
-  // Longer than gamma too: a flow that was only ever unrolled over 30 frames may drift off beyond
-  // them.
-  MotionBatch DrawRollout(Random* random) const {
-    const int gamma = options().flow.rollout_frames;
-    const int frames = static_cast<int>(random->Integer(
-        std::max(2, gamma / 2), std::max(gamma, std::min(3 * gamma, options().longest)) + 1));
-    return DrawMotion(clips_.train, std::max(4, options().batch / 4 * gamma / frames),
-                      model_->config().history_frames, frames, {.mirror = true, .drop_audio = 0.15},
                       device_, random);
   }
 
@@ -194,6 +197,7 @@ class FlowRun : public TrainingRun {
   TorchKinematics kinematics_;
   torch::Device device_;
   FlowModel model_;
+  RolloutWeights rollout_;
 };
 
 }  // namespace

@@ -8,9 +8,6 @@ using torch::Tensor;
 
 namespace {
 
-// Standard deviation of the dequantisation noise, in units of each feature's own spread.
-constexpr double kDequantisation = 0.05;
-
 // [batch, N, joints, 3]
 Tensor GlobalPositions(const TorchKinematics& kinematics, const TrajectoryTensors& poses) {
   const int64_t batch = poses.position.size(0), frames = poses.position.size(1);
@@ -24,21 +21,23 @@ Tensor Length(const Tensor& v) { return (v.square().sum(-1) + 1e-10).sqrt(); }
 
 }  // namespace
 
-Tensor Dequantise(FlowModel& model, const Tensor& features) {
+Tensor Dequantise(FlowModel& model, const Tensor& features, double share) {
   const Tensor spread = model->named_buffers()["feature_std"];
-  return features + kDequantisation * spread * torch::randn_like(features);
+  return features + share * spread * torch::randn_like(features);
 }
 
-LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
-                         const Tensor& static_condition) {
-  const Tensor features = Dequantise(model, batch.features);
-  return {{"nll_nats_per_dim", 1.0,
+LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch, const Tensor& static_condition,
+                         double noise) {
+  const Tensor features = Dequantise(model, batch.features, noise);
+  // Eq. 6 sums over features; the curve shows their mean.
+  return {{"nll_nats_per_dim", static_cast<double>(model->feature_width()),
            -model->LogLikelihood(features, batch.audio, batch.has_audio, static_condition).mean() /
                model->feature_width()}};
 }
 
 LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
-                      const Tensor& static_condition, double temperature) {
+                      const Tensor& static_condition, double temperature,
+                      const RolloutWeights& weights) {
   const int64_t history = batch.transition.history_position.size(1);
   const int64_t frames = batch.transition.frames;
   const Tensor& truth = batch.features;
@@ -47,17 +46,25 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
   const Tensor sampled = model->Rollout(truth.narrow(1, 0, history), batch.audio, batch.has_audio,
                                         static_condition, noise);
   const TrajectoryTensors poses = model->Decode(sampled);
-  // Windows without a whole key have nothing to arrive at.
-  const Tensor whole = batch.transition.target_mask.amin(1);
-  const Tensor distance = JointDistance(kinematics, LastFrame(poses), LastFrame(batch.truth));
-  const Tensor key = kDecimetresPerMetre * (distance * whole).sum() / whole.sum().clamp_min(1);
+  LossTerms terms;
+  if (weights.key > 0) {
+    // Windows without a whole key have nothing to arrive at.
+    const Tensor whole = batch.transition.target_mask.amin(1);
+    const Tensor distance = JointDistance(kinematics, LastFrame(poses), LastFrame(batch.truth));
+    const Tensor key = kDecimetresPerMetre * (distance * whole).sum() / whole.sum().clamp_min(1);
+    terms.push_back({"key_pose_dm", weights.key, key});
+  }
+  if (weights.way > 0) {
+    const Tensor way = kDecimetresPerMetre * JointDistance(kinematics, poses, batch.truth).mean();
+    terms.push_back({"rollout_dm", weights.way, way});
+  }
   const int64_t contacts = sampled.size(2) - 4;
   const Tensor feet =
       (sampled.narrow(2, contacts, 4) - truth.narrow(1, history, frames).narrow(2, contacts, 4))
           .abs()
           .mean();
-  const Tensor way = kDecimetresPerMetre * JointDistance(kinematics, poses, batch.truth).mean();
-  return {{"key_pose_dm", 0.5, key}, {"rollout_dm", 0.5, way}, {"contact_l1", 0.1, feet}};
+  terms.push_back({"contact_l1", weights.feet, feet});
+  return terms;
 }
 
 TrajectoryTensors LastFrame(const TrajectoryTensors& poses) {

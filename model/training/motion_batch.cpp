@@ -3,15 +3,34 @@
 #include <torch/torch.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/audio/mfcc.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/canonical.h"
 #include "model/motion/mirror.h"
 #include "model/motion/pose_codec.h"
+#include "model/motion/resample.h"
 #include "model/training/window_picker.h"
 
 namespace choreo {
+namespace {
+
+const double kMostTempo = std::log(4.0 / 3);  // faster or slower
+
+}  // namespace
+
+MotionBatch MotionBatch::First(int64_t windows) const {
+  MotionBatch first = *this;
+  const int64_t count = std::max<int64_t>(1, windows);
+  TransitionTensors& of = first.transition;
+  for (torch::Tensor* tensor :
+       {&of.history_position, &of.history_rotation, &of.target_position, &of.target_rotation,
+        &of.target_mask, &first.truth.position, &first.truth.rotation, &first.features,
+        &first.audio, &first.has_audio})
+    *tensor = tensor->narrow(0, 0, count);
+  return first;
+}
 
 MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int history, int frames,
                        const MotionVariation& variation, torch::Device device, Random* random) {
@@ -30,11 +49,28 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
   torch::Tensor mask = torch::ones({batch, joints + 1});
 
   for (int b = 0; b < batch; ++b) {
-    const auto [index, start] = picker.Draw(random);
+    const auto [index, drawn] = picker.Draw(random);
     const PreparedClip& clip = clips[index];
     const bool mirrored = variation.mirror && random->Uniform() < 0.5;
-    const auto first = clip.motion.frames.begin() + (start - 1);
-    std::vector<Pose> poses(first, first + window + 1);
+    int64_t start = drawn;
+    double rate = 1;  // frames of the clip a frame
+    if (random->Uniform() < variation.tempo) {
+      const double other = std::exp(random->Uniform(-kMostTempo, kMostTempo));
+      const auto taken = static_cast<int64_t>(std::ceil(window * other)) + 1;
+      if (const int64_t spare = of_clips[index] - taken; spare > 0) {
+        rate = other;
+        start = random->Integer(0, spare) + 1;
+      }
+    }
+    const auto source = [&](int t) { return static_cast<double>(start - 1) + t * rate; };
+    std::vector<Pose> poses;
+    for (int t = 0; t <= window; ++t) {
+      const auto at = static_cast<size_t>(source(t));
+      const Pose& pose = clip.motion.frames[at];
+      poses.push_back(rate == 1 ? pose
+                                : InterpolatePoses(pose, clip.motion.frames[at + 1],
+                                                   source(t) - static_cast<double>(at)));
+    }
     if (mirrored) {
       for (Pose& pose : poses) pose = Mirror(skeleton, pose);
     }
@@ -49,7 +85,8 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
       Contacts contacts;
       for (int foot = 0; foot < 4; ++foot) {
         // Contacts stand left then right; a mirrored dancer swaps them.
-        contacts[foot] = clip.contacts(mirrored ? (foot + 2) % 4 : foot, start + t);
+        contacts[foot] =
+            clip.contacts(mirrored ? (foot + 2) % 4 : foot, std::lround(source(t + 1)));
       }
       const Eigen::VectorXf x = codec.Encode(pose, previous, contacts, clip.motion.fps);
       std::copy(x.data(), x.data() + width, features[b][t].data_ptr<float>());
@@ -61,8 +98,9 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
     }
     if (clip.audio.size() > 0 && random->Uniform() >= variation.drop_audio) {
       has_audio[b][0] = 1;
-      std::copy_n(clip.audio.col(start).data(), int64_t{window} * kMfccCount,
-                  audio[b].data_ptr<float>());
+      for (int t = 0; t < window; ++t)
+        std::copy_n(clip.audio.col(std::lround(source(t + 1))).data(), kMfccCount,
+                    audio[b][t].data_ptr<float>());
     }
     if (random->Uniform() < variation.drop_key) {
       mask[b].zero_();

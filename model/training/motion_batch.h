@@ -16,6 +16,8 @@ struct MotionBatch {
   torch::Tensor features;   ///< [batch, tau + N, width] absolute, as PoseCodec has them
   torch::Tensor audio;      ///< [batch, tau + N, audio_features], zeros where there is none
   torch::Tensor has_audio;  ///< [batch, 1]
+
+  MotionBatch First(int64_t windows) const;  ///< some of them, at least one
 };
 
 /// What training varies. Everything off: plain windows with their key and music.
@@ -24,6 +26,7 @@ struct MotionVariation {
   double drop_key = 0;     ///< probability that a window has no key
   double drop_audio = 0;   ///< probability that its music is masked
   double partial_key = 0;  ///< probability that joints or the root's position are not in the key
+  double tempo = 0;        ///< probability that it is danced up to a third faster or slower
   /// Probability that only the last few poses are known, the earliest being held.
   double hold_history = 0;
 };

@@ -14,8 +14,9 @@
 namespace choreo {
 namespace {
 
-constexpr std::string_view kPresets[] = {"default", "paper", "ablation",
+constexpr std::string_view kPresets[] = {"default", "paper", "paper-f", "ablation",
                                          ControllersConfig::kPreset};
+constexpr const char* kPresetNames = "default, paper, paper-f, ablation, controllers-paper";
 
 // Calls `visit(option, value, is_used, what)` of each option, --preset and --from aside, that a
 // run must keep; `is_used`: the preset's network has a use for it.
@@ -27,16 +28,33 @@ void VisitFixed(auto& options, const auto& visit) {
   visit("--rate", options.rate, true, "Peak learning rate");
   visit("--shortest", options.shortest, !continuous, "Shortest training transition, frames");
   visit("--longest", options.longest, !continuous, "Longest training transition, frames");
-  visit("--rollout-frames", options.flow.rollout_frames, flow,
-        "Frames of the roll-out that a flow's key loss samples");
-  visit("--tempo", options.continuous_flow.tempo, continuous,
-        "Share of the windows that are danced faster or slower (preset default)");
+  visit("--clip", options.clip, true, "Norm that gradients are clipped to; 0: never");
+  visit("--flow-steps", options.flow.flow_steps, flow, "Steps K of a flow; 0: the preset's");
+  visit("--hidden", options.flow.hidden, flow, "Width of a flow's LSTMs; 0: the preset's");
+  visit("--condition-width", options.flow.condition_width, flow,
+        "Width of the encoding that all couplings share, 0: none; -1: the preset's");
+  visit("--rollout-share", options.flow.rollout_share, flow,
+        "Share of a step's windows that are sampled for the key and feet losses");
+  visit("--rollout-loss", options.flow.rollout_loss, flow,
+        "Weight of the sampled way's distance from the real one (not in the paper)");
+  visit("--dequantise", options.flow.dequantise, flow,
+        "Noise on what the likelihood is of, share of each feature's spread");
+  visit("--tempo", options.tempo, true,
+        "Share of the windows that are danced up to a third faster or slower");
   visit("--seed", options.seed, true, "Same seed, data and machine: same checkpoint");
   visit("--no-keys", options.flow.no_keys, flow, "Ablation: music alone");
   visit("--no-key-loss", options.no_key_loss, !continuous, "Ablation: no key pose loss");
   visit("--no-time-embedding", options.flow.no_time_embedding, flow, "Ablation: no time embedding");
   visit("--forward-embedding", options.flow.forward_embedding, flow,
         "Ablation: count frames from the start, not frames left");
+  visit("--truth-decay", options.controllers.truth_decay, controllers,
+        "Scheduled sampling: what each step leaves of the real frames' share in what is fed back");
+  visit("--residual", options.controllers.residual, controllers,
+        "Controllers draw what is added to interpolation on the path (not in the paper)");
+  visit("--no-absolute-position", options.controllers.no_absolute_position, controllers,
+        "Ablation of controllers: relative position coding alone");
+  visit("--no-relative-position", options.controllers.no_relative_position, controllers,
+        "Ablation of controllers: absolute position coding alone");
   visit("--one-lstm", options.controllers.one_lstm, controllers, "Ablation of controllers");
   visit("--condition-fc", options.controllers.condition_fc, controllers,
         "Ablation of controllers: fully connected instead of transformers");
@@ -54,6 +72,7 @@ std::string TrainOptions::Command() const {
   command << " --splits " << splits.filename().string() << ' ' << Fixed();
   if (!from.empty()) command << " --from " << from.filename().string();
   if (!name.empty()) command << " --name " << name;
+  if (flow.temperature != 1) command << " --served-temperature " << flow.temperature;
   return command.str();
 }
 
@@ -83,10 +102,25 @@ void TrainOptions::Validate() const {
   require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");
   require(shortest >= 2 && shortest <= longest && longest <= 600, "--longest",
           std::to_string(longest), "from --shortest (at least 2) to 600");
-  require(flow.rollout_frames >= 2 && flow.rollout_frames <= 300, "--rollout-frames",
-          std::to_string(flow.rollout_frames), "2 to 300");
-  require(continuous_flow.tempo >= 0 && continuous_flow.tempo <= 1, "--tempo",
-          std::to_string(continuous_flow.tempo), "0 to 1");
+  require(clip >= 0, "--clip", std::to_string(clip), "at least 0");
+  require(flow.flow_steps >= 0 && flow.flow_steps <= 64, "--flow-steps",
+          std::to_string(flow.flow_steps), "0 to 64");
+  require(flow.hidden >= 0 && flow.hidden <= 4096, "--hidden", std::to_string(flow.hidden),
+          "0 to 4096");
+  require(flow.condition_width >= -1 && flow.condition_width <= 4096, "--condition-width",
+          std::to_string(flow.condition_width), "-1 to 4096");
+  require(flow.rollout_share > 0 && flow.rollout_share <= 1, "--rollout-share",
+          std::to_string(flow.rollout_share), "above 0, to 1");
+  require(flow.rollout_loss >= 0 && flow.rollout_loss <= 100, "--rollout-loss",
+          std::to_string(flow.rollout_loss), "0 to 100");
+  require(flow.dequantise >= 0 && flow.dequantise <= 1, "--dequantise",
+          std::to_string(flow.dequantise), "0 to 1");
+  require(tempo >= 0 && tempo <= 1, "--tempo", std::to_string(tempo), "0 to 1");
+  require(controllers.truth_decay >= 0 && controllers.truth_decay <= 1, "--truth-decay",
+          std::to_string(controllers.truth_decay), "0 to 1");
+  require(!IsControllers() || controllers.residual || !controllers.no_absolute_position ||
+              !controllers.no_relative_position,
+          "--no-relative-position", "with --no-absolute-position", "alone");
   require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
   require(stop_after >= 0, "--stop-after", std::to_string(stop_after), "at least 0");
   require(rate >= 0 && rate <= 1, "--rate", std::to_string(rate), "0 to 1");
@@ -98,17 +132,24 @@ void AddTrainCommand(CLI::App& app,
   CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
   command
       ->add_option("--preset", options->preset,
-                   "default | paper | ablation (the same, smaller) | controllers-paper")
+                   "default | paper | paper-f (the same, of a twentieth) | ablation (smaller "
+                   "still) | controllers-paper")
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& name) {
             return std::ranges::find(kPresets, name) != std::end(kPresets)
                        ? std::string()
-                       : "'" + name + "' is not one of default, paper, ablation, controllers-paper";
+                       : "'" + name + "' is not one of " + kPresetNames;
           },
           ""));
   command->add_option("--name", options->name,
                       "What servers call the model; default: the preset's name");
+  command
+      ->add_option("--served-temperature", options->flow.temperature,
+                   "What a flow is sampled at unless a dance asks otherwise; a finished run is "
+                   "written anew with it")
+      ->check(CLI::Range(0.0, kMaxTemperature))
+      ->capture_default_str();
   command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
       ->required();
   command->add_option("--splits", options->splits, "Which clip trains, validates, tests (JSON)")

@@ -20,20 +20,23 @@ inline constexpr std::array kComparedFrames{10, 30, 60, 90};
 /// The same of paper C's network (paper C, Tables 2-4).
 inline constexpr std::array kControlledFrames{10, 50, 100, 150};
 
-/// Of paper F's flows, the presets `paper` and `ablation`.
+/// Of paper F's flows, the presets `paper`, `paper-f` and `ablation`.
 struct FlowOptions {
-  int rollout_frames = 30;                                                     ///< gamma
+  int flow_steps = 0, hidden = 0;  ///< K, width of the LSTMs; 0: the preset's
+  int condition_width = -1;        ///< of the shared encoding, 0: none; -1: the preset's
+  double rollout_share = 1;        ///< of a step's windows, that are sampled for L_key and L_feet
+  double rollout_loss = 0;         ///< weight of the sampled way's distance from the real one, ours
+  double temperature = 1;          ///< at which it is served unless asked otherwise
+  double dequantise = 0.05;        ///< noise of the likelihood's features, share of their spread
   bool no_keys = false, no_time_embedding = false, forward_embedding = false;  ///< Table 1
 };
 
 /// Of paper C's network, the preset `controllers-paper`: what is left out (Tables 2-4).
 struct ControllersOptions {
+  double truth_decay = 0.99995;  ///< of the real frames' share of what is fed back, a step
+  bool residual = false;         ///< ControllersConfig::residual, ours
+  bool no_absolute_position = false, no_relative_position = false;
   bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
-};
-
-/// Of the continuous flow, the preset `default`.
-struct ContinuousFlowOptions {
-  double tempo = 0.5;  ///< share of the windows danced faster or slower
 };
 
 /// One training run. Everything that makes it is here or in the data: the same options give the
@@ -52,12 +55,13 @@ struct TrainOptions {
   int64_t steps = 14000;
   int batch = 64;      ///< windows a step; longer windows get fewer, at equal frames
   double rate = 1e-3;  ///< peak learning rate; warm-up, then cosine to a twentieth
+  double clip = 1;     ///< most that a step's gradient may measure; 0: it is never clipped
+  double tempo = 0.5;  ///< share of the windows danced faster or slower
   uint64_t seed = 1;
   int shortest = 5, longest = 100;  ///< N of the windows, frames; of both papers' networks
   bool no_key_loss = false;         ///< of both, too
   FlowOptions flow;
   ControllersOptions controllers;
-  ContinuousFlowOptions continuous_flow;
 
   bool IsControllers() const { return preset == ControllersConfig::kPreset; }
   bool IsContinuousFlow() const { return preset == "default"; }
@@ -69,7 +73,7 @@ struct TrainOptions {
   void Validate() const;
 };
 
-/// Trains paper F's flow (`paper`, `ablation`), showing a progress bar. Writes
+/// Trains paper F's flow (`paper`, `paper-f`, `ablation`), showing a progress bar. Writes
 /// run/state.safetensors (resumable to the bit after a kill at any time), curves.csv, plots of it,
 /// and checkpoint.safetensors with its card, at each report and at the end. Throws
 /// Error(kInvalidArgument) naming the option that can't be used.

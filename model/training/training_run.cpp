@@ -17,8 +17,7 @@ namespace {
 
 constexpr int64_t kWarmUpSteps = 200;
 constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end
-constexpr double kMaxGradientNorm = 1.0;
-constexpr double kForget = 0.02;  // of a loss's running mean, a step
+constexpr double kForget = 0.02;    // of a loss's running mean, a step
 
 // Warm-up, then a cosine to a twentieth of the peak.
 double RateAt(double peak, int64_t step, int64_t steps) {
@@ -71,7 +70,7 @@ void TrainingRun::Go() {
     torch::manual_seed(options_.seed + static_cast<uint64_t>(step_) * 1000003);
     adam_->ZeroGrad();
     TrainStep();
-    adam_->Step(RateAt(options_.rate, step_, total), kMaxGradientNorm);
+    adam_->Step(RateAt(options_.rate, step_, total), options_.clip);
     AfterStep();
     seconds_ = seconds_before +
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

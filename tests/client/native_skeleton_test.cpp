@@ -64,7 +64,6 @@ class NativeSkeletonTest : public testing::Test {
     train.steps = 2;
     train.batch = 4;
     train.longest = 10;
-    train.flow.rollout_frames = 3;
     train.report_every = 100;
     TrainFlow(train);
     std::vector<Server::Engines> models(1);

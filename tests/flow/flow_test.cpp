@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <torch/torch.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "model/core/error.h"
 #include "model/flow/flow_model.h"
 #include "model/flow/key_condition.h"
@@ -117,6 +120,67 @@ TEST_P(FlowTest, ARolloutsOwnLikelihoodIsThatOfItsNoise) {
   EXPECT_TRUE(torch::allclose(step.features, sampled.select(1, 0), 1e-5, 1e-5));
 }
 
+// Training has its own; serving and other devices have LibTorch's.
+TEST(LstmLayerTest, ComputesAndLearnsAsTorchsOwn) {
+  torch::manual_seed(4);
+  torch::nn::LSTM reference(torch::nn::LSTMOptions(7, 12).batch_first(true));
+  const std::vector<Tensor> weights = reference->parameters();
+  const Tensor x = torch::randn({5, 9, 7}).set_requires_grad(true);
+  const Tensor h = torch::randn({5, 12}).set_requires_grad(true);
+  const Tensor c = torch::randn({5, 12}).set_requires_grad(true);
+  std::vector<Tensor> inputs = {x, h, c};
+  inputs.insert(inputs.end(), weights.begin(), weights.end());
+  const Tensor to = torch::randn({5, 9, 12}), to_cell = torch::randn({5, 12});
+  const auto learn = [&](const Tensor& out, const Tensor& last, const Tensor& cell) {
+    return torch::autograd::grad({(out * to).sum() + (last * to_cell).sum() + cell.square().sum()},
+                                 inputs);
+  };
+  LstmState state{h, c};
+  const Tensor out = RunLstmLayer(x, {weights[0], weights[1], weights[2], weights[3]}, &state);
+  const auto ours = learn(out, state.h, state.c);
+  const auto [expected, next] =
+      reference->forward(x, std::make_tuple(h.unsqueeze(0), c.unsqueeze(0)));
+  const auto theirs = learn(expected, std::get<0>(next)[0], std::get<1>(next)[0]);
+  EXPECT_TRUE(torch::allclose(out, expected, 1e-5, 1e-5));
+  EXPECT_TRUE(torch::allclose(state.c, std::get<1>(next)[0], 1e-5, 1e-5));
+  for (size_t i = 0; i < inputs.size(); ++i)
+    EXPECT_TRUE(torch::allclose(ours[i], theirs[i], 1e-4, 1e-4)) << i;
+}
+
+TEST_P(FlowTest, TrainingDrawsTheFramesThatServingDraws) {
+  const int64_t frames = 5, width = model_->feature_width();
+  const Tensor condition = model_->Begin(RandomTransition(2, frames));
+  const Tensor history = 0.2 * torch::randn({2, 10, width});
+  const Tensor audio = torch::randn({2, 10 + frames, 40}), heard = torch::ones({2, 1});
+  const Tensor noise = torch::randn({2, frames, width});
+  const Tensor learnt = model_->Rollout(history, audio, heard, condition, noise).detach();
+  torch::NoGradGuard no_grad;
+  EXPECT_TRUE(torch::allclose(learnt, model_->Rollout(history, audio, heard, condition, noise),
+                              1e-4, 1e-4));
+}
+
+// Of the frame that is returned: outliers are bent, which makes them likelier.
+TEST_P(FlowTest, LikelihoodOfABentFrameIsItsOwn) {
+  model_->to(torch::kFloat64);
+  const int64_t width = model_->feature_width();
+  const auto wide = torch::TensorOptions(torch::kFloat64);
+  const Tensor history = 0.2 * torch::randn({1, 10, width}, wide);
+  const Tensor audio = torch::randn({1, 11, 40}, wide);
+  const Tensor condition = torch::zeros({1, model_->static_width()}, wide);
+  const Tensor noise = (4 * torch::randn({1, width}, wide)).set_requires_grad(true);
+  FlowState state = model_->flow()->InitialState(1);
+  const auto step = model_->Step(history, audio, torch::ones({1, 1}, wide), condition, noise,
+                                 model_->InverseWeights(), &state);
+  ASSERT_GT(step.features.abs().max().item<double>(), kSampleBound);
+  std::vector<Tensor> rows;
+  for (int64_t i = 0; i < width; ++i)
+    rows.push_back(torch::autograd::grad({step.features[0][i]}, {noise}, {}, true)[0].flatten());
+  const double stretched = std::get<1>(torch::linalg_slogdet(torch::stack(rows))).item<double>();
+  const double base =
+      -0.5 * (noise.square().sum().item<double>() + width * std::log(2 * std::numbers::pi));
+  EXPECT_NEAR(step.log_likelihood.item<double>(), base - stretched, 1e-6 * std::abs(base));
+}
+
 TEST_P(FlowTest, MusicKeyAndTimeLeftChangeTheDance) {
   torch::NoGradGuard no_grad;
   const int64_t frames = 4, width = model_->feature_width();
@@ -212,6 +276,7 @@ TEST(FlowPresets, HaveTheSizesThatTheyPromise) {
     return count;
   };
   EXPECT_LE(parameters("ablation"), 500'000);
+  EXPECT_NEAR(static_cast<double>(parameters("paper-f")), 5e6, 4e5);
   EXPECT_NEAR(static_cast<double>(parameters("paper")), 99e6, 4e6);
   EXPECT_THROW(FlowConfig::Preset("large"), Error);
 }

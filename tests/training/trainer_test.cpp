@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <torch/torch.h>
 
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
@@ -33,7 +35,6 @@ class TrainerTest : public testing::Test {
     options.steps = steps;
     options.batch = 8;
     options.longest = 12;
-    options.flow.rollout_frames = 4;
     options.report_every = 2;
     return options;
   }
@@ -75,6 +76,44 @@ TEST_F(TrainerTest, ACheckpointHasItsNameAndKnowsWhetherItHeardMusic) {
   TrainFlow(Options("deaf", 2));
   EXPECT_EQ(config("deaf").name, "ablation");
   EXPECT_FALSE(config("deaf").hears_music);
+}
+
+// An ablation leaves out one thing.
+TEST_F(TrainerTest, WithoutKeyLossRolloutsStillTeach) {
+  const auto curves = [&](TrainOptions options) {
+    options.flow.rollout_loss = 0.5;
+    TrainFlow(options);
+    std::ifstream file(options.run / "curves.csv");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_THAT(curves(Options("all", 2)), testing::HasSubstr("key_pose_dm"));
+  for (const bool keys : {true, false}) {
+    TrainOptions options = Options(keys ? "no_key_loss" : "no_keys", 2);
+    options.no_key_loss = keys;
+    options.flow.no_keys = !keys;
+    const std::string text = curves(options);
+    EXPECT_THAT(text, testing::Not(testing::HasSubstr("key_pose_dm")));
+    EXPECT_THAT(text, testing::HasSubstr("contact_l1"));
+    EXPECT_THAT(text, testing::HasSubstr("rollout_dm"));
+    EXPECT_EQ(LoadCheckpoint(options.run / "checkpoint.safetensors").model->config().keys, keys);
+  }
+}
+
+TEST_F(TrainerTest, SizesAreOptionsAndWeightsTakeHalfTheBytes) {
+  TrainOptions options = Options("sized", 1);
+  options.flow.flow_steps = 2;
+  options.flow.hidden = 40;
+  options.flow.condition_width = 0;
+  TrainFlow(options);
+  const auto path = options.run / "checkpoint.safetensors";
+  const Checkpoint checkpoint = LoadCheckpoint(path);
+  const FlowConfig& config = checkpoint.model->config();
+  EXPECT_EQ(config.flow_steps, 2);
+  EXPECT_EQ(config.hidden, 40);
+  EXPECT_EQ(config.condition_width, 0);
+  uintmax_t numbers = 0;
+  for (const auto& parameter : checkpoint.model->parameters()) numbers += parameter.numel();
+  EXPECT_LT(std::filesystem::file_size(path), 3 * numbers);
 }
 
 TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
@@ -238,6 +277,21 @@ TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   options = Options("x", 4);
   options.longest = 3;
   EXPECT_EQ(failure(options), "--longest");
+}
+
+TEST_F(TrainerTest, BatchesOfOtherTempiKeepTheirWay) {
+  const auto clips = LoadClips({folder_.path()}, folder_.path() / "splits.json", kTrainGroup);
+  Random random(5);
+  const MotionBatch batch = DrawMotion(clips, 40, 10, 20, {.tempo = 1}, torch::kCPU, &random);
+  const TorchKinematics kinematics(clips.front().skeleton);
+  // What is danced faster goes further; all of it stays whole motion.
+  const torch::Tensor steps = batch.truth.position.diff(1, 1).norm(2, -1).mean(1);
+  EXPECT_GT((steps.max() / steps.min()).item<double>(), 1.2);
+  EXPECT_TRUE(batch.features.isfinite().all().item<bool>());
+  const MotionBatch some = batch.First(3);
+  EXPECT_EQ(some.features.size(0), 3);
+  EXPECT_TRUE(torch::equal(some.truth.position, batch.truth.position.narrow(0, 0, 3)));
+  EXPECT_EQ(batch.First(0).audio.size(0), 1);
 }
 
 TEST_F(TrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {

@@ -40,6 +40,17 @@ PackedLinear Unmix(const PackedKernels& kernels, const PackedTensors& tensors,
           -tensors.Get(name + "norm_bias", width)};
 }
 
+// How much likelier a frame becomes where outliers are bent: 2 log cosh of what is beyond the
+// bound.
+float BendSurprise(std::span<const float> x) {
+  double sum = 0;
+  for (const float value : x) {
+    const double beyond = std::abs(static_cast<double>(value)) - kSampleBound;
+    if (beyond > 0) sum += beyond + std::log1p(std::exp(-2 * beyond)) - std::numbers::ln2;
+  }
+  return static_cast<float>(2 * sum);
+}
+
 }  // namespace
 
 PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config,
@@ -255,8 +266,10 @@ void PackedTile::Run(std::span<FlowRow> rows) {
   Condition(rows);
   for (int step = flow.config.flow_steps - 1; step >= 0; --step) Couple(rows, step);
   for (size_t i = 0; i < rows.size(); ++i) {
-    flow.kernels.bend(z_.Row(static_cast<long>(i)), flow.feature_mean.data(),
-                      flow.feature_std.data(), flow.width, kSampleBound, rows[i].features.data());
+    const float* x = z_.Row(static_cast<long>(i));
+    rows[i].log_likelihood += BendSurprise({x, static_cast<size_t>(flow.width)});
+    flow.kernels.bend(x, flow.feature_mean.data(), flow.feature_std.data(), flow.width,
+                      kSampleBound, rows[i].features.data());
   }
 }
 
