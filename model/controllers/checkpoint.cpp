@@ -8,7 +8,7 @@ namespace choreo {
 namespace {
 
 // Raised when the meaning of a stored tensor or field changes.
-constexpr const char* kFormat = "choreo-controllers-1";
+constexpr const char* kFormat = "choreo-controllers-2";
 
 }  // namespace
 

@@ -21,6 +21,13 @@ struct ControllersConfig {
   int lstm = 256;                            ///< each of the two
   int decoder_hidden = 512;                  ///< of the first hidden layer; the second has half
 
+  /// False: the network draws each frame as it is, which is the paper's form. True: what it adds to
+  /// interpolation on the path, which a ramp holds at both ends, so that keys and path are met
+  /// whatever it has learnt.
+  bool residual = false;
+  /// What tells it how far a transition is (Eq. 2): the place on the path, the share of the frames.
+  bool absolute_position = true, relative_position = true;
+
   /// Switches of the ablations (paper C, Section 4.2).
   bool two_lstms = true;
   bool transformers = true;  ///< false: two fully connected layers instead of each

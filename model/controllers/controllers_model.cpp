@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "model/core/error.h"
+#include "model/flow/lstm_layer.h"
 #include "model/flow/transition_tensors.h"
 #include "model/motion/velocity_factors.h"
 
@@ -17,7 +19,7 @@ constexpr int64_t kEmbedding = 32;  // numbers of a count of frames
 constexpr double kRampFrames = 6;   // over which the residual grows from a fixed end
 constexpr double kStep = 0.02;      // metres a frame that count as one
 constexpr double kHeight = 0.2;     // metres of height that count as one
-constexpr double kPlace = 0.1;      // metres beside the path that count as one
+constexpr double kBeside = 0.1;     // metres beside the path that count as one
 constexpr double kTurnStep = 0.05;  // radians a frame that count as one
 constexpr int64_t kContacts = 4;
 
@@ -56,7 +58,7 @@ Tensor Windows(const Tensor& before, const Tensor& given, int64_t size) {
 
 ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
   ControlledGiven part = *this;
-  for (Tensor* tensor : {&part.path, &part.ahead, &part.ramp, &part.joints, &part.path_window,
+  for (Tensor* tensor : {&part.root, &part.ahead, &part.ramp, &part.joints, &part.path_window,
                          &part.factor_window, &part.path_memory, &part.factor_memory, &part.code}) {
     if (tensor->defined()) *tensor = tensor->narrow(1, first, count);
   }
@@ -65,7 +67,10 @@ ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
 
 ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
                                            const Skeleton& skeleton)
-    : config_(config), skeleton_(skeleton), others_(skeleton.joints() - 1) {
+    : config_(config),
+      skeleton_(skeleton),
+      others_(skeleton.joints() - 1),
+      place_(config.residual ? kBeside : 1) {
   joint_mean_ = register_buffer("joint_mean", torch::zeros({others_, 3}));
   joint_std_ = register_buffer("joint_std", torch::ones({others_, 3}));
   factor_std_ = register_buffer("factor_std", torch::ones({kBodyParts}));
@@ -93,9 +98,13 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
   const int64_t into = (config.two_lstms ? config.lstm : live) + config.encoding;
   if (config.two_lstms) first_ = lstm("first_lstm", live);
   second_ = lstm("second_lstm", into);
+  if (!config.residual && !config.absolute_position && !config.relative_position)
+    throw InvalidArgument("relative_position", "without it, the absolute position is wanted");
   // AP and RP: the frame's place on the path and how far the transition is.
-  position_code_ =
-      register_module("position_code", torch::nn::Linear(3 + 1 + 1 + kEmbedding, into));
+  const int64_t code =
+      config.residual ? 3 + 1 + 1 + kEmbedding
+                      : (config.absolute_position ? 3 : 0) + (config.relative_position ? 1 : 0);
+  position_code_ = register_module("position_code", torch::nn::Linear(code, into));
   const int64_t wide = config.decoder_hidden, state = 2 * pose + kContacts, root = 3 + 2 + 3;
   state_decoder_ = register_module(
       "state_decoder", Connected(config.lstm, {wide, wide / 2},
@@ -122,34 +131,46 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
   const Tensor has = transition.has_target.unsqueeze(1);  // [batch, 1, 1]
 
   ControlledGiven given;
-  given.path = transition.path;
   given.end = transition.path.narrow(1, frames - 1, 1);
   given.has_target = has;
   given.target_joints = transition.target_joints.unsqueeze(1);
   given.target_facing = HeadingOf(transition.target_turn).unsqueeze(1);
-  // Interpolation, from which everything starts.
-  const Tensor share = u * has;
-  const Tensor last = history.joints.narrow(1, history.size() - 1, 1);
-  given.joints = last + share.unsqueeze(-1) * (given.target_joints - last);
-  given.ahead = HeadingOf(share.squeeze(-1) * transition.target_turn.unsqueeze(1));
-  const Tensor from_start = ((count + 1) / kRampFrames).clamp_max(1);
-  const Tensor to_target = ((frames - 1 - count) / kRampFrames).clamp_max(1);
-  given.ramp = from_start * (1 - has + has * to_target);
-
-  const Tensor left = TimeEmbedding((frames - 1 - count).squeeze(-1), kEmbedding);
-  const Tensor place = torch::cat({TurnBack(given.path - given.end, given.ahead) * has,
-                                   (given.path.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
-                                   u.expand({batch, frames, 1}), left * has},
-                                  -1);
-  given.code = position_code_(place);
+  const Tensor& path = transition.path;
+  const Tensor so_far = u.expand({batch, frames, 1});
+  if (config_.residual) {
+    given.root = path;
+    const Tensor share = u * has;
+    const Tensor last = history.joints.narrow(1, history.size() - 1, 1);
+    given.joints = last + share.unsqueeze(-1) * (given.target_joints - last);
+    given.ahead = HeadingOf(share.squeeze(-1) * transition.target_turn.unsqueeze(1));
+    const Tensor from_start = ((count + 1) / kRampFrames).clamp_max(1);
+    const Tensor to_target = ((frames - 1 - count) / kRampFrames).clamp_max(1);
+    given.ramp = from_start * (1 - has + has * to_target);
+    const Tensor left = TimeEmbedding((frames - 1 - count).squeeze(-1), kEmbedding);
+    given.code = position_code_(
+        torch::cat({TurnBack(path - given.end, given.ahead) * has,
+                    (path.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight, so_far, left * has},
+                   -1));
+  } else {
+    const double pelvis = skeleton_.pelvis_height;
+    given.root = torch::tensor({0.0, pelvis, 0.0}, options).expand({batch, frames, 3});
+    given.joints = joint_mean_.expand({batch, frames, others_, 3});
+    given.ahead = HeadingOf(torch::zeros({batch, frames}, options));
+    given.ramp = torch::ones({batch, frames, 1}, options);
+    std::vector<Tensor> code;
+    if (config_.absolute_position) code.push_back((path - given.root) / place_);
+    if (config_.relative_position) code.push_back(so_far);
+    given.code = position_code_(torch::cat(code, -1));
+    given.target = EncodeTarget(given, nullptr);
+  }
 
   const auto encode = [&](const WindowController& controller, const Tensor& windows) {
     return controller->Encode(windows.flatten(0, 1)).unflatten(0, {batch, frames});
   };
   given.path_window =
-      TurnBack(Windows(history.root, transition.path, config_.window) - given.path.unsqueeze(2),
+      TurnBack(Windows(history.root, path, config_.window) - given.root.unsqueeze(2),
                given.ahead.unsqueeze(2)) /
-      kPlace;
+      place_;
   given.path_memory = encode(path_controller_, given.path_window);
   if (config_.velocity_factors) {
     given.factor_window =
@@ -166,18 +187,31 @@ FrameTensors ControllersModelImpl::Compose(const ControlledGiven& given, const T
   const Tensor none = torch::tensor({0.0F, 1.0F}, turn.options());
   const Tensor away = none + given.ramp * turn;
   const Tensor unit = away / (away.square().sum(-1, true) + 1e-6).sqrt();
-  return {given.path + given.ramp * Turn(root, given.ahead), AddHeadings(given.ahead, unit), joints,
+  return {given.root + given.ramp * Turn(root, given.ahead), AddHeadings(given.ahead, unit), joints,
           torch::zeros({joints.size(0), joints.size(1), kContacts}, joints.options())};
 }
 
-FrameTensors ControllersModelImpl::Planned(const ControlledGiven& given) const {
-  const Tensor none = torch::zeros_like(given.path);
-  return Compose(given, given.joints, none.narrow(2, 0, 2), none);
+// The target's posture, heading and place: of a residual network, how far they are from `now`.
+Tensor ControllersModelImpl::EncodeTarget(const ControlledGiven& given, const FrameTensors* now) {
+  Tensor joints, facing, place;
+  if (now != nullptr) {
+    joints = given.target_joints - now->joints;
+    facing = SubtractHeadings(given.target_facing.expand_as(now->facing), now->facing);
+    place = TurnBack(given.end - now->root, given.ahead);
+  } else {
+    joints = given.target_joints - joint_mean_;
+    facing = given.target_facing;
+    place = (given.end - given.root.narrow(1, 0, 1)) / place_;
+  }
+  return target_controller_->forward(torch::cat({(joints / joint_std_).flatten(-2), facing, place,
+                                                 torch::ones_like(place.narrow(-1, 0, 1))},
+                                                -1) *
+                                     given.has_target);
 }
 
 ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
                                             const FrameTensors& walked, ControllersState* state) {
-  const int64_t batch = given.path.size(0), frames = given.path.size(1);
+  const int64_t batch = given.root.size(0), frames = given.root.size(1);
   const int64_t half = config_.window / 2;
   const FrameTensors now = walked.Narrow(half, frames), before = walked.Narrow(half - 1, frames);
 
@@ -192,7 +226,7 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
       walked.root.narrow(1, 1, frames + half - 1).unfold(1, half, 1).transpose(-1, -2);
   std::vector<Tensor> live = {
       decode(path_controller_, given.path_memory,
-             TurnBack(roots - given.path.unsqueeze(2), given.ahead.unsqueeze(2)) / kPlace,
+             TurnBack(roots - given.root.unsqueeze(2), given.ahead.unsqueeze(2)) / place_,
              given.path_window)};
   if (config_.velocity_factors) {
     const Tensor factors = FactorsOf(Steps(walked), shares_) / factor_std_;
@@ -204,22 +238,25 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
   live.push_back(state_encoder_->forward(
       torch::cat({((now.joints - joint_mean_) / joint_std_).flatten(-2),
                   (now.root.narrow(2, 1, 1) - skeleton_.pelvis_height) / kHeight,
-                  TurnBack(given.path - now.root, given.ahead) / kPlace, facing, now.contacts},
+                  TurnBack(given.root - now.root, given.ahead) / place_, facing, now.contacts},
                  -1)));
   live.push_back(velocity_encoder_->forward(
       torch::cat({(now.joints - before.joints).flatten(-2) / kStep,
                   TurnBack(now.root - before.root, given.ahead) / kStep,
                   SubtractHeadings(now.facing, before.facing).narrow(-1, 0, 1) / kTurnStep},
                  -1)));
-  const Tensor target = target_controller_->forward(
-      torch::cat({((given.target_joints - now.joints) / joint_std_).flatten(-2),
-                  SubtractHeadings(given.target_facing.expand_as(now.facing), now.facing),
-                  TurnBack(given.end - now.root, given.ahead),
-                  torch::ones({batch, frames, 1}, now.root.options())},
-                 -1) *
-      given.has_target);
+  const Tensor target = config_.residual
+                            ? EncodeTarget(given, &now)
+                            : given.target.expand({batch, frames, given.target.size(2)});
 
   const auto run = [](torch::nn::LSTM& lstm, const Tensor& in, auto* memory) {
+    if (torch::GradMode::is_enabled() && in.is_cpu() && !*memory) {
+      // Training goes all the way at once, and needs no state behind it.
+      const std::vector<Tensor> weights = lstm->parameters();
+      const Tensor none = torch::zeros({in.size(0), weights[1].size(1)}, in.options());
+      LstmState start{none, none};
+      return RunLstmLayer(in, {weights[0], weights[1], weights[2], weights[3]}, &start);
+    }
     auto [out, next] = lstm->forward(in, *memory);
     *memory = next;
     return out;
@@ -235,9 +272,8 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
   const Tensor joints = given.joints + given.ramp.unsqueeze(-1) * joint_std_ *
                                            decoded.narrow(2, 0, pose).unflatten(2, {others_, 3});
   ControlledOutput output;
-  output.frames = Compose(given, joints, root.narrow(2, 3, 2), kPlace * root.narrow(2, 0, 3));
-  output.contact_logits = decoded.narrow(2, 2 * pose, kContacts);
-  output.frames.contacts = torch::sigmoid(output.contact_logits);
+  output.frames = Compose(given, joints, root.narrow(2, 3, 2), place_ * root.narrow(2, 0, 3));
+  output.frames.contacts = torch::sigmoid(decoded.narrow(2, 2 * pose, kContacts));
   output.velocities =
       kStep * Turn(torch::cat({root.narrow(2, 5, 3).unsqueeze(2),
                                decoded.narrow(2, pose, pose).unflatten(2, {others_, 3})},

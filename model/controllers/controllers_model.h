@@ -20,11 +20,15 @@ namespace choreo {
 
 /// Everything about a transition that does not depend on what came out so far, of all N frames.
 /// Tensors are [batch, N, ...]; Narrow gives some of the frames.
+///
+/// A frame is what the decoders say, added to `root`, `ahead` and `joints`: the canonical frame's
+/// origin at the pelvis' height, its heading and the mean posture; of a residual network the path
+/// and interpolation.
 struct ControlledGiven {
-  torch::Tensor path;           ///< [batch, N, 3]
-  torch::Tensor ahead;          ///< [batch, N, 2] heading of the straight way to the target
-  torch::Tensor ramp;           ///< [batch, N, 1] how free a frame is of history and target, [0, 1]
-  torch::Tensor joints;         ///< [batch, N, joints - 1, 3] interpolated
+  torch::Tensor root;           ///< [batch, N, 3]
+  torch::Tensor ahead;          ///< [batch, N, 2]
+  torch::Tensor ramp;           ///< [batch, N, 1] how much of what they say counts, [0, 1]
+  torch::Tensor joints;         ///< [batch, N, joints - 1, 3]
   torch::Tensor path_window;    ///< [batch, N, window, 3]
   torch::Tensor factor_window;  ///< [batch, N, window, 5]
   torch::Tensor path_memory, factor_memory;  ///< what the controllers' encoders make of them
@@ -33,6 +37,7 @@ struct ControlledGiven {
   torch::Tensor target_facing;               ///< [batch, 1, 2]
   torch::Tensor end;                         ///< [batch, 1, 3] of the path
   torch::Tensor has_target;                  ///< [batch, 1, 1]
+  torch::Tensor target;  ///< [batch, 1, encoding] of the target, unless it is residual
 
   ControlledGiven Narrow(int64_t first, int64_t count) const;
 };
@@ -41,7 +46,6 @@ struct ControlledGiven {
 /// root's and the others' from the root, metres a frame, axes the scene's.
 struct ControlledOutput {
   FrameTensors frames;
-  torch::Tensor contact_logits;
   torch::Tensor velocities;
 };
 
@@ -50,7 +54,7 @@ struct ControllersState {
   torch::optional<std::tuple<torch::Tensor, torch::Tensor>> first, second;
 };
 
-/// The network of paper C (Section 3.2, Figure 2). It walks around interpolation.
+/// The network of paper C (Section 3.2, Figure 2).
 class ControllersModelImpl : public torch::nn::Module {
  public:
   ControllersModelImpl(const ControllersConfig& config, const Skeleton& skeleton);
@@ -67,8 +71,6 @@ class ControllersModelImpl : public torch::nn::Module {
                         const torch::Tensor& factor_std);
 
   ControlledGiven Prepare(const ControlledTransition& transition);
-  /// What it walks around as a motion; contacts are zeros.
-  FrameTensors Planned(const ControlledGiven& given) const;
   /// n frames. `walked`: the lead() frames before the first of them, then all but the last one of
   /// them, as they were taken to be (real ones, emitted ones).
   ControlledOutput Walk(const ControlledGiven& given, const FrameTensors& walked,
@@ -77,12 +79,14 @@ class ControllersModelImpl : public torch::nn::Module {
   FrameTensors RollOut(const ControlledTransition& transition);
 
  private:
+  torch::Tensor EncodeTarget(const ControlledGiven& given, const FrameTensors* now);
   FrameTensors Compose(const ControlledGiven& given, const torch::Tensor& joints,
                        const torch::Tensor& turn, const torch::Tensor& root) const;
 
   ControllersConfig config_;
   Skeleton skeleton_;
   int64_t others_;                        // joints but the root
+  double place_;                          // metres from given.root that count as one
   torch::Tensor joint_mean_, joint_std_;  // [joints - 1, 3]
   torch::Tensor factor_std_, shares_;     // [5], [5, joints]
 

@@ -12,14 +12,15 @@ using torch::Tensor;
 // Paper C, Section 3.3.
 constexpr double kRec = 0.3, kCon = 0.2, kRoot = 0.15, kKey = 0.2, kFactor = 0.15;
 constexpr int64_t kKeyFrames = 5;  // m
-// Within a loss: what counts as one.
-constexpr double kHeading = 0.3, kPlace = 2, kContact = 0.05;
-constexpr double kCentimetre = 100;
+// What counts as one, of which the paper says nothing: a decimetre of place, a centimetre a frame
+// of speed, a third of a radian (by which hands go a decimetre), a contact.
+constexpr double kPlace = 10, kSpeed = 100, kTurn = 3;
 
 Tensor Norm(const Tensor& x) { return (x.square().sum(-1) + 1e-8).sqrt(); }
 
-// Mean over all but the batch.
-Tensor OfWindow(const Tensor& x) { return x.flatten(1).mean(1); }
+// Sums over everything but batch and frames, mean over frames: [batch, N, ...] -> [batch].
+Tensor OfWindow(const Tensor& x) { return x.flatten(2).sum(2).mean(1); }
+Tensor Squares(const Tensor& x) { return OfWindow(x.square()); }
 
 }  // namespace
 
@@ -45,16 +46,14 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
   const Tensor steps = Steps(Join(last, frames)), real = Steps(Join(last, truth));
   const auto weighted = [&](const Tensor& of_window) { return (batch.weight * of_window).mean(); };
 
-  const Tensor rec =
-      OfWindow(Norm((frames.joints - truth.joints).flatten(2))) +
-      kHeading * OfWindow(Norm(frames.facing - truth.facing)) +
-      kPlace * OfWindow(Norm(frames.root - truth.root)) +
-      kDecimetresPerMetre * OfWindow(Norm(output.velocities - real)) +
-      kContact * OfWindow(torch::binary_cross_entropy_with_logits(
-                     output.contact_logits, truth.contacts, {}, {}, at::Reduction::None));
-  Tensor consistency = weighted(kDecimetresPerMetre * OfWindow(Norm(steps - real)) +
-                                kDecimetresPerMetre * OfWindow(Norm(output.velocities - steps)));
+  // Eq. 4
+  const Tensor rec = Squares(kPlace * (frames.joints - truth.joints)) +
+                     Squares(kPlace * (frames.root - truth.root)) +
+                     Squares(kTurn * (frames.facing - truth.facing)) +
+                     Squares(kSpeed * (output.velocities - real)) +
+                     Squares(frames.contacts - truth.contacts);
 
+  // Eq. 5 to 8
   const Skeleton& skeleton = model.skeleton();
   Tensor lengths = torch::empty({skeleton.joints() - 1});
   for (int j = 1; j < skeleton.joints(); ++j)
@@ -67,27 +66,31 @@ LossTerms ControlLoss(ControllersModelImpl& model, const ControlBatch& batch,
       torch::cat({torch::zeros_like(frames.joints.narrow(2, 0, 1)), frames.joints}, 2);
   const auto parents = std::span(skeleton.parents).subspan(1);
   const Tensor bones = Norm(frames.joints - with_root.index_select(2, index(parents)));
-  consistency =
-      consistency + kDecimetresPerMetre * (bones - lengths.to(bones.device())).abs().mean();
-  const Tensor slide = Norm(steps.index_select(2, index(skeleton.feet)) + steps.narrow(2, 0, 1));
-  consistency = consistency + kDecimetresPerMetre * (frames.contacts * slide).mean();
+  const Tensor slide = Norm(output.velocities.index_select(2, index(skeleton.feet)) +
+                            output.velocities.narrow(2, 0, 1));
+  const Tensor consistency = Squares(kPlace * (bones - lengths.to(bones.device()))) +
+                             OfWindow(kSpeed * frames.contacts * slide) +
+                             Squares(kSpeed * (output.velocities - steps));
 
+  // Eq. 9
+  const FrameTensors walked = Join(last, frames);
   const Tensor root =
-      kDecimetresPerMetre * (OfWindow(Norm((steps - real).select(2, 0))) +
-                             OfWindow(Norm(frames.facing.diff(1, 1) - truth.facing.diff(1, 1))));
+      Squares(kPlace * walked.root.diff(1, 1)) + Squares(kTurn * walked.facing.diff(1, 1));
   LossTerms terms = {{"reconstruction", kRec, weighted(rec)},
-                     {"consistency", kCon, consistency},
-                     {"root", kRoot, weighted(root)}};
-  if (model.config().key_loss) {
-    const Tensor first = last.joints.select(1, 0).flatten(1);
-    const Tensor key =
-        KeyframeLoss(frames.joints.flatten(2), first, transition.target_joints.flatten(1));
+                     {"consistency", kCon, consistency.mean()},
+                     {"root", kRoot, root.mean()}};
+  if (model.config().key_loss) {  // Eq. 10
+    const auto places = [](const Tensor& pelvis, const Tensor& joints) {
+      return kPlace * torch::cat({pelvis, joints.flatten(-2)}, -1);
+    };
+    const Tensor key = KeyframeLoss(
+        places(frames.root, frames.joints), places(last.root, last.joints).select(1, 0),
+        places(transition.path.select(1, transition.frames - 1), transition.target_joints));
     terms.push_back({"keyframe", kKey, (key * transition.has_target.squeeze(1)).mean()});
   }
-  if (model.config().velocity_factors) {
-    terms.push_back(
-        {"factors", kFactor,
-         kCentimetre * (FactorsOf(steps, model.shares()) - batch.factors).abs().mean()});
+  if (model.config().velocity_factors) {  // Eq. 11
+    terms.push_back({"factors", kFactor,
+                     Squares(kSpeed * (FactorsOf(steps, model.shares()) - batch.factors)).mean()});
   }
   return terms;
 }

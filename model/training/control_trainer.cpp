@@ -1,6 +1,8 @@
 #include <torch/torch.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "model/controllers/checkpoint.h"
 #include "model/core/error.h"
@@ -16,13 +18,15 @@ namespace {
 
 constexpr int kNormalisationWindows = 512;
 constexpr int kControlValidationWindows = 48;
-constexpr double kTruthDecay = 0.998;  // of scheduled sampling's probability, a step
-constexpr double kCurriculum = 0.3;    // share of a stage after which all lengths are drawn
-constexpr double kLongest = 0.25;      // share of draws among all lengths alike
+constexpr int kOwnPasses = 2;                // of scheduled sampling: each costs a third of a step
+constexpr int kRaisedEvery = 5, kRaise = 4;  // epochs, frames of the curriculum's shortest
 
 ControllersConfig ConfigOf(const TrainOptions& options) {
   ControllersConfig config;
   if (!options.name.empty()) config.name = options.name;
+  config.residual = options.controllers.residual;
+  config.absolute_position = !options.controllers.no_absolute_position;
+  config.relative_position = !options.controllers.no_relative_position;
   config.two_lstms = !options.controllers.one_lstm;
   config.transformers = !options.controllers.condition_fc;
   config.root_decoder = !options.controllers.one_decoder;
@@ -54,8 +58,9 @@ class ControlRun : public TrainingRun {
   void TrainStep() override {
     Random random = RandomOf(step());
     model_->train();
-    const ControlBatch batch = Draw(&random, static_cast<double>(step()) / options().steps);
-    Descend(Walk(batch, model_->Prepare(batch.transition), std::pow(kTruthDecay, step())));
+    const ControlBatch batch = Draw(&random);
+    Descend(Walk(batch, model_->Prepare(batch.transition),
+                 std::pow(options().controllers.truth_decay, step())));
   }
 
   NamedFigures Validate() override {
@@ -106,55 +111,52 @@ class ControlRun : public TrainingRun {
   }
 
  private:
-  // Short windows first; the longest length rises until all are drawn. Later one draw in four is of
-  // any length, the others rather short, which is cheap and common.
-  ControlBatch Draw(Random* random, double progress) const {
-    const double open = std::min(1.0, progress / kCurriculum);
-    const int longest =
-        options().shortest + static_cast<int>(open * (options().longest - options().shortest));
-    const double u = random->Uniform();
-    const double place = random->Uniform() < kLongest ? u : u * std::sqrt(u);
-    const int frames = std::min(
-        longest, options().shortest + static_cast<int>(place * (longest - options().shortest + 1)));
-    return train_.Draw(WindowsOf(options().batch / 2, frames), model_->config().history_frames,
-                       frames,
+  // The paper's curriculum: in each epoch one frame more at most, every five epochs four more at
+  // least. The run's steps are dealt out to the epochs alike.
+  ControlBatch Draw(Random* random) const {
+    const int shortest = options().shortest, longest = options().longest;
+    const int64_t epoch = step() * (longest - shortest + 1) / options().steps;
+    const int most = shortest + static_cast<int>(epoch);
+    const int least = std::min(most, shortest + static_cast<int>(epoch / kRaisedEvery) * kRaise);
+    const auto frames = static_cast<int>(random->Integer(least, most + 1));
+    return train_.Draw(options().batch, model_->config().history_frames, frames,
                        {.mirror = 0.5,
-                        .tempo = 0.3,
+                        .tempo = options().tempo,
                         .no_target = 0.05,
-                        .smooth_path = 0.2,
-                        .smooth_factors = 0.25,
-                        .scale_factors = model_->config().velocity_factors ? 0.2 : 0.0},
+                        .smooth_path = 0.1,
+                        .smooth_factors = 0.1},
                        random);
   }
 
-  // Scheduled sampling without a loop over time: what the network would have walked is found by
-  // letting it walk behind interpolation, all frames at once; of that and the real frames, each is
-  // drawn with the probability that the paper has.
+  // Scheduled sampling: what a frame sees before it is the real one with a probability of
+  // `truth_share`, else the network's own. That is found all frames at once instead of one after
+  // the other (Duckworth et al. 2019): behind real frames first, then behind what came of that.
   LossTerms Walk(const ControlBatch& batch, const ControlledGiven& given, double truth_share) {
-    const int64_t frames = batch.transition.frames;
-    const auto& history = batch.transition.history;
-    const FrameTensors lead = history.Narrow(history.size() - model_->lead(), model_->lead());
-    const auto behind = [&](const FrameTensors& frames_before) {
-      return Join(lead, frames_before.Narrow(0, frames - 1));
-    };
-    FrameTensors walked;
-    {
-      torch::NoGradGuard no_grad;
-      ControllersState state;
-      walked = model_->Walk(given, behind(model_->Planned(given).Detach()), &state).frames;
-    }
+    const int64_t lead = model_->lead(), frames = batch.transition.frames;
+    const FrameTensors& history = batch.transition.history;
+    const FrameTensors before = history.Narrow(history.size() - lead, lead);
     const torch::Tensor real =
         (torch::rand({batch.truth.root.size(0), frames, 1}) < truth_share).to(torch::kFloat);
-    const auto mix = [&](const torch::Tensor& truth, const torch::Tensor& own) {
-      const torch::Tensor share = truth.dim() == 4 ? real.unsqueeze(-1) : real;
-      return own + share * (truth - own);
+    FrameTensors seen = batch.truth;
+    const auto walk = [&] {
+      ControllersState state;
+      return model_->Walk(given, Join(before, seen.Narrow(0, frames - 1)), &state);
     };
-    const FrameTensors mixed{
-        mix(batch.truth.root, walked.root), mix(batch.truth.facing, walked.facing),
-        mix(batch.truth.joints, walked.joints), mix(batch.truth.contacts, walked.contacts)};
-    ControllersState state;
-    const ControlledOutput output = model_->Walk(given, behind(mixed), &state);
-    return ControlLoss(*model_, batch, output);
+    for (int pass = 0; pass < kOwnPasses; ++pass) {
+      const torch::NoGradGuard no_grad;
+      seen = Mix(batch.truth, walk().frames, real);
+    }
+    return ControlLoss(*model_, batch, walk());
+  }
+
+  // Truth where `real` is one, the network's own where it is zero.
+  static FrameTensors Mix(const FrameTensors& truth, const FrameTensors& own,
+                          const torch::Tensor& real) {
+    const auto mix = [&](const torch::Tensor& a, const torch::Tensor& b) {
+      return b + (a.dim() == 4 ? real.unsqueeze(-1) : real) * (a - b);
+    };
+    return {mix(truth.root, own.root), mix(truth.facing, own.facing), mix(truth.joints, own.joints),
+            mix(truth.contacts, own.contacts)};
   }
 
   void Normalise() {

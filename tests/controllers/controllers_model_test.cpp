@@ -29,6 +29,12 @@ ControllersConfig Small() {
   return config;
 }
 
+ControllersConfig SmallResidual() {
+  ControllersConfig config = Small();
+  config.residual = true;
+  return config;
+}
+
 class ControllersModelTest : public testing::Test {
  protected:
   ControllersModelTest()
@@ -79,8 +85,21 @@ TEST_F(ControllersModelTest, FactorsAreThoseOfTheWholeHouse) {
   EXPECT_LT(Difference(mine, batch.factors.narrow(1, 1, 7)), 2e-5);
 }
 
-TEST_F(ControllersModelTest, StartsAsInterpolationOnThePath) {
+TEST_F(ControllersModelTest, StartsAsTheMeanPostureAtTheOrigin) {
   ControllersModel model(Small(), Skeleton::Smpl24());
+  model->SetNormalisation(torch::full({23, 3}, 0.3), torch::full({23, 3}, 0.1),
+                          torch::full({kBodyParts}, 0.01));
+  model->eval();
+  torch::NoGradGuard no_grad;
+  const FrameTensors out = model->RollOut(Draw(20).transition);
+  const double pelvis = Skeleton::Smpl24().pelvis_height;
+  EXPECT_LT(Difference(out.root, torch::tensor({0.0, pelvis, 0.0}).expand_as(out.root)), 1e-6);
+  EXPECT_LT(Difference(out.joints, torch::full_like(out.joints, 0.3)), 1e-6);
+  EXPECT_LT(Difference(out.facing, torch::tensor({0.0, 1.0}).expand_as(out.facing)), 1e-6);
+}
+
+TEST_F(ControllersModelTest, AResidualNetworkStartsAsInterpolationOnThePath) {
+  ControllersModel model(SmallResidual(), Skeleton::Smpl24());
   model->eval();
   const ControlBatch batch = Draw(20);
   torch::NoGradGuard no_grad;
@@ -91,11 +110,13 @@ TEST_F(ControllersModelTest, StartsAsInterpolationOnThePath) {
             1e-5);
 }
 
-TEST_F(ControllersModelTest, ReachesTheTargetWhateverItsWeights) {
-  const ControllersModel model = Random4(Small());
+TEST_F(ControllersModelTest, OnlyAResidualNetworkReachesTheTargetWhateverItsWeights) {
   const ControlBatch batch = Draw(12);
   torch::NoGradGuard no_grad;
-  const FrameTensors out = ControllersModel(model)->RollOut(batch.transition);
+  const FrameTensors free = Random4(Small())->RollOut(batch.transition);
+  EXPECT_GT(Difference(free.joints.select(1, 11), batch.transition.target_joints), 0.05);
+  EXPECT_GT(Difference(free.root.select(1, 11), batch.truth.root.select(1, 11)), 0.05);
+  const FrameTensors out = Random4(SmallResidual())->RollOut(batch.transition);
   EXPECT_GT(Difference(out.joints.select(1, 6), batch.truth.joints.select(1, 6)), 1e-3);
   EXPECT_LT(Difference(out.joints.select(1, 11), batch.transition.target_joints), 1e-5);
   EXPECT_LT(Difference(out.root.select(1, 11), batch.truth.root.select(1, 11)), 1e-5);
@@ -107,6 +128,7 @@ TEST_F(ControllersModelTest, WalksAllFramesAtOnceAsOneByOne) {
   for (const bool whole : {true, false}) {
     ControllersConfig config = Small();
     config.two_lstms = config.transformers = config.root_decoder = config.velocity_factors = whole;
+    config.residual = !whole;
     ControllersModel model = Random4(config);
     const ControlBatch batch = Draw(15);
     torch::NoGradGuard no_grad;
@@ -128,6 +150,31 @@ TEST_F(ControllersModelTest, HearsItsControls) {
   const FrameTensors as_asked = model->RollOut(batch.transition);
   batch.transition.factors = 1.5 * batch.transition.factors;
   EXPECT_GT(Difference(model->RollOut(batch.transition).joints, as_asked.joints), 1e-5);
+}
+
+TEST_F(ControllersModelTest, SeesItsTargetAndHowFarItIs) {
+  ControlBatch batch = Draw(15);
+  torch::NoGradGuard no_grad;
+  for (const bool absolute : {true, false}) {
+    for (const bool relative : {true, false}) {
+      ControllersConfig config = Small();
+      config.absolute_position = absolute;
+      config.relative_position = relative;
+      if (!absolute && !relative) {
+        ExpectError(ErrorCode::kInvalidArgument, "relative_position", [&] { Random4(config); });
+        continue;
+      }
+      ControllersModel model = Random4(config);
+      const FrameTensors before = model->RollOut(batch.transition);
+      ControlledTransition other = batch.transition;
+      other.target_joints = other.target_joints + 0.2;
+      EXPECT_GT(Difference(model->RollOut(other).joints, before.joints), 1e-5);
+      other.has_target = torch::zeros_like(other.has_target);
+      const FrameTensors without = model->RollOut(other);
+      other.target_joints = other.target_joints + 0.2;
+      EXPECT_EQ(Difference(model->RollOut(other).joints, without.joints), 0);
+    }
+  }
 }
 
 TEST_F(ControllersModelTest, WindowsThatAreNotVariedAnswerTheirControls) {
@@ -168,18 +215,51 @@ TEST_F(ControllersModelTest, LossesVanishWhereTheMotionIsTheRealOne) {
   const ControlBatch batch = Draw(20);
   const FrameTensors& history = batch.transition.history;
   const Tensor steps = Steps(Join(history.Narrow(history.size() - 1, 1), batch.truth));
-  const auto stated = [&](const FrameTensors& frames) {
-    return ControlledOutput{frames, 40 * batch.truth.contacts - 20, steps};  // of logits: sure
+  const auto stated = [&](const FrameTensors& frames) { return ControlledOutput{frames, steps}; };
+  const auto loss = [&](const FrameTensors& frames, const std::string& name) {
+    for (const LossTerm& term : ControlLoss(*model, batch, stated(frames)))
+      if (term.name == name) return term.value.item<double>();
+    return -1.0;
   };
-  for (const LossTerm& term : ControlLoss(*model, batch, stated(batch.truth))) {
-    if (std::string(term.name) == "keyframe") continue;  // the way is not the pose at its end
-    EXPECT_LT(term.value.item<double>(), 3e-3) << term.name;
-  }
+  EXPECT_LT(loss(batch.truth, "reconstruction"), 1e-6);
+  EXPECT_LT(loss(batch.truth, "factors"), 1e-3);
+  // A decimetre beside the path on each frame is one (Eq. 4).
   FrameTensors moved = batch.truth;
   moved.root = moved.root + torch::tensor({0.0F, 0.0F, 0.1F});
-  const LossTerms terms = ControlLoss(*model, batch, stated(moved));
-  EXPECT_NEAR(terms[0].value.item<double>(), 2 * 0.1,
-              2e-3);  // reconstruction: place beside the path
+  EXPECT_NEAR(loss(moved, "reconstruction"), 1, 1e-4);
+  // A decimetre a frame, as it is printed: of the dance's own way, not beside the real one (Eq. 9).
+  FrameTensors glide = batch.truth;
+  glide.facing = torch::tensor({0.0F, 1.0F}).expand_as(glide.facing);
+  const Tensor start = history.root.narrow(1, history.size() - 1, 1);
+  glide.root = start + torch::tensor({0.0F, 0.0F, 0.1F}) * torch::arange(1, 21).view({1, 20, 1});
+  EXPECT_NEAR(loss(glide, "root"), 1, 1e-4);
+}
+
+TEST_F(ControllersModelTest, ContactsThatGlideAndLimbsThatStretchCost) {
+  ControllersModel model(Small(), Skeleton::Smpl24());
+  const ControlBatch batch = Draw(20);
+  const FrameTensors& history = batch.transition.history;
+  const FrameTensors last = history.Narrow(history.size() - 1, 1);
+  const auto consistency = [&](const FrameTensors& frames, const Tensor& velocities) {
+    return ControlLoss(*model, batch, {frames, velocities})[1].value.item<double>();
+  };
+  FrameTensors standing = batch.truth;
+  standing.contacts = torch::ones_like(standing.contacts);
+  const Tensor steps = Steps(Join(last, standing));
+  FrameTensors flying = standing;
+  flying.contacts = torch::zeros_like(flying.contacts);
+  // Eq. 7 is of the velocities that the network states: four feet, a centimetre a frame each.
+  Tensor stated = torch::zeros_like(steps);
+  stated.select(2, 0).select(-1, 0).fill_(0.01);
+  EXPECT_NEAR(consistency(standing, stated) - consistency(flying, stated), 4, 1e-3);
+  // Eq. 6 is of squares: a bone of twice the length costs its length in decimetres, squared.
+  FrameTensors longer = flying;
+  longer.joints = 2 * flying.joints;
+  const Tensor offsets = torch::tensor(
+      std::vector<double>(Skeleton::Smpl24().offsets.colwise().squaredNorm().begin() + 1,
+                          Skeleton::Smpl24().offsets.colwise().squaredNorm().end()));
+  EXPECT_NEAR(consistency(longer, Steps(Join(last, longer))), 100 * offsets.sum().item<double>(),
+              0.02 * 100 * offsets.sum().item<double>());
 }
 
 TEST_F(ControllersModelTest, ACheckpointComesBackWhole) {
