@@ -1,9 +1,11 @@
 #include "model/evaluation/contest.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "model/core/error.h"
+#include "model/core/safetensors.h"
 #include "model/engine/engines.h"
 #include "model/evaluation/interpolation_engine.h"
 #include "model/metrics/song_beats.h"
@@ -45,6 +47,13 @@ std::string EngineOf(const ModelInfo& model, EngineKind kind) {
   return kind == EngineKind::kPacked ? "packed float32" : model.fingerprint.substr(packed + 1);
 }
 
+// Whether a network was told of keys in training: all but paper F's --no-keys.
+bool LearntKeys(const std::filesystem::path& checkpoint) {
+  const auto metadata = ReadSafetensors(checkpoint).metadata;
+  const auto config = metadata.find("config");
+  return config == metadata.end() || nlohmann::json::parse(config->second).value("keys", true);
+}
+
 }  // namespace
 
 Contest MakeContest(const ContestOptions& options) {
@@ -74,11 +83,11 @@ Contest MakeContest(const ContestOptions& options) {
       throw InvalidArgument("--other", "'" + other.checkpoint.string() +
                                            "' dances on another skeleton than the model");
     }
-    contest.methods.push_back({other.name, Kind::kEngine, engine});
+    contest.methods.push_back({other.name, Kind::kEngine, engine, LearntKeys(other.checkpoint)});
     const std::string by = EngineOf(engine->model(), kind);
     if (by != EngineOf(model, kind)) contest.stepped_by += "; " + by + " for " + other.name;
   }
-  contest.methods.push_back({options.name, Kind::kEngine, judged});
+  contest.methods.push_back({options.name, Kind::kEngine, judged, LearntKeys(options.model)});
   return contest;
 }
 

@@ -28,6 +28,7 @@ constexpr Evaluate kPaperControls[] = {EvaluateControls};
 constexpr Evaluate kControls[] = {EvaluateControls, EvaluateMultipliers, EvaluateRepetition,
                                   EvaluateDrawnPaths};
 constexpr Evaluate kLiveliness[] = {EvaluateLiveliness, EvaluateStyles, EvaluateNearness};
+constexpr Evaluate kPaper[] = {EvaluatePaperTransitions, EvaluatePaperDances};
 constexpr Evaluate kAll[] = {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition,
                              EvaluateDrawnPaths, EvaluateLiveliness,  EvaluateStyles,
                              EvaluateNearness,   EvaluateTransitions, EvaluateLongDances,
@@ -120,6 +121,7 @@ void EvaluateAll(Arguments arguments) {
   if (arguments.controls && !model.root_path)
     throw InvalidArgument("--controls", model.name + " takes none");
   if (!arguments.controls) CheckLengths(contest.methods, options.lengths);
+  options.own_temperatures = arguments.temperature < 0;
   options.temperature = arguments.temperature >= 0 ? arguments.temperature
                                                    : static_cast<float>(model.default_temperature);
   const auto sets = LoadSets(arguments.data, arguments.splits, arguments.split, model.skeleton);
@@ -129,7 +131,8 @@ void EvaluateAll(Arguments arguments) {
     training = LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton);
   }
   std::optional<MotionEncoder> encoder;
-  if (arguments.encode && std::ranges::count(arguments.tables, &EvaluateEncoded) > 0)
+  if (arguments.encode && (std::ranges::count(arguments.tables, &EvaluateEncoded) > 0 ||
+                           std::ranges::count(arguments.tables, &EvaluatePaperDances) > 0))
     encoder.emplace(training);
   const std::vector<Table> tables =
       MakeTables(sets, contest, encoder ? &*encoder : nullptr, training, arguments);
@@ -192,6 +195,12 @@ void AddEvalCommand(CLI::App& app) {
           "--liveliness", [arguments] { arguments->tables = kLiveliness; },
           "Only the tables that tell whether the dance lives")
       ->excludes("--controls");
+  command
+      ->add_flag_callback(
+          "--paper", [arguments] { arguments->tables = kPaper; },
+          "Only paper F's tables, of every row raw and as served, at its own temperature")
+      ->excludes("--controls")
+      ->excludes("--liveliness");
   command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
       ->check(CheckTemperature);
   command->option_defaults()->always_capture_default();

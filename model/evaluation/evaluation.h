@@ -54,7 +54,8 @@ struct EvalOptions {
   int windows_per_clip = 8;
   int best_of = 10;  ///< samples a window, of which the nearest counts
   float temperature = 0;
-  int long_seeds = 50;  ///< long dances of each kind; 0: none
+  bool own_temperatures = false;  ///< each method's own instead, where a table says so
+  int long_seeds = 50;            ///< long dances of each kind; 0: none
   int long_frames = kMaxTransitionFrames;
   int free_dances = 20;  ///< without keys, of the table of liveliness; 0: none
 };
@@ -70,6 +71,12 @@ struct Evaluation {
 
   const Method& judged() const { return methods.back(); }
   const ModelInfo& model() const { return judged().engine->model(); }
+  /// What a method is danced at where tables compare models as they are served.
+  float TemperatureOf(const Method& method) const {
+    return options.own_temperatures && method.kind == Method::Kind::kEngine
+               ? static_cast<float>(method.engine->model().default_temperature)
+               : options.temperature;
+  }
 
   /// An empty table of this set; one of a method's own is called after it, but for the judged one.
   Table NewTable(const std::string& name, const std::string& title, std::vector<std::string> labels,
@@ -91,6 +98,14 @@ struct Evaluation {
 ///   transitions_SET  every method: distances to the real dance and the field's metrics
 ///   keys_SET         every method: how far it misses keys, raw and as served
 std::vector<Table> EvaluateTransitions(const Evaluation& evaluation);
+
+/// Paper F's tables, of every method raw (without arrival and foot lock) and as served, each at
+/// its own temperature unless one is asked for:
+///   paper_l2p_SET     Table 2: mean of EvalOptions::best_of samples
+///   paper_dances_SET  Table 1: long dances with keys each 100 frames
+///   paper_beats_SET   Table 4; of sets with music
+std::vector<Table> EvaluatePaperTransitions(const Evaluation& evaluation);
+std::vector<Table> EvaluatePaperDances(const Evaluation& evaluation);
 
 /// liveliness_l2p_SET of every judged method: L2P over interpolation's at temperature 0, at the
 /// served one, and of the best of EvalOptions::best_of samples there.

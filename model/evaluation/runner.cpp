@@ -26,6 +26,10 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
   request.first_frame = at;
   request.temperature = plan.temperature;
   request.style = plan.style;
+  if (!plan.finished) {
+    request.arrival_frames = 0;
+    request.foot_lock = false;
+  }
   if (plan.audio.cols() > 0) {
     request.has_audio = true;
     request.audio_history = plan.audio.middleCols(at, model.history_frames);

@@ -28,6 +28,7 @@ struct LongPlan {
   uint64_t seed = 0;
   float temperature = 0;
   std::string style = {};  ///< as TransitionRequest has it
+  bool finished = true;    ///< as served; false: without arrival and foot lock
 };
 
 struct LongDance {

@@ -26,6 +26,8 @@ WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vec
   const std::span<const Pose> theirs = std::span(real).subspan(kFramesBefore);
   const JointTrack track = TrackJoints(skeleton, ours), truth = TrackJoints(skeleton, theirs);
   figures.l2p = L2P(track, truth);
+  for (size_t t = 0; t < track.size(); ++t)
+    figures.l2p_norm += (track[t] - truth[t]).norm() / static_cast<double>(track.size());
   figures.raw_key_distance = figures.key_distance = KeyPoseDistance(track.back(), truth.back());
   const PoseError error = ComparePoses(skeleton, ours.back(), theirs.back());
   figures.raw_key_m = figures.final_key_m = error.position_m;

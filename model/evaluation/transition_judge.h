@@ -16,7 +16,8 @@ inline constexpr int kFramesBefore = 2;  ///< of the history, in front of what i
 /// What one transition of one method is worth.
 struct WindowFigures {
   size_t clip = 0;
-  double l2p = 0;  ///< m
+  double l2p = 0;       ///< m
+  double l2p_norm = 0;  ///< m, of all joints at once (paper F, Eq. 10)
   double l2q = 0;
   Npss npss;
   double pfc = 0;

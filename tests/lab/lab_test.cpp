@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -100,8 +101,7 @@ class LabEval : public testing::Test {
 
   void TrainOneStep(const std::string& preset) {
     const Outcome outcome = Lab("train --preset " + preset + kData + " --run " + preset +
-                                    " --steps 1 --batch 4 --shortest 5 --longest 20" +
-                                    (preset == "ablation" ? " --rollout-frames 4" : ""),
+                                    " --steps 1 --batch 4 --shortest 5 --longest 20",
                                 folder_.path());
     ASSERT_EQ(outcome.code, 0) << outcome.said;
   }
@@ -157,6 +157,41 @@ TEST_F(LabEval, WritesEveryTableAndTheSameBytesAgain) {
   EXPECT_TRUE(std::filesystem::exists(one / "t_transitions_clips.png"));
 }
 
+TEST_F(LabEval, ThePapersTablesHaveEachNetworkRawAndAsServed) {
+  WritePreparedClip(folder_.path() / "clips",
+                    testing_support::SyntheticClip("held_out", 320, 0.5, true));
+  TrainOneStep("ablation");
+  const Outcome trained = Lab("train --preset ablation --no-keys" + kData +
+                                  " --run keyless --steps 1 --batch 4 --shortest 5 --longest 20",
+                              folder_.path());
+  ASSERT_EQ(trained.code, 0) << trained.said;
+  const Outcome outcome = Eval(
+      "--paper --baseline real interpolation --name mine --long-frames 120 --other "
+      "keyless=keyless/checkpoint.safetensors --json t.json");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const auto tables = nlohmann::json::parse(Bytes(folder_.path() / "t.json"))["tables"];
+  std::map<std::string, nlohmann::json> rows;
+  std::vector<std::string> names;
+  for (const auto& table : tables) {
+    names.push_back(table["name"]);
+    for (const auto& row : table["rows"])
+      rows[names.back() + "/" + std::string(row["method"])] = row;
+  }
+  EXPECT_THAT(names,
+              testing::ElementsAre("paper_l2p_clips", "paper_dances_clips", "paper_beats_clips"));
+  // What the network draws misses the key, what is served does not; who learnt without keys is told
+  // of none.
+  EXPECT_GT(rows.at("paper_dances_clips/mine, raw")["KPD cm²"], 1);
+  EXPECT_LT(rows.at("paper_dances_clips/mine")["KPD cm²"], 1e-4);
+  EXPECT_TRUE(rows.at("paper_dances_clips/keyless")["KPD cm²"].is_null());
+  EXPECT_TRUE(rows.contains("paper_dances_clips/real"));
+  EXPECT_FALSE(rows.contains("paper_beats_clips/keyless"));
+  EXPECT_TRUE(rows.contains("paper_beats_clips/mine, raw"));
+  EXPECT_NE(rows.at("paper_l2p_clips/mine, raw")["cm at 10"],
+            rows.at("paper_l2p_clips/mine")["cm at 10"]);
+  EXPECT_EQ(rows.at("paper_l2p_clips/interpolation")["÷ interpolation at 10"], 1);
+}
+
 TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
   for (const auto& [arguments, why] : std::vector<std::pair<std::string, std::string>>{
            {"--data clips/", "choreo-lab: --data: 'clips/': another set is called 'clips'"},
@@ -173,7 +208,7 @@ TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
 TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
   for (const auto& [options, why] : std::vector<std::pair<std::string, std::string>>{
            {"ablation --one-lstm", "--one-lstm: is no ablation of the preset ablation"},
-           {"ablation --tempo 0.3", "--tempo: is no option of the preset ablation"},
+           {"default --hidden 64", "--hidden: is no option of the preset default"},
            {"default --longest 20", "--longest: is no option of the preset default"},
            {"controllers-paper --no-keys",
             "--no-keys: is no ablation of the preset controllers-paper"}}) {
@@ -182,9 +217,10 @@ TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
     EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: " + why)) << options;
   }
   // A card's command has all options: those that are not used may stand there at their defaults.
-  const Outcome typed = Lab("train --run typed --preset ablation --tempo 0.5 --steps 1 --batch 4" +
-                                kData + " --shortest 5 --longest 20 --rollout-frames 4",
-                            folder_.path());
+  const Outcome typed =
+      Lab("train --run typed --preset controllers-paper --hidden 0 --steps 1 --batch 4" + kData +
+              " --shortest 5 --longest 20",
+          folder_.path());
   EXPECT_EQ(typed.code, 0) << typed.said;
 }
 

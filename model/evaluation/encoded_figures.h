@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cmath>
+
+#include "model/evaluation/evaluation.h"
+
+namespace choreo {
+
+/// Paper F's figures in the codes of Evaluation::encoder (EvaluateEncoded).
+struct EncodedFigures {
+  double fid = NAN, variability = NAN, diversity = NAN;
+};
+
+/// Of an engine, or of real motion; NaN where there is no encoder or too little motion.
+EncodedFigures MeasureEncoded(const Evaluation& evaluation, const Method& method);
+
+}  // namespace choreo
