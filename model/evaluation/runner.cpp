@@ -28,7 +28,7 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
   request.style = plan.style;
   if (!plan.finished) {
     request.arrival_frames = 0;
-    request.foot_lock = false;
+    request.footwork = false;
   }
   if (plan.audio.cols() > 0) {
     request.has_audio = true;
