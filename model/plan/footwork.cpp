@@ -18,6 +18,7 @@
 namespace choreo {
 namespace {
 
+constexpr double kHalfToes = 0.75;  // of a foot's length that its ankle is above the toes, standing
 constexpr double kStillSpeed = 0.3;    // m/s: a low foot that is slower stands
 constexpr int kPasses = 2;             // legs that are moved move the centre of mass, too
 constexpr double kSmoothFrames = 1.5;  // of the centre of mass
@@ -133,29 +134,44 @@ class PlanStander {
     return track;
   }
 
-  // Feet lie on the floor: where toes are put down, an ankle that would be lower than it stands at
-  // rest is lifted about them. From where it was, and to where the key has it, within
-  // kSettleSeconds.
+  // How much a foot bears in a frame, from 0 to 1: it comes to that, and from there, within
+  // kSettleSeconds; what it bore before goes on.
+  double Bears(size_t side, int frame) const {
+    const Stance* stance = StanceAt(stances_[side], frame);
+    if (stance == nullptr) return 0;
+    const double settle = kSettleSeconds * context_.fps;
+    const double since = stance->from == 0 ? settle : frame - stance->from;
+    const double until = stance->to == frames_ - 1 && !context_.keyed ? settle : stance->to - frame;
+    return SmoothStep(std::clamp(std::min(since, until) / settle, 0.0, 1.0));
+  }
+
+  // Feet lie on the floor: an ankle that would be lower than it stands at rest is lifted about the
+  // toes, and of a foot that bears the body it is no higher than on half toes. From where it was,
+  // and to where the key has it, within kSettleSeconds.
   void LayDown(size_t side) {
     const Leg& leg = legs_[side];
-    const double lay = kSettleSeconds * context_.fps;
+    const double settle = kSettleSeconds * context_.fps;
     const auto sunk = [&](const Eigen::Matrix3Xd& at) {
       return std::max(0.0, ankle_rest_[side] - at(1, leg.ankle));
     };
     const double before = sunk(JointPositions(skeleton_, context_.history.back()));
     const double behind = context_.keyed ? sunk(planned_.back().positions) : 0;
     for (int frame = 0; frame < frames_; ++frame) {
+      if (IsKey(frame)) return;
       const auto i = static_cast<size_t>(frame);
-      const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / lay)); };
+      const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / settle)); };
       const double least =
           ankle_rest_[side] - fade(frame + 1) * before - fade(frames_ - 1 - frame) * behind;
       JointPlacement& at = planned_[i];
       const Eigen::Vector3d ankle = at.positions.col(leg.ankle);
       const Eigen::Vector3d foot = at.positions.col(leg.toes) - ankle;
-      const double along = std::hypot(foot.x(), foot.z());
-      const double rise = std::max(toes_[side][i].y() - least, -foot.norm());
-      if (foot.y() <= rise || along < 1e-6) continue;
-      const double flat = std::sqrt(std::max(0.0, foot.squaredNorm() - rise * rise)) / along;
+      const double length = foot.norm(), along = std::hypot(foot.x(), foot.z());
+      if (along < 1e-6) continue;
+      const double steepest = length * (1 - (1 - kHalfToes) * Bears(side, frame));
+      const double highest = std::max(toes_[side][i].y() - least, -length);
+      const double rise = std::clamp(foot.y(), std::min(-steepest, highest), highest);
+      if (rise == foot.y()) continue;
+      const double flat = std::sqrt(std::max(0.0, length * length - rise * rise)) / along;
       const Eigen::Vector3d laid(flat * foot.x(), rise, flat * foot.z());
       at.rotations[static_cast<size_t>(leg.ankle)] =
           Eigen::Quaterniond::FromTwoVectors(foot, laid).toRotationMatrix() *
