@@ -183,8 +183,11 @@ TEST_F(ContinuousFlowEngineTest, AdmissionsInSlicesGiveTheSameBitsWhateverComesB
       more[i] = engine_->ContinueAdmission(dancers[i].slot);
       ++slices[i];
     }
-    if (round < 4) EXPECT_TRUE(engine_->ContinueAdmission(abandoned));
-    if (round == 4) engine_->Release(abandoned);
+    if (round < 4) {
+      EXPECT_TRUE(engine_->ContinueAdmission(abandoned));
+    } else if (round == 4) {
+      engine_->Release(abandoned);
+    }
   }
   EXPECT_EQ(engine_->free_slots(), 5);
   DanceTogether(engine_.get(), &dancers);
