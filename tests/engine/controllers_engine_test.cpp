@@ -18,6 +18,7 @@ class ControllersEngineTest : public testing::Test {
   ControllersEngineTest() {
     SetTorchThreads(1);
     ControllersConfig config;
+    config.residual = true;  // beside interpolation, an untrained network follows its path
     config.controller = 8;
     config.encoder_hidden = 16;
     config.encoding = 8;
