@@ -117,6 +117,22 @@ TEST(TransitionGroup, RanksByErrorThenSkateThenLikelihood) {
   EXPECT_EQ(order, (std::vector<int>{3, 4, 2, 1, 0}));
 }
 
+TEST(TransitionGroup, RanksWhoStandsOnHerFeetBeforeWhoGlidesLess) {
+  const auto report = [](int candidate, std::optional<double> support, double skate) {
+    CandidateReport made;
+    made.candidate = candidate;
+    made.quality.support = support;
+    made.quality.skate_ratio = skate;
+    return made;
+  };
+  std::vector<CandidateReport> list = {report(0, 0.6, 0), report(1, 0.97, 0.2),
+                                       report(2, 0.96, 0.1), report(3, 0.8, 0.05)};
+  RankCandidates(list);
+  std::vector<int> order;
+  for (const CandidateReport& one : list) order.push_back(one.candidate);
+  EXPECT_EQ(order, (std::vector<int>{2, 1, 3, 0}));
+}
+
 TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
   const auto scheduler = FakeScheduler();
   for (double fps : {30.0, 50.0}) {

@@ -64,9 +64,10 @@ TEST(LabTest, MisuseIsCodeTwo) {
   }
 }
 
-TEST(LabTest, KnowsTheCommandsOfReproduceMd) {
+TEST(LabTest, KnowsTheCommandsOfThePapersPages) {
   const TemporaryFolder empty;
-  const std::vector<std::string> commands = CommandsOf("reproduce.md");
+  std::vector<std::string> commands = CommandsOf("reproduce.md");
+  std::ranges::copy(CommandsOf("reproduce_controllers.md"), std::back_inserter(commands));
   EXPECT_EQ(commands.size(), 8U);
   for (const std::string& command : commands) {
 #ifndef CHOREO_SERVICE

@@ -37,7 +37,7 @@ TEST_F(PosesTest, AreFiniteOrTheDanceFails) {
   const Answer answer = Dance({request});
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INTERNAL);
   EXPECT_EQ(answer.status.error_message(),
-            "frame 19, as arrival and foot lock leave it, is not a finite pose");
+            "frame 19, as arrival and footwork leave it, is not a finite pose");
   const Answer::Joined joined = answer.Join();
   EXPECT_EQ(joined.count, 19);
   for (const float number : joined.root_positions) ASSERT_TRUE(std::isfinite(number));

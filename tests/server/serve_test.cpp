@@ -32,8 +32,9 @@ class ServeTest : public testing::Test {
   // Its log goes to `reader`, a program; empty: to who waits for its end.
   void Start(const std::string& settings, const std::string& reader = "") {
     ended_ = std::async(std::launch::async, [=, this] {
-      return Shell("echo $$ > '" + (folder_ / "process").string() +
-                   "'; { exec " FAKE_CHOREOD " --listen 127.0.0.1:0 --log-format json " + settings +
+      // The program has the number that its shell had, behind a pipe, too.
+      return Shell("{ sh -c 'echo $$ > \"$0\"; exec \"$@\"' '" + (folder_ / "process").string() +
+                   "' " FAKE_CHOREOD " --listen 127.0.0.1:0 --log-format json " + settings +
                    " > '" + (folder_ / "said").string() + "'; }" +
                    (reader.empty() ? "" : " 2>&1 | " + reader));
     });
