@@ -132,18 +132,13 @@ void TransitionRun::PutOnFeet() {
   const auto to = ends ? plan_.end() : from + kFootworkFrames;
   std::vector<Pose> history = spec_.history;
   history.insert(history.end(), plan_.begin(), from);
-  FootworkContext context{.skeleton = model_->skeleton,
-                          .history = std::span(history).last(spec_.history.size()),
-                          .keyed = ends && arrival_,
-                          .has_path = spec_.controls.root_path.cols() > 0,
-                          .offset_before = standing_.offset,
-                          .fps = model_->fps,
-                          .options = model_->footwork};
-  if (spec_.target && spec_.target->mask.root_position) {
-    const std::vector<bool> known = KnownPlaces(model_->skeleton, spec_.target->mask);
-    for (size_t side = 0; side < 2; ++side)
-      context.feet_known[side] = known[static_cast<size_t>(model_->skeleton.feet[2 * side + 1])];
-  }
+  const FootworkContext context{.skeleton = model_->skeleton,
+                                .history = std::span(history).last(spec_.history.size()),
+                                .keyed = ends && arrival_,
+                                .has_path = spec_.controls.root_path.cols() > 0,
+                                .offset_before = standing_.offset,
+                                .fps = model_->fps,
+                                .options = model_->footwork};
   std::vector<Pose> piece(from, to);
   Footwork footwork = StandOnFeet(context, &piece);
   std::ranges::copy(piece, from);

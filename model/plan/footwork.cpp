@@ -18,7 +18,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kHalfToes = 0.75;  // of a foot's length that its ankle is above the toes, standing
+constexpr double kHalfToes = 0.75;     // of a foot's length: its ankle above the toes, standing
 constexpr double kStillSpeed = 0.3;    // m/s: a low foot that is slower stands
 constexpr int kPasses = 2;             // legs that are moved move the centre of mass, too
 constexpr double kSmoothFrames = 1.5;  // of the centre of mass
@@ -127,7 +127,7 @@ class PlanStander {
     track.height_before = height(before);
     const double speed = (track.before - earlier.col(leg.toes)).norm() * context_.fps;
     track.stood = track.before.y() - toes_rest_[side] < kUpHeight && speed < kStillSpeed;
-    if (context_.keyed && context_.feet_known[side]) {
+    if (context_.keyed) {
       const bool low = track.toes.back().y() - toes_rest_[side] < kUpHeight;
       track.end = low ? FootTrack::End::kStands : FootTrack::End::kInAir;
     }

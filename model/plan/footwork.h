@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <span>
 #include <vector>
 
@@ -16,9 +15,7 @@ struct FootworkContext {
   const Skeleton& skeleton;
   std::span<const Pose> history;  ///< before the first frame, oldest first, at least one
   bool keyed = false;             ///< the last pose is a key, which nothing may touch
-  /// Left, right: whether the key says where that foot is.
-  std::array<bool, 2> feet_known = {false, false};
-  bool has_path = false;  ///< a path says where the root is on the floor
+  bool has_path = false;          ///< a path says where the root is on the floor
   /// Footwork::offset of the frames before, if they were put on their feet before.
   Eigen::Matrix<double, 3, 2> offset_before = Eigen::Matrix<double, 3, 2>::Zero();
   double fps;

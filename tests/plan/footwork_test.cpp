@@ -105,10 +105,22 @@ TEST(StandOnFeet, NothingTouchesAKey) {
   const Pose key = plan.back();
   FootworkContext context = Context();
   context.keyed = true;
-  context.feet_known = {true, true};
   StandOnFeet(context, &plan);
   EXPECT_EQ(plan.back().root_position, key.root_position);
   EXPECT_EQ(plan.back().rotations, key.rotations);
+}
+
+TEST(StandOnFeet, FeetComeToWhereTheKeyHasThem) {
+  std::vector<Pose> plan = Glide(0.01);
+  FootworkContext context = Context();
+  context.keyed = true;
+  StandOnFeet(context, &plan);
+  const Eigen::Matrix3Xd before = JointPositions(Body(), plan[kFrames - 2]);
+  const Eigen::Matrix3Xd key = JointPositions(Body(), plan.back());
+  for (const size_t toes : {1U, 3U}) {
+    const Eigen::Vector3d step = (key - before).col(Body().feet[toes]);
+    EXPECT_LT(std::hypot(step.x(), step.z()), 0.02);  // along the floor; one may just come down
+  }
 }
 
 TEST(StandOnFeet, APathKeepsItsPlaceOnTheFloor) {
