@@ -181,9 +181,6 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
                        ? DanceConfig::Audio{kModelSampleRate, 1, 0}
                        : SamplesOf(format);
   }
-  if (config.audio) {
-    ValidateAudioStart(model, *config.audio, config.FirstFrame(), "config.audio_format");
-  }
   config.Validate(model);
   return config;
 }

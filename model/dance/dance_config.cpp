@@ -12,21 +12,40 @@
 #include "model/dance/validation.h"
 
 namespace choreo {
+namespace {
 
-void DanceStart::ValidateStart(const ModelInfo& model, const std::string& path) const {
-  if (temperature) ValidateTemperature(*temperature, path + "temperature");
-  ValidateStyle(model, style, path + "style");
-  ValidateOutputFps(output_fps, path + "output_fps");
+void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
+                        int64_t first_frame) {
+  const std::string field = "config.audio_format";
+  if (!TakesMusic(model)) {
+    throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
+  }
+  CheckAudioFormat(audio.sample_rate, audio.channels, field);
+  const int64_t latest = LatestFirstSample(first_frame, audio.sample_rate, model);
+  if (audio.first_sample < 0 || audio.first_sample > latest) {
+    throw Error(ErrorCode::kOutOfRange, field + ".first_sample",
+                std::to_string(audio.first_sample) + " is not in [0, " + std::to_string(latest) +
+                    "], so frame " + std::to_string(first_frame) +
+                    " could not hear what lies before it");
+  }
+}
+
+}  // namespace
+
+void DanceStart::ValidateStart(const ModelInfo& model) const {
+  if (temperature) ValidateTemperature(*temperature, "config.temperature");
+  ValidateStyle(model, style, "config.style");
+  ValidateOutputFps(output_fps, "config.output_fps");
   if (history.size() > static_cast<size_t>(model.history_frames)) {
-    throw InvalidArgument(path + "history", std::to_string(history.size()) +
+    throw InvalidArgument("config.history", std::to_string(history.size()) +
                                                 " poses, the limit is " +
                                                 std::to_string(model.history_frames));
   }
-  ValidateHistory(model.skeleton, history, path + "history");
+  ValidateHistory(model.skeleton, history, "config.history");
   if (!continuation) return;
   if (!history.empty())
-    throw InvalidArgument(path + "history", "and a continuation exclude each other");
-  ValidateContinuation(model, *continuation, allow_inexact_resume, path + "continuation");
+    throw InvalidArgument("config.history", "and a continuation exclude each other");
+  ValidateContinuation(model, *continuation, allow_inexact_resume, "config.continuation");
 }
 
 std::vector<DanceWarning> DanceStart::Warnings(const ModelInfo& model, int64_t first_frame) const {
@@ -38,16 +57,16 @@ std::vector<DanceWarning> DanceStart::Warnings(const ModelInfo& model, int64_t f
 }
 
 void DanceConfig::Validate(const ModelInfo& model) const {
-  ValidateStart(model, "config.");
+  ValidateStart(model);
   const int64_t first = FirstFrame();
   if (end_frame)
     CheckedIn(*end_frame, std::max<int64_t>(first, 1), kMaxDanceFrames, "config.frames");
   if (generate_until) CheckedIn(*generate_until, 0, kMaxDanceFrames, "config.generate_until");
   if (audio) {
-    ValidateAudioStart(model, *audio, first, "config.audio");
+    ValidateAudioStart(model, *audio, first);
     if (continuation && continuation->audio_from_sample &&
         audio->first_sample > *continuation->audio_from_sample) {
-      throw Error(ErrorCode::kOutOfRange, "config.audio.first_sample",
+      throw Error(ErrorCode::kOutOfRange, "config.audio_format.first_sample",
                   std::to_string(audio->first_sample) + " is behind " +
                       std::to_string(*continuation->audio_from_sample) +
                       ", the first that the continuation needs");
@@ -58,8 +77,8 @@ void DanceConfig::Validate(const ModelInfo& model) const {
 void GroupRequest::Validate(const ModelInfo& model) const {
   CheckedIn(candidates, 1, kMaxCandidates, "candidates");
   CheckedIn(frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames), "frames");
-  ValidateStart(model, "");
-  CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "first_frame");
+  ValidateStart(model);
+  CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "config.history.first_frame");
   if (target) {
     ValidatePose(model.skeleton, target->pose, "target");
     ValidateMask(model.skeleton, target->mask, "target.mask");
@@ -71,10 +90,10 @@ void GroupRequest::Validate(const ModelInfo& model) const {
   }
   controls.Validate(model, "controls");
   if (!audio) {
-    if (!samples.empty()) throw InvalidArgument("audio.sample_rate", "0 with samples");
+    if (!samples.empty()) throw InvalidArgument("audio", "comes without config.audio_format");
     return;
   }
-  ValidateAudioStart(model, *audio, FirstFrame(), "audio");
+  ValidateAudioStart(model, *audio, FirstFrame());
   if (samples.empty()) throw InvalidArgument("audio", "has no samples");
   CheckSamples(samples, audio->channels, audio->first_sample);
 }
@@ -96,21 +115,6 @@ int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const Model
 bool TakesMusic(const ModelInfo& model) {
   // Rows come at 30 a second (FeatureStream).
   return model.audio_features == kMfccCount && model.fps == kModelFps;
-}
-
-void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio, int64_t first_frame,
-                        const std::string& field) {
-  if (!TakesMusic(model)) {
-    throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
-  }
-  CheckAudioFormat(audio.sample_rate, audio.channels, field);
-  const int64_t latest = LatestFirstSample(first_frame, audio.sample_rate, model);
-  if (audio.first_sample < 0 || audio.first_sample > latest) {
-    throw Error(ErrorCode::kOutOfRange, field + ".first_sample",
-                std::to_string(audio.first_sample) + " is not in [0, " + std::to_string(latest) +
-                    "], so frame " + std::to_string(first_frame) +
-                    " could not hear what lies before it");
-  }
 }
 
 }  // namespace choreo

@@ -47,9 +47,9 @@ struct DanceStart {
   /// What to tell before the first frame, `first_frame`.
   std::vector<DanceWarning> Warnings(const ModelInfo& model, int64_t first_frame) const;
 
-  /// Throws Error(kInvalidArgument) with paths that begin with `path` ("config.", ""), and
-  /// Error(kFailedPrecondition) for a continuation of another fingerprint.
-  void ValidateStart(const ModelInfo& model, const std::string& path) const;
+  /// Throws Error(kInvalidArgument), and Error(kFailedPrecondition) for a continuation of another
+  /// fingerprint. Fields are named as the API names them: "config.history[0]".
+  void ValidateStart(const ModelInfo& model) const;
 };
 
 /// What a stream starts from. Everything else arrives as messages.
@@ -64,7 +64,7 @@ struct DanceConfig : DanceStart {
   int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }
 
   /// Throws as ValidateStart; Error(kOutOfRange) for audio that begins too late;
-  /// Error(kUnimplemented) for music that the model can't hear. Paths are below "config".
+  /// Error(kUnimplemented) for music that the model can't hear.
   void Validate(const ModelInfo& model) const;
 };
 
@@ -85,8 +85,8 @@ struct GroupRequest : DanceStart {
   /// Number of the first frame to be made.
   int64_t FirstFrame() const { return continuation ? continuation->frame : first_frame; }
 
-  /// Throws Error with paths of the request: "frames", "target.rotations[3]", "history[0]",
-  /// "audio.sample_rate", ...
+  /// Throws as DanceConfig::Validate, and with fields of the request: "frames",
+  /// "target.rotations[3]", ...
   void Validate(const ModelInfo& model) const;
 };
 
@@ -101,10 +101,5 @@ int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const Model
 
 /// Whether the model takes music.
 bool TakesMusic(const ModelInfo& model);
-
-/// Throws Error(kUnimplemented) if the model takes no music, Error(kInvalidArgument) for a format
-/// out of range, Error(kOutOfRange) unless 0 <= first_sample <= LatestFirstSample.
-void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio, int64_t first_frame,
-                        const std::string& field);
 
 }  // namespace choreo

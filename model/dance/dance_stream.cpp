@@ -13,7 +13,7 @@ namespace choreo {
 
 AudioFeed& DanceStream::Audio(const char* field) {
   AudioFeed* audio = chain_->audio();
-  if (audio == nullptr) throw InvalidArgument(field, "comes without config.audio");
+  if (audio == nullptr) throw InvalidArgument(field, "comes without config.audio_format");
   return *audio;
 }
 

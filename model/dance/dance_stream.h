@@ -37,7 +37,7 @@ class DanceStream {
 
   /// Interleaved samples; `first_sample` (absolute, counted in sample frames) must be the next one:
   /// Error(kOutOfRange) for a gap or an overlap, naming the sample expected.
-  /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, without config.audio.
+  /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, without config.audio_format.
   /// Error(kFailedPrecondition) after EndOfAudio.
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.

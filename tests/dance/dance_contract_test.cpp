@@ -66,9 +66,9 @@ TEST_F(DanceContract, AudioThatIsNoAudioIsRefused) {
       "audio: ended without a sample");
   EXPECT_EQ(Refusal([&](DanceStream& stream) { stream.PushAudio(samples, 0); },
                     ErrorCode::kInvalidArgument),
-            "audio: comes without config.audio");
+            "audio: comes without config.audio_format");
   EXPECT_EQ(Refusal([](DanceStream& stream) { stream.EndOfAudio(); }, ErrorCode::kInvalidArgument),
-            "end_of_audio: comes without config.audio");
+            "end_of_audio: comes without config.audio_format");
 }
 
 TEST_F(DanceContract, AudioBeyondTheLimitOrTheEndIsRefused) {
