@@ -96,8 +96,8 @@ struct Report {
   };
   int64_t frames = 0;  ///< at the model's rate
   std::vector<KeyReached> keys = {};
-  int64_t measured_from = 0;  ///< at the model's rate
-  double log_likelihood = 0;  ///< nats a frame
+  int64_t measured_from = 0;                  ///< at the model's rate
+  std::optional<double> log_likelihood = {};  ///< nats a frame; of models that have one
   std::optional<double> beat_hit_rate = {};
   double skate_ratio = 0;
   double max_key_acceleration = 0;  ///< of a joint, within two frames of any key, m/s^2

@@ -106,7 +106,7 @@ Report FromProto(const v1::QualityReport& report, const v1::Timing& timing) {
   for (const v1::KeyframeReport& key : report.keyframes()) {
     out.keys.push_back(ToKeyReached(key.id(), key.frame(), key.errors()));
   }
-  out.log_likelihood = report.log_likelihood();
+  if (report.has_log_likelihood()) out.log_likelihood = report.log_likelihood();
   if (report.has_beat_hit_rate()) out.beat_hit_rate = report.beat_hit_rate();
   out.skate_ratio = report.skate_ratio();
   out.max_key_acceleration = report.max_key_acceleration();

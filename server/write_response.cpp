@@ -133,7 +133,7 @@ void FromReport(const QualityReport& report, v1::QualityReport* out) {
     FillErrors(key.arrival, entry->mutable_errors());
     entry->set_max_acceleration(key.max_acceleration);
   }
-  out->set_log_likelihood(report.mean_log_likelihood);
+  if (report.mean_log_likelihood) out->set_log_likelihood(*report.mean_log_likelihood);
   out->set_skate_ratio(report.skate_ratio);
   if (report.beat_hit_rate) out->set_beat_hit_rate(*report.beat_hit_rate);
   if (report.beat_coverage) out->set_beat_coverage(*report.beat_coverage);

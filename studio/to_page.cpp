@@ -54,7 +54,7 @@ v1::QualityReport ToReport(const client::Report& report) {
     added->set_frame(key.frame);
     *added->mutable_errors() = ToErrors(key);
   }
-  out.set_log_likelihood(report.log_likelihood);
+  if (report.log_likelihood) out.set_log_likelihood(*report.log_likelihood);
   out.set_skate_ratio(report.skate_ratio);
   if (report.beat_hit_rate) out.set_beat_hit_rate(*report.beat_hit_rate);
   out.set_max_key_acceleration(report.max_key_acceleration);

@@ -91,7 +91,7 @@ std::string ReportJson(const WrittenDance& dance) {
   }
   json["warnings"] = WarningsJson(dance.warnings);
   json["measured_from"] = report.measured_from;
-  json["log_likelihood"] = report.log_likelihood;
+  json["log_likelihood"] = or_null(report.log_likelihood);
   json["beat_hit_rate"] = or_null(report.beat_hit_rate);
   json["beat_hit_chance"] = or_null(dance.beat_hit_chance);
   json["skate_ratio"] = report.skate_ratio;

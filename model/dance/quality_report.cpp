@@ -43,7 +43,11 @@ QualityMeter::QualityMeter(const Skeleton& skeleton, double fps, int64_t first_f
 }
 
 void QualityMeter::Add(const DanceFrame& frame) {
-  log_likelihood_sum_ += frame.log_likelihood;
+  if (log_likelihood_sum_ && frame.log_likelihood) {
+    *log_likelihood_sum_ += *frame.log_likelihood;
+  } else {
+    log_likelihood_sum_.reset();
+  }
   ++frames_;
   Eigen::Matrix3Xd now = JointPositions(skeleton_, frame.pose);
   if (support_) support_->Add(now);
@@ -87,7 +91,8 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   report.first_frame = first_frame_;
   report.frames = frames_;
   report.keys = keys_;
-  if (frames_ > 0) report.mean_log_likelihood = log_likelihood_sum_ / static_cast<double>(frames_);
+  if (frames_ > 0 && log_likelihood_sum_)
+    report.mean_log_likelihood = *log_likelihood_sum_ / static_cast<double>(frames_);
   if (!speed_.empty()) {
     report.skate_ratio = static_cast<double>(skating_steps_) / static_cast<double>(speed_.size());
   }
@@ -147,7 +152,7 @@ std::vector<int64_t> KinematicBeats(std::span<const float> curve, double fps) {
 
 QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion) {
   QualityMeter meter(skeleton, motion.fps, 0);
-  for (const Pose& pose : motion.frames) meter.Add({pose, {}, 0});
+  for (const Pose& pose : motion.frames) meter.Add({.pose = pose});
   return meter.Report();
 }
 

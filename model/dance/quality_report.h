@@ -36,7 +36,9 @@ struct QualityReport {
   int64_t first_frame = 0;
   int64_t frames = 0;
   std::vector<KeyReport> keys;
-  double mean_log_likelihood = 0;  ///< of what the flow proposed, given its plan; nats a frame
+  /// Of what the model proposed, nats a frame, in its own standardised space; absent where a model
+  /// has no exact likelihood.
+  std::optional<double> mean_log_likelihood;
   /// Share of the steps (pairs of successive frames) in which either foot skates: its toe joint is
   /// below 5 cm in both frames and moves faster than 0.2 m/s over the floor.
   double skate_ratio = 0;
@@ -77,7 +79,7 @@ class QualityMeter {
   double fps_;
   int64_t first_frame_;
   std::vector<KeyReport> keys_;
-  double log_likelihood_sum_ = 0;
+  std::optional<double> log_likelihood_sum_ = 0;  // none once a frame came without
   int64_t skating_steps_ = 0;
   std::optional<SupportMeter> support_;
   std::deque<Eigen::Matrix3Xd> last_positions_;  // [3, joints] of the last two frames

@@ -149,7 +149,7 @@ void TransitionRun::PutOnFeet() {
 
 DanceFrame TransitionRun::Take(const StepOutput& raw) {
   CheckFinite(raw.pose, raw.contacts, "as the model makes it");
-  if (!std::isfinite(raw.log_likelihood)) {
+  if (raw.log_likelihood && !std::isfinite(*raw.log_likelihood)) {
     throw Error(
         ErrorCode::kInternal, "",
         "the likelihood of frame " + std::to_string(spec_.first_frame + done_) + " is not finite");

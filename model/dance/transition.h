@@ -30,8 +30,8 @@ struct TransitionRequest : TransitionSpec {
 /// One finished frame.
 struct DanceFrame {
   Pose pose;  ///< world; every number is a float's, as it is sent, and the chain goes on from these
-  Contacts contacts = {};    ///< the model's own without footwork
-  float log_likelihood = 0;  ///< nats
+  Contacts contacts = {};                    ///< the model's own without footwork
+  std::optional<float> log_likelihood = {};  ///< nats; none where the model has no exact one
   /// What velocity factors ask of this frame, by BodyPart, metres a frame; none: nothing.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
 };

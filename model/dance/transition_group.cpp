@@ -23,8 +23,8 @@ void RankCandidates(std::vector<CandidateReport>& candidates) {
     const double error = quality.keys.empty() ? 0 : quality.keys.front().arrival.raw_error_m;
     const double unsupported = 1 - quality.support.value_or(1);
     return std::tuple(std::floor(error / kErrorStep), std::floor(unsupported / kSupportStep),
-                      std::floor(quality.skate_ratio / kSkateStep), -quality.mean_log_likelihood,
-                      report.candidate);
+                      std::floor(quality.skate_ratio / kSkateStep),
+                      -quality.mean_log_likelihood.value_or(0), report.candidate);
   });
 }
 

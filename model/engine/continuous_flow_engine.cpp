@@ -28,7 +28,6 @@ void ContinuousFlowEngine::StepSlots(std::span<const StepInput> in, std::span<St
     const auto frame = static_cast<size_t>(transition.next++);
     out[i] = {.pose = transition.plan.poses[frame],
               .contacts = transition.plan.contacts[frame],
-              .log_likelihood = 0,
               .plan = frame == 0 ? std::span<const Pose>(transition.plan.poses)
                                  : std::span<const Pose>()};
   }

@@ -119,8 +119,9 @@ struct StepInput {
 struct StepOutput {
   Pose pose;  ///< canonical frame, as the model has it: arrival and post-processing come after
   Contacts contacts = {};  ///< probability-like, [0, 1]
-  /// Of this frame, nats (model's standardised space, log-determinants included).
-  float log_likelihood = 0;
+  /// Of this frame, nats (model's standardised space, log-determinants included), of models that
+  /// have an exact one.
+  std::optional<float> log_likelihood = {};
   /// With frame 0 of a model that makes whole transitions at once: all of its poses, this one
   /// first. Valid until the slot steps on or is released. Else empty.
   std::span<const Pose> plan = {};

@@ -74,7 +74,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
   const Eigen::Vector3d start = poses[0].root_position;
   std::vector<double> away, heights;
   for (size_t t = 0; t < poses.size(); ++t) {
-    meter.Add({poses[t], {}, 0});
+    meter.Add({.pose = poses[t]});
     if (std::ranges::binary_search(key_frames, static_cast<int>(t))) meter.AddKey("", {});
     const Eigen::Vector3d& root = poses[t].root_position;
     away.push_back(std::hypot(root.x() - start.x(), root.z() - start.z()));

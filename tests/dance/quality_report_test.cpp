@@ -97,7 +97,7 @@ TEST(QualityReport, BeatHitRateCountsKinematicBeatsNearMusicBeats) {
     motion.frames.push_back(pose);
   }
   QualityMeter meter(Skeleton::Smpl24(), motion.fps, 0);
-  for (const Pose& pose : motion.frames) meter.Add({pose, {}, 0});
+  for (const Pose& pose : motion.frames) meter.Add({.pose = pose});
   std::vector<double> beats;
   for (int i = 1; i < 8; ++i) beats.push_back(0.5 * i);
   const QualityReport on = meter.Report(beats);
@@ -129,8 +129,16 @@ TEST(QualityReport, AccelerationsAroundKeys) {
   EXPECT_NEAR(report.keys[1].max_acceleration, 0, 1e-3);
   EXPECT_NEAR(report.max_key_acceleration, 9, 1e-3);
   EXPECT_NEAR(report.p95_acceleration, 9, 1e-3);  // 2 of 38 frames
-  EXPECT_DOUBLE_EQ(report.mean_log_likelihood, -2);
+  EXPECT_EQ(report.mean_log_likelihood, -2);
   EXPECT_DOUBLE_EQ(report.keys[0].arrival.raw_error_m, 0.5);
+}
+
+TEST(QualityReport, WhereAModelHasNoLikelihoodThereIsNone) {
+  QualityMeter meter(Skeleton::Smpl24(), 30, 0);
+  meter.Add({.pose = Standing()});
+  EXPECT_FALSE(meter.Report().mean_log_likelihood);
+  meter.Add({.pose = Standing(), .log_likelihood = -2.0F});
+  EXPECT_FALSE(meter.Report().mean_log_likelihood) << "not of all frames";
 }
 
 TEST(QualityReport, AnEmptyDanceHasAReport) {

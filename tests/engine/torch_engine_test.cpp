@@ -141,7 +141,7 @@ TEST_P(TorchEngineTest, StepsAsTheModuleDoes) {
       for (size_t foot = 0; foot < 4; ++foot) {
         ASSERT_NEAR(output.contacts[foot], std::clamp(expected.contacts[foot], 0.0F, 1.0F), 1e-5);
       }
-      ASSERT_NEAR(output.log_likelihood, result.log_likelihood.item<float>(), 2e-3) << t;
+      ASSERT_NEAR(output.log_likelihood.value(), result.log_likelihood.item<float>(), 2e-3) << t;
     }
     EXPECT_GT(largest_effect_of_state, 0);
   }

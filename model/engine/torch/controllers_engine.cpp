@@ -117,7 +117,7 @@ void ControllersEngine::StepOne(WalkedTransition* transition, const Pose* previo
   out->pose = walk.fitter.Next(positions, after ? &*after : nullptr);
   const Tensor contacts = frame.contacts.contiguous();
   std::copy_n(contacts.data_ptr<float>(), out->contacts.size(), out->contacts.begin());
-  out->log_likelihood = 0;
+  out->log_likelihood.reset();
   ++walk.frame;
 }
 
