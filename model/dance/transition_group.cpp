@@ -15,14 +15,14 @@
 namespace choreo {
 
 void RankCandidates(std::vector<CandidateReport>& candidates) {
-  constexpr double kErrorStep = 0.01;  // metres
+  constexpr double kSteeredStep = 0.01;  // metres
   constexpr double kSkateStep = 0.01;
   constexpr double kSupportStep = 0.05;  // three frames of two seconds
   std::ranges::sort(candidates, {}, [](const CandidateReport& report) {
     const QualityReport& quality = report.quality;
-    const double error = quality.keys.empty() ? 0 : quality.keys.front().arrival.raw_error_m;
+    const double steered = quality.keys.empty() ? 0 : quality.keys.front().arrival.correction_m;
     const double unsupported = 1 - quality.support.value_or(1);
-    return std::tuple(std::floor(error / kErrorStep), std::floor(unsupported / kSupportStep),
+    return std::tuple(std::floor(steered / kSteeredStep), std::floor(unsupported / kSupportStep),
                       std::floor(quality.skate_ratio / kSkateStep),
                       -quality.mean_log_likelihood.value_or(0), report.candidate);
   });

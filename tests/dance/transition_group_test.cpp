@@ -98,12 +98,14 @@ TEST(TransitionGroup, RunsRanksAndHitsAllCandidates) {
   }
 }
 
-TEST(TransitionGroup, RanksByErrorThenSkateThenLikelihood) {
-  const auto report = [](int candidate, double error, double skate, double likelihood) {
+TEST(TransitionGroup, RanksBySteeringThenSkateThenLikelihood) {
+  const auto report = [](int candidate, double steered, double skate,
+                         std::optional<double> likelihood) {
     CandidateReport made;
     made.candidate = candidate;
     made.quality.keys.resize(1);
-    made.quality.keys[0].arrival.raw_error_m = error;
+    made.quality.keys[0].arrival.raw_error_m = 0.0103;  // as every plan that reaches its key has it
+    made.quality.keys[0].arrival.correction_m = steered;
     made.quality.skate_ratio = skate;
     made.quality.mean_log_likelihood = likelihood;
     return made;
@@ -115,6 +117,13 @@ TEST(TransitionGroup, RanksByErrorThenSkateThenLikelihood) {
   std::vector<int> order;
   for (const CandidateReport& one : list) order.push_back(one.candidate);
   EXPECT_EQ(order, (std::vector<int>{3, 4, 2, 1, 0}));
+  // Without a likelihood, and without a key, the rest decides.
+  list = {report(0, 0.02, 0.02, {}), report(1, 0.02, 0, {}), report(2, 0.02, 0, {})};
+  list[0].quality.keys.clear();
+  RankCandidates(list);
+  order.clear();
+  for (const CandidateReport& one : list) order.push_back(one.candidate);
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
 }
 
 TEST(TransitionGroup, RanksWhoStandsOnHerFeetBeforeWhoGlidesLess) {
