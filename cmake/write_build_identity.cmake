@@ -1,5 +1,5 @@
 # Writes what a build is made from, as the C++ source OUTPUT; a fingerprint contains it. A script: it runs when a source changes.
-#   cmake -DROOT=... -DFOLDERS=a,b -DCOMPILER=... -DBUILD_TYPE=... -DFLAGS=... -DOUTPUT=... -P write_build_identity.cmake
+#   cmake -DROOT=... -DFOLDERS=a,b -DCOMPILER=... -DBUILD_TYPE=... -DFLAGS=... -DEIGEN=3.4.0 -DUNITY=1 -DOUTPUT=... -P write_build_identity.cmake
 # Names are relative to ROOT, so the same sources have the same identity wherever they lie, with git and without.
 string(REPLACE "," ";" folders "${FOLDERS}")
 set(sources)
@@ -14,7 +14,8 @@ endif()
 list(SORT sources)
 # These flags hold the path of the build and change no bit.
 string(REGEX REPLACE "-f[a-z]+-prefix-map=[^ ]*" "" flags "${FLAGS}")
-set(text "${flags}\n")
+# Eigen is headers alone; compiled together, sources are inlined into one another.
+set(text "${flags}\nEigen ${EIGEN}\nunity ${UNITY}\n")
 foreach(source ${sources})
   file(SHA256 ${ROOT}/${source} hash)
   string(APPEND text "${source} ${hash}\n")

@@ -15,6 +15,7 @@
 
 #include "model/controllers/checkpoint.h"
 #include "model/core/error.h"
+#include "model/core/math_library.h"
 #include "model/core/printable.h"
 #include "model/core/threads.h"
 #include "model/engine/continuous_flow_engine.h"
@@ -113,7 +114,7 @@ ModelInfo InfoOf(const CheckpointOf<Model>& checkpoint, const std::string& kerne
   const auto& config = checkpoint.model->config();
   return {.name = config.name,
           .fingerprint = config.name + "/" + checkpoint.hash + "/choreo " CHOREO_VERSION + ", " +
-                         BuildIdentity() + "/" + kernels,
+                         BuildIdentity() + ", " + MathLibrary() + "/" + kernels,
           .licence = LicenceOf(checkpoint.card),
           .card = checkpoint.card,
           .skeleton = checkpoint.model->skeleton(),

@@ -18,9 +18,9 @@
 namespace choreo {
 
 /// What this program was built from, as in "GNU 12.2.0 Release 0123456789abcdef": compiler, build
-/// type, and a hash of its flags and of every source that can change a bit of a dance. Builds of
-/// the same sources have the same, wherever they were made. cmake/write_build_identity.cmake makes
-/// it.
+/// type, and a hash of its flags, of Eigen's version, of whether sources were compiled together,
+/// and of every source that can change a bit of a dance. Builds of the same sources have the same,
+/// wherever they were made. cmake/write_build_identity.cmake makes it.
 const char* BuildIdentity();
 
 /// What LibTorch can use here.

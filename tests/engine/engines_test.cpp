@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "model/core/error.h"
+#include "model/core/math_library.h"
 #include "model/core/safetensors.h"
 #include "model/core/threads.h"
 #include "model/motion/kinematics.h"
@@ -44,7 +45,7 @@ TEST_P(EnginesTest, TellsWhatItIs) {
   EXPECT_EQ(info.name, "random-weights-of-a-test");
   EXPECT_EQ(info.licence, "none: random weights");
   EXPECT_THAT(info.fingerprint, HasSubstr(ReadSafetensors(checkpoint_.path()).metadata["hash"]));
-  EXPECT_THAT(info.fingerprint, HasSubstr(BuildIdentity()));
+  EXPECT_THAT(info.fingerprint, HasSubstr(std::string(BuildIdentity()) + ", " + MathLibrary()));
   EXPECT_EQ(info.fingerprint.find("/packed ") != std::string::npos,
             std::get<0>(GetParam()) == EngineKind::kPacked)
       << info.fingerprint;
@@ -193,6 +194,10 @@ TEST_P(EnginesTest, ThisBuildHasItsDevices) {
   }
   const Device beyond{Device::Kind::kCuda, available.cuda_devices};
   EXPECT_THROW(MakeEngine(checkpoint_.path(), beyond, 1, kind), std::exception);
+}
+
+TEST(EngineSetUpTest, TheMathLibraryIsNamed) {
+  EXPECT_THAT(MathLibrary(), ContainsRegex("^glibc [0-9]+\\.[0-9]+( fma| fma4| avx)?$"));
 }
 
 TEST(EngineSetUpTest, TheBuildIsNamed) {
