@@ -29,7 +29,6 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, const std::string& p
   std::string address = AddressOf(peer);
   int& calls = of_address_[address];
   if (calls >= limits_.calls_of_peer) {
-    ++refused_;
     throw Error(ErrorCode::kResourceExhausted, "",
                 address + " has " + std::to_string(calls) + " calls in progress, of at most " +
                     std::to_string(limits_.calls_of_peer) + " from one address");
@@ -43,7 +42,6 @@ void CallRegistry::Admit(const Call* call) {
   const auto at = calls_.find(call);
   if (!admitting_ || at == calls_.end()) throw Error(ErrorCode::kUnavailable, "", kGoingAway);
   if (admitted_ >= limits_.calls) {
-    ++refused_;
     throw Error(ErrorCode::kResourceExhausted, "",
                 "the server is full: " + std::to_string(admitted_) +
                     " calls are in progress, of at most " + std::to_string(limits_.calls));
@@ -51,7 +49,6 @@ void CallRegistry::Admit(const Call* call) {
   at->second.admitted = true;
   at->second.since = Clock::now();
   ++admitted_;
-  ++total_;
 }
 
 void CallRegistry::Leave(const Call* call) {
@@ -148,16 +145,6 @@ int CallRegistry::count() const {
 double CallRegistry::retry_after() const {
   const std::lock_guard lock(mutex_);
   return std::clamp(mean_seconds_ / std::max(1, admitted_), 1.0, 60.0);
-}
-
-uint64_t CallRegistry::total() const {
-  const std::lock_guard lock(mutex_);
-  return total_;
-}
-
-uint64_t CallRegistry::refused() const {
-  const std::lock_guard lock(mutex_);
-  return refused_;
 }
 
 }  // namespace choreo

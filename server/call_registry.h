@@ -76,8 +76,6 @@ class CallRegistry {
   const CallLimits& limits() const { return limits_; }
   /// When a place may be free: by how often calls have ended lately. Seconds, 1 to 60.
   double retry_after() const;
-  uint64_t total() const;    ///< ever admitted
-  uint64_t refused() const;  ///< for want of room
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -100,8 +98,6 @@ class CallRegistry {
   int admitted_ = 0;
   bool admitting_ = true;
   double mean_seconds_ = 0;  // of the calls that ended lately
-  uint64_t total_ = 0;
-  uint64_t refused_ = 0;
 };
 
 }  // namespace choreo

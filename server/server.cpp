@@ -264,8 +264,9 @@ void Server::Drain(double seconds) {
   impl_->listener.Stop();
   impl_->server->Shutdown(std::chrono::system_clock::now() +
                           (notice == kNotice ? kShutdownTimeAfterNotice : kShutdownTime));
-  spdlog::info("served {} calls ({} refused) with {} frames", calls.total(), calls.refused(),
-               impl_->serving.tally.frames.load());
+  const Tally& tally = impl_->serving.tally;
+  const auto [served, refused] = tally.sum();
+  spdlog::info("served {} calls ({} refused) with {} frames", served, refused, tally.frames.load());
 }
 
 }  // namespace choreo

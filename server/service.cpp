@@ -83,7 +83,7 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
                            " answers wait for your address to read them, the most there may be"});
   }
   if (status.ok()) Describe(response);
-  serving_.tally.Count({.method = "GetServerInfo",
+  serving_.tally.Count({.method = Tally::kInfoMethod,
                         .caller = caller,
                         .status = status,
                         .seconds = std::chrono::duration<double>(Clock::now() - begin).count()});

@@ -17,6 +17,8 @@ namespace choreo {
 /// What all calls so far amount to. Thread-safe.
 class Tally {
  public:
+  static constexpr const char* kInfoMethod = "GetServerInfo";  ///< which dances nothing
+
   /// By method and status.
   using Calls = std::map<std::pair<std::string, grpc::StatusCode>, uint64_t>;
 
@@ -31,6 +33,22 @@ class Tally {
   Calls calls() const {
     const std::lock_guard lock(mutex_);
     return calls_;
+  }
+
+  /// Of calls that dance: those refused for want of room or of a token, and all others.
+  struct Sum {
+    uint64_t served = 0, refused = 0;
+  };
+  Sum sum() const {
+    Sum sum;
+    for (const auto& [call, count] : calls()) {
+      const auto& [method, status] = call;
+      if (method == kInfoMethod) continue;
+      const bool refused = status == grpc::StatusCode::RESOURCE_EXHAUSTED ||
+                           status == grpc::StatusCode::UNAUTHENTICATED;
+      (refused ? sum.refused : sum.served) += count;
+    }
+    return sum;
   }
 
   std::atomic<uint64_t> frames = 0;  ///< that calls got which are over

@@ -12,7 +12,9 @@
 #include <string>
 
 #include "client/choreo_client.h"
+#include "server/listener.h"
 #include "tests/server/fixture.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
@@ -30,11 +32,12 @@ class ServeTest : public testing::Test {
   }
 
   // Its log goes to `reader`, a program; empty: to who waits for its end.
-  void Start(const std::string& settings, const std::string& reader = "") {
+  void Start(const std::string& settings, const std::string& reader = "",
+             const std::string& listen = "127.0.0.1:0") {
     ended_ = std::async(std::launch::async, [=, this] {
       // The program has the number that its shell had, behind a pipe, too.
       return Shell("{ sh -c 'echo $$ > \"$0\"; exec \"$@\"' '" + (folder_ / "process").string() +
-                   "' " FAKE_CHOREOD " --listen 127.0.0.1:0 --log-format json " + settings +
+                   "' " FAKE_CHOREOD " --listen " + listen + " --log-format json " + settings +
                    " > '" + (folder_ / "said").string() + "'; }" +
                    (reader.empty() ? "" : " 2>&1 | " + reader));
     });
@@ -68,7 +71,7 @@ class ServeTest : public testing::Test {
     const auto begin = std::chrono::steady_clock::now();
     if (ended_.wait_for(30s) != std::future_status::ready) {
       ADD_FAILURE() << "it does not leave";
-      kill(process_, SIGKILL);
+      kill(std::stoi(Read("process")), SIGKILL);
     }
     process_ = -1;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
@@ -121,6 +124,18 @@ TEST_F(ServeTest, LeavesWhileItLoadsAnotherModel) {
   const Outcome outcome = End();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
+}
+
+TEST_F(ServeTest, CountsWhomItRefusedWhoeverRefusesThem) {
+  Start("--max-waiting 0 --slots 2");
+  AwaitListening();
+  const client::Client client({.addresses = {address()}, .retry_s = 0});
+  client.GetServerInfo();
+  client.GenerateTransition({.frames = 5});
+  ExpectError(ErrorCode::kResourceExhausted, "transitions are in progress",
+              [&] { client.GenerateTransition({.frames = 5, .candidates = 8}); });
+  Send(SIGTERM);
+  EXPECT_THAT(End().said, HasSubstr("served 1 calls (1 refused) with 5 frames"));
 }
 
 TEST_F(ServeTest, LeavesAtOnceWhenItIsAskedTwice) {
