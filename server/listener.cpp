@@ -27,8 +27,8 @@ constexpr int kAtATime = 256;  // connections between two looks at whether to st
 constexpr std::chrono::seconds kBetweenReports{1};
 constexpr int kPauseMs = 100;  // before accept is tried again that had no descriptor
 
-Error CannotListen(const std::string& address, const char* why) {
-  return {ErrorCode::kUnavailable, "--listen", '"' + address + "\" cannot be listened on: " + why};
+Error CannotListen(const std::string& field, const std::string& address, const char* why) {
+  return {ErrorCode::kUnavailable, field, '"' + address + "\" cannot be listened on: " + why};
 }
 
 struct Addresses {
@@ -93,9 +93,9 @@ int Listen(const addrinfo& at) {
 
 }  // namespace
 
-Listener::Listener(const std::string& address) {
+Listener::Listener(const std::string& address, const std::string& field) {
   const Addresses found = Resolve(address);
-  if (!found.first) throw CannotListen(address, gai_strerror(found.error));
+  if (!found.first) throw CannotListen(field, address, gai_strerror(found.error));
   int why = 0;
   for (const addrinfo* at = found.first.get(); at != nullptr; at = at->ai_next) {
     // All addresses of a host have one port, even where the first was free to choose it.
@@ -112,7 +112,7 @@ Listener::Listener(const std::string& address) {
     sockets_.push_back(fd);
     port_ = PortOf(fd);
   }
-  if (sockets_.empty()) throw CannotListen(address, std::strerror(why));
+  if (sockets_.empty()) throw CannotListen(field, address, std::strerror(why));
   stop_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
 }
 

@@ -20,8 +20,8 @@ class Listener {
   using Accept = std::function<void(int listening, int connection)>;
 
   /// Listens on HOST:PORT, wherever HOST is; port 0 takes a free one. Connections wait until Start.
-  /// Throws Error(kUnavailable, "--listen").
-  explicit Listener(const std::string& address);
+  /// Throws Error(kUnavailable, field).
+  explicit Listener(const std::string& address, const std::string& field = "--listen");
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;

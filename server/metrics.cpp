@@ -86,7 +86,7 @@ class Figures final : public prometheus::Collectable {
     out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
     // All of them from the start: a rate sees no step where a series begins.
     const Tally::Calls counted = serving_.tally.calls();
-    for (const char* method : {"StreamDance", "GenerateTransition", "GetServerInfo"}) {
+    for (const char* method : {"StreamDance", "GenerateTransition", Tally::kInfoMethod}) {
       for (int code = 0; code <= grpc::StatusCode::UNAUTHENTICATED; ++code) {
         const auto status = static_cast<grpc::StatusCode>(code);
         const auto found = counted.find({method, status});
@@ -243,7 +243,8 @@ void SendAll(int connection, std::string_view bytes) {
 }  // namespace
 
 struct MetricsEndpoint::Impl {
-  Impl(const std::string& address, const Serving& serving) : figures(serving), listener(address) {
+  Impl(const std::string& address, const Serving& serving)
+      : figures(serving), listener(address, "--metrics") {
     listener.Start([this](int /*listening*/, int connection) {
       Answer(connection);
       close(connection);
@@ -272,11 +273,8 @@ struct MetricsEndpoint::Impl {
   Listener listener;  // last: its thread uses the figures
 };
 
-MetricsEndpoint::MetricsEndpoint(const std::string& address, const Serving& serving) try
-    : impl_(std::make_unique<Impl>(address, serving)) {
-} catch (const Error& error) {
-  throw Error(error.code(), "--metrics", '"' + address + "\" cannot be listened on");
-}
+MetricsEndpoint::MetricsEndpoint(const std::string& address, const Serving& serving)
+    : impl_(std::make_unique<Impl>(address, serving)) {}
 
 MetricsEndpoint::~MetricsEndpoint() = default;
 

@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/listener.h"
 #include "server/server.h"
 
 namespace choreo {
@@ -101,6 +102,13 @@ std::vector<Server::Engines> LoadAll(const ServerConfig& config, ModelFolder& fo
   return models;
 }
 
+// That an address is taken is told before models are loaded, which takes seconds.
+void RequireAddresses(const ServerConfig& config) {
+  const Listener serving(config.listen);
+  if (config.metrics.empty()) return;
+  const Listener figures(config.MetricsAddress(), "--metrics");
+}
+
 // In threads that libraries began before main, which do not inherit what main holds: whom a signal
 // reaches holds it from then on, too, and sends it again.
 void HandOn(int signal, siginfo_t* /*info*/, void* context) {
@@ -122,6 +130,7 @@ void HoldSignals() {
 
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   ModelFolder folder(config.models, load);
+  RequireAddresses(config);
   const bool has_folder = !config.models.empty();
   Server server(config, LoadAll(config, folder, load));
   Reloader reloader(folder, server);

@@ -126,6 +126,22 @@ TEST_F(ServeTest, LeavesWhileItLoadsAnotherModel) {
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
 }
 
+TEST_F(ServeTest, FindsAnAddressTakenBeforeItLoadsItsModels) {
+  const Listener other("127.0.0.1:0");
+  const std::string taken = "127.0.0.1:" + std::to_string(other.port());
+  WriteSlow("slow");
+  const std::string slow = "--checkpoint '" + (folder_ / "slow").string() + "'";
+  Start(slow, "", taken);
+  Outcome outcome = End();
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--listen: "));
+  EXPECT_THAT(outcome.said, HasSubstr(taken));
+  Start(slow + " --metrics " + taken);
+  outcome = End();
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--metrics: "));
+}
+
 TEST_F(ServeTest, CountsWhomItRefusedWhoeverRefusesThem) {
   Start("--max-waiting 0 --slots 2");
   AwaitListening();
