@@ -107,6 +107,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
   void Begin(const v1::GenerateTransitionRequest& message, GroupRequest request) {
     const ModelInfo& model = scheduler_->model();
+    RequireOpen();  // whoever is gone by now is not begun for
     request.Validate(model);
     encoding_ = message.config().encoding();
     if (message.config().has_audio_format()) audio_ = message.config().audio_format();

@@ -33,14 +33,15 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
 }
 
 ScheduledTransition::ScheduledTransition(const ModelInfo& model, AskedTransition asked,
-                                         const AudioFeed* audio, double start_time)
+                                         const AudioFeed* audio, double start_time, Begins begins)
     : model_(model),
       request_(std::move(asked.request)),
       warnings_(std::move(asked.warnings)),
       audio_(audio),
       start_time_(start_time),
-      run_(std::in_place, model_, request_),
       row_(static_cast<size_t>(model_.audio_features)) {
+  if (begins == Begins::kLate) return;
+  run_.emplace(model_, request_);
   const std::optional<RequiredSpeed> speed = run_->required_speed();
   if (speed && speed->TooFast()) {
     warnings_.push_back(IntervalTooShort(model_.skeleton, asked.key_id, request_.first_frame,

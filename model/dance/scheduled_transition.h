@@ -38,7 +38,10 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
 /// outlive it. As thread-safe as TransitionRun; `danced` is.
 class ScheduledTransition : public StepJob {
  public:
-  const TransitionSpec& spec() const override { return run_->spec(); }
+  const TransitionSpec& spec() const override {
+    if (!run_) run_.emplace(model_, request_);
+    return run_->spec();
+  }
   bool NextInput(StepInput* input) override {
     if (!Ready()) return false;
     if (audio_ != nullptr) {
@@ -52,14 +55,18 @@ class ScheduledTransition : public StepJob {
   double NextDeadline() const override { return start_time_ + danced_ / model_.fps; }
 
   const TransitionRun& run() const { return *run_; }
-  /// Of its controls, and of its length; to be told with the first frame.
+  /// Of its controls, and of its length, unless it begins late; to be told with the first frame.
   const std::vector<DanceWarning>& warnings() const { return warnings_; }
 
  protected:
+  /// When there is a run: at once, or on the worker's thread when spec is first asked for. Those
+  /// that begin late are many, and may be cancelled before; run and NextFrame are not asked for
+  /// until then.
+  enum class Begins { kAtOnce, kLate };
   /// `audio`: null without music. `start_time`: when its first frame is due. Ready must say whether
-  /// the row of NextFrame is there.
+  /// the row of NextFrame is there. Throws as TransitionRun does, if it begins at once.
   ScheduledTransition(const ModelInfo& model, AskedTransition asked, const AudioFeed* audio,
-                      double start_time);
+                      double start_time, Begins begins = Begins::kAtOnce);
 
   /// The frame that NextInput asks for, absolute.
   int64_t NextFrame() const { return request_.first_frame + run_->done(); }
@@ -79,7 +86,7 @@ class ScheduledTransition : public StepJob {
   std::vector<DanceWarning> warnings_;
   const AudioFeed* const audio_;
   const double start_time_;
-  std::optional<TransitionRun> run_;
+  mutable std::optional<TransitionRun> run_;  // of the worker's thread where it begins late
   std::vector<float> row_;
   std::atomic<int> danced_ = 0;
 };

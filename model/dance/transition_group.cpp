@@ -63,8 +63,10 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
 
 class TransitionGroup::Impl::Job : public ScheduledTransition {
  public:
+  // All candidates ask for the same: what is wrong with it, or worth a warning, the first one says.
   Job(std::shared_ptr<Impl> group, const AskedTransition& asked)
-      : ScheduledTransition(group->model_, asked, group->audio_.get(), PlaybackClock()),
+      : ScheduledTransition(group->model_, asked, group->audio_.get(), PlaybackClock(),
+                            asked.request.candidate == 0 ? Begins::kAtOnce : Begins::kLate),
         group_(std::move(group)),
         candidate_(static_cast<int>(asked.request.candidate)),
         history_(asked.request.history),
