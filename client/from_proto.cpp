@@ -109,6 +109,7 @@ Report FromProto(const v1::QualityReport& report, const v1::Timing& timing) {
   if (report.has_log_likelihood()) out.log_likelihood = report.log_likelihood();
   if (report.has_beat_hit_rate()) out.beat_hit_rate = report.beat_hit_rate();
   out.skate_ratio = report.skate_ratio();
+  if (report.has_support()) out.support = report.support();
   out.max_key_acceleration = report.max_key_acceleration();
   out.p95_acceleration = report.p95_acceleration();
   for (const v1::PartSpeed& speed : report.part_speeds()) {

@@ -114,6 +114,9 @@ class Figures final : public prometheus::Collectable {
     out.Begin("key_error_metres", "How far the model's own frames were off their keys.",
               MetricType::Histogram);
     out.Add(serving_.tally.key_error_m.snapshot());
+    out.Begin("support_ratio", "Share of a dance's frames in which something bears the body.",
+              MetricType::Histogram);
+    out.Add(serving_.tally.support.snapshot());
   }
 
   void AddModels(const std::map<std::string, Models::Figures>& models, Families& out) const {

@@ -95,6 +95,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void OnSummary(const QualityReport& report) override {
+    if (report.support) serving_.tally.support.Add(*report.support);
     DanceResponse response;
     v1::DanceSummary* summary = response.mutable_summary();
     FromReport(report, summary->mutable_report());

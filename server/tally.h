@@ -55,6 +55,8 @@ class Tally {
   Histogram first_frame_s{Histogram::Seconds()};
   /// How far the model's own frames were off their keys, metres, before arrival steered them there.
   Histogram key_error_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};
+  Histogram support{
+      {0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99}};  ///< QualityReport's, of each dance
 
  private:
   mutable std::mutex mutex_;

@@ -84,6 +84,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       FromContinuation(report.continuation, scheduler_->model(), seed_, audio_ ? &*audio_ : nullptr,
                        candidate->mutable_continuation());
       frames += report.quality.frames;
+      if (report.quality.support) serving_.tally.support.Add(*report.quality.support);
       for (const KeyReport& key : report.quality.keys) {
         serving_.tally.key_error_m.Add(key.arrival.raw_error_m);
       }

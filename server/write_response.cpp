@@ -135,6 +135,7 @@ void FromReport(const QualityReport& report, v1::QualityReport* out) {
   }
   if (report.mean_log_likelihood) out->set_log_likelihood(*report.mean_log_likelihood);
   out->set_skate_ratio(report.skate_ratio);
+  if (report.support) out->set_support(*report.support);
   if (report.beat_hit_rate) out->set_beat_hit_rate(*report.beat_hit_rate);
   if (report.beat_coverage) out->set_beat_coverage(*report.beat_coverage);
   out->set_max_key_acceleration(report.max_key_acceleration);

@@ -56,6 +56,7 @@ v1::QualityReport ToReport(const client::Report& report) {
   }
   if (report.log_likelihood) out.set_log_likelihood(*report.log_likelihood);
   out.set_skate_ratio(report.skate_ratio);
+  if (report.support) out.set_support(*report.support);
   if (report.beat_hit_rate) out.set_beat_hit_rate(*report.beat_hit_rate);
   out.set_max_key_acceleration(report.max_key_acceleration);
   out.set_p95_acceleration(report.p95_acceleration);

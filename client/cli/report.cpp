@@ -95,6 +95,7 @@ std::string ReportJson(const WrittenDance& dance) {
   json["beat_hit_rate"] = or_null(report.beat_hit_rate);
   json["beat_hit_chance"] = or_null(dance.beat_hit_chance);
   json["skate_ratio"] = report.skate_ratio;
+  json["support"] = or_null(report.support);
   json["max_key_acceleration"] = report.max_key_acceleration;
   json["p95_acceleration"] = report.p95_acceleration;
   if (!report.part_speeds.empty()) {
@@ -186,7 +187,10 @@ std::string ReportText(const WrittenDance& dance) {
     if (dance.beat_hit_chance) text += Format(" (chance: %.0f %%)", 100 * *dance.beat_hit_chance);
     text += ", ";
   }
-  text += Format("skating in %.1f %% of the steps\n", 100 * report.skate_ratio);
+  text += Format("skating in %.1f %% of the steps", 100 * report.skate_ratio);
+  if (report.support)
+    text += Format(", on her feet in %.0f %% of the frames", 100 * *report.support);
+  text += '\n';
   if (!report.part_speeds.empty()) {
     text += "speeds danced (and asked), cm a frame:";
     for (size_t part = 0; part < kBodyParts; ++part) {

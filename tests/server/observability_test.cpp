@@ -80,6 +80,7 @@ TEST_F(MetricsTest, TellWhatWasDone) {
   EXPECT_EQ(Figure("choreo_sent_frames_total"), 21);
   EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 21);
   EXPECT_EQ(Figure("choreo_key_error_metres_count"), 1);
+  EXPECT_EQ(Figure("choreo_support_ratio_count"), 1);
   EXPECT_EQ(Figure("choreo_first_frame_seconds_count"), 1);
   EXPECT_EQ(Figure("choreo_batch_frames_count" + of_fake), 21);
   EXPECT_EQ(Figure("choreo_step_seconds_count" + of_fake), 21);
