@@ -21,6 +21,11 @@ target_compile_options(choreo_torch INTERFACE ${torch_flags})
 
 if(CHOREO_SERVICE)
   pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
+  # What libsndfile gives up: FLAC and MP3 whose headers err, joined Ogg, Ogg FLAC.
+  pkg_check_modules(flac REQUIRED IMPORTED_TARGET flac)
+  pkg_check_modules(vorbisfile REQUIRED IMPORTED_TARGET vorbisfile)
+  pkg_check_modules(opusfile REQUIRED IMPORTED_TARGET opusfile)
+  pkg_check_modules(mpg123 REQUIRED IMPORTED_TARGET libmpg123)
   pkg_check_modules(alsa REQUIRED IMPORTED_TARGET alsa)
   pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
   find_package(spdlog REQUIRED)

@@ -13,13 +13,13 @@ build=(
   libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
   libeigen3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
   libboost-dev prometheus-cpp-dev libasound2-dev liblo-dev
-  libsndfile1-dev libzip-dev libxxhash-dev libcairo2-dev libtinygltf-dev
+  libsndfile1-dev libflac-dev libvorbis-dev libopusfile-dev libmpg123-dev libzip-dev libxxhash-dev libcairo2-dev libtinygltf-dev
   libgtest-dev libgmock-dev libbenchmark-dev libdnnl-dev
 )
 # To run what was compiled elsewhere. Debian's LibTorch has only a slow BLAS of its own: libopenblas0-pthread takes its place.
 run=(
   libtorch1.13 libopenblas0-pthread libgrpc++1.51 libprotobuf32
-  libasound2 liblo7 libspdlog1.10 libprometheus-cpp-core1.0 libssl3 libsndfile1 libzip4 libxxhash0 libcairo2 libtinygltf2d
+  libasound2 liblo7 libspdlog1.10 libprometheus-cpp-core1.0 libssl3 libsndfile1 libflac12 libvorbisfile3 libopusfile0 libmpg123-0 libzip4 libxxhash0 libcairo2 libtinygltf2d
 )
 # Free songs to dance to.
 demo=(fretsonfire-songs-sectoid)

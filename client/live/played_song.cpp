@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <thread>
 
@@ -14,19 +15,19 @@ namespace {
 
 class PlayedSong final : public Sound {
  public:
-  PlayedSong(DecodedAudio song, int64_t first) : song_(std::move(song)), first_(first) {}
+  explicit PlayedSong(DecodedAudio song) : song_(std::move(song)) {}
 
   int sample_rate() const override { return song_.sample_rate; }
   int channels() const override { return song_.channels; }
   double seconds() const override {
-    return static_cast<double>(song_.samples() - first_) / song_.sample_rate;
+    return song_.seconds();
   }
 
   std::span<const float> Next() override {
     using Clock = std::chrono::steady_clock;
     if (!began_) began_ = Clock::now();
     const int64_t piece = std::llround(kPieceSeconds * song_.sample_rate);
-    const int64_t from = first_ + played_;
+    const int64_t from = played_;
     const int64_t count = std::min(piece, song_.samples() - from);
     played_ += count;
     const std::chrono::duration<double> sounded(static_cast<double>(played_) / song_.sample_rate);
@@ -38,7 +39,6 @@ class PlayedSong final : public Sound {
 
  private:
   DecodedAudio song_;
-  int64_t first_;  // sample
   int64_t played_ = 0;
   std::optional<std::chrono::steady_clock::time_point> began_;
 };
@@ -46,14 +46,13 @@ class PlayedSong final : public Sound {
 }  // namespace
 
 std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start) {
-  DecodedAudio song = DecodeAudioFile(path);
-  const int64_t first = std::llround(start * song.sample_rate);
-  if (first >= song.samples()) {
+  DecodedAudio song = DecodeAudioFile(path, std::numeric_limits<double>::infinity(), start);
+  if (song.interleaved.empty()) {
     throw InvalidArgument("--song-start", InFull(start) + " s lies behind the end of " +
-                                              path.string() + " at " + Rounded(song.seconds()) +
+                                              path.string() + " at " + Rounded(song.end_s) +
                                               " s");
   }
-  return std::make_unique<PlayedSong>(std::move(song), first);
+  return std::make_unique<PlayedSong>(std::move(song));
 }
 
 }  // namespace choreo::live

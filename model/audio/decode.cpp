@@ -1,170 +1,88 @@
 #include "model/audio/decode.h"
 
-#include <sndfile.h>
-
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "model/audio/resample.h"
-#include "model/audio/truncation.h"
+#include "model/audio/sound_reader.h"
 #include "model/core/error.h"
 
 namespace choreo {
 namespace {
 
-constexpr const char* kFormats = "WAV, FLAC, Ogg or MP3";
-constexpr int kReadable[] = {SF_FORMAT_WAV,  SF_FORMAT_WAVEX, SF_FORMAT_RF64,
-                             SF_FORMAT_FLAC, SF_FORMAT_OGG,   SF_FORMAT_MPEG};
-
 /// Of each channel, decoded at a time.
 constexpr size_t kPieceSamples = 65536;
 
-/// Throws Error(kNotFound), with the path as field, where the file cannot be opened.
-ByteSource FileBytes(const std::filesystem::path& path) {
-  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (!*file || error) {
-    throw Error(ErrorCode::kNotFound, path.string(), "cannot be opened as a file");
-  }
-  return {static_cast<int64_t>(size), [file](int64_t offset, std::span<std::byte> bytes) {
-            file->clear();
-            file->seekg(offset);
-            file->read(reinterpret_cast<char*>(bytes.data()),
-                       static_cast<std::streamsize>(bytes.size()));
-            return static_cast<size_t>(std::max<std::streamsize>(file->gcount(), 0));
-          }};
+/// What a pipe may bring: ten minutes in the widest format that is taken.
+constexpr int64_t kMostPipeBytes = 4 * kMaxFileSamples;
+
+/// What a file is that is not decoded here, or "".
+std::string OtherFormat(const ByteSource& source) {
+  if (source.Has(4, "ftyp")) return "MP4 (m4a, mov)";
+  if (source.Has(0, "FORM")) return "AIFF";
+  if (source.Has(0, "\x1a\x45\xdf\xa3")) return "Matroska (webm, mka)";
+  if (source.Has(0, "\x30\x26\xb2\x75")) return "WMA";
+  if (source.Has(0, "caff")) return "CAF";
+  if (source.Has(0, ".snd")) return "AU";
+  return "";
 }
 
-/// `memory` must outlive the source.
-ByteSource MemoryBytes(std::span<const std::byte> memory) {
-  const auto size = static_cast<int64_t>(memory.size());
-  return {size, [memory, size](int64_t offset, std::span<std::byte> bytes) -> size_t {
-            if (offset < 0 || offset >= size) return 0;
-            const auto rest = memory.subspan(static_cast<size_t>(offset));
-            const size_t count = std::min(rest.size(), bytes.size());
-            std::copy_n(rest.begin(), count, bytes.begin());
-            return count;
-          }};
+bool IsAdts(const ByteSource& source) {  // AAC: twelve set bits, then layer 0
+  return (source.Word(0) & 0xf6ff) == 0xf0ff;
 }
 
-/// Where libsndfile is in a ByteSource.
-struct Cursor {
-  ByteSource source;
-  /// Asked for the end of an MP3 file, libmpg123 guesses its length from the first frame's bit rate
-  /// and libsndfile stops there: a song of varying bit rate and without a Xing header would lose
-  /// its end. Unable to seek there, they read on to the last frame.
-  bool can_seek_from_end = true;
-  int64_t position = 0;
-};
-
-sf_count_t CursorSize(void* user) { return static_cast<Cursor*>(user)->source.size; }
-
-sf_count_t CursorSeek(sf_count_t offset, int whence, void* user) {
-  Cursor& cursor = *static_cast<Cursor*>(user);
-  if (whence == SEEK_END && !cursor.can_seek_from_end) return -1;
-  const int64_t base = whence == SEEK_SET   ? 0
-                       : whence == SEEK_CUR ? cursor.position
-                                            : cursor.source.size;
-  if (base + offset < 0) return -1;
-  return cursor.position = base + offset;
+std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& name) {
+  if (source.size == 0) throw InvalidArgument(name, "0 bytes of audio");
+  const bool is_wave = source.Has(8, "WAVE");
+  if (is_wave && (source.Has(0, "RIFF") || source.Has(0, "RF64") || source.Has(0, "RIFX")))
+    return ReadWav(source, name);
+  if (source.Has(0, "fLaC")) return ReadFlac(source, name);
+  if (source.Has(0, "OggS")) return ReadOgg(source, name);
+  std::string other = OtherFormat(source);
+  if (other.empty() && IsAdts(source)) other = "AAC";
+  if (other.empty() && LooksLikeMpeg(source)) return ReadMpeg(source, name);
+  throw Error(ErrorCode::kInvalidArgument, name,
+              (other.empty() ? "not " : other + " is not ") + std::string(kSoundFormats) +
+                  " audio: " + kAskFfmpeg + " makes a file that is taken, of whatever ffmpeg reads");
 }
 
-sf_count_t CursorRead(void* data, sf_count_t count, void* user) {
-  Cursor& cursor = *static_cast<Cursor*>(user);
-  const size_t read = cursor.source.read_at(
-      cursor.position, {static_cast<std::byte*>(data), static_cast<size_t>(count)});
-  cursor.position += static_cast<int64_t>(read);
-  return static_cast<sf_count_t>(read);
-}
-
-sf_count_t CursorTell(void* user) { return static_cast<Cursor*>(user)->position; }
-
-/// Begins with an ID3 tag or the eleven set bits of a frame header.
-bool LooksLikeMp3(const ByteSource& source) {
-  std::array<std::byte, 3> head{};
-  source.read_at(0, head);
-  const bool is_tag = std::memcmp(head.data(), "ID3", 3) == 0;
-  return is_tag || (head[0] == std::byte{0xff} && (head[1] & std::byte{0xe0}) == std::byte{0xe0});
-}
-
-struct CloseFile {
-  void operator()(SNDFILE* file) const { sf_close(file); }
-};
-
-/// A sound file read in pieces.
-class AudioReader {
+/// A sound file read in pieces, within the limits of format.h.
+class LimitedReader {
  public:
   /// `name` is the field of errors.
-  AudioReader(ByteSource source, std::string name) : name_(std::move(name)) {
-    if (source.size == 0) throw InvalidArgument(name_, "0 bytes of audio");
-    CheckNotTruncated(source, name_);
-    cursor_.can_seek_from_end = !LooksLikeMp3(source);
-    cursor_.source = std::move(source);
-    SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, nullptr, CursorTell};
-    file_.reset(sf_open_virtual(&io, SFM_READ, &info_, &cursor_));
-    if (!file_) {
-      throw InvalidArgument(name_,
-                            std::string("not ") + kFormats + " audio: " + sf_strerror(nullptr));
-    }
-    SF_FORMAT_INFO format{};
-    format.format = info_.format & SF_FORMAT_TYPEMASK;
-    if (std::ranges::find(kReadable, format.format) == std::end(kReadable)) {
-      const bool known = sf_command(nullptr, SFC_GET_FORMAT_INFO, &format, sizeof(format)) == 0;
-      throw InvalidArgument(
-          name_, std::string(known && format.name ? format.name : "another format") + " is not " +
-                     kFormats);
-    }
-    CheckAudioFormat(sample_rate(), channels(), name_);
-    if (info_.frames == SF_COUNT_MAX) info_.frames = 0;  // not stated: MP3 without a Xing header
-    CheckAmount(info_.frames);
+  LimitedReader(const ByteSource& source, std::string name)
+      : name_(std::move(name)), reader_(Open(source, name_)) {
+    CheckAudioFormat(reader_->sample_rate(), reader_->channels(), name_);
   }
-  AudioReader(const AudioReader&) = delete;  // libsndfile holds on to the cursor
-  AudioReader& operator=(const AudioReader&) = delete;
 
-  int sample_rate() const { return info_.samplerate; }
-  int channels() const { return info_.channels; }
+  int sample_rate() const { return reader_->sample_rate(); }
+  int channels() const { return reader_->channels(); }
+  int64_t read() const { return read_; }
+  const std::vector<std::string>& notes() const { return reader_->notes(); }
 
-  /// Fills `interleaved`, whole frames, from its beginning, and returns how many samples of each
-  /// channel were read. 0: the end.
-  int64_t Read(std::span<float> interleaved) {
-    const size_t channels_count = static_cast<size_t>(channels());
-    const int64_t wanted = static_cast<int64_t>(interleaved.size() / channels_count);
-    const int64_t got = sf_readf_float(file_.get(), interleaved.data(), wanted);
-    if (const int error = sf_error(file_.get()); error != SF_ERR_NO_ERROR) {
-      throw InvalidArgument(name_, "truncated or damaged after sample " +
-                                       std::to_string(read_ + got) + ": " + sf_error_number(error));
-    }
-    CheckFinite(interleaved.first(static_cast<size_t>(got) * channels_count), channels(), read_,
-                name_);
+  /// As SoundReader; `is_kept`: whether these samples count.
+  int64_t Read(std::span<float> interleaved, bool is_kept) {
+    const int64_t got = reader_->Read(interleaved);
+    CheckFinite(interleaved.first(static_cast<size_t>(got * channels())), channels(), read_, name_);
     read_ += got;
-    CheckAmount(read_);
-    if (got < wanted) {
-      if (read_ == 0) throw InvalidArgument(name_, "0 samples of audio");
-      if (read_ < info_.frames) {
-        throw InvalidArgument(name_, "truncated: " + std::to_string(read_) + " of " +
-                                         std::to_string(info_.frames) + " samples");
-      }
-    }
+    if (is_kept) kept_ += got;
+    CheckAmount();
+    if (got == 0 && read_ == 0) throw InvalidArgument(name_, "0 samples of audio");
     return got;
   }
 
  private:
-  /// Of `samples` of each channel.
-  void CheckAmount(int64_t samples) const {
-    if (samples > int64_t{kMaxAudioSeconds} * sample_rate()) {
-      throw InvalidArgument(name_, std::to_string(samples / sample_rate()) +
+  void CheckAmount() const {
+    if (kept_ > int64_t{kMaxAudioSeconds} * sample_rate()) {
+      throw InvalidArgument(name_, std::to_string(kept_ / sample_rate()) +
                                        " s or more of audio, at most " +
                                        std::to_string(kMaxAudioSeconds) + " s are taken");
     }
-    if (samples * channels() > kMaxFileSamples) {
-      throw InvalidArgument(name_, std::to_string(samples * channels()) + " samples or more (" +
+    if (kept_ * channels() > kMaxFileSamples) {
+      throw InvalidArgument(name_, std::to_string(kept_ * channels()) + " samples or more (" +
                                        std::to_string(channels()) + " channels at " +
                                        std::to_string(sample_rate()) + " Hz), at most " +
                                        std::to_string(kMaxFileSamples) + " are decoded");
@@ -172,26 +90,68 @@ class AudioReader {
   }
 
   const std::string name_;
-  Cursor cursor_{};
-  SF_INFO info_{};  // its `frames` are those that the header states, or 0
-  std::unique_ptr<SNDFILE, CloseFile> file_;
-  int64_t read_ = 0;  // samples of each channel so far
+  std::unique_ptr<SoundReader> reader_;
+  int64_t read_ = 0, kept_ = 0;  // samples of each channel so far
 };
+
+/// How loud channels are alone, and together.
+class Cancellation {
+ public:
+  void Hear(std::span<const float> interleaved, int channels) {
+    const auto count = static_cast<size_t>(channels);
+    for (size_t i = 0; i + count <= interleaved.size(); i += count) {
+      double sum = 0;
+      for (size_t c = 0; c < count; ++c) {
+        sum += interleaved[i + c];
+        alone_ += double{interleaved[i + c]} * interleaved[i + c] / channels;
+      }
+      together_ += sum * sum / (channels * channels);
+    }
+  }
+  /// A thousandth of the power is left.
+  bool IsNearlyWhole() const { return together_ < 1e-3 * alone_; }
+
+ private:
+  double alone_ = 0, together_ = 0;
+};
+
+constexpr const char* kCancels =
+    "its channels cancel each other, as one is the other upside down; the first alone is heard";
+
+std::vector<float> FirstChannel(std::span<const float> interleaved, int channels) {
+  std::vector<float> first;
+  for (size_t i = 0; i < interleaved.size(); i += static_cast<size_t>(channels))
+    first.push_back(interleaved[i]);
+  return first;
+}
 
 }  // namespace
 
-DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds) {
-  AudioReader reader(FileBytes(path), path.string());
-  DecodedAudio audio{
-      .interleaved = {}, .sample_rate = reader.sample_rate(), .channels = reader.channels()};
+DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds, double start) {
+  const std::filesystem::path file = path == "-" ? "/dev/stdin" : path;
+  LimitedReader reader(FileBytes(file, kMostPipeBytes), path.string());
+  DecodedAudio audio{.sample_rate = reader.sample_rate(), .channels = reader.channels()};
   const size_t channels = static_cast<size_t>(audio.channels);
+  const int64_t skipped = std::llround(start * audio.sample_rate);
+  Cancellation cancellation;
   for (;;) {
+    const int64_t left_out = std::min<int64_t>(skipped - reader.read(), kPieceSamples);
     const size_t size = audio.interleaved.size();
-    audio.interleaved.resize(size + kPieceSamples * channels);
-    const int64_t got = reader.Read(std::span(audio.interleaved).subspan(size));
-    audio.interleaved.resize(size + static_cast<size_t>(got) * channels);
-    if (got == 0 || audio.seconds() >= seconds) return audio;
+    const int64_t wanted = left_out > 0 ? left_out : static_cast<int64_t>(kPieceSamples);
+    audio.interleaved.resize(size + static_cast<size_t>(wanted) * channels);
+    const int64_t got = reader.Read(std::span(audio.interleaved).subspan(size), left_out <= 0);
+    audio.interleaved.resize(size + (left_out > 0 ? 0 : static_cast<size_t>(got) * channels));
+    cancellation.Hear(std::span(audio.interleaved).subspan(size), audio.channels);
+    if (got == 0 || (left_out <= 0 && audio.seconds() >= seconds)) break;
   }
+  audio.notes = reader.notes();
+  audio.end_s = static_cast<double>(reader.read()) / audio.sample_rate;
+  if (audio.channels > 1 && cancellation.IsNearlyWhole() && audio.samples() > 0) {
+    audio.interleaved = FirstChannel(audio.interleaved, audio.channels);
+    audio.channels = 1;
+    audio.notes.push_back(kCancels);
+  }
+  return audio;
 }
 
 std::vector<float> ToModelRate(const DecodedAudio& audio) {
@@ -205,18 +165,29 @@ std::vector<float> ToModelRate(const DecodedAudio& audio) {
 
 std::vector<float> DecodeMono(std::span<const std::byte> bytes,
                               const std::function<void()>& between) {
-  AudioReader reader(MemoryBytes(bytes), "audio");
-  Resampler resampler(reader.sample_rate(), reader.channels());
-  const size_t channels = static_cast<size_t>(reader.channels());
-  std::vector<float> piece(kPieceSamples * channels);
   std::vector<float> mono;
-  while (const int64_t got = reader.Read(piece)) {
-    resampler.Push(std::span(piece).first(static_cast<size_t>(got) * channels));
+  for (const bool first_alone : {false, true}) {
+    LimitedReader reader(MemoryBytes(bytes), "audio");
+    const int channels = reader.channels();
+    Resampler resampler(reader.sample_rate(), first_alone ? 1 : channels);
+    std::vector<float> piece(kPieceSamples * static_cast<size_t>(channels));
+    Cancellation cancellation;
+    mono.clear();
+    while (const int64_t got = reader.Read(piece, true)) {
+      const auto read = std::span(piece).first(static_cast<size_t>(got * channels));
+      cancellation.Hear(read, channels);
+      if (first_alone) {
+        resampler.Push(FirstChannel(read, channels));
+      } else {
+        resampler.Push(read);
+      }
+      resampler.Pull(mono);
+      if (between) between();
+    }
+    resampler.Finish();
     resampler.Pull(mono);
-    if (between) between();
+    if (channels == 1 || !cancellation.IsNearlyWhole()) break;
   }
-  resampler.Finish();
-  resampler.Pull(mono);
   return mono;
 }
 

@@ -102,11 +102,6 @@ auto WithFile(std::string bytes) {
 // A test's static functions, for the cases.
 struct Files : ServerTest {
   void TestBody() override {}
-  static std::string Truncated() {
-    std::string file = Wav(Music(2));
-    file.resize(file.size() / 2);
-    return file;
-  }
   static std::string WithNaN() {
     std::vector<float> samples(1000, 0.1F);
     samples[77] = std::numeric_limits<float>::quiet_NaN();
@@ -131,7 +126,6 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalid,
                       "audio",
                       {"not", "WAV"}},
-        BadStreamCase{"Truncated", WithFile(Files::Truncated()), kInvalid, "audio", {"truncated"}},
         BadStreamCase{
             "NaN", WithFile(Files::WithNaN()), kInvalid, "audio.data", {"nan", "sample 77"}}),
     NameOf);

@@ -1,0 +1,115 @@
+#include <sndfile.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "model/audio/sound_reader.h"
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+/// Where libsndfile is in a ByteSource.
+struct Cursor {
+  ByteSource source;
+  int64_t position = 0;
+};
+
+sf_count_t CursorSize(void* user) { return static_cast<Cursor*>(user)->source.size; }
+
+sf_count_t CursorSeek(sf_count_t offset, int whence, void* user) {
+  Cursor& cursor = *static_cast<Cursor*>(user);
+  const int64_t base = whence == SEEK_SET   ? 0
+                       : whence == SEEK_CUR ? cursor.position
+                                            : cursor.source.size;
+  if (base + offset < 0) return -1;
+  return cursor.position = base + offset;
+}
+
+sf_count_t CursorRead(void* data, sf_count_t count, void* user) {
+  Cursor& cursor = *static_cast<Cursor*>(user);
+  const size_t read = cursor.source.read_at(
+      cursor.position, {static_cast<std::byte*>(data), static_cast<size_t>(count)});
+  cursor.position += static_cast<int64_t>(read);
+  return static_cast<sf_count_t>(read);
+}
+
+sf_count_t CursorTell(void* user) { return static_cast<Cursor*>(user)->position; }
+
+class WavReader final : public SoundReader {
+ public:
+  WavReader(ByteSource source, const std::string& name, std::vector<std::string> notes)
+      : name_(name), cursor_{std::move(source)} {
+    notes_ = std::move(notes);
+    SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, nullptr, CursorTell};
+    SF_INFO info{};
+    file_.reset(sf_open_virtual(&io, SFM_READ, &info, &cursor_));
+    if (!file_)
+      throw InvalidArgument(name_, std::string("not WAV audio: ") + sf_strerror(nullptr));
+    sample_rate_ = info.samplerate;
+    channels_ = info.channels;
+  }
+  WavReader(const WavReader&) = delete;  // libsndfile holds on to the cursor
+  WavReader& operator=(const WavReader&) = delete;
+
+  int64_t Read(std::span<float> interleaved) override {
+    const auto wanted = std::ssize(interleaved) / channels_;
+    const int64_t got = sf_readf_float(file_.get(), interleaved.data(), wanted);
+    read_ += got;
+    if (const int error = sf_error(file_.get()); error != SF_ERR_NO_ERROR)
+      notes_.push_back("damaged after sample " + std::to_string(read_) + ": " + sf_error_number(error));
+    return got;
+  }
+
+ private:
+  struct Close {
+    void operator()(SNDFILE* file) const { sf_close(file); }
+  };
+  const std::string name_;
+  Cursor cursor_;
+  std::unique_ptr<SNDFILE, Close> file_;
+  int64_t read_ = 0;
+};
+
+std::string FourBytes(uint32_t word) { return {reinterpret_cast<const char*>(&word), sizeof word}; }
+
+/// Whether a chunk of a RIFF file may begin here: letters, and a length that the file holds.
+bool IsChunk(const ByteSource& source, int64_t at) {
+  if (at + 8 > source.size) return at >= source.size - 1;  // the end, or a padding byte of it
+  for (const char letter : FourBytes(source.Word(at))) {
+    if (letter < ' ' || letter > '~') return false;
+  }
+  return at + 8 + int64_t{source.Word(at + 4)} <= source.size + 1;
+}
+
+}  // namespace
+
+std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string& name) {
+  constexpr uint32_t kMpegLayer3 = 0x55;
+  uint32_t format = 0;
+  if (!source.Has(0, "RIFF"))  // RF64 and others, whose lengths stand elsewhere
+    return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
+  for (int64_t at = 12; at + 8 <= source.size;) {
+    const int64_t size = source.Word(at + 4), body = at + 8;
+    if (source.Has(at, "fmt ")) format = source.Word(body) & 0xffff;
+    if (!source.Has(at, "data")) {
+      at = body + size + size % 2;
+      continue;
+    }
+    // Programs that write into a pipe can't know the length beforehand, and state what they like.
+    const int64_t held = source.size - body;
+    const bool is_right = size > 0 && size <= held && IsChunk(source, body + size + size % 2);
+    if (format == kMpegLayer3) return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
+    if (is_right || held == 0) return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
+    std::vector<std::string> notes;
+    notes.push_back("its header says " + std::to_string(size) + " bytes of samples, " +
+                    std::to_string(held) + " are there");
+    const auto all = static_cast<uint32_t>(std::min<int64_t>(held, 0xfffffff0));
+    return std::make_unique<WavReader>(Patched(source, at + 4, FourBytes(all)), name, notes);
+  }
+  throw InvalidArgument(name, "truncated: it ends at byte " + std::to_string(source.size) +
+                                  ", before any samples");
+}
+
+}  // namespace choreo
