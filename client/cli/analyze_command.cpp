@@ -42,7 +42,7 @@ void CheckPart(const Music& music, const AnalyzeOptions& options) {
 std::vector<SuggestedKey> Suggest(const Music& music, const AnalyzeOptions& options) {
   CheckPart(music, options);
   const std::vector<double> beats = music.track.Seconds();
-  BeatTrack part{.tempo_bpm = music.track.tempo_bpm, .frames = {}};
+  BeatTrack part;
   size_t before = 0;
   for (size_t i = 0; i < beats.size(); ++i) {
     if (beats[i] < options.from_s) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "client/edit.h"
 #include "model/audio/beats.h"
@@ -10,29 +11,21 @@
 #include "model/core/rounded.h"
 
 namespace choreo::cli {
-namespace {
-
-/// Takes the first `seconds` away.
-void LeaveOut(double seconds, const std::filesystem::path& path, DecodedAudio* audio) {
-  const int64_t samples = std::llround(seconds * audio->sample_rate);
-  if (samples >= audio->samples()) {
-    throw InvalidArgument("--song-start", InFull(seconds) + " s lies behind the end of " +
-                                              path.string() + " at " + Rounded(audio->seconds()) +
-                                              " s");
-  }
-  audio->interleaved.erase(audio->interleaved.begin(),
-                           audio->interleaved.begin() + samples * audio->channels);
-}
-
-}  // namespace
 
 Music ReadMusic(const std::filesystem::path& path, double seconds, double start) {
   Music music;
-  music.audio = DecodeAudioFile(path, start + seconds + kTempoWindowSeconds);
-  LeaveOut(start, path, &music.audio);
+  music.audio = DecodeAudioFile(path, seconds + kTempoWindowSeconds, start);
+  if (music.audio.interleaved.empty()) {
+    throw InvalidArgument("--song-start", InFull(start) + " s lies behind the end of " +
+                                              path.string() + " at " + Rounded(music.audio.end_s) +
+                                              " s");
+  }
+  for (const std::string& note : music.audio.notes)
+    std::cerr << "note: " << path.string() << ": " << note << '\n';
   music.mono = ToModelRate(music.audio);
-  music.onset_strength = OnsetStrength(music.mono);
-  music.track = TrackBeats(music.onset_strength);
+  const std::vector<Onset> onsets = FindOnsets(music.mono);
+  music.onset_strength = OnsetStrength(onsets);
+  music.track = TrackBeats(onsets);
   return music;
 }
 

@@ -1,187 +1,124 @@
 #include "model/audio/beats.h"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
+#include <deque>
 
+#include "model/audio/bar_pointer.h"
 #include "model/audio/format.h"
-#include "model/audio/fourier.h"
-#include "model/audio/onset.h"
+#include "model/audio/half_beats.h"
 
 namespace choreo {
 namespace {
 
-using Eigen::ArrayXd;
-
 constexpr double kFrameRate = static_cast<double>(kModelSampleRate) / kOnsetHop;  // a second
 
-constexpr int64_t kTempoWindow = kTempoWindowSeconds * kModelSampleRate / kOnsetHop;  // frames
-constexpr int64_t kTempoFft = 1024;  // long enough for a linear autocorrelation of the window
-static_assert(kTempoFft >= 2 * kTempoWindow - 1);
-constexpr double kPriorBpm = 120;  // its deviation is one octave
-constexpr double kMaxBpm = 320;
+// What is 60 dB below the loudest of the last 12 s is silence, and so is what 16 bits round to 0.
+constexpr float kSilentBelowDb = 60, kSilentDb = -90;
+constexpr int64_t kLoudFrames = 12 * kModelSampleRate / kOnsetHop;
+constexpr int64_t kPauseFrames = 2 * kModelSampleRate / kOnsetHop;
+constexpr int64_t kShortestFrames = kModelSampleRate / kOnsetHop;  // of music between pauses
 
-constexpr double kTightness = 100;
+constexpr int64_t kConfidenceBeats = 8;  // on either side
+constexpr double kSameTempo = 0.06;      // of the median
 
-/// The envelope with half a window on either side, where it fades linearly from its end values to
-/// 0.
-ArrayXd PadWithRamps(std::span<const float> envelope) {
-  constexpr int64_t kPad = kTempoWindow / 2;
-  ArrayXd padded(std::ssize(envelope) + 2 * kPad);
-  for (int64_t i = 0; i < kPad; ++i) {
-    const double rise = static_cast<double>(i) / kPad;
-    padded[i] = rise * envelope.front();
-    padded[padded.size() - 1 - i] = rise * envelope.back();
+std::vector<bool> Sounding(std::span<const Onset> onsets) {
+  std::vector<bool> sounding(onsets.size());
+  std::deque<size_t> loudest;  // descending, within kLoudFrames
+  for (size_t f = 0; f < onsets.size(); ++f) {
+    while (!loudest.empty() && onsets[loudest.back()].loud_db <= onsets[f].loud_db)
+      loudest.pop_back();
+    loudest.push_back(f);
+    if (static_cast<int64_t>(f - loudest.front()) >= kLoudFrames) loudest.pop_front();
+    sounding[f] = onsets[f].loud_db >
+                  std::max(onsets[loudest.front()].loud_db - kSilentBelowDb, kSilentDb);
   }
-  std::ranges::copy(envelope, padded.begin() + kPad);
-  return padded;
+  return sounding;
 }
 
-/// Autocorrelation by lag of the windows around each frame, each scaled to a largest value of 1,
-/// averaged.
-ArrayXd MeanAutocorrelation(std::span<const float> envelope) {
-  const ArrayXd padded = PadWithRamps(envelope);
-  ArrayXd hann(kTempoWindow);
-  for (int64_t i = 0; i < kTempoWindow; ++i) {
-    hann[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / kTempoWindow);
-  }
-  RealFourier fourier(kTempoFft);
-  ArrayXd signal(kTempoFft), mean = ArrayXd::Zero(kTempoWindow);
-  for (int64_t frame = 0; frame < std::ssize(envelope); ++frame) {
-    signal.setZero();
-    signal.head(kTempoWindow) = hann * padded.segment(frame, kTempoWindow);
-    for (auto& bin : fourier.Forward({signal.data(), kTempoFft})) bin = std::norm(bin);
-    fourier.Inverse({signal.data(), kTempoFft});
-    const double largest = signal.head(kTempoWindow).abs().maxCoeff();
-    if (largest > 0) mean += signal.head(kTempoWindow) / largest;
-  }
-  return mean / static_cast<double>(envelope.size());
-}
-
-/// The envelope in units of its standard deviation, smoothed by a Gaussian of 1/32 of a beat.
-/// `beat` in frames.
-ArrayXd LocalScore(std::span<const float> envelope, int64_t beat) {
-  const int64_t size = std::ssize(envelope);
-  double mean = 0, squares = 0;
-  for (const float value : envelope) mean += value;
-  mean /= static_cast<double>(size);
-  for (const float value : envelope) squares += (value - mean) * (value - mean);
-  const double deviation = std::sqrt(squares / static_cast<double>(size - 1)) +
-                           static_cast<double>(std::numeric_limits<float>::min());
-
-  ArrayXd gauss(2 * beat + 1);
-  for (int64_t i = -beat; i <= beat; ++i) {
-    const double x = 32.0 * static_cast<double>(i) / static_cast<double>(beat);
-    gauss[i + beat] = std::exp(-0.5 * x * x);
-  }
-  ArrayXd score = ArrayXd::Zero(size);
-  for (int64_t i = 0; i < size; ++i) {
-    // The reference leaves the envelope's first value out of windows that reach it; it is 0 in
-    // onset strengths.
-    const int64_t first = std::max<int64_t>(0, i + beat - size + 1);
-    const int64_t last = std::min(i + beat, 2 * beat + 1);
-    for (int64_t k = first; k < last; ++k) {
-      score[i] += gauss[k] * (envelope[static_cast<size_t>(i + beat - k)] / deviation);
-    }
-  }
-  return score;
-}
-
-struct Links {
-  std::vector<int64_t> previous;  // the beat before, were there one here; -1: none
-  ArrayXd total;                  // score of the best series of beats that ends here
+struct Part {
+  int64_t begin, end;  // frames; both sound
 };
 
-/// Ellis's recurrence: each frame's best predecessor lies half a beat to two beats before.
-Links LinkBeats(const ArrayXd& score, int64_t beat) {
-  const double silence = 0.01 * score.maxCoeff();
-  const int64_t nearest = static_cast<int64_t>(std::nearbyint(static_cast<double>(beat) / 2.0));
-  ArrayXd penalty = ArrayXd::Zero(2 * beat + 1);
-  for (int64_t lag = std::max<int64_t>(1, nearest); lag <= 2 * beat; ++lag) {
-    const double octaves = std::log(static_cast<double>(lag)) - std::log(static_cast<double>(beat));
-    penalty[lag] = kTightness * octaves * octaves;
+/// What lies between pauses.
+std::vector<Part> PartsOf(const std::vector<bool>& sounding) {
+  std::vector<Part> parts;
+  for (int64_t f = 0; f < std::ssize(sounding); ++f) {
+    if (!sounding[static_cast<size_t>(f)]) continue;
+    if (parts.empty() || f - parts.back().end >= kPauseFrames) parts.push_back({f, f});
+    parts.back().end = f + 1;
   }
-  Links links{std::vector<int64_t>(static_cast<size_t>(score.size()), -1), score};
-  bool before_first = true;
-  for (int64_t i = 0; i < score.size(); ++i) {
-    double best = -std::numeric_limits<double>::infinity();
-    int64_t from = -1;
-    for (int64_t lag = std::max<int64_t>(1, nearest); lag <= std::min(2 * beat, i); ++lag) {
-      const double total = links.total[i - lag] - penalty[lag];
-      if (total > best) {
-        best = total;
-        from = i - lag;
-      }
-    }
-    if (from >= 0) links.total[i] += best;
-    // Beats do not reach back into the silence before the music.
-    if (before_first && score[i] < silence) continue;
-    links.previous[static_cast<size_t>(i)] = from;
-    before_first = false;
-  }
-  return links;
+  std::erase_if(parts, [](const Part& part) { return part.end - part.begin < kShortestFrames; });
+  return parts;
 }
 
-/// The last local maximum of the totals that reaches half their median.
-int64_t LastBeat(const ArrayXd& total) {
-  std::vector<int64_t> peaks;
-  std::vector<double> heights;
-  for (int64_t i = 1; i < total.size(); ++i) {
-    const bool falls = i + 1 == total.size() || total[i] >= total[i + 1];
-    if (total[i] <= total[i - 1] || !falls) continue;
-    peaks.push_back(i);
-    heights.push_back(total[i]);
+/// Whether a frame lies in a pause, more than `period` behind its begin and before its end.
+bool IsInPause(const std::vector<bool>& sounding, int64_t frame, int period) {
+  constexpr int64_t kEarly = 3;  // a beat may be told so much before it sounds
+  const int64_t from = std::max<int64_t>(0, frame - period);
+  const int64_t to = std::min<int64_t>(std::ssize(sounding), frame + kEarly + 1);
+  for (int64_t f = from; f < to; ++f) {
+    if (sounding[static_cast<size_t>(f)]) return false;
   }
-  if (peaks.empty()) return total.size() - 1;
-  std::ranges::sort(heights);
-  const size_t middle = heights.size() / 2;
-  const double median =
-      heights.size() % 2 ? heights[middle] : 0.5 * (heights[middle - 1] + heights[middle]);
-  while (total[peaks.back()] < 0.5 * median) peaks.pop_back();
-  return peaks.back();
+  return true;
 }
 
-/// Drops beats before the first and after the last frame whose score exceeds half the beats'
-/// smoothed RMS.
-void TrimWeakEnds(const ArrayXd& score, std::vector<int64_t>& beats) {
-  // The envelope of the beats is smoothed by (1/2, 1, 1/2); the reference's sum has two values more
-  // than there are beats, one of them the last beat's half, the other 0.
-  const auto at = [&](int64_t i) {
-    return i >= 0 && i < std::ssize(beats) ? score[beats[static_cast<size_t>(i)]] : 0.0;
+/// How much more begins on the beats around each than on average.
+std::vector<double> Confidences(std::span<const Onset> onsets, std::span<const int64_t> frames) {
+  constexpr int64_t kNear = 2;
+  std::vector<double> sums{0};  // of strengths
+  for (const float strength : OnsetStrength(onsets)) sums.push_back(sums.back() + strength);
+  const auto sum = [&](int64_t from, int64_t to) {
+    const auto at = [&](int64_t f) { return sums[std::clamp<int64_t>(f, 0, std::ssize(onsets))]; };
+    return at(to) - at(from);
   };
-  double squares = 0;
-  const int64_t terms = std::ssize(beats) + 2;
-  for (int64_t i = 0; i < terms; ++i) {
-    const double smooth = 0.5 * at(i - 1) + at(i) + 0.5 * at(i + 1);
-    squares += smooth * smooth;
+  std::vector<double> confidences;
+  for (int64_t i = 0; i < std::ssize(frames); ++i) {
+    const int64_t first = std::max<int64_t>(0, i - kConfidenceBeats);
+    const int64_t last = std::min<int64_t>(std::ssize(frames) - 1, i + kConfidenceBeats);
+    double on = 0;
+    for (int64_t k = first; k < last; ++k)
+      on += sum(frames[static_cast<size_t>(k)] - 1, frames[static_cast<size_t>(k)] + kNear + 1);
+    const int64_t from = frames[static_cast<size_t>(first)], to = frames[static_cast<size_t>(last)];
+    const double even = sum(from, to) * static_cast<double>((last - first) * (kNear + 2)) /
+                        static_cast<double>(std::max<int64_t>(1, to - from));
+    confidences.push_back(on > even && on > 0 ? 1 - even / on : 0);
   }
-  const double threshold = 0.5 * std::sqrt(squares / static_cast<double>(terms));
-  int64_t first = 0, last = score.size() - 1;
-  while (first <= last && !(score[first] > threshold)) ++first;
-  while (first <= last && !(score[last] > threshold)) --last;
-  std::erase_if(beats, [&](int64_t beat) { return beat < first || beat > last; });
+  return confidences;
 }
 
-/// The tempo in beats a minute of an onset envelope, as librosa.feature.tempo (0.10.2):
-/// autocorrelation within kTempoWindowSeconds, averaged, weighed by a log-normal prior around 120,
-/// below 320.
-double EstimateTempo(std::span<const float> envelope) {
-  const ArrayXd correlation = MeanAutocorrelation(envelope);
-  double best = -std::numeric_limits<double>::infinity();
-  double tempo = 0;
-  for (int64_t lag = 1; lag < correlation.size(); ++lag) {
-    const double bpm = 60.0 * kFrameRate / static_cast<double>(lag);
-    if (bpm >= kMaxBpm) continue;
-    const double octaves = std::log2(bpm) - std::log2(kPriorBpm);
-    const double score = std::log1p(1e6 * correlation[lag]) - 0.5 * octaves * octaves;
-    if (score > best) {
-      best = score;
-      tempo = bpm;
-    }
-  }
-  return tempo;
+using Path = std::vector<BarPointer::Step>;
+
+Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> patterns,
+              const TempoLimits& limits) {
+  BarPointer pointer(patterns, {limits.slowest_bpm, limits.fastest_bpm});
+  for (const Onset& onset : onsets) pointer.Add(onset);
+  return pointer.Path();
+}
+
+/// Faster than this hardly anybody taps what has no finer parts.
+constexpr double kFastestTappedBpm = 160;
+
+/// The best path in the metre of the music.
+Path PathOf(std::span<const Onset> onsets, const TempoLimits& limits) {
+  const auto patterns = BarPatterns();
+  const Path path = BestPath(onsets, patterns.first(2), limits);
+  if (path.empty() || path.back().pattern != 0) return path;
+  const HalfBeats halves(onsets, path);
+  const double fastest = std::min(limits.fastest_bpm, kFastestTappedBpm);
+  if (2 * 60 * kFrameRate / path[path.size() / 2].period <= fastest && halves.AreAlike())
+    return Doubled(path);
+  const Meter meter = halves.MeterOf();
+  if (meter == Meter::kFour) return path;
+  const Path other = BestPath(onsets, patterns.subspan(meter == Meter::kThree ? 2 : 3, 1), limits);
+  return other.empty() ? path : other;
+}
+
+int MostFrequent(std::span<const int> values) {
+  std::array<int, 8> counts{};
+  for (const int value : values) ++counts[static_cast<size_t>(value)];
+  return static_cast<int>(std::ranges::max_element(counts) - counts.begin());
 }
 
 }  // namespace
@@ -192,23 +129,55 @@ std::vector<double> BeatTrack::Seconds() const {
   return seconds;
 }
 
-BeatTrack TrackBeats(std::span<const float> onset_strength) {
-  BeatTrack track;
-  const bool silent = std::ranges::all_of(onset_strength, [](float value) { return value == 0; });
-  if (onset_strength.size() < 2 || silent) return track;
-  track.tempo_bpm = EstimateTempo(onset_strength);
-  const int64_t beat = static_cast<int64_t>(std::nearbyint(60.0 * kFrameRate / track.tempo_bpm));
-  const ArrayXd score = LocalScore(onset_strength, beat);
-  const Links links = LinkBeats(score, beat);
-  for (int64_t frame = LastBeat(links.total); frame >= 0;
-       frame = links.previous[static_cast<size_t>(frame)]) {
-    track.frames.push_back(frame);
+std::vector<double> BeatTrack::DownbeatSeconds() const {
+  std::vector<double> seconds;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    if (in_bar[i] == 0) seconds.push_back(static_cast<double>(frames[i]) / kFrameRate);
   }
-  std::ranges::reverse(track.frames);
-  TrimWeakEnds(score, track.frames);
+  return seconds;
+}
+
+double TempoOf(std::span<const double> seconds) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < seconds.size(); ++i) steps.push_back(seconds[i] - seconds[i - 1]);
+  if (steps.empty()) return 0;
+  const auto middle = steps.begin() + std::ssize(steps) / 2;
+  std::ranges::nth_element(steps, middle);
+  const double median = *middle;
+  double sum = 0, count = 0;
+  for (const double step : steps) {
+    if (std::abs(step - median) > kSameTempo * median) continue;
+    sum += step;
+    ++count;
+  }
+  return 60 * count / sum;
+}
+
+BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits) {
+  BeatTrack track;
+  std::vector<int> bars;
+  const std::vector<bool> sounding = Sounding(onsets);
+  for (const Part& part : PartsOf(sounding)) {
+    const auto heard =
+        onsets.subspan(static_cast<size_t>(part.begin), static_cast<size_t>(part.end - part.begin));
+    const auto begins = [](const Onset& onset) {
+      return std::ranges::any_of(onset.rise, [](float rise) { return rise > 0; });
+    };
+    if (std::ranges::none_of(heard, begins)) continue;
+    for (const BarPointer::Step& step : PathOf(heard, limits)) {
+      const int64_t frame = part.begin + step.frame;
+      if (IsInPause(sounding, frame, step.period)) continue;
+      track.frames.push_back(frame);
+      track.in_bar.push_back(step.in_bar);
+      bars.push_back(step.beats);
+    }
+  }
+  track.confidence = Confidences(onsets, track.frames);
+  if (!bars.empty()) track.beats_in_bar = MostFrequent(bars);
+  track.tempo_bpm = TempoOf(track.Seconds());
   return track;
 }
 
-BeatTrack FindBeats(std::span<const float> mono) { return TrackBeats(OnsetStrength(mono)); }
+BeatTrack FindBeats(std::span<const float> mono) { return TrackBeats(FindOnsets(mono)); }
 
 }  // namespace choreo

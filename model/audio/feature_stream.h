@@ -8,8 +8,8 @@
 
 #include "model/audio/mel.h"
 #include "model/audio/mfcc.h"
-#include "model/audio/onset.h"
 #include "model/audio/resample.h"
+#include "model/audio/row_onset.h"
 
 namespace choreo {
 

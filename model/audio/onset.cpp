@@ -1,47 +1,122 @@
 #include "model/audio/onset.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "model/audio/format.h"
+#include "model/audio/fourier.h"
+#include "model/core/error.h"
 
 namespace choreo {
 namespace {
 
-constexpr double kRangeDb = 40;  // what lies further below the loudest band is not heard
-// Up to 130 Hz, where the low drum is. It says which of two pulses half a beat apart is the beat,
-// so these few bands weigh as much as all.
-constexpr size_t kBassBands = 4;
+constexpr double kRangeDb = 50, kFaintestDb = -80;
+constexpr double kLowestHz = 25, kFirstEdgeHz = 60, kHighestHz = 10500;
+constexpr double kBassHz = 160, kMiddleHz = 1600;  // where a group of bands ends
 
-// A window reports an attack while its centre is still before it: by about so many frames.
-constexpr size_t kShift = 1;
+/// The Fourier bins of each band, and its group; bands are equally wide in octaves but the first.
+template <size_t kBands>
+struct OnsetTables {
+  std::array<double, kOnsetWindow> window{};
+  double window_sum = 0;
+  std::array<size_t, kBands> first{}, last{};  // [first, last)
+  std::array<size_t, kBands> group{};
+  std::array<size_t, Onset::kBands> in_group{};
+
+  OnsetTables() {
+    for (size_t i = 0; i < window.size(); ++i) {
+      window[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / kOnsetWindow);
+      window_sum += window[i];
+    }
+    const auto edge = [](size_t i) {
+      return i == 0 ? kLowestHz
+                    : kFirstEdgeHz * std::pow(kHighestHz / kFirstEdgeHz,
+                                              static_cast<double>(i - 1) / (kBands - 1));
+    };
+    const auto bin = [](double hz) {
+      return static_cast<size_t>(std::lround(hz * kOnsetWindow / kModelSampleRate));
+    };
+    for (size_t band = 0; band < kBands; ++band) {
+      first[band] = std::max<size_t>(1, bin(edge(band)));
+      last[band] = std::max(first[band] + 1, bin(edge(band + 1)));
+      group[band] = edge(band + 1) < kBassHz ? 0 : edge(band + 1) < kMiddleHz ? 1 : 2;
+      ++in_group[group[band]];
+    }
+  }
+
+  static const OnsetTables& Shared() {
+    static const OnsetTables tables;
+    return tables;
+  }
+};
 
 }  // namespace
 
-template <size_t kRiseRows, size_t kLoudRows>
-float OnsetMeter<kRiseRows, kLoudRows>::Add(const MelBandsDb& db) {
-  loudest_[rows_ % kLoudRows] = *std::ranges::max_element(db);
-  const auto known = static_cast<std::ptrdiff_t>(std::min(rows_ + 1, kLoudRows));
-  const double floor = *std::max_element(loudest_.begin(), loudest_.begin() + known) - kRangeDb;
-  double all = 0, bass = 0;
-  auto& before = before_[rows_ % kRiseRows];
-  for (size_t band = 0; band < kMelBands; ++band) {
-    const double rise =
-        rows_ < kRiseRows ? 0 : std::max(0.0, db[band] - std::max(before[band], floor));
-    all += rise;
-    if (band < kBassBands) bass += rise;
-    before[band] = db[band];
+OnsetMeter::BandsDb OnsetMeter::Decibels(std::span<const float> window) {
+  const auto& tables = OnsetTables<kBands>::Shared();
+  thread_local RealFourier fourier(kOnsetWindow);
+  thread_local std::vector<double> windowed(kOnsetWindow);
+  double offset = 0;
+  for (size_t i = 0; i < windowed.size(); ++i) offset += tables.window[i] * double{window[i]};
+  offset /= tables.window_sum;
+  for (size_t i = 0; i < windowed.size(); ++i)
+    windowed[i] = tables.window[i] * (double{window[i]} - offset);
+  const auto spectrum = fourier.Forward(windowed);
+  constexpr double kFullScale = double{kOnsetWindow} * kOnsetWindow / 16;
+  BandsDb db;
+  for (size_t band = 0; band < kBands; ++band) {
+    double power = 0;
+    for (size_t k = tables.first[band]; k < tables.last[band]; ++k) power += std::norm(spectrum[k]);
+    db[band] = 10 * std::log10(std::max(power / kFullScale, 1e-10));
   }
-  ++rows_;
-  return static_cast<float>(0.5 * (all / kMelBands + bass / kBassBands));
+  return db;
 }
 
-template class OnsetMeter<kRowRise, kRowLoud>;
+Onset OnsetMeter::Add(std::span<const float> window) {
+  const auto& tables = OnsetTables<kBands>::Shared();
+  const BandsDb db = Decibels(window);
+  const double loudest = *std::ranges::max_element(db);
+  loudest_[frames_ % kLoudFrames] = loudest;
+  const auto known = static_cast<std::ptrdiff_t>(std::min(frames_ + 1, kLoudFrames));
+  const double floor =
+      std::max(*std::max_element(loudest_.begin(), loudest_.begin() + known) - kRangeDb, kFaintestDb);
+  Onset onset{.loud_db = static_cast<float>(loudest)};
+  BandsDb& before = before_[frames_ % kRise];
+  std::array<double, Onset::kBands> sums{};
+  for (size_t band = 0; band < kBands; ++band) {
+    if (frames_ >= kRise)
+      sums[tables.group[band]] += std::max(0.0, db[band] - std::max(before[band], floor));
+    before[band] = db[band];
+  }
+  for (size_t group = 0; group < sums.size(); ++group)
+    onset.rise[group] = static_cast<float>(sums[group] / static_cast<double>(tables.in_group[group]));
+  ++frames_;
+  return onset;
+}
 
-std::vector<float> OnsetStrength(std::span<const float> mono) {
-  const std::vector<MelBandsDb> frames = MelSpectrogram(mono, kOnsetHop);
-  std::vector<float> strength(frames.size(), 0.0f);
-  OnsetMeter<1, 2 * kModelSampleRate / kOnsetHop> onset;
-  for (size_t f = 0; f + kShift < frames.size(); ++f) strength[f + kShift] = onset.Add(frames[f]);
+std::vector<Onset> FindOnsets(std::span<const float> mono) {
+  if (mono.empty()) throw InvalidArgument("audio", "no samples");
+  const int64_t size = std::ssize(mono);
+  std::vector<Onset> onsets(static_cast<size_t>(1 + size / kOnsetHop));
+  OnsetMeter meter;
+  std::vector<float> window(kOnsetWindow);
+  int64_t start = -kOnsetWindow / 2;
+  for (Onset& onset : onsets) {
+    const int64_t from = std::max<int64_t>(start, 0), to = std::min(start + kOnsetWindow, size);
+    std::ranges::fill(window, 0.0F);
+    if (from < to)
+      std::copy(mono.begin() + from, mono.begin() + to, window.begin() + (from - start));
+    onset = meter.Add(window);
+    start += kOnsetHop;
+  }
+  return onsets;
+}
+
+std::vector<float> OnsetStrength(std::span<const Onset> onsets) {
+  std::vector<float> strength;
+  for (const Onset& onset : onsets)
+    strength.push_back((2 * onset.rise[0] + onset.rise[1] + onset.rise[2]) / 4);
   return strength;
 }
 

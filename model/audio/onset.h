@@ -2,42 +2,58 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "model/audio/mel.h"
 
 namespace choreo {
 
-/// How strongly something begins, row by row of mel bands: by how many dB they rose within
-/// `kRiseRows`, the mean of all bands and of the bass. What lies more than 40 dB below the loudest
-/// band of the last `kLoudRows` rows is not heard. A row's value is known with the row, and depends
-/// on no more than the kMemory rows before it. Beats are heard in this, live and in whole songs.
-/// Not thread-safe.
-template <size_t kRiseRows, size_t kLoudRows>
-class OnsetMeter {
- public:
-  static constexpr int kMemory = kRiseRows + kLoudRows;
+/// Samples at 22 050 Hz from one onset, and one beat frame, to the next: 90 a second.
+inline constexpr int kOnsetHop = 245;
+/// Samples that an onset is heard in, half of them before its own.
+inline constexpr int kOnsetWindow = 1024;
 
-  /// `db`: the bands of the next row.
-  float Add(const MelBandsDb& db);
+/// How strongly something begins.
+struct Onset {
+  static constexpr size_t kBands = 3;
+  /// Below 160 Hz, where the low drum and the bass are; up to 1600 Hz; above. By how many dB the
+  /// Fourier bands there rose within two frames, their mean.
+  std::array<float, kBands> rise{};
+  float loud_db = -100;  ///< the loudest of the Fourier bands, 0: a sine of full scale
 
- private:
-  size_t rows_ = 0;
-  std::array<MelBandsDb, kRiseRows> before_{};
-  std::array<double, kLoudRows> loudest_{};
+  friend bool operator==(const Onset&, const Onset&) = default;
 };
 
-/// Of the rows of a FeatureStream: over two rows, 67 ms, and two seconds.
-inline constexpr size_t kRowRise = 2, kRowLoud = 60;
-using RowOnset = OnsetMeter<kRowRise, kRowLoud>;
+/// Onsets frame by frame. What lies more than 50 dB below the loudest band of the last two seconds
+/// is not heard, nor is a DC offset. An onset depends on no more than the kMemory frames before it.
+/// Not thread-safe.
+class OnsetMeter {
+ public:
+  static constexpr size_t kLoudFrames = 180;  // two seconds
+  static constexpr size_t kMemory = kLoudFrames + 2;
 
-/// Samples at 22 050 Hz from one onset value, and one beat frame, to the next.
-inline constexpr int kOnsetHop = 512;
+  /// `window`: kOnsetWindow samples around the next frame.
+  Onset Add(std::span<const float> window);
 
-/// Onset strength of mono samples at 22 050 Hz, all of them: rises over one frame, 23 ms. Value f
-/// describes sample f * kOnsetHop; there are 1 + samples / kOnsetHop, all >= 0, the first one 0.
-/// Errors as MelSpectrogram.
-std::vector<float> OnsetStrength(std::span<const float> mono);
+ private:
+  static constexpr size_t kBands = 24, kRise = 2;
+  using BandsDb = std::array<double, kBands>;
+
+  BandsDb Decibels(std::span<const float> window);
+
+  size_t frames_ = 0;
+  std::array<BandsDb, kRise> before_{};
+  std::array<double, kLoudFrames> loudest_{};
+};
+
+/// The onsets of mono samples at 22 050 Hz, all of them. Frame f is centred at sample f * kOnsetHop;
+/// there are 1 + samples / kOnsetHop. Audio before and after is silence. Throws
+/// Error(kInvalidArgument) for no samples.
+std::vector<Onset> FindOnsets(std::span<const float> mono);
+
+/// One number a frame: the mean of its bands, the bass alone counting as much as the others
+/// together.
+std::vector<float> OnsetStrength(std::span<const Onset> onsets);
 
 }  // namespace choreo

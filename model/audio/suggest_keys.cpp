@@ -13,12 +13,14 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 double Squared(double value) { return value * value; }
 
-/// The envelope's peak within a frame of each beat, in units of the strongest.
+constexpr int64_t kOnsetNear = 2;  // frames around a beat in which its onset is
+
+/// The envelope's peak near each beat, in units of the strongest.
 std::vector<double> Strengths(const BeatTrack& track, std::span<const float> envelope) {
   std::vector<double> strengths;
   for (const int64_t frame : track.frames) {
     double peak = 0;
-    for (int64_t f = frame - 1; f <= frame + 1; ++f) {
+    for (int64_t f = frame - kOnsetNear; f <= frame + kOnsetNear; ++f) {
       if (f >= 0 && f < static_cast<int64_t>(envelope.size()))
         peak = std::max(peak, double{envelope[static_cast<size_t>(f)]});
     }

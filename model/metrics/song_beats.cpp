@@ -1,6 +1,7 @@
 #include "model/metrics/song_beats.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "model/audio/beats.h"
@@ -13,11 +14,11 @@ namespace {
 
 constexpr double kSigma = 3.0 / 60;    // seconds
 constexpr double kAround = 10.0 / 60;  // seconds on each side of which a motion beat is the slowest
-// librosa's onset frames lie half an analysis window behind the windows' centres.
+// A rise is heard when a sound enters the window, half of its length before the centre.
 constexpr double kOnsetDelay = kFftSize / 2.0 / kModelSampleRate;  // seconds
 
-// Mean rise of the mel bands from row to row, dB; the first is 0.
-std::vector<double> Rises(const Eigen::MatrixXf& rows) {
+// Onsets row by row: mean rises of the mel bands, dB; none in the first.
+std::vector<Onset> RowOnsets(const Eigen::MatrixXf& rows) {
   const Eigen::Index coefficients = rows.rows();
   Eigen::MatrixXd inverse(kMelBands, coefficients);  // of the orthonormal DCT-II
   for (Eigen::Index band = 0; band < kMelBands; ++band) {
@@ -27,12 +28,20 @@ std::vector<double> Rises(const Eigen::MatrixXf& rows) {
     }
   }
   constexpr double kRange = 80;  // dB below the loudest, as librosa's onset strength has it
+  // Slaney's bands up to 160 Hz, to 1600 Hz, and above, as Onset has them.
+  constexpr std::array<Eigen::Index, 4> kEnds{0, 6, 56, kMelBands};
   Eigen::MatrixXd mel = inverse * rows.cast<double>();
   mel = mel.cwiseMax(mel.maxCoeff() - kRange);
-  std::vector<double> rises(static_cast<size_t>(rows.cols()), 0.0);
-  for (Eigen::Index t = 1; t < rows.cols(); ++t)
-    rises[t] = (mel.col(t) - mel.col(t - 1)).cwiseMax(0).mean();
-  return rises;
+  std::vector<Onset> onsets(static_cast<size_t>(rows.cols()));
+  for (Eigen::Index t = 0; t < rows.cols(); ++t) {
+    Onset& onset = onsets[static_cast<size_t>(t)];
+    onset.loud_db = static_cast<float>(mel.col(t).maxCoeff() - mel.maxCoeff());
+    for (size_t band = 0; t > 0 && band < Onset::kBands; ++band) {
+      const auto rises = (mel.col(t) - mel.col(t - 1)).segment(kEnds[band], kEnds[band + 1] - kEnds[band]);
+      onset.rise[band] = static_cast<float>(rises.cwiseMax(0).mean());
+    }
+  }
+  return onsets;
 }
 
 // Frames of the strict minima among the steps within kAround. The published code has a standstill
@@ -55,20 +64,24 @@ std::vector<int64_t> MotionBeats(std::span<const float> speeds, double fps) {
 
 std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps) {
   if (rows.cols() < 2) return {};
-  const std::vector<double> rises = Rises(rows);
+  const std::vector<Onset> by_row = RowOnsets(rows);
   // The tracker counts in steps of kOnsetHop.
   const double hop = static_cast<double>(kOnsetHop) / kModelSampleRate;
   const double seconds = static_cast<double>(rows.cols() - 1) / fps;
-  std::vector<float> envelope;
+  std::vector<Onset> onsets;
   for (int64_t i = 0; static_cast<double>(i) * hop <= seconds; ++i) {
     const double at = std::max(0.0, (static_cast<double>(i) * hop - kOnsetDelay) * fps);
     const auto before = static_cast<size_t>(at);
-    const size_t after = std::min(before + 1, rises.size() - 1);
-    const double part = at - static_cast<double>(before);
-    envelope.push_back(static_cast<float>((1 - part) * rises[before] + part * rises[after]));
+    const Onset& one = by_row[before];
+    const Onset& other = by_row[std::min(before + 1, by_row.size() - 1)];
+    const auto part = static_cast<float>(at - static_cast<double>(before));
+    Onset& onset = onsets.emplace_back();
+    onset.loud_db = std::lerp(one.loud_db, other.loud_db, part);
+    for (size_t band = 0; band < Onset::kBands; ++band)
+      onset.rise[band] = std::lerp(one.rise[band], other.rise[band], part);
   }
   std::vector<double> beats;
-  for (const double second : TrackBeats(envelope).Seconds()) beats.push_back(second * fps);
+  for (const double second : TrackBeats(onsets).Seconds()) beats.push_back(second * fps);
   return beats;
 }
 

@@ -8,8 +8,8 @@
 namespace choreo {
 
 /// The beats of a prepared clip's music, in frames of its motion (fractions allowed), ascending.
-/// Clips keep MFCC rows, not samples: their inverse cosine transform is a mel spectrum, whose rise
-/// is the onset envelope that audio/beats.h tracks. `rows`: [coefficients, frames], 30 a second.
+/// Clips keep MFCC rows, not samples: their inverse cosine transform is a mel spectrum, whose
+/// rises are the onsets that audio/beats.h tracks. `rows`: [coefficients, frames], 30 a second.
 /// Empty for silence.
 std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 

@@ -11,7 +11,7 @@
 
 namespace choreo::suggest_keys_test {
 
-constexpr int64_t kPeriod = 22;  // onset frames: 0.51 s, 117 a minute
+constexpr int64_t kPeriod = 46;  // onset frames: 0.51 s, 117 a minute
 
 /// A beat every kPeriod onset frames; every `bar`-th is strong, the others half as strong.
 struct Song {
@@ -114,9 +114,10 @@ TEST(SuggestKeysTest, NoOtherChoiceIsBetter) {
 }
 
 TEST(SuggestKeysTest, ARealTrackOfClicksIsDividedWhereItsBeatsAre) {
-  const std::vector<float> song = Clicks(30 * 22050, 7000, 22 * kOnsetHop);
-  const std::vector<float> envelope = OnsetStrength(song);
-  const BeatTrack track = TrackBeats(envelope);
+  const std::vector<float> song = Clicks(30 * 22050, 7000, kPeriod * kOnsetHop);
+  const std::vector<Onset> onsets = FindOnsets(song);
+  const std::vector<float> envelope = OnsetStrength(onsets);
+  const BeatTrack track = TrackBeats(onsets);
   const std::vector<SuggestedKey> keys = SuggestKeys(track, envelope, 6, "n");
   const std::vector<double> beats = track.Seconds();
   for (const SuggestedKey& key : keys) {

@@ -1,0 +1,74 @@
+#include "model/audio/half_beats.h"
+
+#include <algorithm>
+
+namespace choreo {
+namespace {
+
+constexpr double kAlike = 0.9;  // mean of the weaker half over that of the stronger
+
+}  // namespace
+
+HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
+  std::vector<std::array<float, Onset::kBands>> even;
+  EvenOnsets evened;
+  for (const Onset& onset : onsets) even.push_back(evened.Even(onset));
+  for (const BarPointer::Step& step : path) {
+    for (const int64_t frame : {step.frame, step.frame + step.period / 2}) {
+      auto& half = halves_.emplace_back();
+      half.fill(0);
+      const int64_t to = std::min<int64_t>(std::ssize(even), frame + 3);
+      for (int64_t f = std::max<int64_t>(0, frame - 1); f < to; ++f) {
+        for (size_t band = 0; band < half.size(); ++band)
+          half[band] = std::max(half[band], double{even[static_cast<size_t>(f)][band]});
+      }
+    }
+  }
+}
+
+bool HalfBeats::AreAlike() const {
+  bool any = false;
+  for (size_t band = 0; band < Onset::kBands; ++band) {
+    std::array<double, 2> sums{};
+    for (size_t i = 0; i < halves_.size(); ++i) sums[i % 2] += halves_[i][band];
+    const auto [weaker, stronger] = std::minmax(sums[0], sums[1]);
+    if (weaker < kAlike * stronger) return false;
+    any = any || stronger > 0;
+  }
+  return any;
+}
+
+double HalfBeats::Correlation(size_t lag) const {
+  if (halves_.size() <= lag) return 0;
+  double sum = 0;
+  for (size_t band = 0; band < Onset::kBands; ++band) {
+    double mean = 0;
+    for (const auto& half : halves_) mean += half[band] / static_cast<double>(halves_.size());
+    for (size_t i = lag; i < halves_.size(); ++i)
+      sum += (halves_[i][band] - mean) * (halves_[i - lag][band] - mean);
+  }
+  return sum / static_cast<double>(halves_.size() - lag);
+}
+
+Meter HalfBeats::MeterOf() const {
+  if (Correlation(6) <= Correlation(8)) return Meter::kFour;
+  return Correlation(3) > Correlation(2) ? Meter::kSix : Meter::kThree;
+}
+
+std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path) {
+  std::vector<BarPointer::Step> doubled;
+  for (BarPointer::Step step : path) {
+    const int64_t frame = step.frame;
+    const int period = step.period;
+    step.beats = 4;
+    step.period = period / 2;
+    for (const int half : {0, 1}) {
+      step.frame = frame + half * (period / 2);
+      step.in_bar = static_cast<int>(doubled.size() % 4);
+      doubled.push_back(step);
+    }
+  }
+  return doubled;
+}
+
+}  // namespace choreo
