@@ -19,9 +19,7 @@ class PlayedSong final : public Sound {
 
   int sample_rate() const override { return song_.sample_rate; }
   int channels() const override { return song_.channels; }
-  double seconds() const override {
-    return song_.seconds();
-  }
+  double seconds() const override { return song_.seconds(); }
 
   std::span<const float> Next() override {
     using Clock = std::chrono::steady_clock;
@@ -49,8 +47,7 @@ std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start)
   DecodedAudio song = DecodeAudioFile(path, std::numeric_limits<double>::infinity(), start);
   if (song.interleaved.empty()) {
     throw InvalidArgument("--song-start", InFull(start) + " s lies behind the end of " +
-                                              path.string() + " at " + Rounded(song.end_s) +
-                                              " s");
+                                              path.string() + " at " + Rounded(song.end_s) + " s");
   }
   return std::make_unique<PlayedSong>(std::move(song));
 }

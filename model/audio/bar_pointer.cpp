@@ -12,7 +12,7 @@ namespace {
 constexpr double kFramesPerMinute = 60.0 * kModelSampleRate / kOnsetHop;
 constexpr double kEvenSeconds = 3;
 constexpr double kNothingDb = 0.02;  // mean rise below which nothing happens
-constexpr float kLoudestRise = 8;        // times the mean; a crash counts no more
+constexpr float kLoudestRise = 8;    // times the mean; a crash counts no more
 
 // An onset is heard from a frame before its beat to two behind.
 constexpr int kFirstFrame = -1, kFrames = 4;
@@ -26,8 +26,7 @@ int PeriodOf(double bpm) { return static_cast<int>(std::lround(kFramesPerMinute 
 }  // namespace
 
 std::array<float, Onset::kBands> EvenOnsets::Even(const Onset& onset) {
-  static const double kept =
-      std::exp(-1.0 / (kEvenSeconds * kModelSampleRate / kOnsetHop));
+  static const double kept = std::exp(-1.0 / (kEvenSeconds * kModelSampleRate / kOnsetHop));
   std::array<float, Onset::kBands> even;
   for (size_t band = 0; band < even.size(); ++band) {
     const double rise = onset.rise[band];
@@ -52,8 +51,9 @@ BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limit
     const size_t first_group = groups_.size();
     const auto count = static_cast<size_t>(longest_period - shortest_period + 1);
     for (int beat = 0; beat < pattern.beats; ++beat) {
-      groups_.push_back({p, rings_.size(), count,
-                         first_group + static_cast<size_t>((beat + pattern.beats - 1) % pattern.beats)});
+      groups_.push_back(
+          {p, rings_.size(), count,
+           first_group + static_cast<size_t>((beat + pattern.beats - 1) % pattern.beats)});
       for (int period = shortest_period; period <= longest_period; ++period) {
         Ring ring{p, states, beat, period, 0, {}};
         states += static_cast<size_t>(period);
@@ -165,7 +165,8 @@ size_t BarPointer::BestState(int* frames_since) const {
   size_t best = 0;
   for (size_t r = 0; r < rings_.size(); ++r) {
     const Ring& ring = rings_[r];
-    const auto states = std::span(states_).subspan(ring.first_state, static_cast<size_t>(ring.period));
+    const auto states =
+        std::span(states_).subspan(ring.first_state, static_cast<size_t>(ring.period));
     const auto highest = std::ranges::max_element(states);
     if (*highest <= most) continue;
     most = *highest;

@@ -49,10 +49,10 @@ class BarPointer {
   /// A beat of the best path.
   struct Step {
     int64_t frame;
-    int period;   ///< frames
-    int in_bar;   ///< 0: a downbeat
+    int period;  ///< frames
+    int in_bar;  ///< 0: a downbeat
     size_t pattern;
-    int beats;     ///< in its bar
+    int beats;  ///< in its bar
   };
 
   BarPointer(std::span<const BarPattern> patterns, const Limits& limits);
@@ -89,7 +89,7 @@ class BarPointer {
   std::vector<Group> groups_;
   std::vector<std::vector<float>> place_score_;  // of a frame, by pattern
   std::vector<float> states_, leaving_, arriving_;
-  std::vector<uint8_t> from_, back_;  // back_: [frame][ring]
+  std::vector<uint8_t> from_, back_;          // back_: [frame][ring]
   std::vector<float> step_cost_, stay_cost_;  // by period
   EvenOnsets even_;
   int64_t frames_ = 0;

@@ -31,8 +31,8 @@ std::vector<bool> Sounding(std::span<const Onset> onsets) {
       loudest.pop_back();
     loudest.push_back(f);
     if (static_cast<int64_t>(f - loudest.front()) >= kLoudFrames) loudest.pop_front();
-    sounding[f] = onsets[f].loud_db >
-                  std::max(onsets[loudest.front()].loud_db - kSilentBelowDb, kSilentDb);
+    sounding[f] =
+        onsets[f].loud_db > std::max(onsets[loudest.front()].loud_db - kSilentBelowDb, kSilentDb);
   }
   return sounding;
 }

@@ -46,7 +46,8 @@ std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& n
   if (other.empty() && LooksLikeMpeg(source)) return ReadMpeg(source, name);
   throw Error(ErrorCode::kInvalidArgument, name,
               (other.empty() ? "not " : other + " is not ") + std::string(kSoundFormats) +
-                  " audio: " + kAskFfmpeg + " makes a file that is taken, of whatever ffmpeg reads");
+                  " audio: " + kAskFfmpeg +
+                  " makes a file that is taken, of whatever ffmpeg reads");
 }
 
 /// A sound file read in pieces, within the limits of format.h.

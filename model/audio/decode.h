@@ -12,10 +12,10 @@
 #include "model/audio/format.h"
 
 /// Sound files: WAV, FLAC, Ogg (Vorbis, Opus, FLAC) and MP3, also joined ones, within the limits of
-/// format.h. They are decoded to the end of their bytes; where a header says something else, that is
-/// noted. Errors are Error(kInvalidArgument), or kNotFound for a file that cannot be opened, whose
-/// field begins with the path, or with "audio" for memory. Refused are what is not such audio or
-/// beyond the limits, no samples, and samples that are NaN or infinite.
+/// format.h. They are decoded to the end of their bytes; where a header says something else, that
+/// is noted. Errors are Error(kInvalidArgument), or kNotFound for a file that cannot be opened,
+/// whose field begins with the path, or with "audio" for memory. Refused are what is not such audio
+/// or beyond the limits, no samples, and samples that are NaN or infinite.
 namespace choreo {
 
 inline constexpr const char* kSoundFormats = "WAV, FLAC, Ogg or MP3";
@@ -34,9 +34,9 @@ struct DecodedAudio {
   double seconds() const { return static_cast<double>(samples()) / sample_rate; }
 };
 
-/// A sound file from second `start` on (which may take a gigabyte), or `seconds` of it, rounded up to
-/// whole pieces: what lies behind them is not read. Limits hold for what is kept. Nothing is left
-/// where `start` lies behind the end. `-`: standard input; pipes are read to their end. Where
+/// A sound file from second `start` on (which may take a gigabyte), or `seconds` of it, rounded up
+/// to whole pieces: what lies behind them is not read. Limits hold for what is kept. Nothing is
+/// left where `start` lies behind the end. `-`: standard input; pipes are read to their end. Where
 /// channels cancel each other, the first alone is given, with a note.
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
                              double seconds = std::numeric_limits<double>::infinity(),

@@ -17,9 +17,10 @@ class FlacReader final : public SoundReader {
  public:
   FlacReader(ByteSource source, const std::string& name, bool in_ogg)
       : name_(name), source_(std::move(source)), decoder_(FLAC__stream_decoder_new()) {
-    const auto begin = in_ogg ? FLAC__stream_decoder_init_ogg_stream : FLAC__stream_decoder_init_stream;
-    if (begin(decoder_.get(), OnRead, nullptr, nullptr, nullptr, OnEnd, OnWrite, OnMetadata, OnError,
-              this) != FLAC__STREAM_DECODER_INIT_STATUS_OK ||
+    const auto begin =
+        in_ogg ? FLAC__stream_decoder_init_ogg_stream : FLAC__stream_decoder_init_stream;
+    if (begin(decoder_.get(), OnRead, nullptr, nullptr, nullptr, OnEnd, OnWrite, OnMetadata,
+              OnError, this) != FLAC__STREAM_DECODER_INIT_STATUS_OK ||
         !FLAC__stream_decoder_process_until_end_of_metadata(decoder_.get())) {
       throw InvalidArgument(name_, "not FLAC audio");
     }
@@ -45,8 +46,7 @@ class FlacReader final : public SoundReader {
       if (stated_ > 0 && stated_ != read_)
         notes_.push_back("its header says " + std::to_string(stated_) + " samples, " +
                          std::to_string(read_) + " are there");
-      if (damaged_ > 0)
-        notes_.push_back(std::to_string(damaged_) + " places in it are damaged");
+      if (damaged_ > 0) notes_.push_back(std::to_string(damaged_) + " places in it are damaged");
     }
     return static_cast<int64_t>(count) / channels_;
   }

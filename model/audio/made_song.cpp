@@ -58,9 +58,7 @@ constexpr auto kSixGrooves = std::to_array<Groove>({
     {"slow six", "x.........o.", "......x.....", "x.x.x.x.x.x.", 40, 90},
 });
 
-int BeatsOf(Meter meter) {
-  return meter == Meter::kFour ? 4 : meter == Meter::kThree ? 3 : 2;
-}
+int BeatsOf(Meter meter) { return meter == Meter::kFour ? 4 : meter == Meter::kThree ? 3 : 2; }
 
 std::span<const Groove> GroovesOf(const SongPlan& plan) {
   if (plan.swing) return kSwingGrooves;
@@ -74,7 +72,8 @@ double TempoAt(const std::vector<SongPlan::Tempo>& tempo, double second) {
   if (next == tempo.begin()) return next->bpm;
   const SongPlan::Tempo& before = *(next - 1);
   if (next == tempo.end()) return before.bpm;
-  return std::lerp(before.bpm, next->bpm, (second - before.second) / (next->second - before.second));
+  return std::lerp(before.bpm, next->bpm,
+                   (second - before.second) / (next->second - before.second));
 }
 
 bool IsIn(const std::vector<SongPlan::Span>& spans, double second) {
@@ -151,7 +150,8 @@ class Player {
 
   void PlayBar(size_t beat, size_t bar) {
     static constexpr std::array<int, 8> kProgression{0, 5, 3, 4, 0, 3, 5, 4};
-    static constexpr std::array<double, 7> kMajor{0, 2, 4, 5, 7, 9, 11}, kMinor{0, 2, 3, 5, 7, 8, 10};
+    static constexpr std::array<double, 7> kMajor{0, 2, 4, 5, 7, 9, 11},
+        kMinor{0, 2, 3, 5, 7, 8, 10};
     const auto& scale = is_minor_ ? kMinor : kMajor;
     const auto tone = [&](int degree) {
       const int octave = degree / 7;
@@ -177,7 +177,9 @@ class Player {
       if (beat + static_cast<size_t>(beats) >= times_.size()) break;
       const double at = At(beat, beats);
       if (drums) PlayDrums(at, step, fills && 4 * step >= 3 * steps);
-      const bool eighth = division == 4 ? step % 2 == 0 : plan_.swing ? step % 3 != 1 : step % 2 == 0;
+      const bool eighth = division == 4 ? step % 2 == 0
+                          : plan_.swing ? step % 3 != 1
+                                        : step % 2 == 0;
       PlayTones(at, step, division, eighth, beats_a_step * 60 / TempoAt(plan_.tempo, at),
                 tone(chord), tones);
     }
@@ -189,16 +191,18 @@ class Player {
     };
     const double second = at + Draw(-jitter_, jitter_);
     if (const double kick = level(groove_->kick); kick > 0)
-      Tone(second, 0.18, [=, this](double t) { return kick_hz_ * (1 + 1.6 * std::exp(-t / 0.03)); },
-           0.9 * kick, 14);
+      Tone(
+          second, 0.18, [=, this](double t) { return kick_hz_ * (1 + 1.6 * std::exp(-t / 0.03)); },
+          0.9 * kick, 14);
     if (const double snare = level(groove_->snare); snare > 0) {
       Noise(second, 0.5 * snare, 0.12, 900);
-      Tone(second, 0.1, [this](double) { return snare_hz_; }, 0.4 * snare, 25);
+      Tone(
+          second, 0.1, [this](double) { return snare_hz_; }, 0.4 * snare, 25);
     }
-    if (const double hat = level(groove_->hat); hat > 0)
-      Noise(second, 0.22 * hat, 0.04, 6000);
+    if (const double hat = level(groove_->hat); hat > 0) Noise(second, 0.22 * hat, 0.04, 6000);
     if (fill && Chance(0.5))
-      Tone(second, 0.15, [this](double) { return 2 * kick_hz_; }, 0.4 * drums_, 18);
+      Tone(
+          second, 0.15, [this](double) { return 2 * kick_hz_; }, 0.4 * drums_, 18);
   }
 
   void PlayTones(double at, size_t step, size_t division, bool eighth, double length, double root,
@@ -210,7 +214,8 @@ class Player {
                       : bass_style_ == 1 ? with_kick || step == 0
                       : bass_style_ == 2 ? eighth
                                          : on_beat;
-    if (bass) String(second, 2 * length * (bass_style_ == 0 ? 4 : 1), root, bass_ * Draw(0.8, 1.1), 4);
+    if (bass)
+      String(second, 2 * length * (bass_style_ == 0 ? 4 : 1), root, bass_ * Draw(0.8, 1.1), 4);
     // Stabs between the beats, strummed eighths, and broken chords.
     if (chord_style_ == 1 && eighth && !on_beat) {
       for (const double hz : tones) String(second, length, hz, 0.6 * chords_, 8);
@@ -262,7 +267,8 @@ class Player {
     Add(second, length, [=](double t) {
       double sum = 0;
       for (int k = 1; k <= 6 && k * hz < 9000; ++k)
-        sum += std::exp(-t * k * 3) * std::sin(kTurn * hz * k * t) * std::min(1.0, brightness / (k * k));
+        sum += std::exp(-t * k * 3) * std::sin(kTurn * hz * k * t) *
+               std::min(1.0, brightness / (k * k));
       return level * std::min(1.0, t / 0.004) * std::min(1.0, (length - t) / 0.02) * sum;
     });
   }
@@ -270,7 +276,8 @@ class Player {
   void Guitar(double second, double length, double hz, double level) {
     double low = 0;
     Add(second, length, [&, hz, level, length](double t) {
-      const double fade = std::exp(-t * (length > 0.3 ? 1 : 12)) * std::min(1.0, (length - t) / 0.01);
+      const double fade =
+          std::exp(-t * (length > 0.3 ? 1 : 12)) * std::min(1.0, (length - t) / 0.01);
       double sum = 0;
       for (int k = 1; k <= 5; ++k)
         sum += (std::sin(kTurn * hz * k * t) + std::sin(kTurn * 1.5 * hz * k * t)) / k;
@@ -282,7 +289,8 @@ class Player {
   void Pad(double second, double length, double hz, double level) {
     Add(second, 1.1 * length, [=](double t) {
       const double swell = std::sin(std::numbers::pi * t / (1.1 * length));
-      return 0.5 * level * swell * (std::sin(kTurn * hz * t) + 0.5 * std::sin(kTurn * 1.003 * hz * t));
+      return 0.5 * level * swell *
+             (std::sin(kTurn * hz * t) + 0.5 * std::sin(kTurn * 1.003 * hz * t));
     });
   }
 
@@ -303,7 +311,8 @@ class Player {
     for (size_t i = 0; i < song_.mono.size(); ++i) {
       const double hiss = floor * Draw(-1, 1);
       float& sample = song_.mono[i];
-      sample = static_cast<float>(gain * std::tanh(drive_ * sample / loudest + hiss) / std::tanh(drive_));
+      sample = static_cast<float>(gain * std::tanh(drive_ * sample / loudest + hiss) /
+                                  std::tanh(drive_));
       if (IsIn(plan_.silent, static_cast<double>(i) / kRate)) sample = 0;
     }
   }
@@ -314,8 +323,7 @@ class Player {
   std::vector<double> times_;  // of all beats, also silent ones
   const Groove* groove_ = nullptr;
   double root_ = 0, jitter_ = 0, drums_ = 0, kick_hz_ = 0, snare_hz_ = 0, bass_ = 0, chords_ = 0,
-         lead_ = 0, drive_ = 1,
-         echo_ = 0;
+         lead_ = 0, drive_ = 1, echo_ = 0;
   bool is_minor_ = false;
   size_t bass_style_ = 0, chord_style_ = 0, mute_ = 0;
 };

@@ -24,15 +24,15 @@ struct SongPlan {
   /// first beat behind it on.
   std::vector<Tempo> tempo{{0, 120}};
   Meter meter = Meter::kFour;
-  bool swing = false;               ///< beats are divided by three; 4/4 only
-  std::vector<Span> without_drums;  ///< intros and breaks: bass and chords go on
-  std::vector<Span> silent;         ///< digital silence; no beats are there
-  bool only_pad = false;            ///< chords that swell, and nothing that strikes
+  bool swing = false;                 ///< beats are divided by three; 4/4 only
+  std::vector<Span> without_drums{};  ///< intros and breaks: bass and chords go on
+  std::vector<Span> silent{};         ///< digital silence; no beats are there
+  bool only_pad = false;              ///< chords that swell, and nothing that strikes
 };
 
 struct MadeSong {
   std::string groove;
-  std::vector<float> mono;                ///< 22 050 Hz
+  std::vector<float> mono;               ///< 22 050 Hz
   std::vector<double> beats, downbeats;  ///< seconds, ascending
 };
 

@@ -135,10 +135,11 @@ class StretchReader final : public SoundReader {
     if (!decoder_) throw Error(ErrorCode::kInternal, name_, "no MP3 decoder");
     mpg123_param(decoder_.get(), MPG123_ADD_FLAGS, MPG123_FORCE_FLOAT | MPG123_QUIET, 0);
     mpg123_param(decoder_.get(), MPG123_RESYNC_LIMIT, -1, 0);
-    // A tag says how much silence the encoder put at both ends; one that counts too few frames would
-    // end the song there.
+    // A tag says how much silence the encoder put at both ends; one that counts too few frames
+    // would end the song there.
     const bool is_right = stretch.stated && *stretch.stated >= stretch.frames;
-    mpg123_param(decoder_.get(), is_right ? MPG123_ADD_FLAGS : MPG123_REMOVE_FLAGS, MPG123_GAPLESS, 0);
+    mpg123_param(decoder_.get(), is_right ? MPG123_ADD_FLAGS : MPG123_REMOVE_FLAGS, MPG123_GAPLESS,
+                 0);
     if (mpg123_open_feed(decoder_.get()) != MPG123_OK || !Decode())
       throw InvalidArgument(name_, "not MP3 audio: no frame of it can be decoded");
     if (stretch.stated && *stretch.stated > 0 && *stretch.stated != stretch.frames)

@@ -24,8 +24,8 @@ struct Stream {
   }
 };
 
-/// "OggS", version, flags (1: first page, 2: last page), position 8, serial 4, number 4, checksum 4,
-/// number of segments, their lengths, the segments.
+/// "OggS", version, flags (1: first page, 2: last page), position 8, serial 4, number 4, checksum
+/// 4, number of segments, their lengths, the segments.
 struct Page {
   static constexpr int64_t kHeader = 27;
   int64_t begin = 0, body = 0, end = 0;
@@ -66,7 +66,10 @@ struct Link {
 std::string CodecAt(const ByteSource& source, int64_t body) {
   if (source.Has(body, "\x01vorbis")) return "vorbis";
   if (source.Has(body, "OpusHead")) return "opus";
-  if (source.Has(body, "\x7f" "FLAC")) return "flac";
+  if (source.Has(body,
+                 "\x7f"
+                 "FLAC"))
+    return "flac";
   if (source.Has(body, "Speex")) return "Speex";
   return "";
 }
@@ -85,7 +88,8 @@ std::vector<Link> LinksOf(const ByteSource& source) {
     if (!links.empty()) {
       Link& link = links.back();
       const std::string codec = page->is_first ? CodecAt(source, page->body) : "";
-      if (link.codec.empty() || link.codec == "Speex") link.codec = codec.empty() ? link.codec : codec;
+      if (link.codec.empty() || link.codec == "Speex")
+        link.codec = codec.empty() ? link.codec : codec;
       link.end = std::min(page->end, source.size);
       link.is_whole = page->is_last && page->end <= source.size;
     }
@@ -96,12 +100,12 @@ std::vector<Link> LinksOf(const ByteSource& source) {
 
 class VorbisReader final : public SoundReader {
  public:
-  VorbisReader(ByteSource source, const std::string& name) : name_(name), stream_{std::move(source)} {
-    const ov_callbacks callbacks{
-        [](void* to, size_t size, size_t count, void* user) {
-          return static_cast<Stream*>(user)->Read(to, size * count) / size;
-        },
-        nullptr, nullptr, nullptr};
+  VorbisReader(ByteSource source, const std::string& name)
+      : name_(name), stream_{std::move(source)} {
+    const ov_callbacks callbacks{[](void* to, size_t size, size_t count, void* user) {
+                                   return static_cast<Stream*>(user)->Read(to, size * count) / size;
+                                 },
+                                 nullptr, nullptr, nullptr};
     if (ov_open_callbacks(&stream_, &file_, nullptr, 0, callbacks) != 0)
       throw InvalidArgument(name_, "not Ogg Vorbis audio, or its headers are damaged");
     const vorbis_info* info = ov_info(&file_, -1);
@@ -118,8 +122,8 @@ class VorbisReader final : public SoundReader {
     while (count < wanted) {
       float** pcm = nullptr;
       int section = 0;
-      const long got =
-          ov_read_float(&file_, &pcm, static_cast<int>(std::min<int64_t>(wanted - count, 4096)), &section);
+      const long got = ov_read_float(
+          &file_, &pcm, static_cast<int>(std::min<int64_t>(wanted - count, 4096)), &section);
       if (got == OV_HOLE) {
         if (++holes_ == 1) notes_.push_back("bytes of it are missing or damaged, and left out");
         continue;
@@ -143,11 +147,11 @@ class VorbisReader final : public SoundReader {
 class OpusReader final : public SoundReader {
  public:
   OpusReader(ByteSource source, const std::string& name) : name_(name), stream_{std::move(source)} {
-    const OpusFileCallbacks callbacks{[](void* user, unsigned char* to, int bytes) {
-                                        return static_cast<int>(static_cast<Stream*>(user)->Read(
-                                            to, static_cast<size_t>(bytes)));
-                                      },
-                                      nullptr, nullptr, nullptr};
+    const OpusFileCallbacks callbacks{
+        [](void* user, unsigned char* to, int bytes) {
+          return static_cast<int>(static_cast<Stream*>(user)->Read(to, static_cast<size_t>(bytes)));
+        },
+        nullptr, nullptr, nullptr};
     file_.reset(op_open_callbacks(&stream_, &callbacks, nullptr, 0, nullptr));
     if (!file_) throw InvalidArgument(name_, "not Ogg Opus audio, or its headers are damaged");
     sample_rate_ = 48000;  // whatever it was made of
@@ -159,7 +163,8 @@ class OpusReader final : public SoundReader {
     int64_t count = 0;
     while (count < wanted) {
       const auto rest = interleaved.subspan(static_cast<size_t>(count * channels_));
-      const int got = op_read_float(file_.get(), rest.data(), static_cast<int>(rest.size()), nullptr);
+      const int got =
+          op_read_float(file_.get(), rest.data(), static_cast<int>(rest.size()), nullptr);
       if (got == OP_HOLE) {
         if (++holes_ == 1) notes_.push_back("bytes of it are missing or damaged, and left out");
         continue;
@@ -228,9 +233,10 @@ std::unique_ptr<SoundReader> ReadOgg(const ByteSource& source, const std::string
           reader = ReadOggFlac(part, name);
         } else {
           throw InvalidArgument(
-              name, (link.codec.empty() ? std::string("another codec") : link.codec) +
-                        " in Ogg is not Vorbis, Opus or FLAC: `ffmpeg -i FILE song.wav` makes a file "
-                        "that is taken");
+              name,
+              (link.codec.empty() ? std::string("another codec") : link.codec) +
+                  " in Ogg is not Vorbis, Opus or FLAC: `ffmpeg -i FILE song.wav` makes a file "
+                  "that is taken");
         }
         return std::make_unique<LinkReader>(std::move(reader), link.is_whole);
       },

@@ -26,7 +26,8 @@ struct OnsetTables {
 
   OnsetTables() {
     for (size_t i = 0; i < window.size(); ++i) {
-      window[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / kOnsetWindow);
+      window[i] =
+          0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / kOnsetWindow);
       window_sum += window[i];
     }
     const auto edge = [](size_t i) {
@@ -79,8 +80,8 @@ Onset OnsetMeter::Add(std::span<const float> window) {
   const double loudest = *std::ranges::max_element(db);
   loudest_[frames_ % kLoudFrames] = loudest;
   const auto known = static_cast<std::ptrdiff_t>(std::min(frames_ + 1, kLoudFrames));
-  const double floor =
-      std::max(*std::max_element(loudest_.begin(), loudest_.begin() + known) - kRangeDb, kFaintestDb);
+  const double floor = std::max(
+      *std::max_element(loudest_.begin(), loudest_.begin() + known) - kRangeDb, kFaintestDb);
   Onset onset{.loud_db = static_cast<float>(loudest)};
   BandsDb& before = before_[frames_ % kRise];
   std::array<double, Onset::kBands> sums{};
@@ -90,7 +91,8 @@ Onset OnsetMeter::Add(std::span<const float> window) {
     before[band] = db[band];
   }
   for (size_t group = 0; group < sums.size(); ++group)
-    onset.rise[group] = static_cast<float>(sums[group] / static_cast<double>(tables.in_group[group]));
+    onset.rise[group] =
+        static_cast<float>(sums[group] / static_cast<double>(tables.in_group[group]));
   ++frames_;
   return onset;
 }

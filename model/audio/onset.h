@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-
 namespace choreo {
 
 /// Samples at 22 050 Hz from one onset, and one beat frame, to the next: 90 a second.
@@ -47,8 +46,8 @@ class OnsetMeter {
   std::array<double, kLoudFrames> loudest_{};
 };
 
-/// The onsets of mono samples at 22 050 Hz, all of them. Frame f is centred at sample f * kOnsetHop;
-/// there are 1 + samples / kOnsetHop. Audio before and after is silence. Throws
+/// The onsets of mono samples at 22 050 Hz, all of them. Frame f is centred at sample f *
+/// kOnsetHop; there are 1 + samples / kOnsetHop. Audio before and after is silence. Throws
 /// Error(kInvalidArgument) for no samples.
 std::vector<Onset> FindOnsets(std::span<const float> mono);
 

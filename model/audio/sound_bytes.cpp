@@ -77,17 +77,17 @@ ByteSource PartOf(const ByteSource& source, int64_t begin, int64_t end) {
 }
 
 ByteSource Patched(const ByteSource& source, int64_t at, std::string patch) {
-  return {source.size, [source, at, patch = std::move(patch)](int64_t offset,
-                                                             std::span<std::byte> bytes) -> size_t {
-            const size_t read = source.read_at(offset, bytes);
-            const int64_t from = std::max(offset, at);
-            const int64_t to =
-                std::min(offset + static_cast<int64_t>(read), at + std::ssize(patch));
-            if (from < to)
-              std::memcpy(bytes.data() + (from - offset), patch.data() + (from - at),
-                          static_cast<size_t>(to - from));
-            return read;
-          }};
+  return {
+      source.size,
+      [source, at, patch = std::move(patch)](int64_t offset, std::span<std::byte> bytes) -> size_t {
+        const size_t read = source.read_at(offset, bytes);
+        const int64_t from = std::max(offset, at);
+        const int64_t to = std::min(offset + static_cast<int64_t>(read), at + std::ssize(patch));
+        if (from < to)
+          std::memcpy(bytes.data() + (from - offset), patch.data() + (from - at),
+                      static_cast<size_t>(to - from));
+        return read;
+      }};
 }
 
 }  // namespace choreo

@@ -25,9 +25,9 @@ struct ByteSource {
 /// `memory` must outlive the source.
 ByteSource MemoryBytes(std::span<const std::byte> memory);
 
-/// A file. What cannot be sought in (a pipe, a device) is read to its end, `most` bytes of it. Throws
-/// Error(kNotFound), with the path as field, where it cannot be opened, Error(kInvalidArgument) where
-/// it has more.
+/// A file. What cannot be sought in (a pipe, a device) is read to its end, `most` bytes of it.
+/// Throws Error(kNotFound), with the path as field, where it cannot be opened,
+/// Error(kInvalidArgument) where it has more.
 ByteSource FileBytes(const std::filesystem::path& path, int64_t most);
 
 /// The bytes [begin, end) of another source.

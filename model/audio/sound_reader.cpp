@@ -19,7 +19,8 @@ class ChainReader final : public SoundReader {
       const int64_t count = reader_->Read(interleaved);
       if (count > 0) return count;
       for (const std::string& note : reader_->notes())
-        notes_.push_back(parts_.size() > 1 ? "part " + std::to_string(part_ + 1) + ": " + note : note);
+        notes_.push_back(parts_.size() > 1 ? "part " + std::to_string(part_ + 1) + ": " + note
+                                           : note);
       reader_ = nullptr;
       while (!reader_ && ++part_ < parts_.size()) Open();
     }
@@ -37,12 +38,12 @@ class ChainReader final : public SoundReader {
       return;
     }
     if (reader_->sample_rate() == sample_rate_ && reader_->channels() == channels_) return;
-    throw InvalidArgument(
-        name_, "part 1 has " + std::to_string(channels_) + " channels at " +
-                   std::to_string(sample_rate_) + " Hz, part " + std::to_string(part_ + 1) + " " +
-                   std::to_string(reader_->channels()) + " at " +
-                   std::to_string(reader_->sample_rate()) +
-                   ": `ffmpeg -i FILE song.wav` makes one of them");
+    throw InvalidArgument(name_, "part 1 has " + std::to_string(channels_) + " channels at " +
+                                     std::to_string(sample_rate_) + " Hz, part " +
+                                     std::to_string(part_ + 1) + " " +
+                                     std::to_string(reader_->channels()) + " at " +
+                                     std::to_string(reader_->sample_rate()) +
+                                     ": `ffmpeg -i FILE song.wav` makes one of them");
   }
 
   const std::string name_;

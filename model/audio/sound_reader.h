@@ -25,8 +25,8 @@ class SoundReader {
   /// samples of each channel were read. 0: the end.
   virtual int64_t Read(std::span<float> interleaved) = 0;
 
-  /// What a listener should know of the bytes, as "its header says 5 samples, 4 are there". Complete
-  /// after the end.
+  /// What a listener should know of the bytes, as "its header says 5 samples, 4 are there".
+  /// Complete after the end.
   const std::vector<std::string>& notes() const { return notes_; }
 
  protected:
@@ -36,8 +36,8 @@ class SoundReader {
 
 using ReaderOf = std::function<std::unique_ptr<SoundReader>(const ByteSource& part)>;
 
-/// Parts of a file that were joined: one is read after the other. Throws where they differ in sample
-/// rate or channels. A part behind the first that can't be decoded is noted and left out.
+/// Parts of a file that were joined: one is read after the other. Throws where they differ in
+/// sample rate or channels. A part behind the first that can't be decoded is noted and left out.
 std::unique_ptr<SoundReader> ReadOneAfterAnother(std::vector<ByteSource> parts, ReaderOf open,
                                                  const std::string& name);
 

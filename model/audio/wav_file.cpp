@@ -45,8 +45,7 @@ class WavReader final : public SoundReader {
     SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, nullptr, CursorTell};
     SF_INFO info{};
     file_.reset(sf_open_virtual(&io, SFM_READ, &info, &cursor_));
-    if (!file_)
-      throw InvalidArgument(name_, std::string("not WAV audio: ") + sf_strerror(nullptr));
+    if (!file_) throw InvalidArgument(name_, std::string("not WAV audio: ") + sf_strerror(nullptr));
     sample_rate_ = info.samplerate;
     channels_ = info.channels;
   }
@@ -58,7 +57,8 @@ class WavReader final : public SoundReader {
     const int64_t got = sf_readf_float(file_.get(), interleaved.data(), wanted);
     read_ += got;
     if (const int error = sf_error(file_.get()); error != SF_ERR_NO_ERROR)
-      notes_.push_back("damaged after sample " + std::to_string(read_) + ": " + sf_error_number(error));
+      notes_.push_back("damaged after sample " + std::to_string(read_) + ": " +
+                       sf_error_number(error));
     return got;
   }
 
@@ -100,16 +100,18 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
     // Programs that write into a pipe can't know the length beforehand, and state what they like.
     const int64_t held = source.size - body;
     const bool is_right = size > 0 && size <= held && IsChunk(source, body + size + size % 2);
-    if (format == kMpegLayer3) return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
-    if (is_right || held == 0) return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
+    if (format == kMpegLayer3)
+      return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
+    if (is_right || held == 0)
+      return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
     std::vector<std::string> notes;
     notes.push_back("its header says " + std::to_string(size) + " bytes of samples, " +
                     std::to_string(held) + " are there");
     const auto all = static_cast<uint32_t>(std::min<int64_t>(held, 0xfffffff0));
     return std::make_unique<WavReader>(Patched(source, at + 4, FourBytes(all)), name, notes);
   }
-  throw InvalidArgument(name, "truncated: it ends at byte " + std::to_string(source.size) +
-                                  ", before any samples");
+  throw InvalidArgument(
+      name, "truncated: it ends at byte " + std::to_string(source.size) + ", before any samples");
 }
 
 }  // namespace choreo

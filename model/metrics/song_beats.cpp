@@ -37,7 +37,8 @@ std::vector<Onset> RowOnsets(const Eigen::MatrixXf& rows) {
     Onset& onset = onsets[static_cast<size_t>(t)];
     onset.loud_db = static_cast<float>(mel.col(t).maxCoeff() - mel.maxCoeff());
     for (size_t band = 0; t > 0 && band < Onset::kBands; ++band) {
-      const auto rises = (mel.col(t) - mel.col(t - 1)).segment(kEnds[band], kEnds[band + 1] - kEnds[band]);
+      const auto rises =
+          (mel.col(t) - mel.col(t - 1)).segment(kEnds[band], kEnds[band + 1] - kEnds[band]);
       onset.rise[band] = static_cast<float>(rises.cwiseMax(0).mean());
     }
   }

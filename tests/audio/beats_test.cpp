@@ -20,8 +20,8 @@ double FMeasure(std::vector<double> found, std::vector<double> map, double from 
   std::erase_if(map, outside);
   double hits = 0;
   for (const double beat : map) {
-    hits += std::ranges::any_of(
-        found, [=](double other) { return std::abs(other - beat) <= kTolerance; });
+    hits += std::ranges::any_of(found,
+                                [=](double other) { return std::abs(other - beat) <= kTolerance; });
   }
   return 2 * hits / static_cast<double>(found.size() + map.size());
 }
@@ -45,7 +45,8 @@ TEST(BeatsTest, ClicksAreHeardWhenTheySound) {
   double late = 0;  // seconds
   for (const double beat : track.Seconds()) {
     const double since = beat - 7000.0 / 22050;
-    late += (since - std::round(since / period) * period) / static_cast<double>(track.frames.size());
+    late +=
+        (since - std::round(since / period) * period) / static_cast<double>(track.frames.size());
   }
   EXPECT_LT(std::abs(late), 0.015);
 }
@@ -53,7 +54,8 @@ TEST(BeatsTest, ClicksAreHeardWhenTheySound) {
 // Seeds that no one developed with.
 TEST(BeatsTest, BackbeatsAreCountedAtTheirOwnTempoAlsoWhereItIsFast) {
   for (const double bpm : {80.0, 140.0, 170.0, 190.0}) {
-    SongPlan plan{.seed = 9'000'000 + static_cast<uint64_t>(bpm), .seconds = 20, .tempo = {{0, bpm}}};
+    SongPlan plan{
+        .seed = 9'000'000 + static_cast<uint64_t>(bpm), .seconds = 20, .tempo = {{0, bpm}}};
     const MadeSong song = MakeSong(plan);
     const BeatTrack track = FindBeats(song.mono);
     EXPECT_GT(FMeasure(track.Seconds(), song.beats), 0.9) << bpm << ", " << song.groove;

@@ -36,8 +36,8 @@ class AudioCases : public ::testing::Test {
     double hits = 0, known = 0;
     const std::vector<double> found = track->Seconds();
     for (double beat = 0; file >> beat; ++known) {
-      hits += std::ranges::any_of(
-          found, [=](double other) { return std::abs(other - beat) <= 0.07; });
+      hits +=
+          std::ranges::any_of(found, [=](double other) { return std::abs(other - beat) <= 0.07; });
     }
     return 2 * hits / (known + static_cast<double>(found.size()));
   }
@@ -62,7 +62,8 @@ TEST_F(AudioCases, BeatsAreCountedAtTheirTempo) {
     EXPECT_GT(FMeasure(song, "14_120_bpm.beats", &track), song[1] == '5' ? 0.6 : 0.95) << song;
     EXPECT_NEAR(track.tempo_bpm, 120, 0.6) << song;
   }
-  EXPECT_THAT(Decode("15_antiphase.flac").notes, ::testing::Contains(::testing::HasSubstr("cancel")));
+  EXPECT_THAT(Decode("15_antiphase.flac").notes,
+              ::testing::Contains(::testing::HasSubstr("cancel")));
 }
 
 }  // namespace choreo::audio_cases_test

@@ -155,8 +155,9 @@ TEST_F(DecodeTest, FlacIsReadWhateverItsHeaderSays) {
     if (samples == 0) {
       EXPECT_TRUE(audio.notes.empty());  // it doesn't say
     } else {
-      EXPECT_EQ(audio.notes, (std::vector<std::string>{"its header says " + std::to_string(samples) +
-                                                       " samples, 5000 are there"}));
+      EXPECT_EQ(audio.notes,
+                (std::vector<std::string>{"its header says " + std::to_string(samples) +
+                                          " samples, 5000 are there"}));
     }
   }
 }
@@ -296,7 +297,8 @@ TEST_F(DecodeTest, Mp3OfVaryingBitRateIsReadToItsEndWithoutAnIndex) {
   ASSERT_FALSE(joined.notes.empty());
   EXPECT_THAT(joined.notes[0], HasSubstr("frames, "));
   // Behind what a server says, or in the middle of a frame.
-  EXPECT_NEAR(Decode("HTTP/1.1 200 OK\r\nContent-Type: audio/mpeg\r\n\r\n" + bytes).seconds(), 6, 0.1);
+  EXPECT_NEAR(Decode("HTTP/1.1 200 OK\r\nContent-Type: audio/mpeg\r\n\r\n" + bytes).seconds(), 6,
+              0.1);
   EXPECT_NEAR(Decode(without.substr(100)).seconds(), 6, 0.15);
 }
 
@@ -305,15 +307,15 @@ TEST_F(DecodeTest, WavIsReadWhateverItsHeaderSays) {
   const std::string bytes =
       Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 44100, 1, Noise(5000, 1)));
   const size_t data = bytes.find("data");
-  for (const uint32_t size : {0U, 0x7FFFF000U, 0x80000000U, 0xFFFFFFFEU, 0xFFFFFFFFU, 10'008U, 5'001U}) {
+  for (const uint32_t size :
+       {0U, 0x7FFFF000U, 0x80000000U, 0xFFFFFFFEU, 0xFFFFFFFFU, 10'008U, 5'001U}) {
     std::string other = bytes;
     other.replace(4, 4, "\xff\xff\xff\xff");
     other.replace(data + 4, 4, std::string(reinterpret_cast<const char*>(&size), 4));
     const DecodedAudio audio = Decode(other);
     EXPECT_EQ(audio.samples(), 5000) << size;
-    EXPECT_EQ(audio.notes,
-              (std::vector<std::string>{"its header says " + std::to_string(size) +
-                                        " bytes of samples, 10000 are there"}));
+    EXPECT_EQ(audio.notes, (std::vector<std::string>{"its header says " + std::to_string(size) +
+                                                     " bytes of samples, 10000 are there"}));
     EXPECT_EQ(Refusal(other), "accepted");
   }
 }
@@ -331,7 +333,8 @@ TEST_F(DecodeTest, ChannelsThatCancelEachOtherAreHeardAndToldOf) {
 }
 
 TEST_F(DecodeTest, APipeIsReadToItsEnd) {
-  const std::string bytes = Bytes(Write(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 8000, 1, Noise(9000, 2)));
+  const std::string bytes =
+      Bytes(Write(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 8000, 1, Noise(9000, 2)));
   const auto fifo = folder_ / "fifo";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
   std::thread writer([&] { std::ofstream(fifo, std::ios::binary) << bytes; });

@@ -103,8 +103,8 @@ TEST_P(GoldenTest, TempoAndBeats) {
   const std::vector<double> beats = track.Seconds();
   int64_t near = 0;
   for (const double beat : beats) {
-    near += std::ranges::any_of(
-        expected, [beat](double other) { return std::abs(other - beat) <= 0.07; });
+    near += std::ranges::any_of(expected,
+                                [beat](double other) { return std::abs(other - beat) <= 0.07; });
   }
   const double share =
       static_cast<double>(near) / static_cast<double>(std::max(expected.size(), beats.size()));
