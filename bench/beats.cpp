@@ -1,32 +1,39 @@
-// How well beats are heard: for songs with a tempo map (SONG.beats beside SONG.ogg: seconds, one a
-// line), the F measure of what is found in the whole song (FindBeats) and of what a live dance of
-// transitions of 2 s predicts (MusicBeats), from second 10 on, at 70 ms.
+// How well beats are heard, without a shift between beats and songs: the F measure at 70 ms from the
+// first second and from the tenth, of what is found in the whole song (FindBeats) and of what a live
+// dance of transitions of 2 s predicts (MusicBeats).
+// Songs: with a tempo map (SONG.beats beside SONG.ogg: seconds, one a line), or made ones of every
+// tempo and metre, whose downbeats are known, too. An octave is told, and counts half.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/beat_patterns.h"
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/audio/made_song.h"
 #include "model/core/grid.h"
 #include "model/dance/music_beats.h"
 
 namespace choreo::bench {
 namespace {
 
-constexpr double kFrom = 10, kTolerance = 0.07;  // seconds
+constexpr double kTolerance = 0.07, kLate = 10;  // seconds
 
-double FMeasure(std::vector<double> found, std::vector<double> map) {
-  const auto early = [](double time) { return time < kFrom; };
-  std::erase_if(found, early);
-  std::erase_if(map, early);
+double FMeasure(std::vector<double> found, std::vector<double> map, double from = 0,
+                double to = 1e9) {
+  const auto outside = [=](double time) { return time < from || time >= to; };
+  std::erase_if(found, outside);
+  std::erase_if(map, outside);
   size_t hits = 0;
   for (size_t i = 0, j = 0; i < found.size() && j < map.size();) {
     if (std::abs(found[i] - map[j]) <= kTolerance) {
@@ -36,21 +43,29 @@ double FMeasure(std::vector<double> found, std::vector<double> map) {
     }
   }
   const size_t all = found.size() + map.size();
-  return all == 0 ? 0 : 2.0 * static_cast<double>(hits) / static_cast<double>(all);
+  return all == 0 ? 1 : 2.0 * static_cast<double>(hits) / static_cast<double>(all);
 }
 
-std::vector<double> ReadMap(const std::filesystem::path& song, double shift) {
-  std::filesystem::path path = song;
-  std::ifstream file(path.replace_extension(".beats"));
-  std::vector<double> map;
-  for (double time = 0; file >> time;) map.push_back(time + shift);
-  return map;
+std::vector<double> EverySecond(const std::vector<double>& beats, size_t first) {
+  std::vector<double> half;
+  for (size_t i = first; i < beats.size(); i += 2) half.push_back(beats[i]);
+  return half;
+}
+
+/// "" or the octave at which the beats fit.
+std::string Octave(const std::vector<double>& found, const std::vector<double>& map) {
+  constexpr double kFits = 0.8;
+  const double plain = FMeasure(found, map);
+  for (const size_t first : {0, 1}) {
+    if (FMeasure(found, EverySecond(map, first)) > std::max(kFits, plain)) return "half";
+    if (FMeasure(EverySecond(found, first), map) > std::max(kFits, plain)) return "double";
+  }
+  return "";
 }
 
 struct Live {
   std::vector<double> beats;
-  double certain = 0;  // share of the transitions that have beats
-  double milliseconds = 0;
+  double milliseconds = 0;  // of CPU time a transition
 };
 
 Live Hear(const std::vector<float>& mono) {
@@ -58,17 +73,121 @@ Live Hear(const std::vector<float>& mono) {
   feed.Push(mono, 0, [] {});
   MusicBeats music(30, {}, std::nullopt, &feed);
   Live live;
-  int transitions = 0, with = 0;
-  const auto begin = std::chrono::steady_clock::now();
+  int transitions = 0;
+  const std::clock_t begin = std::clock();
   for (int64_t from = 0; from + kUsualFrames <= feed.ready(); from += kUsualFrames, ++transitions) {
-    with += !music.Around(from, from + kUsualFrames).empty();
+    music.Around(from, from + kUsualFrames);
     for (int64_t frame = from; frame < from + kUsualFrames; ++frame) music.Of(frame);
   }
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   live.beats = music.told();
-  live.certain = static_cast<double>(with) / transitions;
-  live.milliseconds = 1000 * spent.count() / transitions;
+  live.milliseconds =
+      1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / std::max(1, transitions);
   return live;
+}
+
+std::vector<double> ReadSeconds(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::vector<double> seconds;
+  for (double time = 0; file >> time;) seconds.push_back(time);
+  return seconds;
+}
+
+struct Judged {
+  std::string name;
+  std::vector<float> mono;
+  std::vector<double> beats, downbeats;  // downbeats: none where they are not known
+  std::optional<double> librosa;         // its F from the first second
+  std::vector<SongPlan::Span> spans;     // judged apart: before and behind a step of the tempo
+};
+
+void PrintHead() {
+  std::printf("%-34s %6s %6s %6s %6s %6s %6s %6s %6s  %s\n", "song", "F", "from10", "librosa",
+              "down", "bpm", "off %", "live", "live10", "");
+}
+
+/// Returns F, half of an octave's.
+double Judge(const Judged& song) {
+  const BeatTrack track = FindBeats(song.mono);
+  const std::vector<double> found = track.Seconds();
+  const Live live = Hear(song.mono);
+  const std::string octave = Octave(found, song.beats);
+  const double f = octave.empty() ? FMeasure(found, song.beats) : 0.5;
+  const auto number = [](std::optional<double> value) {
+    char text[16] = "     –";
+    if (value) std::snprintf(text, sizeof text, "%6.2f", *value);
+    return std::string(text);
+  };
+  std::optional<double> down;
+  if (!song.downbeats.empty()) down = FMeasure(track.DownbeatSeconds(), song.downbeats);
+  const double tempo = TempoOf(song.beats);
+  std::printf("%-34s %6.2f %6.2f %s %s %6.1f %6.1f %6.2f %6.2f  %s", song.name.c_str(), f,
+              FMeasure(found, song.beats, kLate), number(song.librosa).c_str(), number(down).c_str(),
+              tempo, 100 * (track.tempo_bpm / tempo - 1), FMeasure(live.beats, song.beats),
+              FMeasure(live.beats, song.beats, kLate), octave.c_str());
+  for (const SongPlan::Span& span : song.spans)
+    std::printf(" %.0f-%.0f s: %.2f", span.begin, span.end,
+                FMeasure(found, song.beats, span.begin, span.end));
+  std::printf("\n");
+  std::fflush(stdout);
+  return f;
+}
+
+void JudgeFiles(const std::vector<std::string>& songs, const std::string& librosa) {
+  nlohmann::json golden;
+  if (!librosa.empty()) golden = nlohmann::json::parse(std::ifstream(librosa));
+  for (const std::string& path : songs) {
+    Judged song;
+    song.name = std::filesystem::path(path).stem();
+    song.mono = ToModelRate(DecodeAudioFile(path));
+    song.beats = ReadSeconds(std::filesystem::path(path).replace_extension(".beats"));
+    if (golden.contains(song.name))
+      song.librosa = FMeasure(golden[song.name].get<std::vector<double>>(), song.beats);
+    Judge(song);
+  }
+}
+
+/// One of each kind and tempo.
+void JudgeMade(uint64_t seed) {
+  std::map<std::string, std::vector<double>> by_kind;
+  const auto judge = [&](const std::string& kind, const std::string& name, SongPlan plan,
+                         std::vector<SongPlan::Span> spans = {}) {
+    plan.seed = seed++;
+    MadeSong made = MakeSong(plan);
+    by_kind[kind].push_back(Judge({.name = kind + " " + name + " " + made.groove,
+                                   .mono = std::move(made.mono),
+                                   .beats = std::move(made.beats),
+                                   .downbeats = std::move(made.downbeats),
+                                   .spans = std::move(spans)}));
+  };
+  for (double bpm = 50; bpm <= 200; bpm += 10) {
+    const std::string name = std::to_string(static_cast<int>(bpm));
+    judge("4/4", name, {.tempo = {{0, bpm}}});
+    judge("3/4", name, {.tempo = {{0, bpm}}, .meter = Meter::kThree});
+    if (bpm >= 60) judge("swing", name, {.tempo = {{0, bpm}}, .swing = true});
+    if (bpm <= 110) judge("6/8", name, {.tempo = {{0, bpm}}, .meter = Meter::kSix});
+  }
+  struct Change {
+    double from, to;
+  };
+  for (const auto& [from, to] : {Change{120, 80}, {90, 140}, {100, 125}, {170, 130}, {150, 180}})
+    judge("step", std::to_string(int(from)) + " to " + std::to_string(int(to)),
+          {.seconds = 60, .tempo = {{0, from}, {30, from}, {30, to}}}, {{0, 30}, {34, 60}});
+  for (const auto& [from, to] : {Change{90, 140}, {140, 100}, {70, 90}, {120, 180}})
+    judge("ramp", std::to_string(int(from)) + " to " + std::to_string(int(to)),
+          {.seconds = 60, .tempo = {{0, from}, {10, from}, {50, to}}});
+  for (const double bpm : {90.0, 128.0, 160.0}) {
+    const std::string name = std::to_string(static_cast<int>(bpm));
+    judge("break", name, {.seconds = 60, .tempo = {{0, bpm}}, .without_drums = {{20, 32}}});
+    judge("intro", name, {.seconds = 60, .tempo = {{0, bpm}}, .without_drums = {{0, 14}}});
+    judge("pause", name, {.seconds = 60, .tempo = {{0, bpm}}, .silent = {{25, 33}}});
+  }
+  for (const auto& [kind, values] : by_kind) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    std::printf("%-8s mean F %.3f, least %.2f, of %zu\n", kind.c_str(),
+                sum / static_cast<double>(values.size()), *std::ranges::min_element(values),
+                values.size());
+  }
 }
 
 }  // namespace
@@ -76,26 +195,25 @@ Live Hear(const std::vector<float>& mono) {
 
 int main(int argc, char** argv) {
   using namespace choreo;
-  CLI::App program("Compares beats heard live with those found in the whole song.");
+  CLI::App program("Compares beats that are found, and heard live, with those that are known.");
   std::vector<std::string> songs;
-  double shift = 0;
+  std::string librosa;
+  std::optional<uint64_t> made, patterns;
   program.add_option("songs", songs, "Songs, each with its tempo map SONG.beats beside it.")
-      ->required()
       ->check(CLI::ExistingFile);
-  program.add_option("--shift", shift,
-                     "Seconds by which the songs' onsets lie behind their tempo maps.");
+  program.add_option("--librosa", librosa,
+                     "JSON of what librosa.beat.beat_track found: {\"SONG\": [seconds]}.");
+  program.add_option("--made", made, "First seed of made songs. Development had those below 1000000.");
+  program.add_option("--patterns", patterns,
+                     "First seed of made songs whose mean onsets are printed, as "
+                     "model/audio/bar_patterns.cpp has them.");
   CLI11_PARSE(program, argc, argv);
-  std::printf("%-34s %8s %8s %8s %8s %8s %10s\n", "song", "F whole", "F live", "live/wh.", "first",
-              "certain", "ms a trans.");
-  for (const std::string& song : songs) {
-    const std::vector<float> mono = ToModelRate(DecodeAudioFile(song));
-    const std::vector<double> map = bench::ReadMap(song, shift);
-    const double whole = bench::FMeasure(FindBeats(mono).Seconds(), map);
-    const bench::Live live = bench::Hear(mono);
-    const double f = bench::FMeasure(live.beats, map);
-    std::printf("%-34s %8.2f %8.2f %8.2f %7.1fs %8.2f %10.2f\n",
-                std::filesystem::path(song).stem().c_str(), whole, f, f / whole,
-                live.beats.empty() ? -1 : live.beats.front(), live.certain, live.milliseconds);
+  if (patterns) {
+    bench::PrintBarPatterns(*patterns, 60);
+    return 0;
   }
+  bench::PrintHead();
+  bench::JudgeFiles(songs, librosa);
+  if (made) bench::JudgeMade(*made);
   return 0;
 }

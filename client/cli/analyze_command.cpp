@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <limits>
@@ -21,6 +22,7 @@ struct AnalyzeOptions {
   std::string song;
   bool json = false;
   std::string features;
+  BeatOptions beats;
   std::optional<int64_t> suggest_keys;
   double from_s = 0;
   double until_s = std::numeric_limits<double>::infinity();
@@ -63,6 +65,10 @@ void PrintJson(const Music& music, const std::optional<std::vector<SuggestedKey>
   json["sample_rate"] = music.audio.sample_rate;
   json["tempo_bpm"] = music.track.tempo_bpm;
   json["beats"] = music.track.Seconds();
+  json["beats_in_bar"] = music.track.beats_in_bar;
+  json["downbeats"] = music.track.DownbeatSeconds();
+  json["confidence"] = music.track.confidence;
+  json["notes"] = music.audio.notes;
   if (keys) {
     json["suggested_keys"] = nlohmann::ordered_json::array();
     for (const SuggestedKey& key : *keys) {
@@ -73,10 +79,37 @@ void PrintJson(const Music& music, const std::optional<std::vector<SuggestedKey>
   std::cout << json.dump(2) << std::endl;
 }
 
+/// Where the tempo changes, and how sure each stretch of a tempo is.
+void PrintStretches(const BeatTrack& track) {
+  constexpr double kOther = 0.04;  // share by which a tempo is another one
+  constexpr size_t kFewest = 8;    // beats of a stretch
+  const std::vector<double> beats = track.Seconds();
+  std::vector<size_t> begins{0};
+  for (size_t i = kFewest; i + kFewest < beats.size(); ++i) {
+    const auto tempo = [&](size_t from, size_t to) {
+      return TempoOf(std::span(beats).subspan(from, to - from));
+    };
+    const double before = tempo(std::max(begins.back(), i - kFewest), i + 1);
+    const double behind = tempo(i, i + kFewest + 1);
+    if (std::abs(behind / before - 1) > kOther && i - begins.back() >= kFewest) begins.push_back(i);
+  }
+  if (beats.size() < 2 || begins.size() < 2) return;
+  for (size_t k = 0; k < begins.size(); ++k) {
+    const size_t end = k + 1 < begins.size() ? begins[k + 1] : beats.size() - 1;
+    double confidence = 0;
+    for (size_t i = begins[k]; i < end; ++i) confidence += track.confidence[i];
+    std::printf("%9.3f s  %.1f beats a minute, confidence %.2f\n", beats[begins[k]],
+                TempoOf(std::span(beats).subspan(begins[k], end - begins[k] + 1)),
+                confidence / static_cast<double>(end - begins[k]));
+  }
+}
+
 void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>>& keys) {
-  std::printf("%.2f s at %d Hz, %d channels; %.1f beats a minute, %zu beats\n",
+  std::printf("%.2f s at %d Hz, %d channels; %.1f beats a minute, %zu beats, %zu bars of %d\n",
               music.audio.seconds(), music.audio.sample_rate, music.audio.channels,
-              music.track.tempo_bpm, music.track.frames.size());
+              music.track.tempo_bpm, music.track.frames.size(),
+              music.track.DownbeatSeconds().size(), music.track.beats_in_bar);
+  PrintStretches(music.track);
   if (!keys) return;
   std::printf("key poses would sit well at\n");
   for (const SuggestedKey& key : *keys)
@@ -86,7 +119,8 @@ void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>
 void Run(const AnalyzeOptions& options) {
   RequireOutputs({{"--features", options.features}}, {{"song", options.song}});
   if (!options.features.empty()) RequireExtension("--features", options.features, ".npy");
-  const Music music = ReadMusic(options.song);
+  const Music music =
+      ReadMusic(options.song, std::numeric_limits<double>::infinity(), 0, options.beats);
   if (!options.features.empty()) {
     const FeatureMatrix rows = Mfcc(music.mono);
     WriteNpy(options.features, {{rows.rows(), rows.cols()},
@@ -103,13 +137,17 @@ void AddAnalyzeCommand(CLI::App& program) {
   auto options = std::make_shared<AnalyzeOptions>();
   CLI::App* command = program.add_subcommand(
       "analyze", "Show what is heard in a song: its tempo, beats and features.");
-  command->add_option("song", options->song, "WAV, FLAC, Ogg or MP3 file.")
+  command
+      ->add_option("song", options->song,
+                   "WAV, FLAC, Ogg or MP3 file, or - for standard input; with ffmpeg installed, "
+                   "whatever that reads.")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(SongFile());
+  AddBeatOptions(*command, &options->beats);
   command->add_flag(
       "--json", options->json,
-      "Print duration_s, sample_rate, tempo_bpm, beats (seconds) and suggested_keys as "
-      "JSON.");
+      "Print duration_s, sample_rate, tempo_bpm, beats (seconds), beats_in_bar, downbeats "
+      "(seconds), confidence (of each beat, 0 to 1), notes and suggested_keys as JSON.");
   command->add_option("--features", options->features,
                       "FILE.npy for the MFCC rows that the models hear: [rows, 40], 30 a second.");
   CLI::Option* suggest =

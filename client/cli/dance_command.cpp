@@ -33,6 +33,7 @@ namespace {
 struct DanceOptions {
   ServerOptions server;
   std::string song;
+  BeatOptions beats;
   std::vector<std::string> keys;
   std::string project;
   std::optional<double> seconds;
@@ -80,7 +81,7 @@ void TakeProject(DanceOptions* options) {
 std::filesystem::path OutputPath(const DanceOptions& options) {
   std::filesystem::path path = options.out;
   if (path.empty()) path = std::filesystem::path(options.song).replace_extension(".npz");
-  if (path == ".npz") path = "dance.npz";
+  if (path == ".npz" || path == "-.npz") path = "dance.npz";
   // Better now than after the dance.
   RequireMotionFile(path);
   options.bvh.Check(path);
@@ -185,7 +186,7 @@ void Run(const DanceOptions& options) {
   if (!options.song.empty()) {
     music =
         ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()),
-                  options.song_start_s);
+                  options.song_start_s, options.beats);
   }
 
   const Connection connection(options.server);
@@ -247,8 +248,10 @@ void AddDanceCommand(CLI::App& program) {
                              "library that ships, on beats of the music.");
   command
       ->add_option("song", options->song,
-                   "WAV, FLAC, Ogg or MP3 file. Without one the dance is silent.")
-      ->check(CLI::ExistingFile);
+                   "WAV, FLAC, Ogg or MP3 file, or - for standard input; with ffmpeg installed, "
+                   "whatever that reads. Without one the dance is silent.")
+      ->check(SongFile());
+  AddBeatOptions(*command, &options->beats);
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses: a JSON key file, or one key of it (keys.json@ID), or poses of a motion "
               "file, as in walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 (the pose at 1.2 "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "client/edit.h"
 #include "model/audio/beats.h"
@@ -12,20 +11,19 @@
 
 namespace choreo::cli {
 
-Music ReadMusic(const std::filesystem::path& path, double seconds, double start) {
+Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
+                const BeatOptions& beats) {
   Music music;
-  music.audio = DecodeAudioFile(path, seconds + kTempoWindowSeconds, start);
+  music.audio = DecodeSong(path, seconds + kTempoWindowSeconds, start);
   if (music.audio.interleaved.empty()) {
     throw InvalidArgument("--song-start", InFull(start) + " s lies behind the end of " +
                                               path.string() + " at " + Rounded(music.audio.end_s) +
                                               " s");
   }
-  for (const std::string& note : music.audio.notes)
-    std::cerr << "note: " << path.string() << ": " << note << '\n';
   music.mono = ToModelRate(music.audio);
   const std::vector<Onset> onsets = FindOnsets(music.mono);
   music.onset_strength = OnsetStrength(onsets);
-  music.track = TrackBeats(onsets);
+  music.track = BeatsAsAsked(onsets, start, beats);
   return music;
 }
 

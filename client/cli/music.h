@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "client/cli/music_beats.h"
+#include "client/cli/music_file.h"
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
 
@@ -20,9 +22,11 @@ struct Music {
 
 /// Decodes a song and finds its beats: all of it, or its first `seconds` and what comes after them
 /// as far as they depend on it. With `start`, as if the song began at that second of it. Errors as
-/// DecodeAudioFile; Error(kInvalidArgument) whose field is --song-start for one behind its end.
+/// DecodeSong and BeatsAsAsked; Error(kInvalidArgument) whose field is --song-start for one behind
+/// its end. Writes notes to standard error.
 Music ReadMusic(const std::filesystem::path& path,
-                double seconds = std::numeric_limits<double>::infinity(), double start = 0);
+                double seconds = std::numeric_limits<double>::infinity(), double start = 0,
+                const BeatOptions& beats = {});
 
 /// Times of the beats before `seconds`, as DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);

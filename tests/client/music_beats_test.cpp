@@ -1,0 +1,77 @@
+#include "client/cli/music_beats.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "model/audio/format.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+// Beats that a choreographer gives, and what she says of those that are found.
+namespace choreo::cli::music_beats_test {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+class MusicBeats : public testing::Test {
+ protected:
+  /// The beats of a song of ten seconds, of which nothing was heard.
+  BeatTrack Read(const std::string& lines, BeatOptions options = {}, double start = 0) {
+    const std::filesystem::path file = folder_ / "beats.txt";
+    std::ofstream(file) << lines;
+    options.beats = file;
+    const std::vector<Onset> silence(static_cast<size_t>(10 * kModelSampleRate / kOnsetHop));
+    return BeatsAsAsked(silence, start, options);
+  }
+
+  TemporaryFolder folder_;
+};
+
+testing::Matcher<double> Near(double seconds) {
+  return DoubleNear(seconds, 0.5 * kOnsetHop / kModelSampleRate);
+}
+
+TEST_F(MusicBeats, AreThoseOfTheFileWithItsCounts) {
+  const BeatTrack track = Read("0.5 3\n\n1.0 1  # the first bar\n1.5 2\n2.0 3\n");
+  EXPECT_THAT(track.Seconds(), ElementsAre(Near(0.5), Near(1), Near(1.5), Near(2)));
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1)));
+  EXPECT_EQ(track.beats_in_bar, 3);
+  EXPECT_NEAR(track.tempo_bpm, 120, 1);
+}
+
+TEST_F(MusicBeats, CountInFoursFromTheFirstWhereNothingIsCounted) {
+  const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n");
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1), Near(5)));
+}
+
+TEST_F(MusicBeats, TheSongBeginsWhereTheDanceDoes) {
+  EXPECT_THAT(Read("1\n2\n3\n", {}, 1.5).Seconds(), ElementsAre(Near(0.5), Near(1.5)));
+}
+
+TEST_F(MusicBeats, OfWhichEverySecondIsLeftOutKeepTheirDownbeats) {
+  const BeatTrack track = Read("1 4\n2 1\n3 2\n4 3\n5 4\n6 1\n", {.half_time = true});
+  EXPECT_THAT(track.Seconds(), ElementsAre(Near(2), Near(4), Near(6)));
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(2)));
+}
+
+TEST_F(MusicBeats, InDoubleTimeHaveOneBetweenEachTwo) {
+  const BeatTrack track = Read("1\n2\n3\n", {.double_time = true});
+  EXPECT_THAT(track.Seconds(), ElementsAre(Near(1), Near(1.5), Near(2), Near(2.5), Near(3)));
+}
+
+TEST_F(MusicBeats, CountFromTheDownbeatThatIsSaid) {
+  const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n", {.downbeat_s = 2.9});
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(3)));
+}
+
+TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
+  ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("1\ntwo\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("2\n1\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "1 to 16", [&] { Read("1 17\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "--beats", [&] { Read("# none\n"); });
+}
+
+}  // namespace choreo::cli::music_beats_test
