@@ -78,7 +78,7 @@ Response ComposeKeys(const House& house, const Song* music, const Compose& reque
 
 Response WriteClip(const House& house, const Export& request) {
   const ScratchFolder folder;
-  RequireMotionFile(request.name());
+  RequireWrittenMotionFile(request.name());
   const std::filesystem::path path = PlaceFor(folder, request.name());
   const client::FinishedDance dance = FromProto(request.clip(), house.model().skeleton);
   WriteMotion(path, house.model().skeleton, dance.motion,

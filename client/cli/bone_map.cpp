@@ -1,6 +1,7 @@
 #include "client/cli/bone_map.h"
 
 #include <algorithm>
+#include <climits>
 #include <nlohmann/json.hpp>
 
 #include "client/cli/json_fields.h"
@@ -8,67 +9,43 @@
 #include "model/core/error.h"
 #include "model/core/printable.h"
 #include "model/draw/bone_chart.h"
+#include "model/fit/character_body.h"
+#include "model/fit/guess_bones.h"
 
 namespace choreo::cli {
 namespace {
 
 using nlohmann::json;
 
-std::string Quoted(const std::string& name) { return '"' + Printable(name) + '"'; }
-
-int FindNode(const json& value, const std::string& field, const CharacterFile& character) {
-  const std::vector<std::string>& names = character.nodes().names;
-  if (value.is_number_unsigned()) {
-    const auto node = value.get<uint64_t>();
-    if (node < names.size()) return static_cast<int>(node);
-    throw InvalidArgument(field, std::to_string(node) + ", must be a name or a number below " +
-                                     std::to_string(names.size()) + ", of its nodes");
-  }
-  if (!value.is_string())
-    throw InvalidArgument(field, Shown(value) + ", must be a node's name, its number or null");
-  const auto name = value.get<std::string>();
-  const auto first = std::ranges::find(names, name);
-  if (name.empty() || first == names.end())
-    throw InvalidArgument(field, Quoted(name) + " is none of the character's nodes");
-  if (std::ranges::count(names, name) > 1) {
-    // A mesh is often called as the joint that it hangs on.
-    std::vector<int> joints;
-    for (size_t node = 0; node < names.size(); ++node) {
-      if (names[node] == name && character.joints()[node]) joints.push_back(static_cast<int>(node));
-    }
-    if (joints.size() == 1) return joints.front();
-    throw InvalidArgument(field, Quoted(name) + " names several nodes: give its number, from 0 on");
-  }
-  return static_cast<int>(first - names.begin());
-}
-
 }  // namespace
 
-HumanBones ReadBoneMap(const std::filesystem::path& path, const CharacterFile& character,
-                       HumanBones found) {
+std::vector<BoneChoice> ReadBoneMap(const std::filesystem::path& path) {
   const std::string name = path.string();
   const json file = ParseJson(ReadText(path, "map"), name);
   CheckFileMembers(file, name, {"bones"}, "bones");
   const auto bones = file.find("bones");
   if (bones == file.end() || !bones->is_object())
     throw InvalidArgument(name + ":bones", "must be an object, as in {\"pelvis\": \"Hips\"}");
-  const std::vector<std::string>& known = AllHumanBones();
+  std::vector<BoneChoice> chosen;
   for (const auto& [bone, value] : bones->items()) {
-    const std::string field = name + ":bones." + Printable(bone);
-    if (std::ranges::find(known, bone) == known.end()) {
-      std::string all;
-      for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
-      throw InvalidArgument(field, "is none of " + all);
+    BoneChoice& choice = chosen.emplace_back();
+    choice.bone = bone;
+    choice.field = name + ":bones." + Printable(bone);
+    if (value.is_number_unsigned()) {
+      choice.node = static_cast<int>(std::min<uint64_t>(value.get<uint64_t>(), INT_MAX));
+    } else if (value.is_string() && !value.get<std::string>().empty()) {
+      choice.name = value.get<std::string>();
+    } else if (!value.is_null()) {
+      throw InvalidArgument(choice.field,
+                            Shown(value) + ", must be a node's name, its number or null");
     }
-    found.bones.erase(bone);
-    if (!value.is_null()) found.bones[bone] = FindNode(value, field, character);
   }
-  return found;
+  return chosen;
 }
 
 void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem::path& png,
-                  const CharacterFile& character, const HumanBones& bones) {
-  const std::vector<std::string>& names = character.nodes().names;
+                  const RigNodes& rig, const HumanBones& bones) {
+  const std::vector<std::string>& names = rig.names;
   nlohmann::ordered_json map;
   std::vector<std::string> means(names.size());
   for (const std::string& bone : AllHumanBones()) {
@@ -89,21 +66,44 @@ void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem:
   size_t room =
       kMostChartBones - static_cast<size_t>(std::ranges::count_if(
                             means, [](const std::string& bone) { return !bone.empty(); }));
-  const Eigen::Matrix3Xd places = character.places();
   std::vector<ChartBone> chart;
   std::vector<int> index(names.size(), -1);
   for (size_t node = 0; node < names.size(); ++node) {
-    if (means[node].empty() && (!character.joints()[node] || room == 0)) continue;
+    if (means[node].empty() && (!rig.joints[node] || room == 0)) continue;
     if (means[node].empty()) --room;
     index[node] = static_cast<int>(chart.size());
     chart.push_back({.name = names[node].empty() ? std::to_string(node) : names[node],
-                     .place = places.col(static_cast<Eigen::Index>(node)),
-                     .parent = character.nodes().parents[node],
+                     .place = rig.places.col(static_cast<Eigen::Index>(node)),
+                     .parent = rig.parents[node],
                      .means = means[node]});
   }
   for (ChartBone& bone : chart)
     if (bone.parent >= 0) bone.parent = index[static_cast<size_t>(bone.parent)];
   if (!chart.empty()) DrawBoneChart(chart, png);
+}
+
+void SuggestBoneMap(const std::filesystem::path& out, const std::string& name, const RigNodes& rig,
+                    HumanBones found) {
+  if (rig.names.empty()) throw InvalidArgument(name, "has no nodes");
+  const std::string missing = MissingBone(found);
+  const HumanBones guess = GuessBones(rig.parents, rig.places, rig.joints);
+  for (const auto& [bone, node] : guess.bones) {
+    const bool taken =
+        std::ranges::any_of(found.bones, [n = node](const auto& o) { return o.second == n; });
+    if (!taken) found.bones.try_emplace(bone, node);
+  }
+  const std::filesystem::path stem = std::filesystem::path(out).replace_extension();
+  const std::filesystem::path map = stem.string() + ".map.json",
+                              picture = stem.string() + ".map.png";
+  if (std::filesystem::exists(map)) {
+    throw InvalidArgument(name, "its names do not say which bone is the " + missing + "; " +
+                                    map.string() + " is there already: --map it, or remove it");
+  }
+  WriteBoneMap(map, picture, rig, found);
+  throw InvalidArgument(name, "its names do not say which bone is the " + missing + "; " +
+                                  map.string() + " is a guess, " + picture.string() +
+                                  " a picture: mend the one by the other, then --map " +
+                                  map.string());
 }
 
 }  // namespace choreo::cli

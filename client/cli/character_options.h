@@ -18,7 +18,8 @@ struct CharacterOptions {
   bool given() const { return !character.empty(); }
   /// Throws Error(kInvalidArgument) whose field is the option: `--map` alone, a character that is
   /// no .glb or .vrm, an `out` that is no .glb.
-  void Check(const std::filesystem::path& out) const;
+  /// `of_motion`: without a character the map is of the motion's own bones.
+  void Check(const std::filesystem::path& out, bool of_motion = false) const;
 
   /// Writes the character with the dance (formats/character_file.h). Where names tell too little,
   /// writes OUT.map.json and OUT.map.png, a suggestion, and throws Error(kInvalidArgument) naming

@@ -1,10 +1,13 @@
 #include <memory>
 
+#include "client/cli/bone_map.h"
 #include "client/cli/bvh_options.h"
 #include "client/cli/character_options.h"
 #include "client/cli/commands.h"
+#include "client/cli/motion_input.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "model/core/error.h"
 #include "model/fit/retarget.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/own_arrays.h"
@@ -19,18 +22,43 @@ struct ConvertOptions {
   std::string out;
   double fps = 0;
   bool smpl = false;
+  MotionReading reading;
+  std::string motion_map;
   BvhOptions bvh;
   CharacterOptions character;
+
+  /// Whose bones the motion's are.
+  const std::string& map() const {
+    return motion_map.empty() && !character.given() ? character.map : motion_map;
+  }
 };
 
+SkeletonMotion Read(const ConvertOptions& options) {
+  MotionReading reading = options.reading;
+  reading.fps = options.fps;
+  if (!options.map().empty()) reading.bones = ReadBoneMap(options.map());
+  try {
+    return ReadMotionNoting(options.in, reading);
+  } catch (const UnknownBones& error) {
+    if (!options.map().empty()) {
+      throw InvalidArgument(options.map(), "does not say which bone is the " + error.missing() +
+                                               ", nor do the names of " + options.in);
+    }
+    SuggestBoneMap(options.out, options.in, error.rig(), error.found());
+  }
+}
+
 void Run(const ConvertOptions& options) {
-  RequireMotionFile(options.out);
+  RequireMotionFile(options.in);
+  RequireWrittenMotionFile(options.out);
   options.bvh.Check(options.out);
-  options.character.Check(options.out);
+  options.character.Check(options.out, true);
+  if (!options.reading.up.empty()) ParseUp(options.reading.up);
   RequireOutputs({{"out", options.out}}, {{"in", options.in},
                                           {"--character", options.character.character},
-                                          {"--map", options.character.map}});
-  auto [skeleton, motion] = ReadMotion(options.in);
+                                          {"--map", options.character.map},
+                                          {"--motion-map", options.motion_map}});
+  auto [skeleton, motion] = Read(options);
   if (options.smpl) {
     motion = Retarget(skeleton, motion, Skeleton::Smpl24());
     skeleton = Skeleton::Smpl24();
@@ -47,14 +75,38 @@ void AddConvertCommand(CLI::App& program) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = program.add_subcommand(
       "convert",
-      "Read a motion and write it in another format: .npz (SMPL, as AMASS), .bvh or .glb\n"
-      "(glTF, with a body to look at). A BVH or glTF of another skeleton is fitted to SMPL's; a "
-      "dance\n"
-      "of a model with a skeleton of its own keeps that.");
-  command->add_option("in", options->in, "Motion to read.")->required()->check(CLI::ExistingFile);
-  command->add_option("out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")->required();
-  command->add_option("--fps", options->fps, "Resample to this rate; default: as it is.")
+      "Read a motion and write it in another format: .npz (SMPL, as AMASS), .bvh, .glb\n"
+      "(glTF, with a body to look at) or .vrma (for VRM's avatars). Another rig than SMPL's is\n"
+      "read as SMPL's body, bone by bone; a dance of a model with a skeleton of its own keeps "
+      "that.");
+  command->add_option("in", options->in, "Motion to read: " + MotionFileExtensions() + ".")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("out", options->out, "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write.")
+      ->required();
+  command
+      ->add_option(
+          "--fps", options->fps,
+          "Resample to this rate; of a motion that states none, its rate. Default: as it is.")
       ->check(NumberFrom(kMinFileFps, kMaxFileFps));
+  command->add_option("--up", options->reading.up,
+                      "The axis of the file that points up: y, z, x, -y, -z or -x; default: as its "
+                      "format has it, or the body stands.");
+  command
+      ->add_option(
+          "--scale", options->reading.scale,
+          "Metres in the file's unit, 0.01 for centimetres; default: as its format has it, "
+          "or by the legs.")
+      ->check(NumberFrom(1e-6, 1e6));
+  command->add_option(
+      "--animation", options->reading.animation,
+      "Of a file with several, its name or its number from 0 on; default: the first "
+      "that moves most bones.");
+  command
+      ->add_option("--motion-map", options->motion_map,
+                   "FILE.json that says which nodes of the motion are which bones; without "
+                   "--character --map is the same.")
+      ->check(CLI::ExistingFile);
   command->add_flag("--smpl", options->smpl,
                     "Retarget what has a skeleton of its own to SMPL's 24 joints.");
   options->bvh.AddTo(*command);

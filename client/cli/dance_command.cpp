@@ -83,7 +83,7 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
   if (path.empty()) path = std::filesystem::path(options.song).replace_extension(".npz");
   if (path == ".npz" || path == "-.npz") path = "dance.npz";
   // Better now than after the dance.
-  RequireMotionFile(path);
+  RequireWrittenMotionFile(path);
   options.bvh.Check(path);
   if (options.no_clobber && std::filesystem::exists(path))
     throw InvalidArgument("--no-clobber", path.string() + " is there already");

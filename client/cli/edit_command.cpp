@@ -19,7 +19,7 @@ void CheckOptions(const EditOptions& options) {
                                       std::to_string(options.keys.size()) +
                                       " keys; each --key needs one");
   }
-  RequireMotionFile(options.out);
+  RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> inputs = options.controls.Files();
   inputs.push_back({"dance", options.dance});
   inputs.push_back({"--report", options.report});

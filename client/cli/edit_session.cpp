@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "client/cli/key_faults.h"
+#include "client/cli/motion_input.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
@@ -27,7 +28,7 @@ constexpr double kAround = 2;  // seconds, where nothing says how far an edit ma
 client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton) {
   client::FinishedDance dance;
   // A retargeted dance would not be the one that was to stay as it is.
-  dance.motion = ReadMotion(path, skeleton, OtherSkeleton::kRefuse);
+  dance.motion = ReadMotionNoting(path, skeleton, OtherSkeleton::kRefuse);
   if (SmallExtension(path) != ".npz") return dance;
   const NpzArchive npz = NpzArchive::Read(path);
   if (!npz.Has("contacts")) return dance;

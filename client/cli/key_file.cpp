@@ -10,6 +10,7 @@
 #include "client/cli/json_fields.h"
 #include "client/cli/key_joints.h"
 #include "client/cli/key_numbers.h"
+#include "client/cli/motion_input.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
@@ -101,7 +102,7 @@ double ParseSeconds(std::string_view text, const std::string& source) {
 
 std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view times,
                                     const std::string& source, const Skeleton& skeleton) {
-  const Motion motion = ReadMotion(path, skeleton);
+  const Motion motion = ReadMotionNoting(path, skeleton);
   const double duration = Duration(motion);
   std::vector<KeyPose> keys;
   while (true) {

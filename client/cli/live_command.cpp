@@ -46,7 +46,7 @@ struct LiveCommand {
 
 void CheckOutput(const LiveCommand& options) {
   if (options.out.empty()) return;
-  RequireMotionFile(options.out);
+  RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> inputs = {{"song", options.song}};
   for (const std::string& keys : KeySources(options.keys))
     inputs.push_back({"--keyframes", FileOf(keys)});

@@ -6,6 +6,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/control_options.h"
 #include "client/cli/json_fields.h"
+#include "client/cli/motion_input.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/core/error.h"
@@ -133,7 +134,7 @@ void Run(PlotOptions& options) {
                  : height ? "height of the root, m"
                           : "cm a frame, mean of 0.5 s";
   for (size_t i = 0; i < motions; ++i) {
-    const SkeletonMotion dance = ReadMotion(options.motions[i]);
+    const SkeletonMotion dance = ReadMotionNoting(options.motions[i]);
     PlotSeries line = part ? SpeedOf(*part, dance) : RootOf(dance.motion, height);
     line.label = options.labels.empty() ? std::filesystem::path(options.motions[i]).stem().string()
                                         : options.labels[i];

@@ -6,6 +6,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
+#include "client/cli/motion_input.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
@@ -86,7 +87,7 @@ void Run(const RenderOptions& options) {
                  {{"motion", options.motion},
                   {"--report", options.report},
                   {"--song", options.film.format.song}});
-  const SkeletonMotion dance = ReadMotion(options.motion);
+  const SkeletonMotion dance = ReadMotionNoting(options.motion);
   std::vector<double> keys;
   if (!options.report.empty()) keys = KeyTimes(options.report);
   if (!options.out.empty()) DrawSheet(options, dance, keys);

@@ -59,7 +59,7 @@ client::TransitionResult Generate(const client::Client& client,
 }
 
 void Run(const TransitionOptions& options) {
-  RequireMotionFile(options.out);
+  RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> outputs = {{"--report", options.report}};
   for (size_t rank = 0; rank < static_cast<size_t>(options.candidates); ++rank)
     outputs.push_back({"--out", CandidatePath(options.out, rank)});

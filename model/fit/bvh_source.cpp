@@ -1,5 +1,6 @@
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "model/core/error.h"
 #include "model/fit/human_bones.h"
@@ -13,8 +14,8 @@ namespace {
 /// The clip's joints by what they are.
 class ClipBones {
  public:
-  explicit ClipBones(const PositionClip& clip)
-      : names_(clip.joint_names), found_(FindHumanBones(clip.joint_names)) {}
+  ClipBones(const PositionClip& clip, HumanBones found)
+      : names_(clip.joint_names), found_(std::move(found)) {}
 
   std::optional<std::string> Any(const std::string& bone) const {
     const int index = found_.Find(bone);
@@ -168,8 +169,12 @@ void AddLimbs(const ClipBones& bones, const std::string& side, MappingBuilder& b
 }  // namespace
 
 SourceMapping BvhSource(const PositionClip& clip) {
+  return RigSource(clip, FindHumanBones(clip.joint_names));
+}
+
+SourceMapping RigSource(const PositionClip& clip, const HumanBones& found) {
   ValidateClip(clip);
-  const ClipBones bones(clip);
+  const ClipBones bones(clip, found);
   for (const std::string side : {"left_", "right_"}) {
     for (const char* bone : kNeededLimbBones) bones.Need(side + bone);
   }

@@ -41,18 +41,41 @@ std::string NeckName(int number) { return number == 1 ? "neck" : "neck" + std::t
 
 using NameIndex = std::unordered_map<std::string_view, int>;
 
-HumanBones FindIn(const Rig& rig, const std::string& prefix, const NameIndex& names) {
+enum class Spelling { kExact, kPlain };
+
+// As tools spell the same name: without separators, in small letters.
+std::string Plain(std::string_view name) {
+  std::string plain;
+  for (const char letter : name) {
+    if (std::string_view("_.-:| ").find(letter) != std::string_view::npos) continue;
+    plain += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  }
+  return plain;
+}
+
+// Without the number that makes it the only one of its kind, as in "Hips_012" or "Hips.001".
+std::string WithoutNumber(const std::string& name) {
+  const size_t last = name.find_last_not_of("0123456789");
+  if (last == std::string::npos || last + 1 == name.size() || last == 0) return name;
+  return name[last] == '_' || name[last] == '.' ? name.substr(0, last) : name;
+}
+
+HumanBones FindIn(const Rig& rig, const std::string& prefix, const NameIndex& names,
+                  Spelling spelling) {
   HumanBones found{.rig = rig.name, .bones = {}};
+  const auto at = [&](const std::string& name) {
+    return names.find(prefix + (spelling == Spelling::kPlain ? Plain(name) : name));
+  };
   const auto any = [&](const std::string& bone, std::string_view candidates, bool left) {
     for (const std::string_view candidate : Split(candidates)) {
-      const auto name = names.find(prefix + OnSide(candidate, rig, left));
+      const auto name = at(OnSide(candidate, rig, left));
       if (name != names.end() && found.bones.try_emplace(bone, name->second).second) return;
     }
   };
   const auto all = [&](std::string (*bone)(int), std::string_view candidates) {
     int number = 0;
     for (const std::string_view candidate : Split(candidates)) {
-      const auto name = names.find(prefix + std::string(candidate));
+      const auto name = at(std::string(candidate));
       if (name != names.end()) found.bones[bone(++number)] = name->second;
     }
   };
@@ -74,15 +97,18 @@ bool IsPrefix(std::string_view prefix) {
 }
 
 // Prefixes with which the left thigh is there. Of Rigify's three sets of bones DEF- moves the mesh.
-std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::string>& names) {
+std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::string>& names,
+                                    Spelling spelling) {
   constexpr size_t kMost = 8;  // a hostile file has as many as bones
-  std::vector<std::string> prefixes = {"", "DEF-"};
+  const bool plain = spelling == Spelling::kPlain;
+  std::vector<std::string> prefixes = {"", plain ? "def" : "DEF-"};
   for (const std::string_view candidate : Split(rig.limbs[0])) {
-    const std::string thigh = OnSide(candidate, rig, true);
+    std::string thigh = OnSide(candidate, rig, true);
+    if (plain) thigh = Plain(thigh);
     for (const std::string& name : names) {
       if (!name.ends_with(thigh) || prefixes.size() == kMost) continue;
       std::string prefix = name.substr(0, name.size() - thigh.size());
-      if (IsPrefix(prefix) && std::ranges::find(prefixes, prefix) == prefixes.end())
+      if ((plain || IsPrefix(prefix)) && std::ranges::find(prefixes, prefix) == prefixes.end())
         prefixes.push_back(std::move(prefix));
     }
   }
@@ -97,6 +123,23 @@ std::pair<int, size_t> Score(const HumanBones& found) {
       needed += found.Find(std::string(side) + bone) >= 0 ? 1 : 0;
   }
   return {needed, found.bones.size()};
+}
+
+bool IsWhole(const HumanBones& found) {
+  return Score(found).first > 2 * static_cast<int>(std::size(kNeededLimbBones));
+}
+
+HumanBones FindSpelt(const std::vector<std::string>& names, Spelling spelling) {
+  NameIndex index;  // the first of each
+  for (size_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], static_cast<int>(i));
+  HumanBones best{.rig = kHumanIkRig, .bones = {}};
+  for (const Rig& rig : kRigs) {
+    for (const std::string& prefix : PrefixesOf(rig, names, spelling)) {
+      HumanBones found = FindIn(rig, prefix, index, spelling);
+      if (Score(found) > Score(best)) best = std::move(found);
+    }
+  }
+  return best;
 }
 
 std::vector<std::string> Chain(const HumanBones& found, std::string (*bone)(int)) {
@@ -116,16 +159,21 @@ std::vector<std::string> HumanBones::Spine() const { return Chain(*this, SpineNa
 std::vector<std::string> HumanBones::Neck() const { return Chain(*this, NeckName); }
 
 HumanBones FindHumanBones(const std::vector<std::string>& names) {
-  NameIndex index;  // the first of each
-  for (size_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], static_cast<int>(i));
-  HumanBones best{.rig = kHumanIkRig, .bones = {}};
-  for (const Rig& rig : kRigs) {
-    for (const std::string& prefix : PrefixesOf(rig, names)) {
-      HumanBones found = FindIn(rig, prefix, index);
-      if (Score(found) > Score(best)) best = std::move(found);
-    }
+  HumanBones best = FindSpelt(names, Spelling::kExact);
+  if (IsWhole(best) || names.empty()) return best;
+  // Another spelling counts only where a whole body is found in it.
+  std::vector<std::string> plain, unnumbered;
+  for (const std::string& name : names) {
+    plain.push_back(Plain(name));
+    unnumbered.push_back(WithoutNumber(name));
   }
-  return best;
+  const HumanBones counted = FindSpelt(unnumbered, Spelling::kExact);
+  if (IsWhole(counted)) return counted;
+  const HumanBones respelt = FindSpelt(plain, Spelling::kPlain);
+  if (IsWhole(respelt)) return respelt;
+  std::ranges::transform(unnumbered, plain.begin(), Plain);
+  const HumanBones both = FindSpelt(plain, Spelling::kPlain);
+  return IsWhole(both) ? both : best;
 }
 
 const std::vector<std::string>& AllHumanBones() {
@@ -140,6 +188,12 @@ const std::vector<std::string>& AllHumanBones() {
     return all;
   }();
   return bones;
+}
+
+std::vector<std::string_view> AllRigNames() {
+  std::vector<std::string_view> names;
+  for (const Rig& rig : kRigs) names.push_back(rig.name);
+  return names;
 }
 
 std::string NameInRig(std::string_view rig_name, const std::string& bone) {

@@ -27,7 +27,10 @@ struct HumanBones {
 /// ("mixamorig:Hips"); where a name is there twice, the first. Bones that are not there are left
 /// out. Known are MotionBuilder's (HumanIK), Mixamo's, LAFAN1's and CMU's names, VRM's and VRoid's,
 /// Unity's, Unreal's mannequin, Rigify's, iClone's (CC_Base_), Daz's and Poser's, 3ds Max's Biped,
-/// ASF's, LeftHip-LeftKnee-LeftAnkle, and SMPL's. Pure.
+/// ASF's, LeftHip-LeftKnee-LeftAnkle, Bandai Namco's, DeepMotion's, OptiTrack's, iPi's, Blender's
+/// metarig, MakeHuman's, MMD's (Japanese and English), Rokoko's, Xsens', ARKit's, Kinect's, and
+/// SMPL's. Where none of them is whole, the same without separators, capitals and the numbers that
+/// exporters append ("Hips_012"). Pure.
 HumanBones FindHumanBones(const std::vector<std::string>& names);
 
 /// All that HumanBones may hold: up to spine6 and neck3.
@@ -40,7 +43,11 @@ std::string NameInRig(std::string_view rig, const std::string& bone);
 inline constexpr const char* kNeededLimbBones[] = {"hip",      "knee",  "ankle",
                                                    "shoulder", "elbow", "wrist"};
 
+/// Every HumanBones::rig.
+std::vector<std::string_view> AllRigNames();
+
 inline constexpr std::string_view kHumanIkRig = "Mixamo and HumanIK";
 inline constexpr std::string_view kUnrealRig = "Unreal";
+inline constexpr std::string_view kVrmRig = "VRM";
 
 }  // namespace choreo

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/fit/human_bones.h"
 #include "model/fit/position_clip.h"
 #include "model/motion/skeleton.h"
 
@@ -61,6 +62,8 @@ SourceMapping IdentitySource(const Skeleton& skeleton, double hands = 1);
 /// Error(kInvalidArgument) naming the first joint of those needed that is missing: hips, knees,
 /// ankles, shoulders, elbows, wrists, neck.
 SourceMapping BvhSource(const PositionClip& clip);
+/// The same, where it is known which of the clip's joints is which bone.
+SourceMapping RigSource(const PositionClip& clip, const HumanBones& bones);
 
 inline constexpr double kTangAccuracy = 0.015;  ///< of tang2018's points, metres
 

@@ -1,9 +1,15 @@
 #include "model/formats/amass_npz.h"
 
+#include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/grid.h"
+#include "model/core/rounded.h"
+#include "model/formats/motion_check.h"
 #include "model/formats/own_arrays.h"
+#include "model/formats/rotation_rows.h"
 #include "model/motion/pose_limits.h"
 #include "model/motion/rotation.h"
 
@@ -14,13 +20,62 @@ constexpr int kBodyJoints = 22;   // what SMPL, SMPL-H and SMPL-X share, in the 
 constexpr int kSmplHJoints = 52;  // AMASS: the body and 15 joints a hand
 constexpr int kSmplXJoints = 55;  // and jaw and eyes between body and hands
 constexpr int kBetas = 16;
+constexpr double kNoBeta = 1e-6;
 
 // SMPL-X's neutral body has its pelvis elsewhere.
 const Eigen::Vector3d kSmplXRestPelvis(0.00312326, -0.35140747, 0.01203655);
 
 const Eigen::Matrix3d kYUpFromZUp{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 
-// Poses as they stand in the file: `rotations` with the 22 joints of the body or SMPL's 24.
+/// One layout of SMPL's arrays.
+struct Layout {
+  const char* root;  ///< axis-angle of the pelvis; null where it is among those of `body`
+  const char* body;  ///< all joints, or those without the pelvis
+  const char* trans;
+};
+
+// The first whose rotations are there.
+constexpr Layout kLayouts[] = {
+    {nullptr, "poses", "trans"},
+    {nullptr, "smpl_poses", "smpl_trans"},
+    {"root_orient", "pose_body", "trans"},
+    {"global_orient", "body_pose", "transl"},
+    {nullptr, "fullpose", "transl"},
+    {nullptr, "full_pose", "trans"},
+    {nullptr, "pose", "trans"},
+    {nullptr, "thetas", "trans"},
+};
+// Other names of the same place.
+constexpr const char* kTransNames[] = {"trans", "transl", "smpl_trans", "translation"};
+constexpr const char* kRateNames[] = {"mocap_frame_rate", "mocap_framerate", "fps", "frame_rate",
+                                      "framerate"};
+
+Layout FindLayout(const NpzArchive& npz) {
+  for (const Layout& layout : kLayouts) {
+    if (!npz.Has(layout.body) || (layout.root != nullptr && !npz.Has(layout.root))) continue;
+    Layout found = layout;
+    for (const char* trans : kTransNames) {
+      if (!npz.Has(found.trans) && npz.Has(trans)) found.trans = trans;
+    }
+    return found;
+  }
+  npz.Array("poses");  // which is not there: names what is
+  return kLayouts[0];
+}
+
+double ReadRate(const NpzArchive& npz, double otherwise, bool known, const MotionReading& reading) {
+  for (const char* name : kRateNames) {
+    if (npz.Has(name)) return CheckRate(name, NpzNumber(npz, name));
+  }
+  if (reading.fps > 0) return reading.fps;
+  if (!known) {
+    reading.Note("states no rate; taken as " + Rounded(otherwise) +
+                 " frames a second, --fps says another");
+  }
+  return otherwise;
+}
+
+// Poses as they stand in the file, with the 22 joints of the body or SMPL's 24.
 Motion Assemble(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, double fps,
                 const std::string& key) {
   const int joints = Skeleton::Smpl24().joints();
@@ -28,6 +83,45 @@ Motion Assemble(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotatio
   Motion motion = MotionOfRows(positions, rotations.topRows(3 * known), joints, fps, key);
   CheckMotionLimits(motion);  // before turns of the world hide an absurd angle
   return motion;
+}
+
+bool IsSmplX(const NpzArchive& npz, Eigen::Index joints) {
+  if (joints == kSmplXJoints || npz.Has("jaw_pose") || npz.Has("pose_jaw")) return true;
+  try {
+    return npz.Has("surface_model_type") && npz.Text("surface_model_type").starts_with("smplx");
+  } catch (const Error&) {
+    return false;  // no text: says nothing
+  }
+}
+
+bool HasBetas(const NpzArchive& npz) {
+  if (!npz.Has("betas")) return false;
+  try {
+    for (const double beta : npz.Array("betas").As<double>()) {
+      if (std::abs(beta) > kNoBeta) return true;
+    }
+  } catch (const Error&) {
+    // Of a kind that is not read: as if they were not there.
+  }
+  return false;
+}
+
+// The rotations of a layout, [3 joints, frames].
+Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout) {
+  const bool is_edge = std::string_view(layout.body) == "smpl_poses";
+  if (layout.root == nullptr) {
+    return is_edge ? ReadRotationRows(npz, layout.body, {24})
+                   : ReadRotationRows(npz, layout.body, {24, kSmplHJoints, kSmplXJoints, 22});
+  }
+  const Eigen::MatrixXd root = ReadRotationRows(npz, layout.root, {1});
+  const Eigen::MatrixXd body = ReadRotationRows(npz, layout.body, {21, 23});
+  if (root.cols() != body.cols()) {
+    throw InvalidArgument(layout.body, std::to_string(body.cols()) + " frames, but there are " +
+                                           std::to_string(root.cols()) + " of " + layout.root);
+  }
+  Eigen::MatrixXd all(3 + body.rows(), body.cols());
+  all << root, body;
+  return all;
 }
 
 }  // namespace
@@ -49,40 +143,35 @@ Pose FromAmass(const Pose& amass) {
   return pose;
 }
 
-Motion ReadSmplMotion(const NpzArchive& npz) {
-  Motion motion;
+Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   if (npz.Has("rotations") && npz.Has("root_positions")) {
-    motion = ReadOwnArrays(Skeleton::Smpl24(), npz);
+    Motion motion = ReadOwnArrays(Skeleton::Smpl24(), npz);
     CheckMotionLimits(motion);
     return motion;
   }
-  if (npz.Has("smpl_poses") && !npz.Has("poses")) {
-    const bool aist = npz.Has("smpl_scaling");
-    const double fps = npz.Has("fps") ? NpzNumber(npz, "fps") : aist ? 60 : 30;
-    Eigen::MatrixXd trans = NpzRows(npz, "smpl_trans", {3});
-    if (aist) trans /= NpzNumber(npz, "smpl_scaling");
-    motion = Assemble(trans, NpzRows(npz, "smpl_poses", {72}), CheckRate("fps", fps), "smpl_poses");
-    for (Pose& pose : motion.frames) {
-      if (aist) {
-        pose.root_position += SmplRestPelvis();
-      } else {
-        pose.root_position -= SmplRestPelvis();  // as AMASS would have it
-        pose = FromAmass(pose);
-      }
-    }
+  const Layout layout = FindLayout(npz);
+  const bool aist = npz.Has("smpl_scaling");
+  const bool edge = std::string_view(layout.body) == "smpl_poses" && !aist;
+  const Eigen::MatrixXd turns = ReadTurns(npz, layout);
+  Eigen::MatrixXd trans = Eigen::MatrixXd::Zero(3, turns.cols());
+  if (npz.Has(layout.trans)) {
+    trans = NpzRows(npz, layout.trans, {3});
   } else {
-    const char* rate = npz.Has("mocap_frame_rate") ? "mocap_frame_rate" : "mocap_framerate";
-    const Eigen::MatrixXd poses = NpzRows(npz, "poses", {72, 3 * kSmplHJoints, 3 * kSmplXJoints});
-    motion =
-        Assemble(NpzRows(npz, "trans", {3}), poses, CheckRate(rate, NpzNumber(npz, rate)), "poses");
-    const bool smpl_x = poses.rows() == 3 * kSmplXJoints;
-    for (Pose& pose : motion.frames) {
-      if (smpl_x) pose.root_position += kSmplXRestPelvis - SmplRestPelvis();
-      pose = FromAmass(pose);
-    }
+    reading.Note(std::string("has no ") + layout.trans + ": the body stays in its place");
   }
-  MakeContinuous(motion);
-  return motion;
+  if (aist) {
+    const double scaling = NpzNumber(npz, "smpl_scaling");
+    if (!(scaling > 0)) throw InvalidArgument("smpl_scaling", "must be above 0");
+    trans /= scaling;
+  }
+  const double fps = ReadRate(npz, aist ? 60 : kModelFps, aist || edge, reading);
+  FileMotion file{.skeleton = Skeleton::Smpl24(),
+                  .motion = Assemble(trans, turns, fps, layout.body),
+                  .other_shape = HasBetas(npz)};
+  if (!aist) file.up = Eigen::Vector3d::UnitZ();
+  if (!edge)
+    file.root_offset = IsSmplX(npz, turns.rows() / 3) ? kSmplXRestPelvis : SmplRestPelvis();
+  return Settle(std::move(file), reading);
 }
 
 void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, NpzArchive& npz) {
@@ -99,7 +188,9 @@ void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, 
   }
   npz.SetArray("trans", {{frames, 3}, std::move(trans)});
   npz.SetArray("poses", {{frames, 3 * kSmplHJoints}, std::move(poses)});
-  npz.SetArray("mocap_framerate", {{}, std::vector<double>{motion.fps}});
+  // SMPL-H's files have the one name, SMPL-X's the other.
+  for (const char* rate : {"mocap_framerate", "mocap_frame_rate"})
+    npz.SetArray(rate, {{}, std::vector<double>{motion.fps}});
   npz.SetArray("betas", {{kBetas}, std::vector<double>(kBetas, 0.0)});
   npz.SetText("gender", "neutral");
 }

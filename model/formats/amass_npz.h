@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "model/formats/motion_reading.h"
 #include "model/formats/npz.h"
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
@@ -11,12 +12,17 @@
 /// | file    | keys                                                   | up | trans           |
 /// |---------|--------------------------------------------------------|----|-----------------|
 /// | ours    | root_positions [F,3], rotations [F,24,3], fps          | y  | the pelvis      |
-/// | AMASS   | poses [F,72, 156 or 165], trans [F,3], mocap_framerate | z  | pelvis minus J0 |
+/// | AMASS   | poses [F,66, 72, 156 or 165], trans [F,3]              | z  | pelvis minus J0 |
+/// | AMASS   | root_orient [F,3], pose_body [F,63], trans             | z  | pelvis minus J0 |
+/// | smplx   | global_orient [F,3], body_pose [F,63 or 69], transl    | z  | pelvis minus J0 |
 /// | AIST++  | smpl_poses [F,72], smpl_trans, smpl_scaling            | y  | pelvis minus J0 |
 /// | EDGE    | smpl_poses [F,72], smpl_trans                          | z  | the pelvis      |
 ///
-/// J0 is the rest pelvis of SMPL, or of SMPL-X in files with 55 joints. Of 52 (SMPL-H) and 55
-/// joints the body's 22 are read. Body shape (betas) is not applied: ours is the neutral body.
+/// The poses' other names are fullpose, full_pose, pose and thetas. Rotations are axis-angle,
+/// matrices or 6D (rotation_rows.h). The rate is mocap_framerate, mocap_frame_rate, fps, frame_rate
+/// or framerate. J0 is the rest pelvis of SMPL, or of SMPL-X in files with 55 joints or a jaw. Of
+/// 52 (SMPL-H) and 55 joints the body's 22 are read. Body shape (betas) is not applied: ours is the
+/// neutral body, which is put on the floor where betas are another's.
 namespace choreo {
 
 /// Rest position of the neutral body's pelvis in SMPL's own coordinates, metres.
@@ -27,14 +33,16 @@ Eigen::Vector3d SmplRestPelvis();
 Pose ToAmass(const Pose& pose);
 Pose FromAmass(const Pose& amass);
 
-/// SMPL's 24 joints at the file's own rate (AIST++ 60, EDGE 30 where no key `fps` states it); where
-/// several layouts are present, the first of the table counts. Throws Error(kInvalidArgument)
-/// naming the array and its shape, or the keys that are absent.
-Motion ReadSmplMotion(const NpzArchive& npz);
+/// SMPL's 24 joints at the file's own rate (AIST++ 60, others 30 where no key states it); where
+/// several layouts are present, the first of the table counts. All but ours is looked at by
+/// motion_check.h. Throws Error(kInvalidArgument) naming the array and its shape, or the keys that
+/// are absent.
+Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading = {});
 
 /// Adds the arrays of a motion of SMPL's skeleton: AMASS's (poses with 52 joints, trans,
-/// mocap_framerate, gender, betas), ours, and `contacts` [F, 4] if they are given. Throws
-/// Error(kInvalidArgument) for a motion without frames, or contacts of another length.
+/// mocap_framerate, mocap_frame_rate, gender, betas), ours, and `contacts` [F, 4] if they are
+/// given. Throws Error(kInvalidArgument) for a motion without frames, or contacts of another
+/// length.
 void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, NpzArchive& npz);
 
 }  // namespace choreo

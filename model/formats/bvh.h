@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/fit/position_clip.h"
+#include "model/fit/rig_motion.h"
 #include "model/formats/joint_names.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -40,12 +41,16 @@ struct BvhJoint {
   /// at the root and elsewhere).
   std::vector<BvhChannel> channels;
   bool end_site = false;
+  /// All its position channels are 0 in all frames: they say nothing, the offset counts.
+  bool stays = false;
 };
 
 struct BvhFile {
-  std::vector<BvhJoint> joints;  ///< behind each all that hangs from it
-  double frame_time = 1.0 / 30;  ///< seconds
-  Eigen::MatrixXd values;        ///< [channels of all joints, frames] file units and degrees
+  std::vector<BvhJoint> joints;         ///< behind each all that hangs from it
+  double frame_time = 1.0 / 30;         ///< seconds
+  bool states_rate = true;              ///< false: the file's frame time was 0
+  Eigen::MatrixXd values;               ///< [channels of all joints, frames] file units and degrees
+  std::vector<std::string> notes = {};  ///< what was read otherwise than the file says
 
   int64_t frames() const { return values.cols(); }
   /// 1 / frame_time, taken as the whole number (or whole number x 1000/1001) that it is a rounding
@@ -54,11 +59,13 @@ struct BvhFile {
   std::vector<std::string> JointNames() const;
 };
 
-/// Throws Error(kInvalidArgument) whose field is "NAME:LINE" and whose message names the token that
-/// was found and what was expected. Refused are, besides other syntax errors: a second root, a
-/// hierarchy without channels, a channel given twice, numbers that are not finite, fewer or more
-/// values than the header states, a frame time outside 1e-5 to 10 s, lengths beyond 1e7 and angles
-/// beyond 1000 radians (motion/pose_limits.h).
+/// As lenient as the tools around: UTF-8 or UTF-16, comments behind # and //, "Frames:30",
+/// "EndSite", decimal commas, a frame time of 0, which states no rate, and more rows than the
+/// header counts, which is noted. Throws Error(kInvalidArgument) whose field is "NAME:LINE" and
+/// whose message names the token that was found and what was expected. Refused are, besides other
+/// syntax errors: a second root, a hierarchy without channels, a channel given twice, numbers that
+/// are not finite, fewer values than the header states, half a row, a frame time outside 1e-5 to 10
+/// s, lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
 BvhFile ParseBvh(std::string_view text, const std::string& name);
 /// As ParseBvh; Error(kNotFound) where the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);
@@ -67,6 +74,11 @@ BvhFile ReadBvh(const std::filesystem::path& path);
 std::string BvhText(const BvhFile& file);
 /// The same in a file. Error(kInternal) where it cannot be written.
 void WriteBvh(const std::filesystem::path& path, const BvhFile& file);
+
+/// Global places and turns of all joints and end sites in one frame, file units.
+RigPlacement PlaceBvh(const BvhFile& file, int64_t frame);
+/// The same of the offsets alone.
+RigPlacement PlaceBvhAtRest(const BvhFile& file);
 
 /// Global positions of all joints and end sites in one frame, [3, joints], file units.
 Eigen::Matrix3Xd BvhPositions(const BvhFile& file, int64_t frame);

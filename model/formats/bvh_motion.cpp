@@ -31,7 +31,7 @@ BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
     const double value = *values++;
     const int axis = static_cast<int>(channel) % 3;
     if (channel <= BvhChannel::kZPosition) {
-      local.position[axis] = value;
+      if (!joint.stays) local.position[axis] = value;
     } else {
       local.rotation *= Eigen::AngleAxisd(value / kDegrees, Eigen::Vector3d::Unit(axis)).matrix();
     }
@@ -144,23 +144,38 @@ std::vector<std::string> BvhFile::JointNames() const {
   return names;
 }
 
-Eigen::Matrix3Xd BvhPositions(const BvhFile& file, int64_t frame) {
-  Eigen::Matrix3Xd positions(3, file.joints.size());
-  std::vector<Eigen::Matrix3d> rotations(file.joints.size());
+RigPlacement PlaceBvh(const BvhFile& file, int64_t frame) {
+  RigPlacement all{Eigen::Matrix3Xd(3, file.joints.size()),
+                   std::vector<Eigen::Matrix3d>(file.joints.size())};
   const double* values = file.values.col(frame).data();
   for (size_t i = 0; i < file.joints.size(); ++i) {
     const BvhJoint& joint = file.joints[i];
     const BvhPlacement local = PlaceBvhJoint(joint, values);
     values += joint.channels.size();
     if (joint.parent < 0) {
-      positions.col(i) = local.position;
-      rotations[i] = local.rotation;
+      all.places.col(i) = local.position;
+      all.turns[i] = local.rotation;
     } else {
-      positions.col(i) = positions.col(joint.parent) + rotations[joint.parent] * local.position;
-      rotations[i] = rotations[joint.parent] * local.rotation;
+      all.places.col(i) = all.places.col(joint.parent) + all.turns[joint.parent] * local.position;
+      all.turns[i] = all.turns[joint.parent] * local.rotation;
     }
   }
-  return positions;
+  return all;
+}
+
+RigPlacement PlaceBvhAtRest(const BvhFile& file) {
+  RigPlacement all{Eigen::Matrix3Xd(3, file.joints.size()),
+                   std::vector<Eigen::Matrix3d>(file.joints.size(), Eigen::Matrix3d::Identity())};
+  for (size_t i = 0; i < file.joints.size(); ++i) {
+    const BvhJoint& joint = file.joints[i];
+    all.places.col(i) = joint.offset;
+    if (joint.parent >= 0) all.places.col(i) += all.places.col(joint.parent);
+  }
+  return all;
+}
+
+Eigen::Matrix3Xd BvhPositions(const BvhFile& file, int64_t frame) {
+  return PlaceBvh(file, frame).places;
 }
 
 PositionClip BvhToPositions(const BvhFile& file, double metres_per_unit) {

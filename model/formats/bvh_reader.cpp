@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/locale/encoding_utf.hpp>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -7,6 +8,7 @@
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/grid.h"
 #include "model/formats/bvh.h"
 #include "model/motion/pose_limits.h"
 #include "model/motion/rotation.h"
@@ -18,7 +20,28 @@ constexpr double kMinFrameTime = 1e-5, kMaxFrameTime = 10;
 constexpr double kMaxLength = 1000 * kMaxPosition;  // file units, which may be millimetres
 constexpr double kMaxDegrees = kMaxWoundRotation * kDegrees;
 
-// White space separates tokens; lines count for messages alone.
+// What Windows calls "Unicode": UTF-16, with a byte order mark or without.
+std::string ToUtf8(std::string_view text, const std::string& name) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const bool little = text.size() > 1 && (text.starts_with("\xFF\xFE") || text[1] == '\0');
+  const bool big = text.size() > 1 && (text.starts_with("\xFE\xFF") || text[0] == '\0');
+  if (!little && !big) return std::string(text);
+  std::u16string units;
+  for (size_t i = 0; i + 1 < text.size(); i += 2) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const auto second = static_cast<unsigned char>(text[i + 1]);
+    units += static_cast<char16_t>(little ? second << 8 | first : first << 8 | second);
+  }
+  if (units.starts_with(u'\uFEFF')) units.erase(0, 1);
+  try {
+    return boost::locale::conv::utf_to_utf<char>(units, boost::locale::conv::stop);
+  } catch (const boost::locale::conv::conversion_error&) {
+    throw InvalidArgument(name, "begins as UTF-16 does, and is none");
+  }
+}
+
+// White space separates tokens; lines count for messages alone. What begins with # or // is a
+// comment up to the end of its line.
 class Tokens {
  public:
   Tokens(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -34,6 +57,24 @@ class Tokens {
     const size_t begin = at_;
     while (at_ < text_.size() && !IsSpace(text_[at_])) ++at_;
     return text_.substr(begin, at_ - begin);
+  }
+
+  // "Frames:", "Frames :", or without the colon; what follows may stand right behind it.
+  void Label(std::string_view word) {
+    SkipSpace();
+    if (!SameWord(text_.substr(at_, word.size()), word)) {
+      const std::string expected = "'" + std::string(word) + ":'";
+      Fail(expected, Next(expected.c_str()));
+    }
+    at_ += word.size();
+    size_t colon = at_;
+    while (colon < text_.size() && (text_[colon] == ' ' || text_[colon] == '\t')) ++colon;
+    if (colon < text_.size() && text_[colon] == ':') at_ = colon + 1;
+  }
+
+  bool NextIs(char letter) {
+    SkipSpace();
+    return at_ < text_.size() && text_[at_] == letter;
   }
 
   // The rest of this line, for joint names with spaces in them.
@@ -55,13 +96,15 @@ class Tokens {
 
   double Number(const char* expected, double limit = std::numeric_limits<double>::infinity()) {
     std::string_view token = Next(expected);
-    const std::string_view digits = token.starts_with('+') ? token.substr(1) : token;
+    std::string digits(token.starts_with('+') ? token.substr(1) : token);
+    // As half of Europe writes it.
+    if (std::ranges::count(digits, ',') == 1 && digits.find('.') == std::string::npos)
+      std::ranges::replace(digits, ',', '.');
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end != digits.data() + digits.size()) Fail(expected, token);
     if (error == std::errc::result_out_of_range) {
-      if (digits.find("e-") == std::string_view::npos &&
-          digits.find("E-") == std::string_view::npos)
+      if (digits.find("e-") == std::string::npos && digits.find("E-") == std::string::npos)
         Fail(expected, token);
       value = 0;  // below the smallest double
     } else if (error != std::errc() || !std::isfinite(value)) {
@@ -97,7 +140,15 @@ class Tokens {
  private:
   static bool IsSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
   void SkipSpace() {
-    for (; at_ < text_.size() && IsSpace(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+    while (at_ < text_.size()) {
+      if (text_[at_] == '#' || text_.substr(at_, 2) == "//") {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (IsSpace(text_[at_])) {
+        line_ += text_[at_++] == '\n';
+      } else {
+        return;
+      }
+    }
   }
 
   std::string_view text_;
@@ -148,8 +199,9 @@ std::vector<BvhJoint> ReadHierarchy(Tokens& tokens) {
       for (int64_t i = 0; i < count; ++i) channels.push_back(ReadChannel(tokens, channels));
     } else if (Tokens::SameWord(word, "JOINT")) {
       begin(std::string(tokens.RestOfLine("a joint name")), false);
-    } else if (Tokens::SameWord(word, "End")) {
-      tokens.Expect("Site");
+    } else if (Tokens::SameWord(word, "End") || Tokens::SameWord(word, "EndSite")) {
+      if (Tokens::SameWord(word, "End")) tokens.Expect("Site");
+      if (!tokens.NextIs('{')) tokens.RestOfLine("'{'");  // some give it a name
       begin(joints[open.back()].name + "_end", true);
     } else {
       tokens.Fail("CHANNELS, JOINT, End Site or '}'", word);
@@ -158,11 +210,35 @@ std::vector<BvhJoint> ReadHierarchy(Tokens& tokens) {
   return joints;
 }
 
+// Joints with six channels of which three are 0 throughout would all stand in their parents'
+// places.
+void FindStaying(BvhFile& file) {
+  Eigen::Index row = 0;
+  int staying = 0;
+  for (BvhJoint& joint : file.joints) {
+    bool says = joint.parent < 0 || joint.offset.isZero();
+    int positions = 0;
+    for (const BvhChannel channel : joint.channels) {
+      if (channel <= BvhChannel::kZPosition) {
+        ++positions;
+        says = says || !file.values.row(row).isZero();
+      }
+      ++row;
+    }
+    joint.stays = positions > 0 && !says;
+    staying += joint.stays ? 1 : 0;
+  }
+  if (staying > 0) {
+    file.notes.push_back("the places of " + std::to_string(staying) +
+                         " joints are 0 in all frames; their offsets are taken");
+  }
+}
+
 }  // namespace
 
 BvhFile ParseBvh(std::string_view text, const std::string& name) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
-  Tokens tokens(text, name);
+  const std::string utf8 = ToUtf8(text, name);
+  Tokens tokens(utf8, name);
   BvhFile file;
   file.joints = ReadHierarchy(tokens);
   std::vector<bool> is_position;  // of each channel
@@ -174,26 +250,36 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   if (channels == 0) tokens.Fail("a joint with channels", "a hierarchy without any");
 
   tokens.Expect("MOTION");
-  tokens.Expect("Frames:");
-  const int64_t frames = tokens.Count("a number of frames", int64_t{1} << 32);
-  tokens.Expect("Frame");
-  tokens.Expect("Time:");
+  tokens.Label("Frames");
+  const int64_t stated = tokens.Count("a number of frames", int64_t{1} << 32);
+  tokens.Label("Frame");
+  tokens.Label("Time");
   file.frame_time = tokens.Number("a frame time");
+  file.states_rate = file.frame_time != 0;
+  if (!file.states_rate) file.frame_time = 1 / kModelFps;
   if (!(file.frame_time >= kMinFrameTime && file.frame_time <= kMaxFrameTime)) {
     tokens.Fail("a frame time of 1e-5 to 10 s", std::to_string(file.frame_time));
   }
   std::vector<double> values;  // grown as they come: the header's count may be anything
-  for (int64_t i = 0; i < frames * channels; ++i) {
-    values.push_back(is_position[static_cast<size_t>(i % channels)]
-                         ? tokens.Number("a number", kMaxLength)
-                         : tokens.Number("a number of degrees", kMaxDegrees));
+  // A row that is complete counts, whatever the header says.
+  while (!tokens.AtEnd()) {
+    const size_t channel = values.size() % static_cast<size_t>(channels);
+    values.push_back(is_position[channel] ? tokens.Number("a number", kMaxLength)
+                                          : tokens.Number("a number of degrees", kMaxDegrees));
   }
-  if (!tokens.AtEnd()) {
-    tokens.Fail("the end of the file after " + std::to_string(frames) + " frames of " +
-                    std::to_string(channels) + " values",
-                tokens.Next(""));
+  const int64_t frames = std::ssize(values) / channels;
+  if (std::ssize(values) % channels != 0 || frames < stated) {
+    tokens.Fail(std::to_string(std::max(frames, stated)) + " frames of " +
+                    std::to_string(channels) + " values, as the header says; there are " +
+                    std::to_string(values.size()) + " values",
+                "the end of the file");
+  }
+  if (frames > stated) {
+    file.notes.push_back("its header says " + std::to_string(stated) + " frames; all " +
+                         std::to_string(frames) + " that are there are read");
   }
   file.values = Eigen::Map<const Eigen::MatrixXd>(values.data(), channels, frames);
+  FindStaying(file);
   return file;
 }
 

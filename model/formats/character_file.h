@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/fit/character_body.h"
-#include "model/fit/human_bones.h"
+#include "model/fit/find_bones.h"
 #include "model/formats/gltf_nodes.h"
 #include "model/motion/motion.h"
 
@@ -21,14 +21,14 @@ class CharacterFile {
   explicit CharacterFile(const std::filesystem::path& path);
 
   const GltfNodes& nodes() const { return nodes_; }
-  /// [3, nodes] at rest in the world, in the file's unit
-  Eigen::Matrix3Xd places() const { return PlacesOf(nodes_.PlaceAtRest()); }
-  /// [nodes] Whether a skin hangs on it; all where there is no skin.
-  const std::vector<bool>& joints() const { return joints_; }
+  /// The same, as those who look for bones see them (fit/find_bones.h); places in the file's unit.
+  const RigNodes& rig() const { return rig_; }
+  const Eigen::Matrix3Xd& places() const { return rig_.places; }
 
-  /// What its VRM extension says, else what its nodes' names do, those of joints first. Bones may
-  /// be missing.
-  HumanBones FindBones() const;
+  /// As FindBones of find_bones.h.
+  HumanBones FindBones(const std::vector<BoneChoice>& chosen = {}) const {
+    return choreo::FindBones(rig_, chosen);
+  }
 
   /// Writes the character with the dance as its first animation, "dance", whose extras hold `fps`.
   /// All else stays, byte for byte. The dance stands in the file's world as in ours: Y up, +Z
@@ -42,8 +42,7 @@ class CharacterFile {
   std::filesystem::path path_;
   std::string bytes_;
   GltfNodes nodes_;
-  std::vector<bool> joints_;
-  HumanBones vrm_;  // as its VRM extension has them
+  RigNodes rig_;
 };
 
 }  // namespace choreo

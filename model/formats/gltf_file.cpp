@@ -48,6 +48,12 @@ Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int ty
   if (accessor.type != type) throw InvalidArgument(name, "has elements of another kind");
   const tinygltf::BufferView& view =
       GltfAt(model.bufferViews, accessor.bufferView, (name + ".bufferView").c_str());
+  for (const char* packed : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    if (view.extensions.contains(packed)) {
+      throw InvalidArgument(name, std::string("is compressed by ") + packed +
+                                      ", which is not read: export it without compression");
+    }
+  }
   const tinygltf::Buffer& buffer = GltfAt(model.buffers, view.buffer, "buffers");
   const int rows = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type));
   const int size = tinygltf::GetComponentSizeInBytes(accessor.componentType);

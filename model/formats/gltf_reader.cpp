@@ -2,10 +2,9 @@
 #include <optional>
 
 #include "model/core/error.h"
-#include "model/fit/fit_clip.h"
-#include "model/fit/sources.h"
 #include "model/formats/gltf.h"
 #include "model/formats/gltf_scene.h"
+#include "model/formats/node_motion.h"
 #include "model/formats/own_skeleton.h"
 #include "model/motion/rotation.h"
 
@@ -57,31 +56,40 @@ Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Ske
   return motion;
 }
 
-Motion FitOthers(const GltfScene& scene, const Skeleton& skeleton) {
-  PositionClip clip;
-  clip.fps = scene.fps;
-  clip.joint_names = scene.nodes.names;
-  for (int64_t frame = 0; frame < scene.frames; ++frame)
-    clip.frames.push_back(PlacesOf(scene.Frame(frame)));
-  return FitClip(clip, BvhSource(clip), skeleton).motion;
+RigPlacement PlacementOf(const std::vector<Eigen::Affine3d>& world) {
+  RigPlacement placement{PlacesOf(world), {}};
+  for (const Eigen::Affine3d& node : world) placement.turns.emplace_back(node.rotation());
+  return placement;
+}
+
+Motion FitOthers(const GltfScene& scene, const MotionReading& reading) {
+  NodeMotion motion{.fps = scene.fps, .rests = {}, .count = scene.frames, .frame = {}};
+  if (scene.bound) motion.rests.push_back(PlacementOf(*scene.bound));
+  motion.rests.push_back(PlacementOf(scene.nodes.PlaceAtRest()));
+  motion.frame = [&](int64_t frame) { return PlacementOf(scene.Frame(frame)); };
+  return FitNodes(scene.rig, motion, reading);
 }
 
 }  // namespace
 
-SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted) {
+SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted,
+                       const MotionReading& reading) {
   try {
-    const GltfScene scene = ReadGltfScene(path);
+    const GltfScene scene = ReadGltfScene(path, reading);
     const Skeleton& smpl = Skeleton::Smpl24();
     const GltfNodes& nodes = scene.nodes;
     const auto own = OwnSkeleton(nodes.names, nodes.parents, PlacesOf(nodes.PlaceAtRest()));
     for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
-      if (known == nullptr) continue;
+      if (known == nullptr || !reading.bones.empty()) continue;
       if (const auto ours = FindOurs(nodes, *known))
         return {*known, TakeOurs(scene, *ours, *known)};
     }
-    return {smpl, FitOthers(scene, smpl)};
+    return {smpl, FitOthers(scene, reading)};
+  } catch (const UnknownBones& error) {
+    throw UnknownBones(path.string(), error.missing(), error.rig(), error.found());
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::kNotFound) throw;
+    const bool option = error.field().starts_with("--") || !reading.bones.empty();
+    if (error.code() == ErrorCode::kNotFound || option) throw;
     throw Error(error.code(), path.string(), error.what());
   }
 }

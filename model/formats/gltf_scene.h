@@ -4,28 +4,39 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "model/fit/find_bones.h"
 #include "model/formats/gltf_nodes.h"
+#include "model/formats/motion_reading.h"
 
 namespace choreo {
 
 /// What an animation does to a node.
 struct GltfChannel {
   enum class Path { kTranslation, kRotation, kScale };
+  enum class Way { kLinear, kStep, kCubic };
   size_t node = 0;
   Path path = Path::kTranslation;
-  bool step = false;
+  Way way = Way::kLinear;
   Eigen::RowVectorXd times;  ///< [keys] ascending, seconds
   Eigen::MatrixXd values;    ///< [3 or 4, keys]
+  /// [3 or 4, keys] a second, of kCubic: in which way a curve comes to a key, and leaves it
+  Eigen::MatrixXd arrives = {}, leaves = {};
 
   /// Sets what it drives to its value at `time`; before the first and after the last key it holds.
   void Drive(double time, GltfPlacement& placement) const;
+  /// Whether it has keys that differ.
+  bool Moves() const;
 };
 
-/// The nodes of a glTF file and how its first animation moves them. Private to this folder.
+/// The nodes of a glTF file and how one of its animations moves them. Private to this folder.
 struct GltfScene {
   GltfNodes nodes;
+  RigNodes rig;  ///< the same, of which those move that the animation moves
+  /// Where the nodes are as the first skin with most joints was bound; none without such a skin.
+  std::optional<std::vector<Eigen::Affine3d>> bound;
   std::vector<GltfChannel> channels;
   double fps = 0;
   double start = 0;  ///< seconds
@@ -35,8 +46,9 @@ struct GltfScene {
   std::vector<Eigen::Affine3d> Frame(int64_t frame) const;
 };
 
-/// Throws Error(kNotFound) naming the path, and Error(kInvalidArgument) naming the part, for what
-/// gltf.h says.
-GltfScene ReadGltfScene(const std::filesystem::path& path);
+/// The animation that `reading` names; else the first that moves most of a body's bones. Throws
+/// Error(kNotFound) naming the path, and Error(kInvalidArgument) naming the part, for what gltf.h
+/// says.
+GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& reading = {});
 
 }  // namespace choreo

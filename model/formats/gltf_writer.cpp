@@ -2,6 +2,8 @@
 
 #include "model/body/skin.h"
 #include "model/core/atomic_file.h"
+#include "model/core/error.h"
+#include "model/fit/human_bones.h"
 #include "model/formats/gltf.h"
 #include "model/formats/gltf_builder.h"
 #include "model/formats/own_arrays.h"
@@ -101,13 +103,7 @@ void AddBody(const Skeleton& skeleton, GltfBuilder* gltf) {
   gltf->List("scenes").push_back({{"name", "dance"}, {"nodes", {0, skeleton.joints()}}});
 }
 
-}  // namespace
-
-void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion) {
-  RequireWritable(skeleton, motion);
-  GltfBuilder gltf({{"asset", {{"version", "2.0"}, {"generator", "choreo"}}}, {"scene", 0}}, {});
-  AddJoints(skeleton, &gltf);
-  AddBody(skeleton, &gltf);
+void AddMotion(const Skeleton& skeleton, const Motion& motion, GltfBuilder* gltf) {
   std::vector<GltfTrack> tracks(static_cast<size_t>(skeleton.joints()));
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     GltfTrack& track = tracks[joint];
@@ -117,7 +113,45 @@ void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const
       if (joint == 0) track.AddPlace(pose.root_position);
     }
   }
-  gltf.AddDance(motion.fps, motion.frames.size(), tracks);
+  gltf->AddDance(motion.fps, motion.frames.size(), tracks);
+}
+
+Json NewDocument() {
+  return {{"asset", {{"version", "2.0"}, {"generator", "choreo"}}}, {"scene", 0}};
+}
+
+}  // namespace
+
+void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion) {
+  RequireWritable(skeleton, motion);
+  GltfBuilder gltf(NewDocument(), {});
+  AddJoints(skeleton, &gltf);
+  AddBody(skeleton, &gltf);
+  AddMotion(skeleton, motion, &gltf);
+  WriteFile(path, gltf.Join());
+}
+
+void WriteVrma(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion) {
+  RequireWritable(skeleton, motion);
+  if (skeleton.joint_names != Skeleton::Smpl24().joint_names) {
+    throw InvalidArgument(
+        path.string(), "is written for SMPL's body alone, the motion is of " + skeleton.Describe());
+  }
+  Json document = NewDocument();
+  Json bones;
+  for (int joint = 0; joint < skeleton.joints(); ++joint) {
+    // SMPL's hands are no bone of VRM's: palms, which go along.
+    const std::string name = NameInRig(kVrmRig, skeleton.joint_names[joint]);
+    if (!name.empty() && !skeleton.joint_names[joint].ends_with("_hand"))
+      bones[name] = {{"node", joint}};
+  }
+  document["extensionsUsed"] = {"VRMC_vrm_animation"};
+  document["extensions"]["VRMC_vrm_animation"] = {{"specVersion", "1.0"},
+                                                  {"humanoid", {{"humanBones", bones}}}};
+  GltfBuilder gltf(document, {});
+  AddJoints(skeleton, &gltf);
+  gltf.List("scenes").push_back({{"name", "dance"}, {"nodes", {0}}});
+  AddMotion(skeleton, motion, &gltf);
   WriteFile(path, gltf.Join());
 }
 

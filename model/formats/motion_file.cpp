@@ -3,27 +3,37 @@
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <iterator>
+#include <new>
 #include <utility>
 
+#include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/fit/fit_clip.h"
+#include "model/core/rounded.h"
 #include "model/fit/retarget.h"
-#include "model/fit/sources.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
 #include "model/formats/gltf.h"
+#include "model/formats/node_motion.h"
 #include "model/formats/npz.h"
+#include "model/formats/pickle.h"
 #include "model/motion/pose_limits.h"
 #include "model/motion/skeleton_json.h"
 
 namespace choreo {
 namespace {
 
-SkeletonMotion ReadAnyNpz(const std::filesystem::path& path, const Skeleton*) {
+SkeletonMotion ReadAnyNpz(const std::filesystem::path& path, const Skeleton*,
+                          const MotionReading& reading) {
   const NpzArchive npz = NpzArchive::Read(path);
-  if (!npz.Has("skeleton")) return {Skeleton::Smpl24(), ReadSmplMotion(npz)};
+  if (!npz.Has("skeleton")) return {Skeleton::Smpl24(), ReadSmplMotion(npz, reading)};
   const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));
   return {skeleton, ReadOwnArrays(skeleton, npz)};
+}
+
+SkeletonMotion ReadPickle(const std::filesystem::path& path, const Skeleton*,
+                          const MotionReading& reading) {
+  const NpzArchive arrays = ParsePickledArrays(ReadFile(path), path.string());
+  return {Skeleton::Smpl24(), ReadSmplMotion(arrays, reading)};
 }
 
 void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
@@ -38,25 +48,60 @@ void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const
   npz.Write(path);
 }
 
-SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted) {
-  const BvhFile file = ReadBvh(path);
+// What moves: channels whose values differ or, where none do, channels.
+std::vector<bool> MovedJoints(const BvhFile& file) {
+  std::vector<bool> moves, has;
+  Eigen::Index row = 0;
+  for (const BvhJoint& joint : file.joints) {
+    bool differs = false;
+    for (size_t i = 0; i < joint.channels.size(); ++i, ++row)
+      differs = differs || file.values.row(row).maxCoeff() > file.values.row(row).minCoeff();
+    moves.push_back(differs);
+    has.push_back(!joint.channels.empty());
+  }
+  return std::ranges::find(moves, true) == moves.end() ? has : moves;
+}
+
+Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
+  NodeMotion motion{
+      .fps = file.fps(), .rests = {PlaceBvhAtRest(file)}, .count = file.frames(), .frame = {}};
+  motion.frame = [&](int64_t frame) { return PlaceBvh(file, frame); };
+  RigNodes nodes{.names = file.JointNames(),
+                 .parents = {},
+                 .places = motion.rests[0].places,
+                 .joints = std::vector<bool>(file.joints.size(), true),
+                 .moves = MovedJoints(file),
+                 .meshes = std::vector<bool>(file.joints.size())};
+  for (const BvhJoint& joint : file.joints) nodes.parents.push_back(joint.parent);
+  return FitNodes(std::move(nodes), motion, reading);
+}
+
+SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
+                          const MotionReading& reading) {
+  BvhFile file = ReadBvh(path);
+  for (const std::string& note : file.notes) reading.Note(note);
+  if (!file.states_rate && reading.fps > 0) file.frame_time = 1 / reading.fps;
+  if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) {
+    reading.Note("states no rate; taken as " + Rounded(file.fps()) +
+                 " frames a second, --fps says another");
+  }
   const Skeleton& smpl = Skeleton::Smpl24();
   if (file.frames() == 0) return {smpl, {}};
   const auto own = BvhSkeleton(file);
   for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
-    if (known == nullptr) continue;
+    if (known == nullptr || !reading.bones.empty()) continue;
     if (auto motion = BvhToMotion(file, *known)) return {*known, std::move(*motion)};
   }
-  // The fit sizes the source by its legs: the file's unit does not matter.
-  const PositionClip clip = BvhToPositions(file, 0.01);
-  return {smpl, FitClip(clip, BvhSource(clip), smpl).motion};
+  return {smpl, FitBvh(file, reading)};
 }
 
 // What a motion file may be. One more is a row.
 struct Format {
   const char* extension;
   // `wanted`: a skeleton to try first, or none.
-  SkeletonMotion (*read)(const std::filesystem::path& path, const Skeleton* wanted);
+  SkeletonMotion (*read)(const std::filesystem::path& path, const Skeleton* wanted,
+                         const MotionReading& reading);
+  // Null for what is only read.
   void (*write)(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                 const std::vector<Contacts>* contacts);
 };
@@ -70,6 +115,11 @@ constexpr Format kFormats[] = {
      [](const auto& path, const auto& skeleton, const auto& motion, const auto*) {
        WriteGlb(path, skeleton, motion);
      }},
+    {".vrma", ReadGlb,
+     [](const auto& path, const auto& skeleton, const auto& motion, const auto*) {
+       WriteVrma(path, skeleton, motion);
+     }},
+    {".pkl", ReadPickle, nullptr},
 };
 
 const Format* FindFormat(const std::filesystem::path& path) {
@@ -77,20 +127,47 @@ const Format* FindFormat(const std::filesystem::path& path) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-const Format& FormatOf(const std::filesystem::path& path) {
-  if (const Format* format = FindFormat(path)) return *format;
-  throw InvalidArgument(path.string(), "has the extension '" + path.extension().string() +
-                                           "', must be " + MotionFileExtensions());
+std::string Extensions(bool written) {
+  std::vector<std::string> known;
+  for (const Format& format : kFormats) {
+    if (!written || format.write != nullptr) known.emplace_back(format.extension);
+  }
+  std::string text;
+  for (size_t i = 0; i < known.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < known.size() ? ", " : " or ") + known[i];
+  return text;
 }
 
-SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted) try {
-  SkeletonMotion read = FormatOf(path).read(path, wanted);
+const Format& FormatOf(const std::filesystem::path& path, bool to_write) {
+  const Format* format = FindFormat(path);
+  if (format != nullptr && (!to_write || format->write != nullptr)) return *format;
+  throw InvalidArgument(path.string(), "has the extension '" + path.extension().string() +
+                                           "', must be " + Extensions(to_write));
+}
+
+SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted,
+                    const MotionReading& reading) try {
+  const std::string extension = SmallExtension(path);
+  const bool gltf = extension == ".glb" || extension == ".vrma";
+  if (!reading.animation.empty() && !gltf)
+    throw InvalidArgument("--animation", "is for .glb and .vrma, not for " + path.string());
+  if (!reading.bones.empty() && !gltf && extension != ".bvh")
+    throw InvalidArgument("--map", "is for rigs, .bvh, .glb and .vrma, not for " + path.string());
+  SkeletonMotion read = FormatOf(path, false).read(path, wanted, reading);
   if (read.motion.frames.empty()) throw InvalidArgument("", "has no frames");
   CheckMotionLimits(read.motion);
   return read;
+} catch (const UnknownBones& error) {
+  throw UnknownBones(path.string(), error.missing(), error.rig(), error.found());
 } catch (const Error& error) {
-  if (error.field().starts_with(path.string())) throw;
+  const std::string& field = error.field();
+  const bool named =
+      field.starts_with("--") ||
+      std::ranges::any_of(reading.bones, [&](const auto& choice) { return field == choice.field; });
+  if (named || field.starts_with(path.string())) throw;
   throw Error(error.code(), path.string(), error.what());
+} catch (const std::bad_alloc&) {
+  throw InvalidArgument(path.string(), "takes more memory than there is");
 }
 
 }  // namespace
@@ -99,24 +176,21 @@ std::string SmallExtension(const std::filesystem::path& path) {
   return boost::algorithm::to_lower_copy(path.extension().string(), std::locale::classic());
 }
 
-std::string MotionFileExtensions() {
-  std::string known;
-  for (const Format& format : kFormats) {
-    const bool last = &format == std::end(kFormats) - 1;
-    known += std::string(known.empty() ? "" : last ? " or " : ", ") + format.extension;
-  }
-  return known;
-}
+std::string MotionFileExtensions() { return Extensions(false); }
 
 bool IsMotionFile(const std::filesystem::path& path) { return FindFormat(path) != nullptr; }
 
-void RequireMotionFile(const std::filesystem::path& path) { FormatOf(path); }
+void RequireMotionFile(const std::filesystem::path& path) { FormatOf(path, false); }
 
-SkeletonMotion ReadMotion(const std::filesystem::path& path) { return Read(path, nullptr); }
+void RequireWrittenMotionFile(const std::filesystem::path& path) { FormatOf(path, true); }
 
-Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
-                  OtherSkeleton other) {
-  SkeletonMotion read = Read(path, &skeleton);
+SkeletonMotion ReadMotion(const std::filesystem::path& path, const MotionReading& reading) {
+  return Read(path, nullptr, reading);
+}
+
+Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton, OtherSkeleton other,
+                  const MotionReading& reading) {
+  SkeletonMotion read = Read(path, &skeleton, reading);
   if (SameBones(read.skeleton, skeleton)) return std::move(read.motion);
   if (other == OtherSkeleton::kRefuse) {
     throw InvalidArgument(path.string(), "its skeleton is " + read.skeleton.Describe() + ", not " +
@@ -131,7 +205,7 @@ Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
 
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts) {
-  FormatOf(path).write(path, skeleton, motion, contacts);
+  FormatOf(path, true).write(path, skeleton, motion, contacts);
 }
 
 }  // namespace choreo

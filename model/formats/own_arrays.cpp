@@ -57,13 +57,24 @@ Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz) {
 
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns) {
-  const NpyArray array = npz.Array(key);
-  int64_t width = array.shape.size() >= 2 ? 1 : 0;
-  for (size_t i = 1; i < array.shape.size(); ++i) width *= array.shape[i];
-  if (std::find(columns.begin(), columns.end(), width) == columns.end() || array.shape.size() > 3) {
+  NpyArray array = npz.Array(key);
+  const std::vector<int64_t> stated = array.shape;
+  const auto width_of = [&] {
+    int64_t width = array.shape.size() >= 2 ? 1 : 0;
+    for (size_t i = 1; i < array.shape.size(); ++i) width *= array.shape[i];
+    return width;
+  };
+  const auto wanted_width = [&] {
+    return std::find(columns.begin(), columns.end(), width_of()) != columns.end();
+  };
+  // A batch of one, or one frame.
+  if (!wanted_width() && array.shape.size() == 3 && array.shape[0] == 1)
+    array.shape.erase(array.shape.begin());
+  if (array.shape.size() == 1) array.shape.insert(array.shape.begin(), 1);
+  const int64_t width = width_of();
+  if (!wanted_width() || array.shape.size() > 3) {
     std::string shape, wanted;
-    for (const int64_t size : array.shape)
-      shape += (shape.empty() ? "" : ", ") + std::to_string(size);
+    for (const int64_t size : stated) shape += (shape.empty() ? "" : ", ") + std::to_string(size);
     for (const int64_t size : columns)
       wanted += (wanted.empty() ? "" : " or ") + std::to_string(size);
     throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted + "]");

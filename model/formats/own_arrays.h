@@ -33,7 +33,7 @@ void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
 Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 
 /// An array as [columns, F], finite; the shape [F, a, b] is accepted where a x b is one of
-/// `columns`.
+/// `columns`, and [1, F, a] or, of a single frame, [a].
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns);
 double NpzNumber(const NpzArchive& npz, const std::string& key);

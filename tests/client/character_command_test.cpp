@@ -62,8 +62,7 @@ TEST_F(CharacterCommandTest, AMapSaysOtherwiseThanNames) {
     return Convert("--character " + At("hero.glb") + " --map " + At("map.json"));
   };
   ExpectRefused(mapped(R"({"bones": {"tail": "x"}})"), "map.json:bones.tail: is none of pelvis, ");
-  ExpectRefused(mapped(R"({"bones": {"left_hip": "x"}})"),
-                "\"x\" is none of the character's nodes");
+  ExpectRefused(mapped(R"({"bones": {"left_hip": "x"}})"), "\"x\" is none of its nodes");
   ExpectRefused(mapped(R"({"bones": {"left_hip": 99}})"), "must be a name or a number below 26");
   ExpectRefused(mapped(R"({"bones": {"left_hip": -1}})"), "must be a node's name");
   ExpectRefused(mapped(R"({"bones": {"left_hip": null}})"), "none of them is the left_hip");
@@ -79,7 +78,7 @@ TEST_F(CharacterCommandTest, WhatCannotBeIsNamed) {
   std::ofstream(folder_ / "empty.glb");
   std::ofstream(folder_ / "map.json") << "{}";
   const std::string hero = "--character " + At("hero.glb");
-  ExpectRefused(Convert("--map " + At("map.json")), "--map: goes with --character");
+  ExpectRefused(Convert("--map " + At("map.json")), "map.json:bones: must be an object");
   ExpectRefused(Convert("--character " + At("hero.gltf")), "must be .glb");
   ExpectRefused(Convert("--character " + At("empty.glb")), "is no binary glTF: bad header");
   ExpectRefused(Convert(hero, "out.npz"), "--character: is written to a .glb");

@@ -207,8 +207,7 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
   expect_failure("dance " + At("song.wav") + Server() + "-k " + At("bad.json"),
                  "keyframes[0].rotations: is missing");
   expect_failure("dance " + At("song.wav") + Server() + "--model swan", "\"swan\", but fake");
-  expect_failure("dance " + At("song.wav") + Server() + "--out x.mp4",
-                 "must be .npz, .bvh or .glb");
+  expect_failure("dance " + At("song.wav") + Server() + "--out x.mp4", "must be .npz, .bvh, .glb");
   expect_failure("dance " + At("song.wav") + Server() + "--out /absent/x.npz", "no folder /absent");
   expect_failure("dance " + At("song.wav") + Server() + "--temperature 9",
                  "choreo: --temperature: 9 is not in [0, 2]");
@@ -218,10 +217,10 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
   expect_failure("transition --from swan --to kick --out " + At("t.npz") + Server(),
                  "swan: is no pose of the library");
   expect_failure("convert " + At("song.wav") + " " + At("b.npz"),
-                 "song.wav: has the extension '.wav', must be .npz, .bvh or .glb");
+                 "song.wav: has the extension '.wav', must be .npz, .bvh, .glb");
   WriteMotion(folder_ / "a.npz", Body(), {.fps = 30, .frames = {RestPose(Body())}});
   expect_failure("convert " + At("a.npz") + " " + At("b.fbx"),
-                 "b.fbx: has the extension '.fbx', must be .npz, .bvh or .glb");
+                 "b.fbx: has the extension '.fbx', must be .npz, .bvh, .glb");
   expect_failure("render " + At("a.npz"), "--out: is missing, and so is --video");
   expect_failure("render " + At("a.npz") + " --out x.png --song " + At("song.wav"),
                  "--song: pictures have no sound");

@@ -190,9 +190,10 @@ TEST(Bvh, NamesLineTokenAndExpectation) {
          "does not have already");
   broken("CHANNELS 6", "CHANNELS 7", "arm:5", "of 0 to 6");
   broken("Frames: 2", "Frames: 3", "arm:", "the end of the file");
-  broken("Frames: 2", "Frames: 1", "arm:", "after 1 frames");
+  broken("Frames: 2", "Frames: 3",
+         "arm:", "3 frames of 10 values, as the header says; there are 20");
   broken("Frames: 2", "Frames: -2", "arm:17", "-2");
-  broken("Frame Time: 0.0333333", "Frame Time: 0", "arm:18", "frame time");
+  broken("Frame Time: 0.0333333", "Frame Time: -1", "arm:18", "frame time");
   broken("20 10 30", "20 nan 30", "arm:20", "finite");
   broken("20 10 30", "20 1e999 30", "arm:20", "1e999");
   broken("}\r\nMOTION", "}\r\nROOT b\r\nMOTION", "arm:", "ROOT");

@@ -180,7 +180,7 @@ TEST_F(GltfTest, RefusesWhatItCannotRead) {
   refuse("animations: there is none", [](Glb& glb) { glb.document.erase("animations"); });
   refuse("moves no node",
          [](Glb& glb) { glb.document["animations"][0]["channels"] = json::array(); });
-  refuse("CUBICSPLINE", [](Glb& glb) {
+  refuse("a CUBICSPLINE has three each", [](Glb& glb) {
     glb.document["animations"][0]["samplers"][3]["interpolation"] = "CUBICSPLINE";
   });
   const auto times = [](Glb& glb) -> json& {
@@ -205,7 +205,7 @@ TEST_F(GltfTest, RefusesWhatItCannotRead) {
   });
   refuse("is no binary glTF", [](Glb& glb) { glb.document["buffers"][0]["uri"] = "/etc/passwd"; });
   refuse("is no binary glTF", [](Glb& glb) { glb.document = "nothing"; });
-  refuse("no joint named", [](Glb& glb) {
+  refuse("its names do not say which bone is the", [](Glb& glb) {
     for (json& node : glb.document["nodes"]) node["name"] = "bone";
   });
 

@@ -22,8 +22,8 @@ const Skeleton& kSmpl = Skeleton::Smpl24();
 TEST(MotionFile, EveryFormatGivesTheMotionBack) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 21, 30, 30);
-  for (const auto& [name, tolerance_deg] :
-       {std::pair("a.npz", 1e-9), std::pair("a.bvh", 1e-5), std::pair("a.glb", 1e-4)}) {
+  for (const auto& [name, tolerance_deg] : {std::pair("a.npz", 1e-9), std::pair("a.bvh", 1e-5),
+                                            std::pair("a.glb", 1e-4), std::pair("a.vrma", 1e-4)}) {
     SCOPED_TRACE(name);
     WriteMotion(folder / name, kSmpl, motion);
     const Motion back = ReadMotion(folder / name, kSmpl);
@@ -236,9 +236,9 @@ TEST(MotionFile, RefusesWithThePathInFront) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 24, 2);
   ExpectError(ErrorCode::kInvalidArgument,
-              "a.fbx: has the extension '.fbx', must be .npz, .bvh or .glb",
+              "a.fbx: has the extension '.fbx', must be .npz, .bvh, .glb, .vrma or .pkl",
               [&] { ReadMotion(folder / "a.fbx", kSmpl); });
-  ExpectError(ErrorCode::kInvalidArgument, "must be .npz, .bvh or .glb",
+  ExpectError(ErrorCode::kInvalidArgument, "must be .npz, .bvh, .glb or .vrma",
               [&] { WriteMotion(folder / "a", kSmpl, motion); });
   for (const char* name : {"a.npz", "a.bvh", "a.glb"}) {
     ExpectError(ErrorCode::kNotFound, (folder / name).string(),

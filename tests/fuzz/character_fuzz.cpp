@@ -13,7 +13,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const Eigen::Matrix3Xd places = file.places();
     HumanBones bones = file.FindBones();
     if (!MissingBone(bones).empty())
-      bones = GuessBones(file.nodes().parents, places, file.joints());
+      bones = GuessBones(file.nodes().parents, places, file.rig().joints);
     const CharacterBody body = MakeCharacterBody(bones, places);
     const Skeleton& smpl = Skeleton::Smpl24();
     const Motion dance{.fps = 30, .frames = {RestPose(smpl), RestPose(smpl)}};

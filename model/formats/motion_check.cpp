@@ -1,0 +1,211 @@
+#include "model/formats/motion_check.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/core/quantile.h"
+#include "model/core/rounded.h"
+#include "model/fit/fit_clip.h"
+#include "model/motion/floor_clearance.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/pose_faults.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+// A body stands where its trunk is within 45 degrees of the vertical.
+constexpr double kStands = 0.7;
+constexpr double kMostly = 0.9;  // share of frames that make a rule
+// Frames below which a body may lie for its own reasons: a pose, a fall.
+constexpr size_t kFewFrames = 10;
+// Metres. No pelvis is so high: the unit is another.
+constexpr double kTooHigh = 20;
+constexpr double kLowPelvis = 0.3, kHighPelvis = 2;
+// Metres: less under the floor may be a shoe's, or a fit's.
+constexpr double kSunken = 0.05;
+// Nobody hangs so high above the floor for so long, metres and seconds.
+constexpr double kHangs = 0.4, kHangsFor = 2;
+constexpr double kStill = 1e-4;      // metres and radians
+constexpr double kFloorShare = 0.1;  // quantile of the lowest points that is the floor
+constexpr double kSlack = 0.02;      // metres of another body's floor that are let be
+
+std::string Share(double share) {
+  return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
+}
+
+std::string Metres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f m", metres);
+  return text;
+}
+
+/// From the hips to the shoulders, of every frame, in the file's axes; empty without these joints.
+std::vector<Eigen::Vector3d> Trunks(const FileMotion& file) {
+  const Skeleton& body = file.skeleton;
+  std::vector<Eigen::Vector3d> trunks;
+  for (const int joint : {body.left_hip, body.right_hip, body.left_shoulder, body.right_shoulder})
+    if (joint < 0) return trunks;
+  JointPlacement placement;
+  for (const Pose& pose : file.motion.frames) {
+    ForwardKinematics(body, pose, placement);
+    const auto& places = placement.positions;
+    const Eigen::Vector3d trunk = places.col(body.left_shoulder) + places.col(body.right_shoulder) -
+                                  places.col(body.left_hip) - places.col(body.right_hip);
+    trunks.push_back(trunk.normalized());
+  }
+  return trunks;
+}
+
+double ShareStanding(const std::vector<Eigen::Vector3d>& trunks, const Eigen::Vector3d& up) {
+  const auto standing =
+      std::ranges::count_if(trunks, [&](const auto& trunk) { return trunk.dot(up) > kStands; });
+  return static_cast<double>(standing) / static_cast<double>(std::max<size_t>(1, trunks.size()));
+}
+
+/// The file's own up, or the axis along which the body stands in nearly all frames.
+Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
+  if (!reading.up.empty()) return ParseUp(reading.up);
+  const std::vector<Eigen::Vector3d> trunks = Trunks(file);
+  if (trunks.empty() || ShareStanding(trunks, file.up) > 1 - kMostly) return file.up;
+  for (const auto& axis :
+       {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1),
+        Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)}) {
+    const double share = ShareStanding(trunks, axis);
+    if (share < kMostly) continue;
+    if (trunks.size() < kFewFrames || axis == -file.up) {
+      reading.Note(std::string("its body ") + (axis == -file.up ? "stands on its head" : "lies") +
+                   "; --up " + UpName(axis) + " stands it up, if it should stand");
+      return file.up;
+    }
+    reading.Note("taken as " + UpName(axis) + " up, not " + UpName(file.up) +
+                 ", as its body stands so in " + Share(share) + " of the frames; --up " +
+                 UpName(file.up) + " lets it lie");
+    return axis;
+  }
+  return file.up;
+}
+
+void TurnUp(const Eigen::Vector3d& up, Motion* motion) {
+  if (up == Eigen::Vector3d::UnitY()) return;
+  const Eigen::Matrix3d turn = TurnToYUp(up);
+  for (Pose& pose : motion->frames) {
+    pose.root_position = turn * pose.root_position;
+    pose.rotations.col(0) = LogMap(turn * ExpMap(pose.rotations.col(0)));
+  }
+}
+
+double Unit(const Motion& motion, const MotionReading& reading) {
+  if (reading.scale > 0) return reading.scale;
+  std::vector<double> heights;
+  for (const Pose& pose : motion.frames) heights.push_back(pose.root_position.y());
+  const double height = Median(std::move(heights));
+  if (!(std::abs(height) > kTooHigh)) return 1;
+  for (const auto& [unit, name] : {std::pair(0.01, "centimetres"), std::pair(0.001, "millimetres"),
+                                   std::pair(0.0254, "inches")}) {
+    if (height * unit < kLowPelvis || height * unit > kHighPelvis) continue;
+    reading.Note(std::string("its places are taken as ") + name + ", as the hips are " +
+                 Rounded(height) + " high; --scale says another unit");
+    return unit;
+  }
+  reading.Note("the hips are " + Rounded(height) + " m high; --scale says what its unit is");
+  return 1;
+}
+
+void TellOfStillness(const Motion& motion, const MotionReading& reading) {
+  if (motion.frames.size() < 2) return;
+  const Pose& first = motion.frames.front();
+  for (const Pose& pose : motion.frames) {
+    if ((pose.root_position - first.root_position).norm() > kStill ||
+        (pose.rotations - first.rotations).cwiseAbs().maxCoeff() > kStill)
+      return;
+  }
+  reading.Note("nothing moves in its " + std::to_string(motion.frames.size()) +
+               " frames: is the movement in another animation or on other bones?");
+}
+
+void TellOfBends(const Skeleton& skeleton, const Motion& motion, const MotionReading& reading) {
+  size_t bent = 0;
+  std::string example;
+  for (const Pose& pose : motion.frames) {
+    const std::vector<std::string> faults = BendFaults(skeleton, pose);
+    if (faults.empty()) continue;
+    ++bent;
+    if (example.empty()) example = faults.front();
+  }
+  const double share = static_cast<double>(bent) / static_cast<double>(motion.frames.size());
+  if (share > 1 - kMostly) {
+    reading.Note("in " + Share(share) + " of its frames a joint is bent as no body can, as in: " +
+                 example + "; are its bones taken for what they are?");
+  }
+}
+
+// Puts the clip as a whole where its floor is.
+void FindFloor(const FileMotion& file, const MotionReading& reading, Motion* motion) {
+  std::vector<double> heights;
+  for (const Pose& pose : motion->frames) heights.push_back(HeightAboveFloor(file.skeleton, pose));
+  const double floor = Quantile(heights, kFloorShare), highest_low = Quantile(heights, kMostly);
+  const double lowest = *std::ranges::min_element(heights);
+  const double seconds = static_cast<double>(heights.size()) / motion->fps;
+  std::string why;
+  if (file.other_shape && std::abs(floor) > kSlack && seconds >= kHangsFor / 4) {
+    why = "its betas are another body's than ours";
+  } else if (highest_low < -kSunken && heights.size() >= kFewFrames) {
+    why = "its feet were under the floor";
+  } else if (lowest > kHangs && seconds >= kHangsFor) {
+    why = "it never touched the floor";
+  } else {
+    return;
+  }
+  for (Pose& pose : motion->frames) pose.root_position.y() -= floor;
+  reading.Note("moved by " + Metres(-floor) + " in height onto the floor, as " + why);
+}
+
+}  // namespace
+
+Eigen::Vector3d ParseUp(const std::string& up) {
+  const bool negative = up.starts_with('-');
+  const std::string axis = up.substr(negative || up.starts_with('+') ? 1 : 0);
+  const size_t index = std::string("xyz").find(axis);
+  if (axis.size() != 1 || index == std::string::npos)
+    throw InvalidArgument("--up", "\"" + up + "\" is none of x, y, z, -x, -y, -z");
+  return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(index)) * (negative ? -1 : 1);
+}
+
+std::string UpName(const Eigen::Vector3d& up) {
+  Eigen::Index axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
+  return std::string(up[axis] < 0 ? "-" : "") + "xyz"[axis];
+}
+
+Eigen::Matrix3d TurnToYUp(const Eigen::Vector3d& up) {
+  if (up == -Eigen::Vector3d::UnitY())  // there is no shortest one: about X
+    return Eigen::Vector3d(1, -1, -1).asDiagonal();
+  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitY()).toRotationMatrix();
+}
+
+Motion Settle(FileMotion file, const MotionReading& reading) {
+  if (file.motion.frames.empty()) return std::move(file.motion);
+  const Eigen::Vector3d up = FindUp(file, reading);
+  Motion motion = file.motion;
+  TurnUp(up, &motion);
+  if (file.has_floor) {
+    const double unit = Unit(motion, reading);
+    const Eigen::Vector3d offset = TurnToYUp(up) * file.root_offset;
+    for (Pose& pose : motion.frames) pose.root_position = unit * pose.root_position + offset;
+    FindFloor(file, reading, &motion);
+  } else {
+    Ground(file.skeleton, motion);
+  }
+  MakeContinuous(motion);
+  TellOfStillness(motion, reading);
+  TellOfBends(file.skeleton, motion, reading);
+  return motion;
+}
+
+}  // namespace choreo

@@ -1,0 +1,85 @@
+#include "model/formats/node_motion.h"
+
+#include <set>
+#include <utility>
+
+#include "model/fit/character_body.h"
+#include "model/fit/guess_bones.h"
+#include "model/formats/motion_check.h"
+#include "model/motion/pose_limits.h"
+
+namespace choreo {
+namespace {
+
+// The bones' columns alone.
+RigPlacement Keep(const RigPlacement& all, const std::vector<int>& nodes) {
+  RigPlacement kept;
+  kept.places.resize(3, std::ssize(nodes));
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    kept.places.col(static_cast<Eigen::Index>(i)) = all.places.col(nodes[i]);
+    kept.turns.push_back(all.turns[nodes[i]]);
+  }
+  return kept;
+}
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return text;
+}
+
+void Tell(const RigFit& fit, const MotionReading& reading) {
+  if (!fit.turns) {
+    reading.Note(
+        "its joints move, its rotations do not say how: read by the joints' places alone, "
+        "how head, hands and feet are turned is a guess");
+  } else if (!fit.rest) {
+    reading.Note(
+        "its rest pose is no standing body: how head, hands and feet are turned at rest is "
+        "a guess");
+  }
+  if (!fit.missing.empty())
+    reading.Note("has no " + Joined(fit.missing) + ": our own go along with what carries them");
+}
+
+}  // namespace
+
+Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading) {
+  const HumanBones found = FindBones(nodes, reading.bones);
+  if (const std::string missing = MissingBone(found); !missing.empty()) {
+    // A rest pose that is no body tells less than the first frame.
+    const bool guessable =
+        MissingBone(GuessBones(nodes.parents, nodes.places, nodes.joints)).empty();
+    if (!guessable) nodes.places = motion.frame(0).places;
+    throw UnknownBones("", missing, std::move(nodes), found);
+  }
+  if (reading.bones.empty() && OtherMovingBodies(nodes, found) > 0) {
+    reading.Note("holds several bodies that move; the one of \"" +
+                 nodes.names[static_cast<size_t>(found.Find("left_hip"))] +
+                 "\" that stands first is read, --map chooses by the nodes' numbers");
+  }
+  RigMotion rig;
+  rig.fps = motion.fps;
+  rig.bones.rig = found.rig;
+  std::vector<int> kept;
+  std::set<std::string> taken;
+  for (const auto& [bone, node] : found.bones) {
+    rig.bones.bones[bone] = static_cast<int>(kept.size());
+    std::string name = nodes.names[static_cast<size_t>(node)];
+    while (!taken.insert(name).second) name += "'";
+    rig.names.push_back(name);
+    kept.push_back(node);
+  }
+  for (const RigPlacement& rest : motion.rests) rig.rests.push_back(Keep(rest, kept));
+  rig.count = motion.count;
+  rig.frame = [&](int64_t frame) { return Keep(motion.frame(frame), kept); };
+  RigFit fit = FitRig(rig, reading.scale);
+  CheckMotionLimits(fit.motion);
+  Tell(fit, reading);
+  return Settle(
+      {.skeleton = Skeleton::Smpl24(), .motion = std::move(fit.motion), .has_floor = false},
+      reading);
+}
+
+}  // namespace choreo

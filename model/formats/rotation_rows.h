@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <string>
+
+#include "model/formats/npz.h"
+
+namespace choreo {
+
+/// The rotations of one of `joints` joints in each frame, whatever they are stated as, as rotation
+/// vectors [3 joints, frames]: vectors [F, 3 J] or [F, J, 3]; matrices [F, J, 3, 3], [F, J, 9] or
+/// [F, 9 J]; or 6D, [F, J, 6] or [F, 6 J], the first two rows of a matrix as PyTorch3D has them or,
+/// where knees and elbows then bend the wrong way, its first two columns as Zhou et al. 2019 do. A
+/// batch of one may stand before F, and a single frame needs no F. Throws Error(kInvalidArgument)
+/// naming the array, its shape or the matrix that is none.
+Eigen::MatrixXd ReadRotationRows(const NpzArchive& npz, const std::string& key,
+                                 std::initializer_list<int64_t> joints);
+
+}  // namespace choreo
