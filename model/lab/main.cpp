@@ -7,6 +7,7 @@
 #include "model/core/threads.h"
 #include "model/engine/engines.h"
 #include "model/evaluation/eval_command.h"
+#include "model/evaluation/study_command.h"
 #include "model/evaluation/weigh_command.h"
 
 #ifdef CHOREO_SERVICE
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
   choreo::AddTrainCommand(app, OneDevice);
   choreo::AddEvalCommand(app);
   choreo::AddWeighCommand(app);
+  choreo::AddStudyCommand(app);
   try {
     const std::string warning = choreo::RequireFastBlas(choreo::DetectBlas());
     if (!warning.empty()) std::fprintf(stderr, "choreo-lab: %s\n", warning.c_str());
