@@ -118,6 +118,8 @@ void ServerConfig::Validate() const {
                           "and --checkpoint exclude each other; put the checkpoint "
                           "into the folder");
   }
+  if (!names.empty() && (!models.empty() || !checkpoints.empty()))
+    throw InvalidArgument("--model", "names one that ships; --checkpoint and --models exclude it");
   ParseEngineKind(engine, "--engine");
   CheckKernels(kernels);
   // Whether they are there is told when they are used; `auto` is whatever is there.
@@ -176,18 +178,33 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
   return {.config = std::nullopt, .exit_code = kMisused};
 }
 
-std::vector<std::filesystem::path> ShippedCheckpoints() {
+std::vector<std::filesystem::path> ShippedCheckpoints(const std::vector<std::string>& names) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   std::string looked;
   for (const auto& folder : {program / "../share/choreo/checkpoints",
                              std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints"}) {
+    const auto path_of = [&](std::string_view name) {
+      return (folder / name).lexically_normal() += ".safetensors";
+    };
+    std::string there;
+    for (const std::string_view name : kShippedModels) {
+      if (std::filesystem::is_regular_file(path_of(name)))
+        there += (there.empty() ? "" : ", ") + std::string(name);
+    }
+    looked += "\n  " + folder.lexically_normal().string();
+    if (there.empty()) continue;
     std::vector<std::filesystem::path> found;
-    for (const char* name : {"default.safetensors", "free.safetensors"}) {
-      const std::filesystem::path path = (folder / name).lexically_normal();
-      if (std::filesystem::is_regular_file(path)) found.push_back(path);
+    for (const std::string& name : names) {
+      if (std::ranges::find(kShippedModels, name) == std::end(kShippedModels) ||
+          !std::filesystem::is_regular_file(path_of(name)))
+        throw Error(ErrorCode::kNotFound, "--model", '"' + name + "\" does not ship, but " + there);
+      found.push_back(path_of(name));
+    }
+    if (!names.empty()) return found;
+    for (const std::string_view name : kEverydayModels) {
+      if (std::filesystem::is_regular_file(path_of(name))) found.push_back(path_of(name));
     }
     if (!found.empty()) return found;
-    looked += "\n  " + folder.lexically_normal().string();
   }
   throw Error(ErrorCode::kNotFound, "--checkpoint", "none given, and none found in" + looked);
 }

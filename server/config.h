@@ -15,8 +15,9 @@ namespace choreo {
 struct ServerConfig {
   /// HOST:PORT to listen on. Port 0: a free one is picked and printed.
   std::string listen = "127.0.0.1:" + std::to_string(kDefaultPort);
-  /// One model each; the first is the default. Empty: the checkpoint that ships.
+  /// One model each; the first is the default. Empty: checkpoints that ship.
   std::vector<std::filesystem::path> checkpoints;
+  std::vector<std::string> names;  ///< of the checkpoints that ship; empty: those for every day
   std::filesystem::path models;  ///< a folder of checkpoints instead (ModelFolder); empty: none
   std::string device = "auto";   ///< auto, cpu, or cuda:N[,N...]
   std::string engine = "auto";   ///< one of kEngineKindNames
@@ -74,8 +75,9 @@ struct CommandLine {
 /// environment variable (CHOREO_LISTEN, ...).
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 
-/// The checkpoints that ship, the default first: installed beside the program, or in the source
-/// tree that it was built in. Throws Error(kNotFound) naming where it looked.
-std::vector<std::filesystem::path> ShippedCheckpoints();
+/// The checkpoints that ship and have these names: installed beside the program, or in the source
+/// tree that it was built in. Without names those for every day, the default first. Throws
+/// Error(kNotFound) naming where it looked, or which there are.
+std::vector<std::filesystem::path> ShippedCheckpoints(const std::vector<std::string>& names);
 
 }  // namespace choreo

@@ -63,10 +63,10 @@ client::Options ServerOptions::ForClient() const {
   return options;
 }
 
-Connection::Connection(const ServerOptions& options) {
+Connection::Connection(const ServerOptions& options, const std::string& model) {
   client::Options client_options = options.ForClient();
   if (options.addresses.empty()) {
-    own_ = std::make_unique<LocalServer>();
+    own_ = LocalServer::Start(model);
     client_options.addresses = {own_->address()};
     // These are for others' servers, and may come from the environment.
     client_options.tls = false;

@@ -23,10 +23,11 @@ struct ServerOptions {
   client::Options ForClient() const;
 };
 
-/// The server that was named, or else one of our own for as long as this lives.
+/// The server that was named, or else one of our own for as long as this lives, which serves
+/// `model` alone, if that is not empty.
 class Connection {
  public:
-  explicit Connection(const ServerOptions& options);
+  explicit Connection(const ServerOptions& options, const std::string& model = "");
 
   const client::Client& client() const { return *client_; }
   const client::ServerDescription& server() const { return server_; }

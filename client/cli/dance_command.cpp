@@ -183,13 +183,15 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
 void Run(const DanceOptions& options) {
   const std::filesystem::path out = OutputPath(options);
   std::optional<Music> music;
+  if (options.song.empty() && options.beats != BeatOptions())
+    throw InvalidArgument("--beats", "and other options of beats need a song");
   if (!options.song.empty()) {
     music =
         ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()),
                   options.song_start_s, options.beats);
   }
 
-  const Connection connection(options.server);
+  const Connection connection(options.server, options.model);
   const client::ModelDescription& model = connection.model(options.model);
   // It chooses among the library's key poses, whatever the model.
   const bool is_seed_for_model = options.seed && !options.keys.empty();

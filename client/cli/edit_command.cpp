@@ -33,7 +33,7 @@ void CheckOptions(const EditOptions& options) {
 
 void Run(const EditOptions& options) {
   CheckOptions(options);
-  const Connection connection(options.server);
+  const Connection connection(options.server, options.model);
   EditSession session(options, connection);
   try {
     for (size_t i = 0; i < options.keys.size(); ++i)

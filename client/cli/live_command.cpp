@@ -111,7 +111,7 @@ void Run(const LiveCommand& options) {
   }
   // Before a server is started: whoever names the wrong file is told at once.
   const std::unique_ptr<live::Sound> sound = OpenSound(options);
-  const Connection connection(options.server);
+  const Connection connection(options.server, options.model);
   const client::ModelDescription& model = connection.model(options.model);
   live::LiveOptions dance;
   dance.config.model = options.model;

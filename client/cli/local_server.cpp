@@ -7,12 +7,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
 #include "model/core/error.h"
+#include "model/core/programs.h"
 
 namespace choreo::cli {
 namespace {
@@ -23,24 +26,32 @@ constexpr std::chrono::seconds kStopLimit{10};
 constexpr const char* kListens = "choreod listens on ";
 
 /// In the child: becomes the server. Does not return.
-[[noreturn]] void Become(const std::filesystem::path& program, const std::string& listen, int to,
-                         pid_t parent) {
+[[noreturn]] void Become(const std::filesystem::path& program, const std::string& listen,
+                         const std::string& model, int to, pid_t parent) {
   // Whatever happens to us, it does not stay behind. The parent may have died before this line.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
   setpgid(0, 0);  // a terminal's Ctrl-C is for us, who stop it in order
   dup2(to, STDOUT_FILENO);
   execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning",
-        "--drain-seconds", "0", nullptr);
+        "--drain-seconds", "0", model.empty() ? nullptr : "--model", model.c_str(), nullptr);
   _exit(127);
 }
 
 }  // namespace
 
-LocalServer::LocalServer()
-    : LocalServer(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod") {}
+std::unique_ptr<LocalServer> LocalServer::Start(const std::string& model) {
+  // Who names checkpoints in the environment has named the models.
+  const bool ships = std::ranges::find(kShippedModels, model) != std::end(kShippedModels) &&
+                     std::getenv("CHOREO_CHECKPOINT") == nullptr &&
+                     std::getenv("CHOREO_MODELS") == nullptr;
+  return std::make_unique<LocalServer>(
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod", "127.0.0.1:0",
+      ships ? model : "");
+}
 
-LocalServer::LocalServer(const std::filesystem::path& program, const std::string& listen)
+LocalServer::LocalServer(const std::filesystem::path& program, const std::string& listen,
+                         const std::string& model)
     : program_(program) {
   if (access(program.c_str(), X_OK) != 0) {
     throw Error(ErrorCode::kNotFound, program.string(),
@@ -51,7 +62,7 @@ LocalServer::LocalServer(const std::filesystem::path& program, const std::string
     throw Error(ErrorCode::kInternal, "", std::string("pipe: ") + std::strerror(errno));
   const pid_t self = getpid();
   process_ = fork();
-  if (process_ == 0) Become(program, listen, ends[1], self);
+  if (process_ == 0) Become(program, listen, model, ends[1], self);
   close(ends[1]);
   if (process_ > 0) address_ = ReadAddress(ends[0]);
   close(ends[0]);

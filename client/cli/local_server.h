@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace choreo::cli {
@@ -11,13 +12,14 @@ namespace choreo::cli {
 /// this process dies.
 class LocalServer {
  public:
-  /// Starts the choreod that lies beside this program and returns when it listens. Throws
-  /// Error(kNotFound) if there is none, and Error(kUnavailable) if it does not listen within two
-  /// minutes; it has then said why on stderr.
-  LocalServer();
+  /// Starts the choreod that lies beside this program and returns when it listens. `model`: one
+  /// that ships, to serve alone; empty: its own choice. Throws Error(kNotFound) if there is none,
+  /// and Error(kUnavailable) if it does not listen within two minutes; it has then said why on
+  /// stderr.
+  static std::unique_ptr<LocalServer> Start(const std::string& model);
   /// `listen`: HOST:PORT; port 0 takes a free one.
   explicit LocalServer(const std::filesystem::path& program,
-                       const std::string& listen = "127.0.0.1:0");
+                       const std::string& listen = "127.0.0.1:0", const std::string& model = "");
   ~LocalServer();
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;

@@ -68,7 +68,7 @@ void Run(const TransitionOptions& options) {
   inputs.push_back({"--to", FileOf(options.to)});
   inputs.push_back({"--song", options.song});
   RequireOutputs(outputs, inputs);
-  const Connection connection(options.server);
+  const Connection connection(options.server, options.model);
   const client::ModelDescription& model = connection.model(options.model);
 
   if (options.frames > model.max_transition_frames) {

@@ -8,6 +8,11 @@ namespace choreo {
 inline constexpr int kFailed = 1;
 inline constexpr int kMisused = 2;
 
+/// The models that ship: those that a choreod serves unless told otherwise, the default first, and
+/// all, the papers' own networks among them.
+inline constexpr std::string_view kEverydayModels[] = {"default", "free"};
+inline constexpr std::string_view kShippedModels[] = {"default", "free", "paper-f", "paper-c"};
+
 /// What the first model was called before 0.2.0 where controls were wanted; server and client take
 /// it still, with a warning.
 inline constexpr std::string_view kFormerControls = "controllers";
