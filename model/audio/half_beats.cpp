@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
+#include "model/audio/format.h"
+
 namespace choreo {
 namespace {
 
+constexpr int64_t kBehind = 3;                                // frames in which one is heard
+constexpr size_t kBefore = 3 * kModelSampleRate / kOnsetHop;  // frames
 constexpr double kAlike = 0.9;  // mean of the weaker half over that of the stronger
 
 }  // namespace
@@ -12,12 +16,15 @@ constexpr double kAlike = 0.9;  // mean of the weaker half over that of the stro
 HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
   std::vector<std::array<float, Onset::kBands>> even;
   EvenOnsets evened;
+  // As if the music had gone on before: what begins it would else count for much more.
+  for (const Onset& onset : onsets.first(std::min(onsets.size(), kBefore))) evened.Even(onset);
   for (const Onset& onset : onsets) even.push_back(evened.Even(onset));
   for (const BarPointer::Step& step : path) {
+    if (step.frame + step.period / 2 + kBehind > std::ssize(even)) break;  // half of it is to come
     for (const int64_t frame : {step.frame, step.frame + step.period / 2}) {
       auto& half = halves_.emplace_back();
       half.fill(0);
-      const int64_t to = std::min<int64_t>(std::ssize(even), frame + 3);
+      const int64_t to = std::min<int64_t>(std::ssize(even), frame + kBehind);
       for (int64_t f = std::max<int64_t>(0, frame - 1); f < to; ++f) {
         for (size_t band = 0; band < half.size(); ++band)
           half[band] = std::max(half[band], double{even[static_cast<size_t>(f)][band]});

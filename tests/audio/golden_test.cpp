@@ -100,7 +100,11 @@ TEST_P(GoldenTest, TempoAndBeats) {
   // librosa's tempo is a whole number of frames a beat.
   const double tempo = golden.at("tempo_bpm").get<double>();
   EXPECT_NEAR(track.tempo_bpm, tempo, 0.03 * tempo);
-  const std::vector<double> beats = track.Seconds();
+  std::vector<double> beats = track.Seconds();
+  // librosa leaves out beats at both ends.
+  std::erase_if(beats, [&](double beat) {
+    return beat < expected.front() - 0.07 || beat > expected.back() + 0.07;
+  });
   int64_t near = 0;
   for (const double beat : beats) {
     near += std::ranges::any_of(expected,
