@@ -74,7 +74,7 @@ Recording ReadAistRecording(const std::string& name, const fs::path& path, const
     throw InvalidArgument(path.string(), "smpl_scaling is not one number above 0");
   Recording recording;
   recording.genre = name.substr(0, name.find('_'));
-  recording.motion = ReadSmplMotion(arrays);
+  recording.motion = ReadSmplMotion(arrays, {.notes = &recording.notes});
   recording.ground = true;  // bodies differ from SMPL's neutral one
   recording.music = song;
   recording.expects_music = true;

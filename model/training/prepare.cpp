@@ -104,7 +104,7 @@ std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
                                          const PrepareOptions& options) {
   const Recording recording = source.read();
   const Skeleton& skeleton = recording.skeleton;
-  json report = {{"name", source.name}, {"skeleton", skeleton.name}, {"warnings", json::array()}};
+  json report = {{"name", source.name}, {"skeleton", skeleton.name}, {"warnings", recording.notes}};
   json& warnings = report["warnings"];
   double skipped_s = 0;
   Motion motion;

@@ -21,6 +21,7 @@ namespace choreo {
 /// those with SMPL rotations.
 struct Recording {
   std::string genre;  ///< kept with the clip; empty: not stated
+  std::vector<std::string> notes = {};  ///< what its reader has to say of it
   PositionClip positions;
   std::optional<Motion> motion;
   SourceMapping mapping;
