@@ -236,7 +236,7 @@ TEST_F(CommandTest, ExplainsItself) {
   const Outcome misspelt = Choreo("dance --sead 3");
   EXPECT_EQ(misspelt.code, 2);
   EXPECT_THAT(misspelt.said, HasSubstr("--sead is no option of dance; did you mean --seed?"));
-  EXPECT_THAT(Choreo("dance --temp 1").said, HasSubstr("did you mean --temperature?"));
+  EXPECT_THAT(Choreo("dance --temperatur 1").said, HasSubstr("did you mean --temperature?"));
   EXPECT_THAT(Choreo("health --temp 1").said, testing::Not(HasSubstr("did you mean")));
   EXPECT_THAT(Choreo("dance --xylophone").said, testing::Not(HasSubstr("did you mean")));
   const Outcome absurd = Choreo("convert /dev/null b.npz --fps 1e9");

@@ -212,7 +212,7 @@ TEST(KeyFileTest, TakesPosesOfEdgeAndAmass) {
   };
   refused(R"("smpl_poses": [1, 2, 3])",
           "keyframes[0]: smpl_poses: has the shape [1, 3], expected [frames, 72]");
-  refused(R"("poses": [[0, 0, 0]])", "expected [frames, 72 or 156 or 165]");
+  refused(R"("poses": [[0, 0, 0]])", "expected [frames, 72 or 156 or 165 or 66]");
   refused(R"("smpl_poses": )" + numbers + R"(, "smpl_trans": [0, 1])", "smpl_trans: has the shape");
   refused(R"("smpl_trans": [0, 1, 2])", "keyframes[0].smpl_poses: is missing beside smpl_trans");
   refused(R"("smpl_poses": )" + numbers + R"(, "rotations": )" + Rotations(),

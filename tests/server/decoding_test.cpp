@@ -98,14 +98,13 @@ TEST_F(DecodingTest, HoldsUpNobodyElseAndEndsWithItsCall) {
   ExpectIdle();
 }
 
-TEST_F(DecodingTest, AFileThatSaysThatItIsTooMuchIsRefusedAtOnce) {
+// A header is no reason for a refusal, and what it says is never allocated.
+TEST_F(DecodingTest, AFileThatSaysThatItIsTooMuchIsReadAsFarAsItGoes) {
   Start();
   v1::GenerateTransitionRequest heavy = Transition();
   heavy.mutable_config()->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
   heavy.mutable_audio()->set_data(Silence(1, 600));
-  const Answer answer = Generate(heavy);
-  EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_THAT(answer.status.error_message(), testing::HasSubstr("8 channels at 191999 Hz"));
+  EXPECT_TRUE(Generate(heavy).status.ok());
 }
 
 }  // namespace choreo::decoding_test

@@ -143,13 +143,13 @@ TEST_F(ServeTest, FindsAnAddressTakenBeforeItLoadsItsModels) {
 }
 
 TEST_F(ServeTest, CountsWhomItRefusedWhoeverRefusesThem) {
-  Start("--max-waiting 0 --slots 2");
+  Start("--max-waiting 0");
   AwaitListening();
   const client::Client client({.addresses = {address()}, .retry_s = 0});
   client.GetServerInfo();
   client.GenerateTransition({.frames = 5});
   ExpectError(ErrorCode::kResourceExhausted, "transitions are in progress",
-              [&] { client.GenerateTransition({.frames = 5, .candidates = 8}); });
+              [&] { client.GenerateTransition({.frames = 5, .candidates = 9}); });
   Send(SIGTERM);
   EXPECT_THAT(End().said, HasSubstr("served 1 calls (1 refused) with 5 frames"));
 }

@@ -75,15 +75,14 @@ TEST_F(StartTest, AFileThatIsNone) {
   ExpectRefused({"not a usable safetensors file"});
 }
 
-// By then it has loaded, and leaves for want of an address.
+// By the time that it listens it has loaded.
 TEST_F(StartTest, WhatAModelDoesNotHeedIsSaid) {
-  const Outcome outcome = Shell("timeout 60 '" CHOREOD_PROGRAM
-                                "' --listen 127.0.0.1:0 --metrics 203.0.113.1:1 "
-                                "--engine torch --kernels avx2 --checkpoint '" +
-                                path_.string() + "'");
+  const Outcome outcome = Shell("'" CHOREOD_PROGRAM
+                                "' --listen 127.0.0.1:0 --engine torch --kernels avx2 "
+                                "--checkpoint '" +
+                                path_.string() + "' 2>&1 | sed '/choreod listens on/q'");
   EXPECT_THAT(outcome.said, testing::HasSubstr("--kernels avx2: model \"default\" does not heed"));
   EXPECT_THAT(outcome.said, testing::HasSubstr("dances at once take"));
-  EXPECT_EQ(outcome.code, 1) << "an address of nobody's was listened on";
 }
 
 // What was loaded is all that it needs: neither who dances nor who comes later notices.
