@@ -182,7 +182,8 @@ class PelvisSolver {
   void AddCapture(LeastSquares* problem) const {
     if (rules_.heights_alone) return;
     const int frame = count_ - 1;
-    const double lead = std::sqrt((Planned(frame).y() + Offset(frame, 1)) / kGravity) * rules_.fps;
+    const double height = std::max(0.0, Planned(frame).y() + Offset(frame, 1));
+    const double lead = std::sqrt(height / kGravity) * rules_.fps;
     Eigen::Vector2d point;
     for (const int axis : {0, 2}) {
       const double planned = Planned(frame)[axis] - Planned(frame - 1)[axis];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/random.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/limb.h"
@@ -171,6 +172,31 @@ TEST(StandOnFeet, WhoHasNoLegsIsLeftAlone) {
   std::vector<Pose> plan = Glide(0.01);
   EXPECT_TRUE(StandOnFeet(context, &plan).contacts.empty());
   EXPECT_EQ(plan.back().root_position, Glide(0.01).back().root_position);
+}
+
+// Who lies below the floor, tumbles or is thrown about is no dancer, and still no reason to fail.
+TEST(StandOnFeet, WhateverIsPlannedStaysFinite) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    const double height = random.Uniform(-3, 3), way = random.Uniform(0, 0.5),
+                 tumble = random.Uniform(0, 1);
+    const int frames = static_cast<int>(random.Integer(1, 40));
+    std::vector<Pose> plan;
+    for (int i = 0; i < frames; ++i) {
+      Pose pose = At({way * random.Normal(), height * (i + 1) / frames, way * random.Normal()});
+      for (double& angle : pose.rotations.reshaped()) angle += tumble * random.Normal();
+      plan.push_back(pose);
+    }
+    FootworkContext context = Context();
+    context.keyed = random.Uniform() < 0.5;
+    context.has_path = random.Uniform() < 0.3;
+    StandOnFeet(context, &plan);
+    for (size_t i = 0; i < plan.size(); ++i) {
+      ASSERT_TRUE(plan[i].root_position.allFinite() && plan[i].rotations.allFinite())
+          << "seed " << seed << ", frame " << i;
+      ASSERT_LT(plan[i].root_position.norm(), 20) << "seed " << seed << ", frame " << i;
+    }
+  }
 }
 
 }  // namespace choreo::footwork_test
