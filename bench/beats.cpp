@@ -1,8 +1,8 @@
-// How well beats are heard, without a shift between beats and songs: the F measure at 70 ms from the
-// first second and from the tenth, of what is found in the whole song (FindBeats) and of what a live
-// dance of transitions of 2 s predicts (MusicBeats).
-// Songs: with a tempo map (SONG.beats beside SONG.ogg: seconds, one a line), or made ones of every
-// tempo and metre, whose downbeats are known, too. An octave is told, and counts half.
+// How well beats are heard, without a shift between beats and songs: the F measure at 70 ms from
+// the first second and from the tenth, of what is found in the whole song (FindBeats) and of what a
+// live dance of transitions of 2 s predicts (MusicBeats). Songs: with a tempo map (SONG.beats
+// beside SONG.ogg: seconds, one a line), or made ones of every tempo and metre, whose downbeats are
+// known, too. An octave is told, and counts half.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -80,8 +80,8 @@ Live Hear(const std::vector<float>& mono) {
     for (int64_t frame = from; frame < from + kUsualFrames; ++frame) music.Of(frame);
   }
   live.beats = music.told();
-  live.milliseconds =
-      1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / std::max(1, transitions);
+  live.milliseconds = 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC /
+                      std::max(1, transitions);
   return live;
 }
 
@@ -94,10 +94,10 @@ std::vector<double> ReadSeconds(const std::filesystem::path& path) {
 
 struct Judged {
   std::string name;
-  std::vector<float> mono;
-  std::vector<double> beats, downbeats;  // downbeats: none where they are not known
-  std::optional<double> librosa;         // its F from the first second
-  std::vector<SongPlan::Span> spans;     // judged apart: before and behind a step of the tempo
+  std::vector<float> mono{};
+  std::vector<double> beats{}, downbeats{};  // downbeats: none where they are not known
+  std::optional<double> librosa{};           // its F from the first second
+  std::vector<SongPlan::Span> spans{};       // judged apart: before and behind a step of the tempo
 };
 
 void PrintHead() {
@@ -121,9 +121,10 @@ double Judge(const Judged& song) {
   if (!song.downbeats.empty()) down = FMeasure(track.DownbeatSeconds(), song.downbeats);
   const double tempo = TempoOf(song.beats);
   std::printf("%-34s %6.2f %6.2f %s %s %6.1f %6.1f %6.2f %6.2f  %s", song.name.c_str(), f,
-              FMeasure(found, song.beats, kLate), number(song.librosa).c_str(), number(down).c_str(),
-              tempo, 100 * (track.tempo_bpm / tempo - 1), FMeasure(live.beats, song.beats),
-              FMeasure(live.beats, song.beats, kLate), octave.c_str());
+              FMeasure(found, song.beats, kLate), number(song.librosa).c_str(),
+              number(down).c_str(), tempo, 100 * (track.tempo_bpm / tempo - 1),
+              FMeasure(live.beats, song.beats), FMeasure(live.beats, song.beats, kLate),
+              octave.c_str());
   for (const SongPlan::Span& span : song.spans)
     std::printf(" %.0f-%.0f s: %.2f", span.begin, span.end,
                 FMeasure(found, song.beats, span.begin, span.end));
@@ -203,7 +204,8 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   program.add_option("--librosa", librosa,
                      "JSON of what librosa.beat.beat_track found: {\"SONG\": [seconds]}.");
-  program.add_option("--made", made, "First seed of made songs. Development had those below 1000000.");
+  program.add_option("--made", made,
+                     "First seed of made songs. Development had those below 1000000.");
   program.add_option("--patterns", patterns,
                      "First seed of made songs whose mean onsets are printed, as "
                      "model/audio/bar_patterns.cpp has them.");
