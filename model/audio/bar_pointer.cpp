@@ -12,7 +12,6 @@ namespace {
 constexpr double kFramesPerMinute = 60.0 * kModelSampleRate / kOnsetHop;
 constexpr double kEvenSeconds = 3;
 constexpr double kNothingDb = 0.02;  // mean rise below which nothing happens
-constexpr float kLoudestRise = 8;    // times the mean; a crash counts no more
 
 // An onset is heard from a frame before its beat to two behind.
 constexpr int kFirstFrame = -1, kFrames = 4;
@@ -32,7 +31,7 @@ std::array<float, Onset::kBands> EvenOnsets::Even(const Onset& onset) {
     const double rise = onset.rise[band];
     level_[band] = kept * level_[band] + (1 - kept) * rise;
     even[band] = level_[band] > kNothingDb
-                     ? std::min(static_cast<float>(rise / level_[band]), kLoudestRise)
+                     ? std::min(static_cast<float>(rise / level_[band]), loudest_)
                      : -1.0F;
   }
   return even;

@@ -30,9 +30,13 @@ std::span<const BarPattern> BarPatterns();
 /// become alike. -1: a band in which nothing happens.
 class EvenOnsets {
  public:
+  /// What is louder than `loudest` times the mean counts as so much.
+  explicit EvenOnsets(float loudest = 8) : loudest_(loudest) {}
+
   std::array<float, Onset::kBands> Even(const Onset& onset);
 
  private:
+  float loudest_;
   std::array<double, Onset::kBands> level_{};
 };
 

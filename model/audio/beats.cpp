@@ -97,17 +97,41 @@ Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> pattern
   return pointer.Path();
 }
 
+/// Swung beats that so much less begins on than on straight ones are the offbeats of those.
+constexpr double kLouder = 2;
 /// Faster than this hardly anybody taps what has no finer parts.
 constexpr double kFastestTappedBpm = 160;
+
+/// How much begins on the beats of a path, on average.
+double Sounds(std::span<const Onset> onsets, const Path& path) {
+  const std::vector<float> strengths = OnsetStrength(onsets);
+  double sum = 0;
+  for (const BarPointer::Step& step : path) {
+    const auto from =
+        static_cast<size_t>(std::clamp<int64_t>(step.frame - 1, 0, std::ssize(onsets)));
+    const auto to = static_cast<size_t>(std::clamp<int64_t>(step.frame + 3, 0, std::ssize(onsets)));
+    for (size_t f = from; f < to; ++f) sum += strengths[f];
+  }
+  return path.empty() ? 0 : sum / static_cast<double>(path.size());
+}
+
+/// The best path in four: of beats that are divided by two or, where those sound no less, by three.
+Path PathInFour(std::span<const Onset> onsets, const TempoLimits& limits) {
+  const auto patterns = BarPatterns();
+  Path path = BestPath(onsets, patterns.first(2), limits);
+  if (path.empty() || path.back().pattern == 0) return path;
+  Path straight = BestPath(onsets, patterns.first(1), limits);
+  return Sounds(onsets, straight) > kLouder * Sounds(onsets, path) ? straight : path;
+}
 
 /// The best path in the metre of the music.
 Path PathOf(std::span<const Onset> onsets, const TempoLimits& limits) {
   const auto patterns = BarPatterns();
-  const Path path = BestPath(onsets, patterns.first(2), limits);
+  const Path path = PathInFour(onsets, limits);
   if (path.empty() || path.back().pattern != 0) return path;
   const HalfBeats halves(onsets, path);
   const double fastest = std::min(limits.fastest_bpm, kFastestTappedBpm);
-  if (2 * 60 * kFrameRate / path[path.size() / 2].period <= fastest && halves.AreAlike())
+  if (2 * 60 * kFrameRate / (path[path.size() / 2].period + 0.5) <= fastest && halves.AreAlike())
     return Doubled(path);
   const Meter meter = halves.MeterOf();
   if (meter == Meter::kFour) return path;

@@ -80,7 +80,8 @@ class LimitedReader {
     if (kept_ > int64_t{kMaxAudioSeconds} * sample_rate()) {
       throw InvalidArgument(name_, std::to_string(kept_ / sample_rate()) +
                                        " s or more of audio, at most " +
-                                       std::to_string(kMaxAudioSeconds) + " s are taken");
+                                       std::to_string(kMaxAudioSeconds) +
+                                       " s are taken: take a part of it (--song-start, --seconds)");
     }
     if (kept_ * channels() > kMaxFileSamples) {
       throw InvalidArgument(name_, std::to_string(kept_ * channels()) + " samples or more (" +

@@ -1,6 +1,7 @@
 #include "model/audio/half_beats.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "model/audio/format.h"
 
@@ -8,6 +9,7 @@ namespace choreo {
 namespace {
 
 constexpr int64_t kBehind = 3;                                // frames in which one is heard
+constexpr int kRounds = 4;                                    // until the mean stays
 constexpr size_t kBefore = 3 * kModelSampleRate / kOnsetHop;  // frames
 constexpr double kAlike = 0.9;  // mean of the weaker half over that of the stronger
 
@@ -15,9 +17,12 @@ constexpr double kAlike = 0.9;  // mean of the weaker half over that of the stro
 
 HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
   std::vector<std::array<float, Onset::kBands>> even;
-  EvenOnsets evened;
+  // Without a cap: all drums would be alike.
+  EvenOnsets evened(std::numeric_limits<float>::infinity());
   // As if the music had gone on before: what begins it would else count for much more.
-  for (const Onset& onset : onsets.first(std::min(onsets.size(), kBefore))) evened.Even(onset);
+  for (int round = 0; round < kRounds; ++round) {
+    for (const Onset& onset : onsets.first(std::min(onsets.size(), kBefore))) evened.Even(onset);
+  }
   for (const Onset& onset : onsets) even.push_back(evened.Even(onset));
   for (const BarPointer::Step& step : path) {
     if (step.frame + step.period / 2 + kBehind > std::ssize(even)) break;  // half of it is to come

@@ -43,7 +43,7 @@ class ChainReader final : public SoundReader {
                                      std::to_string(part_ + 1) + " " +
                                      std::to_string(reader_->channels()) + " at " +
                                      std::to_string(reader_->sample_rate()) +
-                                     ": `ffmpeg -i FILE song.wav` makes one of them");
+                                     ": they must be alike; encode them alike, or take one");
   }
 
   const std::string name_;
