@@ -1,13 +1,16 @@
 #include "client/cli/music_beats.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "client/cli/options.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
+#include "model/core/printable.h"
 #include "model/core/rounded.h"
 
 namespace choreo::cli {
@@ -16,17 +19,33 @@ namespace {
 constexpr double kFramesPerSecond = static_cast<double>(kModelSampleRate) / kOnsetHop;
 constexpr size_t kMostBeats = size_t{20} * kMaxAudioSeconds;  // as a dance takes
 constexpr double kTempoSlack = 1.06;                          // either way: a semitone
-constexpr int kUsualBar = 4;
+constexpr int kUsualBar = 4, kMostInBar = 16;
+constexpr double kMostSeconds = 1e6;  // of a song that only a part of is danced to
+constexpr std::streamsize kLongestLine = 1000;
 
 /// Counts from beat `first` on, and backwards before it.
-void CountFrom(size_t first, BeatTrack* track) {
+void CountFrom(int64_t first, BeatTrack* track) {
   const int bar = track->beats_in_bar > 0 ? track->beats_in_bar : kUsualBar;
   track->beats_in_bar = bar;
   track->in_bar.resize(track->frames.size());
   for (size_t i = 0; i < track->frames.size(); ++i) {
-    const int64_t since = static_cast<int64_t>(i) - static_cast<int64_t>(first);
+    const int64_t since = static_cast<int64_t>(i) - first;
     track->in_bar[i] = static_cast<int>((since % bar + bar) % bar);
   }
+}
+
+/// Counts what is not counted on from what is.
+void CountOn(BeatTrack* track) {
+  const std::vector<int> told = track->in_bar;
+  const auto first = std::ranges::find_if(told, [](int count) { return count >= 0; });
+  // Of downbeats alone the bar is as long as from one to the next.
+  if (track->beats_in_bar == 1) {
+    const auto second = std::find(first + 1, told.end(), 0);
+    if (second != told.end()) track->beats_in_bar = static_cast<int>(second - first);
+  }
+  const auto at = static_cast<int64_t>(first - told.begin());
+  const int64_t downbeat = first == told.end() ? 0 : at - *first;
+  CountFrom(downbeat, track);
 }
 
 size_t FirstDownbeat(const BeatTrack& track) {
@@ -34,47 +53,69 @@ size_t FirstDownbeat(const BeatTrack& track) {
   return first == track.in_bar.end() ? 0 : static_cast<size_t>(first - track.in_bar.begin());
 }
 
-/// Lines of a second, and, where it is known, the count in the bar, from 1 on.
+/// A line of a file of beats: its second and, where it is known, its count in the bar.
+struct BeatLine {
+  double second = 0;
+  int count = 0;  // 0: not known
+};
+
+BeatLine ParseBeat(const std::string& line, const std::string& field) {
+  std::istringstream words(line);
+  std::string second, count, rest;
+  words >> second >> count >> rest;
+  BeatLine beat;
+  const auto read = [](const std::string& word, auto* number) {
+    const char* end = word.data() + word.size();
+    const auto [at, error] = std::from_chars(word.data(), end, *number);
+    return error == std::errc() && at == end;
+  };
+  if (!rest.empty() || !read(second, &beat.second) || !(beat.second >= 0) ||
+      beat.second > kMostSeconds) {
+    throw InvalidArgument(field, '"' + Printable(line) +
+                                     "\" is no beat: a second of the song, as in 12.5, and, where "
+                                     "it is known, its count in the bar");
+  }
+  if (!count.empty() && (!read(count, &beat.count) || beat.count < 1 || beat.count > kMostInBar)) {
+    throw InvalidArgument(field, '"' + Printable(count) + "\" is no count in a bar, must be 1 to " +
+                                     std::to_string(kMostInBar));
+  }
+  return beat;
+}
+
 BeatTrack ReadBeats(const std::string& path, double start) {
+  if (!std::filesystem::is_regular_file(path))
+    throw Error(ErrorCode::kNotFound, "--beats", path + " is no file");
   std::ifstream file(path);
-  if (!file) throw Error(ErrorCode::kNotFound, "--beats", path + " cannot be opened as a file");
   BeatTrack track;
-  std::string line;
   double last = -1;
-  for (int number = 1; std::getline(file, line); ++number) {
-    line = line.substr(0, line.find('#'));
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+  bool counted = true;
+  std::string line(kLongestLine, '\0');
+  for (int number = 1; file.getline(line.data(), kLongestLine) || file.gcount() > 0; ++number) {
     const std::string field = path + ":" + std::to_string(number);
-    std::istringstream words(line);
-    double second = 0;
-    std::string rest;
-    if (!(words >> second) || !std::isfinite(second) || second < 0)
-      throw InvalidArgument(field,
-                            "\"" + line + "\" does not begin with a second of the song, 0 or more");
-    if (second <= last) {
-      throw InvalidArgument(
-          field,
-          InFull(second) + " s does not lie behind the beat before it, at " + InFull(last) + " s");
+    if (file.fail()) throw InvalidArgument(field, "is no line of a beat: it is too long");
+    std::string text = line.c_str();
+    if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    text = text.substr(0, text.find('#'));
+    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const BeatLine beat = ParseBeat(text, field);
+    if (beat.second - last < 1 / kFramesPerSecond) {
+      throw InvalidArgument(field, InFull(beat.second) + " s does not lie behind the beat before " +
+                                       "it, at " + InFull(last) + " s");
     }
-    last = second;
-    int count = 0;
-    if (words >> rest) {
-      count = std::atoi(rest.c_str());
-      if (count < 1 || count > 16)
-        throw InvalidArgument(field, "\"" + rest + "\" is no count in a bar, must be 1 to 16");
-    }
+    last = beat.second;
     if (track.frames.size() >= kMostBeats)
       throw InvalidArgument(field, "is beat " + std::to_string(kMostBeats + 1) + ", the limit is " +
                                        std::to_string(kMostBeats));
-    if (second < start) continue;
-    track.frames.push_back(std::llround((second - start) * kFramesPerSecond));
-    track.in_bar.push_back(count - 1);
+    if (beat.second < start) continue;
+    track.frames.push_back(std::llround((beat.second - start) * kFramesPerSecond));
+    track.in_bar.push_back(beat.count - 1);
     track.confidence.push_back(1);
-    track.beats_in_bar = std::max(track.beats_in_bar, count);
+    track.beats_in_bar = std::max(track.beats_in_bar, beat.count);
+    counted = counted && beat.count > 0;
   }
   if (track.frames.empty())
     throw InvalidArgument("--beats", path + " has no beat behind second " + InFull(start));
-  if (track.beats_in_bar == 0) CountFrom(0, &track);
+  if (!counted) CountOn(&track);
   return track;
 }
 
@@ -86,7 +127,7 @@ void Halve(BeatTrack* track) {
     half.frames.push_back(track->frames[i]);
     half.confidence.push_back(track->confidence[i]);
   }
-  CountFrom(first / 2, &half);
+  CountFrom(static_cast<int64_t>(first / 2), &half);
   *track = std::move(half);
 }
 
@@ -99,7 +140,7 @@ void Double(BeatTrack* track) {
     twice.frames.push_back((track->frames[i] + track->frames[i + 1]) / 2);
     twice.confidence.push_back(track->confidence[i]);
   }
-  CountFrom(2 * FirstDownbeat(*track), &twice);
+  CountFrom(static_cast<int64_t>(2 * FirstDownbeat(*track)), &twice);
   *track = std::move(twice);
 }
 
@@ -121,7 +162,7 @@ void AddBeatOptions(CLI::App& command, BeatOptions* options) {
   command
       .add_option("--tempo", options->tempo_bpm,
                   "Beats a minute, about: within 6 % of it they are looked for.")
-      ->check(CLI::Range(50.0, 200.0))
+      ->check(NumberFrom(50, 200))
       ->excludes(beats);
   CLI::Option* half =
       command.add_flag("--half-time", options->half_time, "Every second beat counts alone.");
@@ -137,20 +178,33 @@ void AddBeatOptions(CLI::App& command, BeatOptions* options) {
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
   BeatTrack track = options.beats == "auto" ? TrackBeats(onsets, LimitsOf(options))
                                             : ReadBeats(options.beats, start);
+  const double end = static_cast<double>(onsets.size()) / kFramesPerSecond;
+  if (options.downbeat_s && *options.downbeat_s - start > end) {
+    throw InvalidArgument("--downbeat", InFull(*options.downbeat_s) +
+                                            " s lies behind the song's end at " +
+                                            Rounded(start + end) + " s");
+  }
   // What lies behind the song's end is no beat of it.
   while (!track.frames.empty() && track.frames.back() > std::ssize(onsets)) {
     track.frames.pop_back();
     track.in_bar.pop_back();
     track.confidence.pop_back();
   }
-  if (track.frames.empty()) return track;
+  if (track.frames.empty()) {
+    if (options.beats != "auto") {
+      throw InvalidArgument("--beats", options.beats +
+                                           " has no beat within the song, which ends at " +
+                                           Rounded(start + end) + " s; beats are in seconds");
+    }
+    return track;
+  }
   if (options.half_time) Halve(&track);
   if (options.double_time) Double(&track);
   if (options.downbeat_s) {
     const auto wanted = std::llround((*options.downbeat_s - start) * kFramesPerSecond);
     const auto nearest = std::ranges::min_element(
         track.frames, {}, [wanted](int64_t frame) { return std::abs(frame - wanted); });
-    CountFrom(static_cast<size_t>(nearest - track.frames.begin()), &track);
+    CountFrom(nearest - track.frames.begin(), &track);
   }
   track.tempo_bpm = TempoOf(track.Seconds());
   return track;

@@ -67,11 +67,24 @@ TEST_F(MusicBeats, CountFromTheDownbeatThatIsSaid) {
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(3)));
 }
 
+TEST_F(MusicBeats, OfWhichDownbeatsAloneAreCountedCountOnFromThose) {
+  const BeatTrack track = Read("0.5 1\n1\n1.5\n2 1\n2.5\n3\n");
+  EXPECT_EQ(track.beats_in_bar, 3);
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(0.5), Near(2)));
+}
+
 TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
   ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("1\ntwo\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("2\n1\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "1 to 16", [&] { Read("1 17\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "--beats", [&] { Read("# none\n"); });
+  for (const char* bad : {"1 2x\n", "1 2 3\n", "0,5\n", "nan\n", "1e300\n", "-1\n"})
+    ExpectError(ErrorCode::kInvalidArgument, "beats.txt:1", [&] { Read(bad); });
+  ExpectError(ErrorCode::kInvalidArgument, "behind the beat before it",
+              [&] { Read("0.5\n0.501\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "too long", [&] { Read(std::string(5000, '1')); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats are in seconds", [&] { Read("500\n1000\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "--downbeat", [&] { Read("1\n", {.downbeat_s = 500}); });
 }
 
 }  // namespace choreo::cli::music_beats_test
