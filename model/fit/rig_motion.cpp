@@ -40,6 +40,13 @@ Eigen::Matrix3d Blend(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double
   return Eigen::Quaterniond(a).slerp(share, Eigen::Quaterniond(b)).toRotationMatrix();
 }
 
+// Of the six axes.
+Eigen::Vector3d NearestAxis(const Eigen::Vector3d& way) {
+  Eigen::Index axis = 0;
+  way.cwiseAbs().maxCoeff(&axis);
+  return Eigen::Vector3d::Unit(axis) * (way[axis] < 0 ? -1 : 1);
+}
+
 /// The bones whose ends say where they point: by SMPL's names, which are HumanBones', too.
 struct Segment {
   std::string from, to;
@@ -90,6 +97,7 @@ class RigFitter {
       rest = RestBody(rig_.bones, stands->places);
     }
     fit.rest = rest.has_value();
+    if (rest && stands != &samples_[0]) fit.up = NearestAxis(rest->turns[0].row(1).transpose());
     if (!fit.turns || !rest) {
       fit.motion = FitPositions();
       if (!fit.turns) return fit;

@@ -65,7 +65,9 @@ Layout FindLayout(const NpzArchive& npz) {
 
 double ReadRate(const NpzArchive& npz, double otherwise, bool known, const MotionReading& reading) {
   for (const char* name : kRateNames) {
-    if (npz.Has(name)) return CheckRate(name, NpzNumber(npz, name));
+    if (!npz.Has(name)) continue;
+    const double rate = NpzNumber(npz, name);
+    if (rate > 0 || !(reading.fps > 0)) return CheckRate(name, rate);
   }
   if (reading.fps > 0) return reading.fps;
   if (!known) {

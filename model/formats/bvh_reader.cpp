@@ -9,6 +9,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"
+#include "model/core/printable.h"
 #include "model/formats/bvh.h"
 #include "model/motion/pose_limits.h"
 #include "model/motion/rotation.h"
@@ -129,8 +130,9 @@ class Tokens {
   }
 
   [[noreturn]] void Fail(const std::string& expected, std::string_view found) const {
-    throw InvalidArgument(name_ + ":" + std::to_string(line_),
-                          "found '" + std::string(found.substr(0, 40)) + "', expected " + expected);
+    throw InvalidArgument(
+        name_ + ":" + std::to_string(line_),
+        "found '" + Printable(std::string(found.substr(0, 40))) + "', expected " + expected);
   }
 
   static bool SameWord(std::string_view a, std::string_view b) {

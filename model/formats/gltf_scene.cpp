@@ -136,7 +136,11 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
     std::vector<GltfChannel> channels = ReadGltfChannels(model, i);
     RigNodes rig = scene->rig;
     rig.moves = MovedBy(channels, nodes);
-    const int moved = channels.empty() ? -1 : CountBones(FindBones(rig), rig.moves);
+    // One that moves goes before one that holds a pose, whatever has keys there.
+    const bool still = std::ranges::none_of(channels, &GltfChannel::Moves);
+    const int moved = channels.empty() ? -1
+                                       : CountBones(FindBones(rig), rig.moves) +
+                                             (still ? 0 : static_cast<int>(nodes));
     if (moved > most) {
       chosen = i, most = moved;
       scene->channels = std::move(channels);
@@ -244,7 +248,9 @@ void ChooseTimes(const tinygltf::Model& model, size_t number, GltfScene& scene) 
 void GltfChannel::Drive(double time, GltfPlacement& placement) const {
   const auto* const begin = times.data();
   const auto* const end = begin + times.size();
-  const Eigen::Index after = std::upper_bound(begin, end, time) - begin;
+  // A third of a second is another number in 32 bits than in 64.
+  constexpr double kSameTime = 1e-4;
+  const Eigen::Index after = std::upper_bound(begin, end, time + kSameTime) - begin;
   const Eigen::Index a = std::max<Eigen::Index>(0, after - 1);
   const Eigen::Index b = std::min<Eigen::Index>(times.size() - 1, after);
   const double gap = times[b] - times[a];

@@ -72,6 +72,13 @@ double ShareStanding(const std::vector<Eigen::Vector3d>& trunks, const Eigen::Ve
 Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (!reading.up.empty()) return ParseUp(reading.up);
   const std::vector<Eigen::Vector3d> trunks = Trunks(file);
+  // A body that bends or lies for long says less than its rest pose.
+  if (file.rest_up && *file.rest_up != file.up &&
+      ShareStanding(trunks, *file.rest_up) >= ShareStanding(trunks, file.up)) {
+    reading.Note("taken as " + UpName(*file.rest_up) + " up, not " + UpName(file.up) +
+                 ", as its rest pose stands so; --up " + UpName(file.up) + " lets it lie");
+    return *file.rest_up;
+  }
   if (trunks.empty() || ShareStanding(trunks, file.up) > 1 - kMostly) return file.up;
   for (const auto& axis :
        {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1),

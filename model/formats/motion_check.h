@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "model/formats/motion_reading.h"
 #include "model/motion/motion.h"
@@ -16,6 +17,8 @@ struct FileMotion {
   Motion motion;
   /// Of the file, by its format; what the motion's own trunk says may be another.
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+  /// Along which the rig's rest pose stands, if it has one that does.
+  std::optional<Eigen::Vector3d> rest_up = {};
   /// Where joint 0 stands, seen from what the file calls its place: its own metres and axes.
   Eigen::Vector3d root_offset = Eigen::Vector3d::Zero();
   /// Whether floor and unit are the file's. False: the reader made them.

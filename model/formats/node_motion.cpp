@@ -77,9 +77,11 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
   RigFit fit = FitRig(rig, reading.scale);
   CheckMotionLimits(fit.motion);
   Tell(fit, reading);
-  return Settle(
-      {.skeleton = Skeleton::Smpl24(), .motion = std::move(fit.motion), .has_floor = false},
-      reading);
+  return Settle({.skeleton = Skeleton::Smpl24(),
+                 .motion = std::move(fit.motion),
+                 .rest_up = fit.up,
+                 .has_floor = false},
+                reading);
 }
 
 }  // namespace choreo

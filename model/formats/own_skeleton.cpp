@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "model/core/error.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/limb.h"
 
 namespace choreo {
 namespace {
@@ -19,6 +21,25 @@ int FindRoot(const std::vector<std::string>& names, const std::vector<int>& pare
   int node = limbs[0];
   while (node >= 0 && !carries_all(node)) node = parents[static_cast<size_t>(node)];
   return node;
+}
+
+// Whether it stands as ours do at rest: y up, facing +Z, of a person's size. Another program's rig
+// that calls its joints as we do need not.
+bool StandsAsOurs(const Skeleton& skeleton) {
+  constexpr double kUpright = 0.8;                            // cosine
+  constexpr double kShortestLegs = 0.45, kLongestLegs = 1.4;  // metres
+  const Eigen::Matrix3Xd at = JointPositions(skeleton, RestPose(skeleton));
+  const Eigen::Vector3d across = at.col(skeleton.left_hip) - at.col(skeleton.right_hip);
+  const Eigen::Vector3d trunk = at.col(skeleton.left_shoulder) + at.col(skeleton.right_shoulder) -
+                                at.col(skeleton.left_hip) - at.col(skeleton.right_hip);
+  double legs = 0;
+  for (const Leg& leg : Leg::Of(skeleton)) {
+    legs += ((at.col(leg.knee) - at.col(leg.hip)).norm() +
+             (at.col(leg.ankle) - at.col(leg.knee)).norm()) /
+            2;
+  }
+  return across.x() > kUpright * across.norm() && trunk.y() > kUpright * trunk.norm() &&
+         legs > kShortestLegs && legs < kLongestLegs;
 }
 
 }  // namespace
@@ -52,7 +73,7 @@ std::optional<Skeleton> OwnSkeleton(const std::vector<std::string>& names,
   } catch (const Error&) {
     return std::nullopt;
   }
-  return skeleton;
+  return StandsAsOurs(skeleton) ? std::optional(skeleton) : std::nullopt;
 }
 
 }  // namespace choreo

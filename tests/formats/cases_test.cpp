@@ -313,6 +313,19 @@ TEST_F(CasesTest, ZUpStandsAndIsSaid) {
   const Read read = ReadFile("z.bvh");
   EXPECT_TRUE(read.Says("taken as z up, not y")) << Said(read);
   EXPECT_LT(WorstJoint(base, read.motion), 0.01);
+  // One who lies for a while stands as her rest pose does.
+  const RigTurn falls = [](const std::string& bone, int frame) -> Eigen::Matrix3d {
+    if (bone == "pelvis" && frame < 6) return About(1, 0, 0, 90);
+    return Expressive(bone, frame);
+  };
+  WriteBvh(folder_ / "falls.bvh", MakeBvh({.turn = falls, .world = z_up}));
+  const Read fallen = ReadFile("falls.bvh");
+  EXPECT_TRUE(fallen.Says("as its rest pose stands so")) << Said(fallen);
+  EXPECT_LT(Compare(fallen.motion, falls).turns, kOpen);
+  // Our names do not make a rig ours.
+  const RigNames ours = [](const std::string& bone) { return bone == "pelvis" ? "root" : bone; };
+  WriteBvh(folder_ / "root.bvh", MakeBvh({.names = ours, .turn = Expressive, .world = z_up}));
+  EXPECT_LT(Compare(ReadFile("root.bvh").motion, Expressive).turns, kOpen);
   const Read told = ReadFile("z.bvh", {.up = "z"});
   EXPECT_TRUE(told.notes.empty()) << Said(told);
   EXPECT_LT(WorstJoint(base, told.motion), 0.01);
@@ -488,9 +501,26 @@ TEST_F(CasesTest, AnAnimationIsChosen) {
   EXPECT_LT(Compare(ReadFile("a.glb", {.animation = "dance"}).motion, Expressive).turns, kOpen);
   EXPECT_LT(Compare(ReadFile("a.glb", {.animation = "1"}).motion, Expressive).turns, kOpen);
   EXPECT_LT(Compare(ReadFile("a.glb").motion, Walk).turns, kOpen);
+  // A pose that another animation holds is no dance.
+  GlbRigs posed;
+  const int posed_body = posed.AddBody(NamesOf(kHumanIkRig));
+  posed.AddAnimation(
+      "T", posed_body, [](const auto&, int) { return About(0, 1, 0, 0); }, 1);
+  posed.AddAnimation("dance", posed_body, Expressive, 20);
+  WriteFile(folder_ / "b.glb", posed.Bytes());
+  EXPECT_LT(Compare(ReadFile("b.glb").motion, Expressive).turns, kOpen);
   ExpectError(ErrorCode::kInvalidArgument,
               "--animation: \"jump\" is none of its 2 animations, \"walk\", \"dance\"",
               [&] { ReadFile("a.glb", {.animation = "jump"}); });
+}
+
+TEST_F(CasesTest, StepsHoldTheKeyOfTheirFrame) {
+  GlbRigs glb;
+  const int body = glb.AddBody(NamesOf(kHumanIkRig));
+  glb.AddAnimation("dance", body, Walk, 30);
+  for (auto& sampler : glb.document["animations"][0]["samplers"]) sampler["interpolation"] = "STEP";
+  const Read read = ReadBytes("a.glb", glb.Bytes());
+  EXPECT_LT(Compare(read.motion, Walk).limbs, 0.1);
 }
 
 TEST_F(CasesTest, CubicSplinesAndCompressedAnimations) {
