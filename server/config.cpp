@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <string_view>
 
 #include "model/core/error.h"
@@ -183,28 +184,27 @@ std::vector<std::filesystem::path> ShippedCheckpoints(const std::vector<std::str
   std::string looked;
   for (const auto& folder : {program / "../share/choreo/checkpoints",
                              std::filesystem::path(CHOREO_SOURCE_DIR) / "model/checkpoints"}) {
-    const auto path_of = [&](std::string_view name) {
-      return (folder / name).lexically_normal() += ".safetensors";
-    };
-    std::string there;
+    std::map<std::string, std::filesystem::path> ship;
+    std::vector<std::filesystem::path> found;
+    std::string known;
     for (const std::string_view name : kShippedModels) {
-      if (std::filesystem::is_regular_file(path_of(name)))
-        there += (there.empty() ? "" : ", ") + std::string(name);
+      const std::filesystem::path path = (folder / name).lexically_normal() += ".safetensors";
+      if (!std::filesystem::is_regular_file(path)) continue;
+      known += (known.empty() ? "" : ", ") + std::string(name);
+      ship.emplace(name, path);
+      found.push_back(path);
     }
     looked += "\n  " + folder.lexically_normal().string();
-    if (there.empty()) continue;
-    std::vector<std::filesystem::path> found;
+    if (found.empty()) continue;
+    if (names.empty()) return found;
+    found.clear();
     for (const std::string& name : names) {
-      if (std::ranges::find(kShippedModels, name) == std::end(kShippedModels) ||
-          !std::filesystem::is_regular_file(path_of(name)))
-        throw Error(ErrorCode::kNotFound, "--model", '"' + name + "\" does not ship, but " + there);
-      found.push_back(path_of(name));
+      const auto path = ship.find(name);
+      if (path == ship.end())
+        throw Error(ErrorCode::kNotFound, "--model", '"' + name + "\" does not ship, but " + known);
+      found.push_back(path->second);
     }
-    if (!names.empty()) return found;
-    for (const std::string_view name : kEverydayModels) {
-      if (std::filesystem::is_regular_file(path_of(name))) found.push_back(path_of(name));
-    }
-    if (!found.empty()) return found;
+    return found;
   }
   throw Error(ErrorCode::kNotFound, "--checkpoint", "none given, and none found in" + looked);
 }

@@ -63,10 +63,12 @@ client::Options ServerOptions::ForClient() const {
   return options;
 }
 
-Connection::Connection(const ServerOptions& options, const std::string& model) {
+Connection::Connection(const ServerOptions& options, const std::optional<std::string>& model) {
   client::Options client_options = options.ForClient();
   if (options.addresses.empty()) {
-    own_ = LocalServer::Start(model);
+    own_ = LocalServer::Start(!model           ? std::string()
+                              : model->empty() ? std::string(kShippedModels[0])
+                                               : *model);
     client_options.addresses = {own_->address()};
     // These are for others' servers, and may come from the environment.
     client_options.tls = false;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,11 @@ struct ServerOptions {
   client::Options ForClient() const;
 };
 
-/// The server that was named, or else one of our own for as long as this lives, which serves
-/// `model` alone, if that is not empty.
+/// The server that was named, or else one of our own for as long as this lives. That one serves
+/// `model` alone ("": the default), so that it loads no other; none: all that ship.
 class Connection {
  public:
-  explicit Connection(const ServerOptions& options, const std::string& model = "");
+  explicit Connection(const ServerOptions& options, const std::optional<std::string>& model = {});
 
   const client::Client& client() const { return *client_; }
   const client::ServerDescription& server() const { return server_; }

@@ -75,6 +75,20 @@ TEST_F(StartTest, AFileThatIsNone) {
   ExpectRefused({"not a usable safetensors file"});
 }
 
+TEST_F(StartTest, OneThatShipsIsServedAloneByItsName) {
+  const cli::LocalServer server(CHOREOD_PROGRAM, "127.0.0.1:0", "free");
+  const auto models = client::Client({.addresses = {server.address()}}).GetServerInfo().models;
+  ASSERT_EQ(models.size(), 1U);
+  EXPECT_EQ(models[0].name, "free");
+  const Outcome other = Shell("'" CHOREOD_PROGRAM "' --listen 127.0.0.1:0 --model nosuch");
+  EXPECT_EQ(other.code, 1);
+  EXPECT_THAT(other.said, testing::HasSubstr("\"nosuch\" does not ship, but default, free"));
+  const Outcome both =
+      Shell("'" CHOREOD_PROGRAM "' --model free --checkpoint '" + path_.string() + "'");
+  EXPECT_EQ(both.code, 2);
+  EXPECT_THAT(both.said, testing::HasSubstr("--model: names one that ships"));
+}
+
 // By the time that it listens it has loaded.
 TEST_F(StartTest, WhatAModelDoesNotHeedIsSaid) {
   const Outcome outcome = Shell("'" CHOREOD_PROGRAM
