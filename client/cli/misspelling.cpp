@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace choreo::cli {
@@ -36,26 +37,50 @@ std::optional<size_t> Distance(const std::string& word, const std::string& known
   return edits;
 }
 
+/// The nearest of what a word may have meant; empty: none is near.
+class Nearest {
+ public:
+  explicit Nearest(std::string word) : word_(std::move(word)) {}
+  void Offer(const std::string& known) {
+    const std::optional<size_t> distance = Distance(word_, known);
+    if (!distance || (least_ && *distance >= *least_)) return;
+    least_ = distance;
+    nearest_ = known;
+  }
+  const std::string& nearest() const { return nearest_; }
+
+ private:
+  std::string word_, nearest_;
+  std::optional<size_t> least_;
+};
+
+std::string DescribeCommand(const CLI::App& program, const std::string& word) {
+  Nearest command(word);
+  for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; }))
+    command.Offer(known->get_name());
+  return word + " is no command; " +
+         (command.nearest().empty() ? "see --help" : "did you mean " + command.nearest() + "?");
+}
+
 }  // namespace
 
 std::string DescribeMisspelling(const CLI::App& program) {
+  if (program.get_subcommands().empty()) {
+    for (const std::string& word : program.remaining())
+      if (!word.starts_with("-")) return DescribeCommand(program, word);
+  }
   for (const CLI::App* command : program.get_subcommands()) {
     for (const std::string& word : command->remaining()) {
       if (!word.starts_with("--")) continue;
       const std::string name = word.substr(0, word.find('='));
-      std::string nearest;
-      std::optional<size_t> least;
-      for (const CLI::Option* option : command->get_options()) {
-        if (option->get_group().empty()) continue;  // hidden
-        for (const std::string& known : option->get_lnames()) {
-          const std::optional<size_t> distance = Distance(name.substr(2), known);
-          if (!distance || (least && *distance >= *least)) continue;
-          least = distance;
-          nearest = "--" + known;
-        }
+      Nearest option(name.substr(2));
+      for (const CLI::Option* known : command->get_options()) {
+        if (known->get_group().empty()) continue;  // hidden
+        for (const std::string& long_name : known->get_lnames()) option.Offer(long_name);
       }
-      if (nearest.empty()) continue;
-      return name + " is no option of " + command->get_name() + "; did you mean " + nearest + "?";
+      if (option.nearest().empty()) continue;
+      return name + " is no option of " + command->get_name() + "; did you mean --" +
+             option.nearest() + "?";
     }
   }
   return "";

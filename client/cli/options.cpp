@@ -88,9 +88,14 @@ void AddModel(CLI::App& command, std::string& model) {
 }
 
 void AddStyle(CLI::App& command, std::string& style) {
-  command.add_option("--style", style,
-                     "How to dance, as happy or tired: a style that `choreo info` lists. Default: "
-                     "as it comes.");
+  command
+      .add_option("--style", style,
+                  "How to dance, as happy or tired: a style that `choreo info` lists. Default: "
+                  "as it comes.")
+      ->check([](const std::string& name) {
+        return name.empty() ? std::string("is empty; leave it out for whatever comes")
+                            : std::string();
+      });
 }
 
 Error AsTyped(const Error& error) {

@@ -116,17 +116,20 @@ void AddRenderCommand(CLI::App& program) {
       ->check(WholeNumberFrom(1, kMaxSheetColumns))
       ->capture_default_str();
   command->add_option("--title", options->sheet.title, "Heading; default: the file's name.");
-  command->add_option("--video", options->video,
-                      "Video to write, an MP4 file; the program ffmpeg makes it.");
+  CLI::Option* video = command->add_option(
+      "--video", options->video, "Video to write, an MP4 file; the program ffmpeg makes it.");
   command
       ->add_option("--song", options->film.format.song,
                    "The video's music: begins with the first frame, ends with the last.")
       ->check(CLI::ExistingFile);
   AddSongStart(*command, options->film.format.song_start_s);
   command->add_option("--fps", options->film.format.fps, "Frames a second of the video.")
+      ->needs(video)
       ->check(NumberFrom(kMinVideoFps, kMaxVideoFps))
       ->capture_default_str();
-  command->add_option("--size", options->size, "Of the video, pixels.")->capture_default_str();
+  command->add_option("--size", options->size, "Of the video, pixels.")
+      ->needs(video)
+      ->capture_default_str();
   command->callback([options, command] {
     CheckSongStart(*command, options->film.format.song.string());
     Run(*options);

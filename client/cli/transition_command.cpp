@@ -140,8 +140,10 @@ void AddTransitionCommand(CLI::App& program) {
                    "info`).")
       ->check(WholeNumberFrom(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
-  command->add_option("--song", options->song, "Music to move to.")->check(CLI::ExistingFile);
+  CLI::Option* song =
+      command->add_option("--song", options->song, "Music to move to.")->check(SongFile());
   command->add_option("--at", options->at_s, "Second of the song at which it begins.")
+      ->needs(song)
       ->check(TimeInSeconds())
       ->capture_default_str();
   command

@@ -233,6 +233,14 @@ TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("swim").code, 2);
   EXPECT_EQ(Choreo("dance").code, 2);
   EXPECT_EQ(Choreo("dance /absent.ogg").code, 2);
+  EXPECT_THAT(Choreo("swim").said, HasSubstr("swim is no command; see --help"));
+  EXPECT_THAT(Choreo("danse song.ogg").said, HasSubstr("danse is no command; did you mean dance?"));
+  // What would change nothing is not ignored without a word.
+  EXPECT_THAT(Choreo("transition --from groove --to kick -o a.npz --at 3").said,
+              HasSubstr("--at requires --song"));
+  EXPECT_THAT(Choreo("render /dev/null --out a.png --size 64x64").said,
+              HasSubstr("--size requires --video"));
+  EXPECT_THAT(Choreo("dance --style ''").said, HasSubstr("--style: is empty"));
   const Outcome misspelt = Choreo("dance --sead 3");
   EXPECT_EQ(misspelt.code, 2);
   EXPECT_THAT(misspelt.said, HasSubstr("--sead is no option of dance; did you mean --seed?"));
