@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FIGURES = ROOT / "docs/figures"
-PAGES = ("docs/results.md",)
+PAGES = ("docs/results.md", "docs/weight.md")
 WANTED = json.loads((FIGURES / "wanted.json").read_text())
 
 

@@ -146,6 +146,7 @@ class TorchFlowNetwork : public FlowNetwork {
 };
 
 constexpr const char* kFormat = "choreo-continuous-flow-8";
+constexpr const char* kTurns = "turn_prior";
 
 }  // namespace
 
@@ -164,6 +165,7 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   velocity_ = register_buffer("velocity_spread", torch::ones({dimensions}));
   energy_ = register_buffer(
       "energy_prior", torch::zeros({std::ssize(EnergyPrior(config.styles.size()).ToNumbers())}));
+  turns_ = register_buffer(kTurns, torch::zeros({TurnPrior::kInputs}));
   const int64_t features =
       kFramesAToken * TokenFrameWidth(static_cast<int>(dimensions), FrameFeatures());
   embed_ = register_module("embed", torch::nn::Linear(features, width));
@@ -248,6 +250,11 @@ void ContinuousFlowImpl::SetEnergy(const EnergyPrior& energy) {
   energy_.copy_(torch::tensor(energy.ToNumbers()));
 }
 
+void ContinuousFlowImpl::SetTurns(const TurnPrior& turns) {
+  torch::NoGradGuard no_grad;
+  turns_.copy_(torch::tensor(std::vector<double>(turns.weights.begin(), turns.weights.end())));
+}
+
 FlowModelParts ContinuousFlowImpl::Parts() const {
   const Eigen::MatrixXd numbers = ToEigen(powers_);
   VariancePowers powers{.surprise = numbers(0),
@@ -271,9 +278,12 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
   EnergyPrior energy(config_.styles.size());
   const Eigen::MatrixXd measured = ToEigen(energy_);
   energy.SetNumbers({measured.data(), static_cast<size_t>(measured.size())});
-  return {skeleton_, config_,
-          MotionPrior(ToEigen(covariance_), std::move(powers), std::move(usual)), ToEigen(mixing_),
-          energy};
+  return {skeleton_,
+          config_,
+          MotionPrior(ToEigen(covariance_), std::move(powers), std::move(usual)),
+          ToEigen(mixing_),
+          energy,
+          TurnPrior{ToEigen(turns_)}};
 }
 
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model, torch::Device device) {
@@ -286,8 +296,12 @@ bool HoldsContinuousFlow(const Safetensors& content) {
 }
 
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
+  // One of before does not know how dancers turn.
+  Safetensors whole = content;
+  whole.tensors.try_emplace(
+      kTurns, NamedTensor{{TurnPrior::kInputs}, std::vector<float>(TurnPrior::kInputs)});
   auto checkpoint =
-      TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat), content);
+      TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat), whole);
   checkpoint.model->config().Validate(name + ": config");
   return checkpoint;
 }

@@ -38,6 +38,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
                 const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread,
                 const UsualPose& usual);
   void SetEnergy(const EnergyPrior& energy);
+  void SetTurns(const TurnPrior& turns);
   /// What sampling needs besides the network.
   FlowModelParts Parts() const;
 
@@ -49,7 +50,8 @@ class ContinuousFlowImpl : public torch::nn::Module {
 
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
-  torch::Tensor covariance_, powers_, usual_, usual_variance_, mixing_, spread_, velocity_, energy_;
+  torch::Tensor covariance_, powers_, usual_, usual_variance_, mixing_, spread_, velocity_, energy_,
+      turns_;
   torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
       condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;

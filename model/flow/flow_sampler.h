@@ -8,6 +8,7 @@
 
 #include "model/flow/energy_prior.h"
 #include "model/flow/flow_window.h"
+#include "model/flow/turn_prior.h"
 #include "model/flow/window_features.h"
 
 namespace choreo {
@@ -39,6 +40,7 @@ struct FlowModelParts {
   Eigen::MatrixXd mixing;  ///< [dimensions, dimensions] lower Cholesky factor of the noise's
                            ///< correlation over dimensions
   EnergyPrior energy = EnergyPrior();
+  TurnPrior turns = {};
 };
 
 /// Farther beyond the sampled way nobody dances.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "model/core/random.h"
 #include "model/motion/canonical.h"
 
 namespace choreo {
@@ -13,7 +14,13 @@ TransitionSampler::TransitionSampler(const FlowModelParts& model, const FlowNetw
       request_(std::move(request)),
       noise_(noise),
       windows_((request_.frames + model.config.window_frames - 1) / model.config.window_frames),
-      emitted_(request_.history) {}
+      emitted_(request_.history) {
+  if (request_.turning) return;
+  // Behind the numbers that the first frame is made of, and those of its energy.
+  std::vector<float> normal(static_cast<size_t>(model.prior.dimensions() + kBodyParts + 1));
+  FillNormal(noise.seed, noise.candidate, noise.first_frame, normal);
+  request_.turning = model.turns.Sample(model.skeleton, request_, normal.back(), noise.temperature);
+}
 
 bool TransitionSampler::Continue() {
   if (!window_) BeginWindow();

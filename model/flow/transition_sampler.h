@@ -13,7 +13,7 @@ namespace choreo {
 class TransitionSampler {
  public:
   /// `request` is of the whole transition (frames == to_key where there is a key); at least a
-  /// frame.
+  /// frame. Which way round to turn to the key the model's TurnPrior says, unless the request does.
   TransitionSampler(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
                     const FlowNoise& noise);
 

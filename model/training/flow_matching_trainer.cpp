@@ -20,7 +20,7 @@
 namespace choreo {
 namespace {
 
-constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48;
+constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 120;
 constexpr int kMatchingValidationWindows = 24;
 constexpr double kAverage = 0.999;                                  // of the weights, a step
 constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
@@ -55,9 +55,10 @@ struct Liveness {
 // begins at zero.
 void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl& model,
                 Safetensors* weights) {
+  const std::vector<std::string>& styles = model.config().styles;
+  if (styles == before) return;
   // Is measured anew.
   ExportTensor("energy_prior", model.named_buffers()["energy_prior"], weights);
-  const std::vector<std::string>& styles = model.config().styles;
   const std::string name = "condition_in.weight";  // its inputs end with style, then time
   const torch::Tensor to = torch::zeros_like(model.named_parameters()[name]);
   NamedTensor& held = weights->tensors.at(name);
@@ -90,6 +91,8 @@ class FlowMatchingRun : public TrainingRun {
     if (!options.from.empty()) {
       const auto base = ParseContinuousFlow(ReadSafetensors(options.from), options.from.string());
       StartFrom(base);
+      if (options.keep_statistics && base.model->config().styles != config.styles)
+        throw InvalidArgument("--keep-statistics", "the recordings have other styles than --from");
       config.median_factors = base.model->config().median_factors;
       model_ = ContinuousFlow(config, train_.skeleton());
       Safetensors weights;
@@ -107,7 +110,11 @@ class FlowMatchingRun : public TrainingRun {
  protected:
   // What a run that is resumed has in its state.
   void Prepare() override {
-    Measure();
+    if (!options().keep_statistics) {
+      Measure();
+    } else if (!model_->Parts().turns.known()) {
+      model_->SetTurns(MeasureTurns(train_.skeleton(), KeyedRequests()));
+    }
     matching_ = std::make_unique<FlowMatching>(model_);
     Copy(1);
   }
@@ -259,6 +266,21 @@ class FlowMatchingRun : public TrainingRun {
         std::ranges::move(batch.requests, std::back_inserter(of_all_lengths));
     }
     model_->SetEnergy(MeasureEnergy(model_->Parts(), of_all_lengths));
+    model_->SetTurns(MeasureTurns(train_.skeleton(), KeyedRequests()));
+  }
+
+  // How dancers turn is told by many, as few turn far.
+  std::vector<WindowRequest> KeyedRequests() const {
+    std::vector<WindowRequest> requests;
+    for (uint32_t i = 0; i < kTurnBatches; ++i) {
+      Random random(options().seed + 4, i + 1);
+      const int frames = std::min<int>(kLengths[random.Integer(0, std::size(kLengths))],
+                                       train_.Longest(model_->config().history_frames));
+      WindowBatch batch = train_.Draw(model_->Parts(), kStatisticsWindows, frames, frames,
+                                      {.mirror = 0.5, .tempo = options().tempo}, &random);
+      std::ranges::move(batch.requests, std::back_inserter(requests));
+    }
+    return requests;
   }
 
   std::vector<WindowBatch> StatisticsBatches(double energy, int most = 60) const {

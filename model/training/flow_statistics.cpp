@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/motion/rotation.h"
+
 namespace choreo {
 
 using torch::Tensor;
@@ -17,6 +19,8 @@ constexpr double kRare = 0.025;         // share of windows at either end that c
 constexpr size_t kLeastWindows = 16;    // that tell how energy counts
 constexpr double kUsualStyle = 20;      // windows without difference that each style begins with
 constexpr size_t kLeastEnergies = 100;  // windows that tell how lively the next are
+constexpr size_t kLeastTurns = 100;     // windows that tell which way round dancers turn
+constexpr int kNewtonRounds = 12;
 constexpr double kStill = 1e-3;  // metres or radians: what spreads less is not in the recordings
 
 // A window whose energy is told.
@@ -154,6 +158,35 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
   }
   for (size_t i = 0; i < of_style.size(); ++i) measured.styles.col(i) /= of_style[i];
   return measured;
+}
+
+TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests) {
+  using Square = Eigen::Matrix<double, TurnPrior::kInputs, TurnPrior::kInputs>;
+  struct Turn {
+    TurnPrior::Inputs inputs;
+    bool is_other;
+  };
+  std::vector<Turn> turns;
+  for (const WindowRequest& request : requests) {
+    const auto inputs = TurnPrior::Describe(skeleton, request);
+    if (!inputs || !request.turning) continue;
+    const Eigen::Vector3d shorter =
+        RotationDifference(request.history.back().rotations.col(0), request.key->rotations.col(0));
+    turns.push_back({*inputs, NearerWayRound(shorter, *request.turning) != shorter});
+  }
+  // Logistic regression by Newton's method, a little towards zero.
+  TurnPrior prior;
+  for (int round = 0; round < kNewtonRounds && turns.size() >= kLeastTurns; ++round) {
+    Square curvature = Square::Identity();
+    TurnPrior::Inputs slope = -prior.weights;
+    for (const Turn& turn : turns) {
+      const double chance = prior.ChanceOfOther(turn.inputs);
+      slope += ((turn.is_other ? 1 : 0) - chance) * turn.inputs;
+      curvature += chance * (1 - chance) * turn.inputs * turn.inputs.transpose();
+    }
+    prior.weights += curvature.ldlt().solve(slope);
+  }
+  return prior;
 }
 
 WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {

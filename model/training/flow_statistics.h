@@ -17,6 +17,10 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
 /// How lively real windows are, of which all body parts' energy is told, by what is known of them.
 EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests);
 
+/// Which way round real dancers turn to a key, by what is known of the windows: `turning` is
+/// theirs.
+TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests);
+
 /// Of real windows: the correlation of white coordinates over dimensions, its Cholesky factor; and
 /// the spread of displacements [dimensions].
 struct WindowStatistics {

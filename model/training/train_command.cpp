@@ -42,6 +42,8 @@ void VisitFixed(auto& options, const auto& visit) {
   visit("--tempo", options.tempo, true,
         "Share of the windows that are danced up to a third faster or slower");
   visit("--seed", options.seed, true, "Same seed, data and machine: same checkpoint");
+  visit("--keep-statistics", options.keep_statistics, continuous,
+        "With --from: what that measured of its data stays, and what it does not know is measured");
   visit("--no-keys", options.flow.no_keys, flow, "Ablation: music alone");
   visit("--no-key-loss", options.no_key_loss, !continuous, "Ablation: no key pose loss");
   visit("--no-time-embedding", options.flow.no_time_embedding, flow, "Ablation: no time embedding");
@@ -121,6 +123,7 @@ void TrainOptions::Validate() const {
   require(!IsControllers() || controllers.residual || !controllers.no_absolute_position ||
               !controllers.no_relative_position,
           "--no-relative-position", "with --no-absolute-position", "alone");
+  require(!keep_statistics || !from.empty(), "--keep-statistics", "alone", "given with --from");
   require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
   require(stop_after >= 0, "--stop-after", std::to_string(stop_after), "at least 0");
   require(rate >= 0 && rate <= 1, "--rate", std::to_string(rate), "0 to 1");

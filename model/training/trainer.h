@@ -49,6 +49,9 @@ struct TrainOptions {
   std::filesystem::path from;  ///< checkpoint whose network it starts from; empty: from scratch
   std::filesystem::path run;   ///< folder for state, curves and the finished checkpoint
   std::string device = "cpu";  ///< "cpu" or "cuda:N"
+  /// With `from`, of continuous flows: what it measured of its data stays; what it does not know is
+  /// measured.
+  bool keep_statistics = false;
   bool resume = false;         ///< go on from the run's state if there is one
   int64_t report_every = 250;  ///< steps between validation, curves and saved state
   int64_t stop_after = 0;      ///< leave after this many steps of the run, resumable; 0: to the end

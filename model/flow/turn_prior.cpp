@@ -1,0 +1,103 @@
+#include "model/flow/turn_prior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/core/grid.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kUpright = 0.95;  // cosine of what a turn's axis is off the vertical at most
+// Units of the inputs, and where more counts as so much.
+constexpr double kAheadFrames = 15;                // that a dancer is seen to go on turning
+constexpr double kFarthest = 3;                    // metres in two seconds
+constexpr double kUsualSpeed = 0.02;               // of joints, metres a frame
+constexpr double kSlowest = 0.05;                  // of that
+constexpr size_t kTurnFrames = 2, kWayFrames = 5;  // of the history
+
+// The way from the last history pose to the key, as its tangent space has it.
+Eigen::Vector3d ShorterTurn(const WindowRequest& request) {
+  return RotationDifference(request.history.back().rotations.col(0), request.key->rotations.col(0));
+}
+
+// How far the chest is turned against the hips, about the vertical, radians; 0 of a body without.
+double TwistOf(const Skeleton& skeleton, const Pose& pose) {
+  const int chest = skeleton.Find("spine3");
+  if (chest < 0) return 0;
+  const JointPlacement at = ForwardKinematics(skeleton, pose);
+  return std::remainder(
+      Heading(at.rotations[static_cast<size_t>(chest)]) - Heading(at.rotations[0]),
+      2 * std::numbers::pi);
+}
+
+// The logarithm of how fast joints are, of what is usual.
+double LivelinessOf(const Skeleton& skeleton, const std::vector<Pose>& history) {
+  double sum = 0;
+  for (size_t i = 1; i < history.size(); ++i) {
+    sum += (JointPositions(skeleton, history[i]) - JointPositions(skeleton, history[i - 1]))
+               .colwise()
+               .norm()
+               .mean();
+  }
+  const auto steps = static_cast<double>(std::max<size_t>(2, history.size()) - 1);
+  return std::log(std::max(kSlowest, sum / steps / kUsualSpeed));
+}
+
+}  // namespace
+
+std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
+                                                     const WindowRequest& request) {
+  if (!request.key || !request.mask.Asks(0) || request.to_key < 1) return std::nullopt;
+  const Eigen::Vector3d shorter = ShorterTurn(request), other = OtherWayRound(shorter);
+  if (shorter == other) return std::nullopt;  // next to no turn
+  const std::vector<Pose>& history = request.history;
+  const Pose &last = history.back(), &key = *request.key;
+  const Eigen::Vector3d up = ExpMap(last.rotations.col(0)).transpose() * Eigen::Vector3d::UnitY();
+  // About another axis the longer way is a somersault.
+  if (std::abs(shorter.dot(up)) < kUpright * shorter.norm()) return std::nullopt;
+  const double longer = std::log2(request.to_key / double{kUsualFrames});
+  const auto before = [&](size_t frames) -> const Pose& {
+    return history[history.size() - 1 - std::min(frames, history.size() - 1)];
+  };
+  const double turns =
+      RotationDifference(before(kTurnFrames).rotations.col(0), last.rotations.col(0)).dot(up);
+  const double ahead = std::clamp(turns / kTurnFrames * kAheadFrames / std::numbers::pi, -1.0, 1.0);
+  // The canonical frame is the last pose's: its x leads to her side.
+  const double goes = last.root_position.x() - before(kWayFrames).root_position.x();
+  const Eigen::Vector3d way = request.mask.root_position
+                                  ? Eigen::Vector3d((key.root_position - last.root_position) *
+                                                    kUsualFrames / request.to_key)
+                                  : Eigen::Vector3d::Zero();
+  const double metres = std::min(kFarthest, std::hypot(way.x(), way.z()));
+  const double twist = request.mask.joints.empty() ? TwistOf(skeleton, key) : 0;
+  const double lively = LivelinessOf(skeleton, history);
+  const auto describe = [&](const Eigen::Vector3d& turn) {
+    const double far = turn.norm() / std::numbers::pi, about = turn.dot(up) / std::numbers::pi;
+    Inputs inputs;
+    inputs << far, far * longer, far * metres, far * lively, about * ahead, about * ahead * longer,
+        about * goes, about * std::clamp(way.x(), -kFarthest, kFarthest), about * twist;
+    return inputs;
+  };
+  return describe(other) - describe(shorter);
+}
+
+double TurnPrior::ChanceOfOther(const Inputs& inputs) const {
+  return 1 / (1 + std::exp(-weights.dot(inputs)));
+}
+
+std::optional<Eigen::Vector3d> TurnPrior::Sample(const Skeleton& skeleton,
+                                                 const WindowRequest& request, double normal,
+                                                 double temperature) const {
+  const std::optional<Inputs> inputs = known() ? Describe(skeleton, request) : std::nullopt;
+  if (!inputs) return std::nullopt;
+  // Above the normal number's share of all numbers: at 0 that is half of them.
+  const double drawn = 0.5 * std::erfc(-std::min(temperature, 1.0) * normal / std::numbers::sqrt2);
+  const Eigen::Vector3d shorter = ShorterTurn(request);
+  return ChanceOfOther(*inputs) > drawn ? OtherWayRound(shorter) : shorter;
+}
+
+}  // namespace choreo
