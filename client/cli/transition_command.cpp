@@ -140,10 +140,10 @@ void AddTransitionCommand(CLI::App& program) {
                    "info`).")
       ->check(WholeNumberFrom(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
-  CLI::Option* song =
-      command->add_option("--song", options->song, "Music to move to.")->check(SongFile());
-  command->add_option("--at", options->at_s, "Second of the song at which it begins.")
-      ->needs(song)
+  command->add_option("--song", options->song, "Music to move to.")->check(SongFile());
+  command
+      ->add_option("--at", options->at_s,
+                   "Second of the song, path and factors at which it begins.")
       ->check(TimeInSeconds())
       ->capture_default_str();
   command
