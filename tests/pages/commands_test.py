@@ -124,7 +124,7 @@ class CommandsTest(unittest.TestCase):
             (made / "lafan1").mkdir(exist_ok=True)
             (made / f"lafan1/{take}.bvh").touch()
         numpy.savez(made / "seen.npz", poses=numpy.zeros((1, 72)))
-        for out in (made / "dance.npz", made / "hero.glb"):
+        for out in (made / "dance.npz", made / "hero.glb", made / "walk.bvh"):
             subprocess.run([BIN / "choreo", "dance", made / "song.mp3", "--seconds", "5", "--out", out], check=True, capture_output=True)
 
     @classmethod
