@@ -30,8 +30,10 @@ std::span<const BarPattern> BarPatterns();
 /// become alike. -1: a band in which nothing happens.
 class EvenOnsets {
  public:
+  static constexpr float kLoudest = 8;  ///< a crash counts no more
+
   /// What is louder than `loudest` times the mean counts as so much.
-  explicit EvenOnsets(float loudest = 8) : loudest_(loudest) {}
+  explicit EvenOnsets(float loudest = kLoudest) : loudest_(loudest) {}
 
   std::array<float, Onset::kBands> Even(const Onset& onset);
 

@@ -17,7 +17,7 @@ constexpr double kAlike = 0.9;  // mean of the weaker half over that of the stro
 
 HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
   std::vector<std::array<float, Onset::kBands>> even;
-  // Without a cap: all drums would be alike.
+  // Without a cap, under which all drums are alike: they tell one beat of a bar from another.
   EvenOnsets evened(std::numeric_limits<float>::infinity());
   // As if the music had gone on before: what begins it would else count for much more.
   for (int round = 0; round < kRounds; ++round) {
@@ -42,7 +42,8 @@ bool HalfBeats::AreAlike() const {
   bool any = false;
   for (size_t band = 0; band < Onset::kBands; ++band) {
     std::array<double, 2> sums{};
-    for (size_t i = 0; i < halves_.size(); ++i) sums[i % 2] += halves_[i][band];
+    for (size_t i = 0; i < halves_.size(); ++i)
+      sums[i % 2] += std::min<double>(halves_[i][band], EvenOnsets::kLoudest);
     const auto [weaker, stronger] = std::minmax(sums[0], sums[1]);
     if (weaker < kAlike * stronger) return false;
     any = any || stronger > 0;
