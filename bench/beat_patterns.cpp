@@ -13,8 +13,6 @@
 namespace choreo::bench {
 namespace {
 
-constexpr double kFrameRate = static_cast<double>(kModelSampleRate) / kOnsetHop;
-
 struct Means {
   std::vector<BarPattern::Bands> sums;
   std::vector<double> counts;
@@ -31,7 +29,7 @@ void Count(const MadeSong& song, const BarPattern& pattern, Means* means) {
     const double period = song.beats[i + 1] - song.beats[i];
     for (size_t place = 0; place < pattern.places; ++place) {
       const double second = song.beats[i] + period * pattern.place[place];
-      const auto frame = static_cast<int64_t>(std::lround(second * kFrameRate));
+      const auto frame = static_cast<int64_t>(std::lround(second * kOnsetRate));
       const size_t at = in_bar * BarPattern::kPlaces + place;
       for (int64_t f = frame - 1; f <= frame + 2 && f < std::ssize(even); ++f) {
         for (size_t band = 0; band < Onset::kBands; ++band)

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -23,28 +22,12 @@
 #include "model/audio/made_song.h"
 #include "model/core/grid.h"
 #include "model/dance/music_beats.h"
+#include "model/metrics/song_beats.h"
 
 namespace choreo::bench {
 namespace {
 
-constexpr double kTolerance = 0.07, kLate = 10;  // seconds
-
-double FMeasure(std::vector<double> found, std::vector<double> map, double from = 0,
-                double to = 1e9) {
-  const auto outside = [=](double time) { return time < from || time >= to; };
-  std::erase_if(found, outside);
-  std::erase_if(map, outside);
-  size_t hits = 0;
-  for (size_t i = 0, j = 0; i < found.size() && j < map.size();) {
-    if (std::abs(found[i] - map[j]) <= kTolerance) {
-      ++hits, ++i, ++j;
-    } else {
-      found[i] < map[j] ? ++i : ++j;
-    }
-  }
-  const size_t all = found.size() + map.size();
-  return all == 0 ? 1 : 2.0 * static_cast<double>(hits) / static_cast<double>(all);
-}
+constexpr double kLate = 10;  // seconds
 
 std::vector<double> EverySecond(const std::vector<double>& beats, size_t first) {
   std::vector<double> half;
@@ -55,34 +38,23 @@ std::vector<double> EverySecond(const std::vector<double>& beats, size_t first) 
 /// "" or the octave at which the beats fit.
 std::string Octave(const std::vector<double>& found, const std::vector<double>& map) {
   constexpr double kFits = 0.8;
-  const double plain = FMeasure(found, map);
+  const double plain = BeatFMeasure(found, map);
   for (const size_t first : {0, 1}) {
-    if (FMeasure(found, EverySecond(map, first)) > std::max(kFits, plain)) return "half";
-    if (FMeasure(EverySecond(found, first), map) > std::max(kFits, plain)) return "double";
+    if (BeatFMeasure(found, EverySecond(map, first)) > std::max(kFits, plain)) return "half";
+    if (BeatFMeasure(EverySecond(found, first), map) > std::max(kFits, plain)) return "double";
   }
   return "";
 }
 
-struct Live {
-  std::vector<double> beats;
-  double milliseconds = 0;  // of CPU time a transition
-};
-
-Live Hear(const std::vector<float>& mono) {
+std::vector<double> HearLive(const std::vector<float>& mono) {
   AudioFeed feed(kModelSampleRate, 1, 0);
   feed.Push(mono, 0, [] {});
   MusicBeats music(30, {}, std::nullopt, &feed);
-  Live live;
-  int transitions = 0;
-  const std::clock_t begin = std::clock();
-  for (int64_t from = 0; from + kUsualFrames <= feed.ready(); from += kUsualFrames, ++transitions) {
+  for (int64_t from = 0; from + kUsualFrames <= feed.ready(); from += kUsualFrames) {
     music.Around(from, from + kUsualFrames);
     for (int64_t frame = from; frame < from + kUsualFrames; ++frame) music.Of(frame);
   }
-  live.beats = music.told();
-  live.milliseconds = 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC /
-                      std::max(1, transitions);
-  return live;
+  return music.told();
 }
 
 std::vector<double> ReadSeconds(const std::filesystem::path& path) {
@@ -109,25 +81,25 @@ void PrintHead() {
 double Judge(const Judged& song) {
   const BeatTrack track = FindBeats(song.mono);
   const std::vector<double> found = track.Seconds();
-  const Live live = Hear(song.mono);
+  const std::vector<double> live = HearLive(song.mono);
   const std::string octave = Octave(found, song.beats);
-  const double f = octave.empty() ? FMeasure(found, song.beats) : 0.5;
+  const double f = octave.empty() ? BeatFMeasure(found, song.beats) : 0.5;
   const auto number = [](std::optional<double> value) {
     char text[16] = "     –";
     if (value) std::snprintf(text, sizeof text, "%6.2f", *value);
     return std::string(text);
   };
   std::optional<double> down;
-  if (!song.downbeats.empty()) down = FMeasure(track.DownbeatSeconds(), song.downbeats);
+  if (!song.downbeats.empty()) down = BeatFMeasure(track.DownbeatSeconds(), song.downbeats);
   const double tempo = TempoOf(song.beats);
   std::printf("%-34s %6.2f %6.2f %s %s %6.1f %6.1f %6.2f %6.2f  %s", song.name.c_str(), f,
-              FMeasure(found, song.beats, kLate), number(song.librosa).c_str(),
+              BeatFMeasure(found, song.beats, kLate), number(song.librosa).c_str(),
               number(down).c_str(), tempo, 100 * (track.tempo_bpm / tempo - 1),
-              FMeasure(live.beats, song.beats), FMeasure(live.beats, song.beats, kLate),
+              BeatFMeasure(live, song.beats), BeatFMeasure(live, song.beats, kLate),
               octave.c_str());
   for (const SongPlan::Span& span : song.spans)
     std::printf(" %.0f-%.0f s: %.2f", span.begin, span.end,
-                FMeasure(found, song.beats, span.begin, span.end));
+                BeatFMeasure(found, song.beats, span.begin, span.end));
   std::printf("\n");
   std::fflush(stdout);
   return f;
@@ -142,7 +114,7 @@ void JudgeFiles(const std::vector<std::string>& songs, const std::string& libros
     song.mono = ToModelRate(DecodeAudioFile(path));
     song.beats = ReadSeconds(std::filesystem::path(path).replace_extension(".beats"));
     if (golden.contains(song.name))
-      song.librosa = FMeasure(golden[song.name].get<std::vector<double>>(), song.beats);
+      song.librosa = BeatFMeasure(golden[song.name].get<std::vector<double>>(), song.beats);
     Judge(song);
   }
 }

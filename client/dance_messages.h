@@ -101,8 +101,8 @@ struct Report {
   std::optional<double> beat_hit_rate = {};
   double skate_ratio = 0;
   std::optional<double> support = {};  ///< share of the frames in which something bears the body
-  double max_key_acceleration = 0;  ///< of a joint, within two frames of any key, m/s^2
-  double p95_acceleration = 0;      ///< of the frames' largest, m/s^2: to compare it with
+  double max_key_acceleration = 0;     ///< of a joint, within two frames of any key, m/s^2
+  double p95_acceleration = 0;         ///< of the frames' largest, m/s^2: to compare it with
   /// By BodyPart, metres a frame of the model, means over the frames of which velocity factors
   /// asked something; empty without.
   std::vector<PartSpeed> part_speeds = {};

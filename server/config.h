@@ -18,17 +18,17 @@ struct ServerConfig {
   /// One model each; the first is the default. Empty: checkpoints that ship.
   std::vector<std::filesystem::path> checkpoints;
   std::vector<std::string> names;  ///< of the checkpoints that ship; empty: all
-  std::filesystem::path models;  ///< a folder of checkpoints instead (ModelFolder); empty: none
-  std::string device = "auto";   ///< auto, cpu, or cuda:N[,N...]
-  std::string engine = "auto";   ///< one of kEngineKindNames
-  int slots = 0;                 ///< transitions in progress at once, for each model; see Slots
-  int max_waiting = 64;          ///< of GenerateTransition that may wait for a slot, for each model
-  int max_streams = 64;          ///< calls in progress at once; those beyond are refused
-  int workers = 0;               ///< of the CPU, an engine each; 0: one for every usable core
-  int threads = 1;               ///< of one matrix product; part of the fingerprint
-  int io_threads = 2;            ///< that decode files, and as many for long pieces of music
-  double drain_seconds = 20;     ///< that streams get to finish after SIGTERM
-  int outbox_kib = 256;          ///< of answers that wait for a slow client before its dance pauses
+  std::filesystem::path models;    ///< a folder of checkpoints instead (ModelFolder); empty: none
+  std::string device = "auto";     ///< auto, cpu, or cuda:N[,N...]
+  std::string engine = "auto";     ///< one of kEngineKindNames
+  int slots = 0;                   ///< transitions in progress at once, for each model; see Slots
+  int max_waiting = 64;       ///< of GenerateTransition that may wait for a slot, for each model
+  int max_streams = 64;       ///< calls in progress at once; those beyond are refused
+  int workers = 0;            ///< of the CPU, an engine each; 0: one for every usable core
+  int threads = 1;            ///< of one matrix product; part of the fingerprint
+  int io_threads = 2;         ///< that decode files, and as many for long pieces of music
+  double drain_seconds = 20;  ///< that streams get to finish after SIGTERM
+  int outbox_kib = 256;       ///< of answers that wait for a slow client before its dance pauses
   int max_file_music_mib = 1024;  ///< of music files that have not come whole, over all calls
   int max_network_mib = 512;  ///< of bytes that come from or go to clients, over all connections
   std::string kernels;        ///< of the packed engine; empty: the fastest of this machine

@@ -96,7 +96,8 @@ std::vector<Server::Engines> LoadAll(const ServerConfig& config, ModelFolder& fo
   const LeaveAtOnce leave;
   if (!config.models.empty()) return folder.Load();
   std::vector<Server::Engines> models;
-  for (const auto& path : config.checkpoints.empty() ? ShippedCheckpoints(config.names) : config.checkpoints) {
+  for (const auto& path :
+       config.checkpoints.empty() ? ShippedCheckpoints(config.names) : config.checkpoints) {
     models.push_back(load(path));
   }
   return models;

@@ -16,9 +16,7 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kFramesPerSecond = static_cast<double>(kModelSampleRate) / kOnsetHop;
-constexpr size_t kMostBeats = size_t{20} * kMaxAudioSeconds;  // as a dance takes
-constexpr double kTempoSlack = 1.06;                          // either way: a semitone
+constexpr double kTempoSlack = 1.06;  // either way: a semitone
 constexpr int kUsualBar = 4, kMostInBar = 16;
 constexpr double kMostSeconds = 1e6;  // of a song that only a part of is danced to
 constexpr std::streamsize kLongestLine = 1000;
@@ -98,7 +96,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
     text = text.substr(0, text.find('#'));
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
     const BeatLine beat = ParseBeat(text, field);
-    if (beat.second - last < 1 / kFramesPerSecond) {
+    if (beat.second - last < 1 / kOnsetRate) {
       throw InvalidArgument(field, InFull(beat.second) + " s does not lie behind the beat before " +
                                        "it, at " + InFull(last) + " s");
     }
@@ -107,7 +105,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
       throw InvalidArgument(field, "is beat " + std::to_string(kMostBeats + 1) + ", the limit is " +
                                        std::to_string(kMostBeats));
     if (beat.second < start) continue;
-    track.frames.push_back(std::llround((beat.second - start) * kFramesPerSecond));
+    track.frames.push_back(std::llround((beat.second - start) * kOnsetRate));
     track.in_bar.push_back(beat.count - 1);
     track.confidence.push_back(1);
     track.beats_in_bar = std::max(track.beats_in_bar, beat.count);
@@ -178,7 +176,7 @@ void AddBeatOptions(CLI::App& command, BeatOptions* options) {
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
   BeatTrack track = options.beats == "auto" ? TrackBeats(onsets, LimitsOf(options))
                                             : ReadBeats(options.beats, start);
-  const double end = static_cast<double>(onsets.size()) / kFramesPerSecond;
+  const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("--downbeat", InFull(*options.downbeat_s) +
                                             " s lies behind the song's end at " +
@@ -201,7 +199,7 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   if (options.half_time) Halve(&track);
   if (options.double_time) Double(&track);
   if (options.downbeat_s) {
-    const auto wanted = std::llround((*options.downbeat_s - start) * kFramesPerSecond);
+    const auto wanted = std::llround((*options.downbeat_s - start) * kOnsetRate);
     const auto nearest = std::ranges::min_element(
         track.frames, {}, [wanted](int64_t frame) { return std::abs(frame - wanted); });
     CountFrom(nearest - track.frames.begin(), &track);

@@ -9,7 +9,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kFramesPerMinute = 60.0 * kModelSampleRate / kOnsetHop;
+constexpr double kFramesPerMinute = 60 * kOnsetRate;
 constexpr double kEvenSeconds = 3;
 constexpr double kNothingDb = 0.02;  // mean rise below which nothing happens
 

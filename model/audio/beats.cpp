@@ -12,8 +12,6 @@
 namespace choreo {
 namespace {
 
-constexpr double kFrameRate = static_cast<double>(kModelSampleRate) / kOnsetHop;  // a second
-
 // What is 60 dB below the loudest of the last 12 s is silence, and so is what 16 bits round to 0.
 constexpr float kSilentBelowDb = 60, kSilentDb = -90;
 constexpr int64_t kLoudFrames = 12 * kModelSampleRate / kOnsetHop;
@@ -22,6 +20,11 @@ constexpr int64_t kShortestFrames = kModelSampleRate / kOnsetHop;  // of music b
 
 constexpr int64_t kConfidenceBeats = 8;  // on either side
 constexpr double kSameTempo = 0.06;      // of the median
+
+// Swung beats that so much less begins on than on straight ones are the offbeats of those.
+constexpr double kLouder = 2;
+// Faster than this hardly anybody taps what has no finer parts.
+constexpr double kFastestTappedBpm = 160;
 
 std::vector<bool> Sounding(std::span<const Onset> onsets) {
   std::vector<bool> sounding(onsets.size());
@@ -64,24 +67,37 @@ bool IsInPause(const std::vector<bool>& sounding, int64_t frame, int period) {
   return true;
 }
 
+/// How much begins, in frames and on beats.
+class OnsetSums {
+ public:
+  static constexpr int64_t kBeatFrames = 4;  // a beat's: one before it to two behind
+
+  explicit OnsetSums(std::span<const Onset> onsets) {
+    for (const float strength : OnsetStrength(onsets)) sums_.push_back(sums_.back() + strength);
+  }
+  double Between(int64_t from, int64_t to) const { return Before(to) - Before(from); }
+  double OnBeat(int64_t frame) const { return Between(frame - 1, frame - 1 + kBeatFrames); }
+
+ private:
+  double Before(int64_t frame) const {
+    return sums_[static_cast<size_t>(std::clamp<int64_t>(frame, 0, std::ssize(sums_) - 1))];
+  }
+
+  std::vector<double> sums_{0};
+};
+
 /// How much more begins on the beats around each than on average.
 std::vector<double> Confidences(std::span<const Onset> onsets, std::span<const int64_t> frames) {
-  constexpr int64_t kNear = 2;
-  std::vector<double> sums{0};  // of strengths
-  for (const float strength : OnsetStrength(onsets)) sums.push_back(sums.back() + strength);
-  const auto sum = [&](int64_t from, int64_t to) {
-    const auto at = [&](int64_t f) { return sums[std::clamp<int64_t>(f, 0, std::ssize(onsets))]; };
-    return at(to) - at(from);
-  };
+  const OnsetSums sums(onsets);
   std::vector<double> confidences;
   for (int64_t i = 0; i < std::ssize(frames); ++i) {
     const int64_t first = std::max<int64_t>(0, i - kConfidenceBeats);
     const int64_t last = std::min<int64_t>(std::ssize(frames) - 1, i + kConfidenceBeats);
     double on = 0;
-    for (int64_t k = first; k < last; ++k)
-      on += sum(frames[static_cast<size_t>(k)] - 1, frames[static_cast<size_t>(k)] + kNear + 1);
+    for (int64_t k = first; k < last; ++k) on += sums.OnBeat(frames[static_cast<size_t>(k)]);
     const int64_t from = frames[static_cast<size_t>(first)], to = frames[static_cast<size_t>(last)];
-    const double even = sum(from, to) * static_cast<double>((last - first) * (kNear + 2)) /
+    const double even = sums.Between(from, to) *
+                        static_cast<double>((last - first) * OnsetSums::kBeatFrames) /
                         static_cast<double>(std::max<int64_t>(1, to - from));
     confidences.push_back(on > even && on > 0 ? 1 - even / on : 0);
   }
@@ -97,21 +113,10 @@ Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> pattern
   return pointer.Path();
 }
 
-/// Swung beats that so much less begins on than on straight ones are the offbeats of those.
-constexpr double kLouder = 2;
-/// Faster than this hardly anybody taps what has no finer parts.
-constexpr double kFastestTappedBpm = 160;
-
 /// How much begins on the beats of a path, on average.
-double Sounds(std::span<const Onset> onsets, const Path& path) {
-  const std::vector<float> strengths = OnsetStrength(onsets);
+double Sounds(const OnsetSums& sums, const Path& path) {
   double sum = 0;
-  for (const BarPointer::Step& step : path) {
-    const auto from =
-        static_cast<size_t>(std::clamp<int64_t>(step.frame - 1, 0, std::ssize(onsets)));
-    const auto to = static_cast<size_t>(std::clamp<int64_t>(step.frame + 3, 0, std::ssize(onsets)));
-    for (size_t f = from; f < to; ++f) sum += strengths[f];
-  }
+  for (const BarPointer::Step& step : path) sum += sums.OnBeat(step.frame);
   return path.empty() ? 0 : sum / static_cast<double>(path.size());
 }
 
@@ -121,7 +126,8 @@ Path PathInFour(std::span<const Onset> onsets, const TempoLimits& limits) {
   Path path = BestPath(onsets, patterns.first(2), limits);
   if (path.empty() || path.back().pattern == 0) return path;
   Path straight = BestPath(onsets, patterns.first(1), limits);
-  return Sounds(onsets, straight) > kLouder * Sounds(onsets, path) ? straight : path;
+  const OnsetSums sums(onsets);
+  return Sounds(sums, straight) > kLouder * Sounds(sums, path) ? straight : path;
 }
 
 /// The best path in the metre of the music.
@@ -131,7 +137,7 @@ Path PathOf(std::span<const Onset> onsets, const TempoLimits& limits) {
   if (path.empty() || path.back().pattern != 0) return path;
   const HalfBeats halves(onsets, path);
   const double fastest = std::min(limits.fastest_bpm, kFastestTappedBpm);
-  if (2 * 60 * kFrameRate / (path[path.size() / 2].period + 0.5) <= fastest && halves.AreAlike())
+  if (2 * 60 * kOnsetRate / (path[path.size() / 2].period + 0.5) <= fastest && halves.AreAlike())
     return Doubled(path);
   const Meter meter = halves.MeterOf();
   if (meter == Meter::kFour) return path;
@@ -149,14 +155,14 @@ int MostFrequent(std::span<const int> values) {
 
 std::vector<double> BeatTrack::Seconds() const {
   std::vector<double> seconds;
-  for (const int64_t frame : frames) seconds.push_back(static_cast<double>(frame) / kFrameRate);
+  for (const int64_t frame : frames) seconds.push_back(static_cast<double>(frame) / kOnsetRate);
   return seconds;
 }
 
 std::vector<double> BeatTrack::DownbeatSeconds() const {
   std::vector<double> seconds;
   for (size_t i = 0; i < frames.size(); ++i) {
-    if (in_bar[i] == 0) seconds.push_back(static_cast<double>(frames[i]) / kFrameRate);
+    if (in_bar[i] == 0) seconds.push_back(static_cast<double>(frames[i]) / kOnsetRate);
   }
   return seconds;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -14,6 +15,8 @@ inline constexpr int kMinSampleRate = 8000;    ///< Hz
 inline constexpr int kMaxSampleRate = 192000;  ///< Hz
 inline constexpr int kMaxChannels = 8;
 inline constexpr int kMaxAudioSeconds = 600;
+/// Beats that may be told with a song: 20 a second.
+inline constexpr size_t kMostBeats = size_t{20} * kMaxAudioSeconds;
 /// Of all channels of a file together: ten minutes of 192 kHz in stereo, or of 48 kHz in 8
 /// channels.
 inline constexpr int64_t kMaxFileSamples = 240'000'000;

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "model/audio/centred_frames.h"
 #include "model/audio/format.h"
-#include "model/core/error.h"
 
 namespace choreo {
 namespace {
@@ -92,21 +92,9 @@ MelBandsDb MelSpectrum::Decibels(std::span<const float> samples) {
 }
 
 std::vector<MelBandsDb> MelSpectrogram(std::span<const float> mono, int hop) {
-  if (mono.empty()) throw InvalidArgument("audio", "no samples");
-  const int64_t size = std::ssize(mono);
-  std::vector<MelBandsDb> frames(static_cast<size_t>(1 + size / hop));
   MelSpectrum spectrum;
-  std::vector<float> window(kFftSize);
-  int64_t start = -kFftSize / 2;
-  for (MelBandsDb& db : frames) {
-    const int64_t from = std::max<int64_t>(start, 0), to = std::min(start + kFftSize, size);
-    std::ranges::fill(window, 0.0f);
-    if (from < to)
-      std::copy(mono.begin() + from, mono.begin() + to, window.begin() + (from - start));
-    db = spectrum.Decibels(window);
-    start += hop;
-  }
-  return frames;
+  return OfCentredFrames(mono, kFftSize, hop,
+                         [&](auto window) { return spectrum.Decibels(window); });
 }
 
 }  // namespace choreo

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/audio/decode.h"
 #include "model/audio/sound_reader.h"
 #include "model/core/error.h"
 
@@ -203,7 +204,7 @@ class StretchReader final : public SoundReader {
       throw InvalidArgument(name_, "changes from " + std::to_string(channels_) + " channels at " +
                                        std::to_string(sample_rate_) + " Hz to " +
                                        std::to_string(channels) + " at " + std::to_string(rate) +
-                                       ": `ffmpeg -i FILE song.wav` makes one of them");
+                                       ": " + kAskFfmpeg + " makes one of them");
     }
     sample_rate_ = static_cast<int>(rate);
     channels_ = channels;

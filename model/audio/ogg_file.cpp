@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/audio/decode.h"
 #include "model/audio/sound_reader.h"
 #include "model/core/error.h"
 
@@ -232,11 +233,10 @@ std::unique_ptr<SoundReader> ReadOgg(const ByteSource& source, const std::string
         } else if (link.codec == "flac") {
           reader = ReadOggFlac(part, name);
         } else {
-          throw InvalidArgument(
-              name,
-              (link.codec.empty() ? std::string("another codec") : link.codec) +
-                  " in Ogg is not Vorbis, Opus or FLAC: `ffmpeg -i FILE song.wav` makes a file "
-                  "that is taken");
+          throw InvalidArgument(name,
+                                (link.codec.empty() ? std::string("another codec") : link.codec) +
+                                    " in Ogg is not Vorbis, Opus or FLAC: " + kAskFfmpeg +
+                                    " makes a file that is taken");
         }
         return std::make_unique<LinkReader>(std::move(reader), link.is_whole);
       },

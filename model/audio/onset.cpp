@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/audio/centred_frames.h"
 #include "model/audio/format.h"
 #include "model/audio/fourier.h"
-#include "model/core/error.h"
 
 namespace choreo {
 namespace {
@@ -98,21 +98,9 @@ Onset OnsetMeter::Add(std::span<const float> window) {
 }
 
 std::vector<Onset> FindOnsets(std::span<const float> mono) {
-  if (mono.empty()) throw InvalidArgument("audio", "no samples");
-  const int64_t size = std::ssize(mono);
-  std::vector<Onset> onsets(static_cast<size_t>(1 + size / kOnsetHop));
   OnsetMeter meter;
-  std::vector<float> window(kOnsetWindow);
-  int64_t start = -kOnsetWindow / 2;
-  for (Onset& onset : onsets) {
-    const int64_t from = std::max<int64_t>(start, 0), to = std::min(start + kOnsetWindow, size);
-    std::ranges::fill(window, 0.0F);
-    if (from < to)
-      std::copy(mono.begin() + from, mono.begin() + to, window.begin() + (from - start));
-    onset = meter.Add(window);
-    start += kOnsetHop;
-  }
-  return onsets;
+  return OfCentredFrames(mono, kOnsetWindow, kOnsetHop,
+                         [&](auto window) { return meter.Add(window); });
 }
 
 std::vector<float> OnsetStrength(std::span<const Onset> onsets) {

@@ -6,10 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "model/audio/format.h"
+
 namespace choreo {
 
 /// Samples at 22 050 Hz from one onset, and one beat frame, to the next: 90 a second.
 inline constexpr int kOnsetHop = 245;
+inline constexpr double kOnsetRate =
+    static_cast<double>(kModelSampleRate) / kOnsetHop;  ///< a second
 /// Samples that an onset is heard in, half of them before its own.
 inline constexpr int kOnsetWindow = 1024;
 

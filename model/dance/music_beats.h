@@ -13,9 +13,6 @@
 
 namespace choreo {
 
-/// Beats that one dance may be told: 20 a second of the longest music.
-inline constexpr size_t kMostBeats = size_t{20} * kMaxAudioSeconds;
-
 /// A beat of the music that a dance is timed to.
 struct MusicBeat {
   enum class Source {

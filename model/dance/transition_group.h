@@ -34,9 +34,9 @@ class GroupSink {
 };
 
 /// Best first: by how far arrival steered it (ArrivalResult::correction_m, which a miss of the key
-/// is part of) in steps of 1 cm, then the share of frames without support in steps of 5 %, then skate
-/// ratio in steps of 1 %, then likelihood, of models that have one (alone it would favour frozen
-/// motion), then the candidate's number. Without a target nothing is steered.
+/// is part of) in steps of 1 cm, then the share of frames without support in steps of 5 %, then
+/// skate ratio in steps of 1 %, then likelihood, of models that have one (alone it would favour
+/// frozen motion), then the candidate's number. Without a target nothing is steered.
 void RankCandidates(std::vector<CandidateReport>& candidates);
 
 /// GenerateTransition: runs the candidates of one transition through the scheduler, which steps

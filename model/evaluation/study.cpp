@@ -63,6 +63,15 @@ std::vector<std::string> Ranking(const std::filesystem::path& file, const Json& 
 /// What one method came to, by who answered (or by clip): sums of ranks, of firsts, and how many.
 struct Sums {
   std::vector<double> ranks, firsts, counts;
+
+  /// `rank`: from 0.
+  void Add(size_t group, size_t rank) {
+    for (std::vector<double>* list : {&ranks, &firsts, &counts})
+      list->resize(std::max(list->size(), group + 1));
+    ranks[group] += static_cast<double>(rank + 1);
+    firsts[group] += rank == 0 ? 100 : 0;
+    ++counts[group];
+  }
 };
 
 }  // namespace
@@ -137,14 +146,8 @@ Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesyst
                                                    " films of clip " + std::to_string(number));
         ++rankings;
         const size_t group = alone ? number - 1 : person;
-        for (size_t rank = 0; rank < ranking.size(); ++rank) {
-          Sums& of = sums[clip.at("films").at(ranking[rank])];
-          for (std::vector<double>* list : {&of.ranks, &of.firsts, &of.counts})
-            list->resize(std::max(list->size(), group + 1));
-          of.ranks[group] += static_cast<double>(rank + 1);
-          of.firsts[group] += rank == 0 ? 100 : 0;
-          ++of.counts[group];
-        }
+        for (size_t rank = 0; rank < ranking.size(); ++rank)
+          sums[clip.at("films").at(ranking[rank])].Add(group, rank);
       }
     } catch (const nlohmann::json::exception& error) {
       throw InvalidArgument(path.string(), std::string("is no answer: ") + error.what());

@@ -33,7 +33,7 @@ struct RigMotion {
 
 /// What was done with one.
 struct RigFit {
-  Motion motion;      ///< of SMPL's body, in the rig's axes: as high above the floor as it was
+  Motion motion;  ///< of SMPL's body, in the rig's axes: as high above the floor as it was
   /// The rig's axis along which its rest pose stands, if that is a body's.
   std::optional<Eigen::Vector3d> up = {};
   bool rest = true;   ///< false: its rest pose is no body's, what bones are at rest is a guess

@@ -19,11 +19,6 @@ constexpr double kUsualSpeed = 0.02;               // of joints, metres a frame
 constexpr double kSlowest = 0.05;                  // of that
 constexpr size_t kTurnFrames = 2, kWayFrames = 5;  // of the history
 
-// The way from the last history pose to the key, as its tangent space has it.
-Eigen::Vector3d ShorterTurn(const WindowRequest& request) {
-  return RotationDifference(request.history.back().rotations.col(0), request.key->rotations.col(0));
-}
-
 // How far the chest is turned against the hips, about the vertical, radians; 0 of a body without.
 double TwistOf(const Skeleton& skeleton, const Pose& pose) {
   const int chest = skeleton.Find("spine3");
@@ -48,6 +43,10 @@ double LivelinessOf(const Skeleton& skeleton, const std::vector<Pose>& history) 
 }
 
 }  // namespace
+
+Eigen::Vector3d TurnPrior::ShorterTurn(const WindowRequest& request) {
+  return RotationDifference(request.history.back().rotations.col(0), request.key->rotations.col(0));
+}
 
 std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
                                                      const WindowRequest& request) {

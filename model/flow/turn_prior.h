@@ -23,9 +23,12 @@ class TurnPrior {
 
   bool known() const { return !weights.isZero(); }
 
+  /// How the root turns from the last history pose to the key the shorter way, as its rotation
+  /// vector in that pose's frame. `request` has a key.
+  static Eigen::Vector3d ShorterTurn(const WindowRequest& request);
   /// What tells the other way from the shorter one; none of a request whose key does not ask how
-  /// the root is turned, or asks for a turn about another axis than the vertical. Alike for a dancer
-  /// and her mirror image.
+  /// the root is turned, or asks for a turn about another axis than the vertical. Alike for a
+  /// dancer and her mirror image.
   static std::optional<Inputs> Describe(const Skeleton& skeleton, const WindowRequest& request);
   double ChanceOfOther(const Inputs& inputs) const;
   /// WindowRequest::turning: the likelier way at temperature 0, at 1 each as often as dancers take

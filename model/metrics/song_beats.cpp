@@ -13,6 +13,7 @@ namespace choreo {
 namespace {
 
 constexpr double kSigma = 3.0 / 60;    // seconds
+constexpr double kTolerance = 0.07;    // seconds that a beat may be off
 constexpr double kAround = 10.0 / 60;  // seconds on each side of which a motion beat is the slowest
 // A rise is heard when a sound enters the window, half of its length before the centre.
 constexpr double kOnsetDelay = kFftSize / 2.0 / kModelSampleRate;  // seconds
@@ -98,6 +99,22 @@ double BeatAlignmentScore(std::span<const float> speeds, std::span<const double>
     sum += std::exp(-nearest * nearest / (2 * kSigma * kSigma));
   }
   return sum / motion_beats.size();
+}
+
+double BeatFMeasure(std::vector<double> found, std::vector<double> known, double from, double to) {
+  const auto outside = [=](double time) { return time < from || time >= to; };
+  std::erase_if(found, outside);
+  std::erase_if(known, outside);
+  size_t hits = 0;
+  for (size_t i = 0, j = 0; i < found.size() && j < known.size();) {
+    if (std::abs(found[i] - known[j]) <= kTolerance) {
+      ++hits, ++i, ++j;
+    } else {
+      found[i] < known[j] ? ++i : ++j;
+    }
+  }
+  const size_t all = found.size() + known.size();
+  return all == 0 ? 1 : 2.0 * static_cast<double>(hits) / static_cast<double>(all);
 }
 
 }  // namespace choreo

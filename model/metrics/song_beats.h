@@ -21,4 +21,9 @@ std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
                           double fps);
 
+/// F measure of beats, both in seconds and ascending: a found beat hits one that is known within 70
+/// ms (Davies et al. 2009). Only those in [from, to) count. 1 where both are empty.
+double BeatFMeasure(std::vector<double> found, std::vector<double> known, double from = 0,
+                    double to = 1e9);
+
 }  // namespace choreo

@@ -170,8 +170,7 @@ TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest
   for (const WindowRequest& request : requests) {
     const auto inputs = TurnPrior::Describe(skeleton, request);
     if (!inputs || !request.turning) continue;
-    const Eigen::Vector3d shorter =
-        RotationDifference(request.history.back().rotations.col(0), request.key->rotations.col(0));
+    const Eigen::Vector3d shorter = TurnPrior::ShorterTurn(request);
     turns.push_back({*inputs, NearerWayRound(shorter, *request.turning) != shorter});
   }
   // Logistic regression by Newton's method, a little towards zero.

@@ -20,7 +20,7 @@ namespace choreo {
 /// One recording, read but not corrected. Positions for the layouts without rotations, `motion` for
 /// those with SMPL rotations.
 struct Recording {
-  std::string genre;  ///< kept with the clip; empty: not stated
+  std::string genre;                    ///< kept with the clip; empty: not stated
   std::vector<std::string> notes = {};  ///< what its reader has to say of it
   PositionClip positions;
   std::optional<Motion> motion;

@@ -7,24 +7,10 @@
 
 #include "model/audio/made_song.h"
 #include "model/core/error.h"
+#include "model/metrics/song_beats.h"
 #include "tests/audio/signals.h"
 
 namespace choreo::beats_test {
-
-constexpr double kTolerance = 0.07;  // seconds
-
-double FMeasure(std::vector<double> found, std::vector<double> map, double from = 0,
-                double to = 1e9) {
-  const auto outside = [=](double time) { return time < from || time >= to; };
-  std::erase_if(found, outside);
-  std::erase_if(map, outside);
-  double hits = 0;
-  for (const double beat : map) {
-    hits += std::ranges::any_of(found,
-                                [=](double other) { return std::abs(other - beat) <= kTolerance; });
-  }
-  return 2 * hits / static_cast<double>(found.size() + map.size());
-}
 
 TEST(BeatsTest, ClickTracksAreCountedAtTheirTempo) {
   for (const int64_t period : {9216, 10240, 11776, 13312}) {  // samples: 144 to 99 a minute
@@ -34,7 +20,7 @@ TEST(BeatsTest, ClickTracksAreCountedAtTheirTempo) {
     std::vector<double> clicks;
     for (int64_t at = first; at < samples; at += period)
       clicks.push_back(static_cast<double>(at) / 22050);
-    EXPECT_GT(FMeasure(track.Seconds(), clicks), 0.97) << period;
+    EXPECT_GT(BeatFMeasure(track.Seconds(), clicks), 0.97) << period;
   }
 }
 
@@ -58,7 +44,7 @@ TEST(BeatsTest, BackbeatsAreCountedAtTheirOwnTempoAlsoWhereItIsFast) {
         .seed = 9'000'000 + static_cast<uint64_t>(bpm), .seconds = 20, .tempo = {{0, bpm}}};
     const MadeSong song = MakeSong(plan);
     const BeatTrack track = FindBeats(song.mono);
-    EXPECT_GT(FMeasure(track.Seconds(), song.beats), 0.9) << bpm << ", " << song.groove;
+    EXPECT_GT(BeatFMeasure(track.Seconds(), song.beats), 0.9) << bpm << ", " << song.groove;
     EXPECT_NEAR(track.tempo_bpm, bpm, 0.01 * bpm) << song.groove;
     EXPECT_EQ(track.beats_in_bar, 4);
   }
@@ -70,10 +56,10 @@ TEST(BeatsTest, TempoMayChangeAtOnceAndBitByBit) {
     return std::pair(FindBeats(song.mono).Seconds(), song.beats);
   };
   const auto [stepped, steps] = hear({{0, 120}, {20, 120}, {20, 85}});
-  EXPECT_GT(FMeasure(stepped, steps, 0, 20), 0.9);
-  EXPECT_GT(FMeasure(stepped, steps, 24, 40), 0.9);
+  EXPECT_GT(BeatFMeasure(stepped, steps, 0, 20), 0.9);
+  EXPECT_GT(BeatFMeasure(stepped, steps, 24, 40), 0.9);
   const auto [ramped, ramp] = hear({{0, 100}, {5, 100}, {35, 130}});
-  EXPECT_GT(FMeasure(ramped, ramp), 0.9);
+  EXPECT_GT(BeatFMeasure(ramped, ramp), 0.9);
 }
 
 TEST(BeatsTest, WhereNothingSoundsAreNone) {
@@ -82,8 +68,8 @@ TEST(BeatsTest, WhereNothingSoundsAreNone) {
   const MadeSong song = MakeSong(plan);
   const std::vector<double> beats = FindBeats(song.mono).Seconds();
   for (const double beat : beats) EXPECT_FALSE(beat > 10 + 60.0 / 110 + 0.1 && beat < 16.9) << beat;
-  EXPECT_GT(FMeasure(beats, song.beats, 0, 10), 0.9);
-  EXPECT_GT(FMeasure(beats, song.beats, 19, 30), 0.9);
+  EXPECT_GT(BeatFMeasure(beats, song.beats, 0, 10), 0.9);
+  EXPECT_GT(BeatFMeasure(beats, song.beats, 19, 30), 0.9);
 }
 
 TEST(BeatsTest, ADcOffsetIsNotHeard) {
@@ -92,7 +78,7 @@ TEST(BeatsTest, ADcOffsetIsNotHeard) {
   for (float& sample : song) sample = 0.5F * sample + 0.4F;
   const BeatTrack offset = FindBeats(song);
   EXPECT_NEAR(offset.tempo_bpm, plain.tempo_bpm, 0.5);
-  EXPECT_GT(FMeasure(offset.Seconds(), plain.Seconds()), 0.95);
+  EXPECT_GT(BeatFMeasure(offset.Seconds(), plain.Seconds()), 0.95);
 }
 
 TEST(BeatsTest, BeatsAscendWithinTheLimitsInAnyMusic) {

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +11,7 @@
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/metrics/song_beats.h"
 
 namespace choreo::audio_cases_test {
 
@@ -33,13 +32,9 @@ class AudioCases : public ::testing::Test {
   double FMeasure(const std::string& song, const std::string& map, BeatTrack* track) const {
     *track = FindBeats(ToModelRate(Decode(song)));
     std::ifstream file(folder_ / map);
-    double hits = 0, known = 0;
-    const std::vector<double> found = track->Seconds();
-    for (double beat = 0; file >> beat; ++known) {
-      hits +=
-          std::ranges::any_of(found, [=](double other) { return std::abs(other - beat) <= 0.07; });
-    }
-    return 2 * hits / (known + static_cast<double>(found.size()));
+    std::vector<double> known;
+    for (double beat = 0; file >> beat;) known.push_back(beat);
+    return BeatFMeasure(track->Seconds(), known);
   }
 
   std::filesystem::path folder_;

@@ -33,8 +33,8 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
               testing::UnorderedElementsAre(
                   "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
                   "keyframes", "warnings", "measured_from", "log_likelihood", "beat_hit_rate",
-                  "beat_hit_chance", "skate_ratio", "support", "max_key_acceleration", "p95_acceleration",
-                  "first_frame_latency_s", "real_time_factor"));
+                  "beat_hit_chance", "skate_ratio", "support", "max_key_acceleration",
+                  "p95_acceleration", "first_frame_latency_s", "real_time_factor"));
   EXPECT_EQ(report["frames"], 300);
   EXPECT_EQ(report["seed"], 3);
   EXPECT_EQ(report["fingerprint"], "fake-1");
