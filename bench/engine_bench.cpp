@@ -131,8 +131,9 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   const int condition = config.condition_width > 0 ? config.condition_width : live;
   std::vector<BareProducts::Shape> shapes;
   if (config.condition_width > 0) shapes = {{live, condition}, {condition, condition}};
+  const int aimed = config.innovations ? PoseCodec(Skeleton::Smpl24()).velocity_at() : 0;
   for (int step = 0; step < config.flow_steps; ++step) {
-    shapes.push_back({condition + low + hidden, 4 * hidden});
+    shapes.push_back({condition + aimed + low + hidden, 4 * hidden});
     shapes.push_back({2 * hidden, 4 * hidden});
     shapes.push_back({hidden, 2 * (width - low)});
     shapes.push_back({width, width});

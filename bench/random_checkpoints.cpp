@@ -33,6 +33,11 @@ void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& 
                                  0.02 + 0.1 * torch::rand({model->feature_width()}));
   model->SetAudioNormalisation(torch::randn({config.audio_features}),
                                1 + torch::rand({config.audio_features}));
+  if (config.innovations) {
+    const int64_t width = model->feature_width();
+    model->FitPrediction(0.05 * torch::randn({400, config.history_frames + 1, width}).cumsum(1),
+                         torch::full({width}, 0.01));
+  }
   SaveCheckpoint(path, model, kCard);
 }
 

@@ -6,8 +6,8 @@
 namespace choreo {
 
 CHOREO_JSON_FIELDS(FlowConfig, name, history_frames, audio_features, hears_music, flow_steps,
-                   hidden, condition_width, max_transition_frames, temperature, keys, key_loss,
-                   time_embedding, forward_embedding, history_dropout, history_noise)
+                   hidden, condition_width, innovations, max_transition_frames, temperature, keys,
+                   key_loss, time_embedding, forward_embedding, history_dropout, history_noise)
 
 FlowConfig FlowConfig::Preset(const std::string& name) {
   FlowConfig config;
@@ -16,6 +16,7 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
   if (name == "paper-f") {
     config.hidden = 128;
     config.condition_width = 128;
+    config.innovations = true;
     return config;
   }
   if (name == "ablation") {

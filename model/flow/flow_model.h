@@ -21,9 +21,7 @@ class FlowModelImpl : public torch::nn::Module {
   int feature_width() const { return width_; }
   /// Width of a frame's key condition (key_condition.h), and behind its first layer.
   int key_width() const;
-  int static_width() const {
-    return config_.condition_width > 0 ? config_.condition_width : key_width();
-  }
+  int static_width() const;
   int StateWidth() const { return flow_->StateWidth(); }
 
   /// What is known of each frame before the first, [batch, N, static_width()]: Encode of the key
@@ -69,20 +67,36 @@ class FlowModelImpl : public torch::nn::Module {
 
   /// Statistics by which the network's inputs are standardised: [width], [audio_features].
   void SetFeatureNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
+  /// Of a model of innovations, once features are normalised: fits the linear prediction of each
+  /// window's last frame from those before it, least squares over `windows` [n, tau + 1, width] in
+  /// physical units. What is left of it spreads by `floor` [width] at least.
+  void FitPrediction(const torch::Tensor& windows, const torch::Tensor& floor);
+  /// Spread of what the flow draws of each feature, [width], physical units.
+  torch::Tensor DrawnSpread() const;
   void SetAudioNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
   CouplingFlow flow() const { return flow_; }
 
  private:
   torch::Tensor Standardise(const torch::Tensor& features) const;
+  /// What the flow draws of standardised frames [..., width], given the past of each [..., tau,
+  /// width], and back.
+  torch::Tensor Drawn(const torch::Tensor& frames, const torch::Tensor& past) const;
+  torch::Tensor FrameOf(const torch::Tensor& drawn, const torch::Tensor& past) const;
+  /// log |d frame / d drawn|, a scalar.
+  torch::Tensor DrawnLogDet() const { return drawn_spread_.log().sum(); }
   torch::Tensor StandardiseAudio(const torch::Tensor& audio, const torch::Tensor& has_audio) const;
-  /// Condition of every frame from standardised, flattened parts.
-  torch::Tensor Condition(const torch::Tensor& past, const torch::Tensor& audio,
-                          const torch::Tensor& static_condition);
+  /// Condition of every frame from standardised parts: `seen` is what the network sees of `past`
+  /// [..., tau, width].
+  torch::Tensor Condition(const torch::Tensor& past, const torch::Tensor& seen,
+                          const torch::Tensor& audio, const torch::Tensor& static_condition);
+  /// Of a model of innovations: what of each feature of a pose would reach the key, [..., pose].
+  torch::Tensor Aim(const torch::Tensor& past, const torch::Tensor& static_condition) const;
+  int pose_width() const { return 3 + 3 * skeleton_.joints(); }
   /// Condition [batch, 1, condition] of the frame behind `past`, as Step takes it.
   torch::Tensor LiveCondition(const torch::Tensor& past, const torch::Tensor& audio,
                               const torch::Tensor& has_audio,
                               const torch::Tensor& static_condition);
-  /// Condition of the N frames behind a history, and their standardised features.
+  /// What the flow draws of the N frames behind a history, and their condition.
   std::pair<torch::Tensor, torch::Tensor> Windows(const torch::Tensor& features,
                                                   const torch::Tensor& audio,
                                                   const torch::Tensor& has_audio,
@@ -92,6 +106,8 @@ class FlowModelImpl : public torch::nn::Module {
   Skeleton skeleton_;
   int width_;
   torch::Tensor feature_mean_, feature_std_, audio_mean_, audio_std_;
+  /// Standardised: what is drawn is (x_t - sum of predict * past) / drawn_spread.
+  torch::Tensor predict_, drawn_spread_;
   CouplingFlow flow_{nullptr};
   /// Shared encoding (condition_width > 0): one linear map a part, summed, then a second layer.
   torch::nn::Linear encode_past_{nullptr}, encode_static_{nullptr}, encode_audio_{nullptr},

@@ -17,6 +17,7 @@ constexpr int kValidationWindows = 64;
 // Standardised features keep at least these spreads: metres, radians, m/s and rad/s, contacts.
 constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
                  kContactFloor = 0.1;
+constexpr double kInnovationFloor = 0.1;  // of those
 constexpr double kAudioVarianceFloor = 1e-4;
 
 FlowConfig ConfigOf(const TrainOptions& options, const std::vector<PreparedClip>& clips) {
@@ -25,6 +26,7 @@ FlowConfig ConfigOf(const TrainOptions& options, const std::vector<PreparedClip>
   if (options.flow.flow_steps > 0) config.flow_steps = options.flow.flow_steps;
   if (options.flow.hidden > 0) config.hidden = options.flow.hidden;
   if (options.flow.condition_width >= 0) config.condition_width = options.flow.condition_width;
+  if (options.flow.no_innovations) config.innovations = false;
   config.temperature = options.flow.temperature;
   config.keys = !options.flow.no_keys;
   config.key_loss = !options.no_key_loss && config.keys;
@@ -55,15 +57,17 @@ void NormaliseAudio(const std::vector<PreparedClip>& clips, FlowModel& model) {
   model->SetAudioNormalisation(mean, std);
 }
 
-// The flow's features, of real motion [frames, width]. Spreads have floors, so that constant joints
-// can't make the density unbounded.
-void NormaliseFeatures(const torch::Tensor& all, FlowModel& flow) {
+// The flow's features, of the last frames of `windows` of real motion [n, tau + 1, width]. Spreads
+// have floors, so that constant joints can't make the density unbounded.
+void NormaliseFeatures(const torch::Tensor& windows, FlowModel& flow) {
   const int64_t joints = flow->skeleton().joints(), width = flow->feature_width();
   torch::Tensor floor = torch::full({width}, kRotationFloor);
   floor.narrow(0, 0, 3).fill_(kPositionFloor);
   floor.narrow(0, 3 + 3 * joints, 3).fill_(kVelocityFloor);
   floor.narrow(0, width - 4, 4).fill_(kContactFloor);
+  const torch::Tensor all = windows.select(1, windows.size(1) - 1);
   flow->SetFeatureNormalisation(all.mean(0), torch::maximum(all.std(0), floor));
+  if (flow->config().innovations) flow->FitPrediction(windows, kInnovationFloor * floor);
 }
 
 class FlowRun : public TrainingRun {
@@ -100,10 +104,13 @@ class FlowRun : public TrainingRun {
       Random random(options().seed + 7, static_cast<uint32_t>(i + 1));
       batch = Draw(&random, options().shortest + (options().longest - options().shortest) * i /
                                                      (kNormalisationBatches - 1));
-      const int history = model_->config().history_frames;
-      seen.push_back(batch.features.narrow(1, history, batch.transition.frames).flatten(0, 1));
+      // [windows, N, width, tau + 1]
+      seen.push_back(batch.features.unfold(1, model_->config().history_frames + 1, 1)
+                         .flatten(0, 1)
+                         .transpose(1, 2)
+                         .to(torch::kCPU));
     }
-    NormaliseFeatures(torch::cat(seen).to(torch::kCPU), model_);
+    NormaliseFeatures(torch::cat(seen), model_);
     model_->InitialiseActNorm(Dequantise(model_, batch.features, options().flow.dequantise),
                               batch.audio, batch.has_audio, model_->Begin(batch.transition));
   }
@@ -120,6 +127,7 @@ class FlowRun : public TrainingRun {
                           static_cast<int>(place * (options().longest - options().shortest + 1)));
     Descend(
         LikelihoodLoss(model_, batch, model_->Begin(batch.transition), options().flow.dequantise));
+    if (step() < options().flow.rollout_from) return;
     const MotionBatch sampled =
         batch.First(std::lround(options().flow.rollout_share * batch.features.size(0)));
     Descend(RolloutLoss(model_, kinematics_, sampled, model_->Begin(sampled.transition),

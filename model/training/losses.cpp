@@ -22,8 +22,7 @@ Tensor Length(const Tensor& v) { return (v.square().sum(-1) + 1e-10).sqrt(); }
 }  // namespace
 
 Tensor Dequantise(FlowModel& model, const Tensor& features, double share) {
-  const Tensor spread = model->named_buffers()["feature_std"];
-  return features + share * spread * torch::randn_like(features);
+  return features + share * model->DrawnSpread() * torch::randn_like(features);
 }
 
 LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch, const Tensor& static_condition,

@@ -33,8 +33,12 @@ void VisitFixed(auto& options, const auto& visit) {
   visit("--hidden", options.flow.hidden, flow, "Width of a flow's LSTMs; 0: the preset's");
   visit("--condition-width", options.flow.condition_width, flow,
         "Width of the encoding that all couplings share, 0: none; -1: the preset's");
+  visit("--no-innovations", options.flow.no_innovations, flow,
+        "Draw frames themselves (the paper), not what is left beyond a linear prediction");
   visit("--rollout-share", options.flow.rollout_share, flow,
         "Share of a step's windows that are sampled for the key and feet losses");
+  visit("--rollout-from", options.flow.rollout_from, flow,
+        "Step at which the key and feet losses begin: before it the likelihood is learnt alone");
   visit("--rollout-loss", options.flow.rollout_loss, flow,
         "Weight of the sampled way's distance from the real one (not in the paper)");
   visit("--dequantise", options.flow.dequantise, flow,
@@ -113,6 +117,8 @@ void TrainOptions::Validate() const {
           std::to_string(flow.condition_width), "-1 to 4096");
   require(flow.rollout_share > 0 && flow.rollout_share <= 1, "--rollout-share",
           std::to_string(flow.rollout_share), "above 0, to 1");
+  require(flow.rollout_from >= 0, "--rollout-from", std::to_string(flow.rollout_from),
+          "at least 0");
   require(flow.rollout_loss >= 0 && flow.rollout_loss <= 100, "--rollout-loss",
           std::to_string(flow.rollout_loss), "0 to 100");
   require(flow.dequantise >= 0 && flow.dequantise <= 1, "--dequantise",

@@ -25,9 +25,11 @@ struct FlowOptions {
   int flow_steps = 0, hidden = 0;  ///< K, width of the LSTMs; 0: the preset's
   int condition_width = -1;        ///< of the shared encoding, 0: none; -1: the preset's
   double rollout_share = 1;        ///< of a step's windows, that are sampled for L_key and L_feet
-  double rollout_loss = 0;         ///< weight of the sampled way's distance from the real one, ours
-  double temperature = 1;          ///< at which it is served unless asked otherwise
-  double dequantise = 0.05;        ///< noise of the likelihood's features, share of their spread
+  int64_t rollout_from = 0;  ///< step at which L_key and L_feet begin; before it samples are noise
+  double rollout_loss = 0;   ///< weight of the sampled way's distance from the real one, ours
+  double temperature = 1;    ///< at which it is served unless asked otherwise
+  double dequantise = 0.05;  ///< noise of the likelihood's features, share of their spread
+  bool no_innovations = false;  ///< draws features as the paper does, whatever the preset
   bool no_keys = false, no_time_embedding = false, forward_embedding = false;  ///< Table 1
 };
 

@@ -29,7 +29,10 @@ FlowConfig SmallConfig(Shape shape) {
   config.hidden = 24;
   config.max_transition_frames = 200;
   config.temperature = 0.4;
-  if (shape == Shape::kEncoded) config.condition_width = 20;
+  if (shape == Shape::kEncoded) {
+    config.condition_width = 20;
+    config.innovations = true;
+  }
   return config;
 }
 

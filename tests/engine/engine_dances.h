@@ -17,7 +17,7 @@ namespace choreo {
 /// What couplings see of a frame's condition.
 enum class Shape {
   kRaw,      ///< as preset `paper`
-  kEncoded,  ///< as preset `ablation`
+  kEncoded,  ///< as preset `paper-f`, whose flow draws innovations
 };
 std::string ShapeName(Shape shape);
 FlowConfig SmallConfig(Shape shape);

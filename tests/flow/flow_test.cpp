@@ -14,12 +14,20 @@ namespace choreo::flow_test {
 
 using torch::Tensor;
 
-FlowConfig Small(bool encoded) {
+enum class Form { kPaper, kEncoded, kInnovations };
+
+FlowConfig Small(Form form) {
   FlowConfig config;
   config.flow_steps = 3;
   config.hidden = 16;
-  config.condition_width = encoded ? 24 : 0;
+  config.condition_width = form == Form::kPaper ? 0 : 24;
+  config.innovations = form == Form::kInnovations;
   return config;
+}
+
+// Motion that goes on, [windows, 11, width].
+Tensor Walks(int64_t windows, int64_t width) {
+  return 0.1 * torch::randn({windows, 11, width}).cumsum(1).cumsum(1);
 }
 
 // Zero-initialised last layers hide mistakes in the couplings: give every parameter a value.
@@ -38,20 +46,25 @@ TransitionTensors RandomTransition(int64_t batch, int64_t frames) {
           torch::ones({batch, joints + 1})};
 }
 
-/// The parameter: whether couplings see an encoded condition.
-class FlowTest : public testing::TestWithParam<bool> {
+class FlowTest : public testing::TestWithParam<Form> {
  protected:
   void SetUp() override {
     torch::manual_seed(11);
     model_ = FlowModel(Small(GetParam()), Skeleton::Smpl24());
     Shake(*model_);
+    const int64_t width = model_->feature_width();
+    if (GetParam() == Form::kInnovations)
+      model_->FitPrediction(Walks(300, width), torch::full({width}, 0.01));
     model_->eval();
   }
   // Raw: past frames, music and its flag, then the key's position, rotations and mask, and the time
   // embedding.
   int64_t ConditionWidth() const {
     const int64_t width = model_->feature_width();
-    return GetParam() ? 24 : 10 * width + (11 * 40 + 1) + (3 + 6 * 24 + 25) + width;
+    // Of innovations, what aims at the key, too.
+    if (GetParam() == Form::kInnovations) return 24 + 3 + 3 * 24;
+    return GetParam() == Form::kEncoded ? 24
+                                        : 10 * width + (11 * 40 + 1) + (3 + 3 * 24 + 25) + width;
   }
   FlowModel model_{nullptr};
 };
@@ -167,7 +180,8 @@ TEST_P(FlowTest, LikelihoodOfABentFrameIsItsOwn) {
   const Tensor history = 0.2 * torch::randn({1, 10, width}, wide);
   const Tensor audio = torch::randn({1, 11, 40}, wide);
   const Tensor condition = torch::zeros({1, model_->static_width()}, wide);
-  const Tensor noise = (4 * torch::randn({1, width}, wide)).set_requires_grad(true);
+  const double size = GetParam() == Form::kInnovations ? 40 : 4;  // they are small
+  const Tensor noise = (size * torch::randn({1, width}, wide)).set_requires_grad(true);
   FlowState state = model_->flow()->InitialState(1);
   const auto step = model_->Step(history, audio, torch::ones({1, 1}, wide), condition, noise,
                                  model_->InverseWeights(), &state);
@@ -204,9 +218,30 @@ TEST_P(FlowTest, MusicKeyAndTimeLeftChangeTheDance) {
   EXPECT_EQ(differs(dance(transition, audio, 1)), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, FlowTest, testing::Bool(), [](const auto& shape) {
-  return std::string(shape.param ? "Encoded" : "Paper");
-});
+std::string NameOf(const testing::TestParamInfo<Form>& form) {
+  constexpr const char* kNames[] = {"Paper", "Encoded", "Innovations"};
+  return kNames[static_cast<int>(form.param)];
+}
+INSTANTIATE_TEST_SUITE_P(Forms, FlowTest,
+                         testing::Values(Form::kPaper, Form::kEncoded, Form::kInnovations), NameOf);
+
+// Motion that always goes on as it did is predicted: what the flow draws of it is next to nothing.
+TEST(FlowInnovations, AreWhatAPredictionLeaves) {
+  torch::NoGradGuard no_grad;
+  torch::manual_seed(8);
+  const FlowConfig config = Small(Form::kInnovations);
+  FlowModel model(config, Skeleton::Smpl24());
+  const int64_t width = model->feature_width(), windows = 400;
+  const Tensor time = torch::arange(11, torch::kFloat32).view({1, 11, 1});
+  const Tensor phase = 6.283 * torch::rand({windows, 1, width});
+  const Tensor waves = torch::sin(0.3 * time + phase);
+  model->SetFeatureNormalisation(torch::zeros({width}), torch::full({width}, 0.7));
+  const Tensor floor = torch::full({width}, 0.002);
+  model->FitPrediction(waves + 1e-4 * torch::randn_like(waves), floor);
+  EXPECT_TRUE(torch::allclose(model->DrawnSpread(), floor));
+  model->FitPrediction(torch::randn({windows, 11, width}), floor);  // nothing to predict
+  EXPECT_GT(model->DrawnSpread().min().item<double>(), 0.8);
+}
 
 TEST(InterpolationTest, EndsOnTheKey) {
   torch::NoGradGuard no_grad;
@@ -225,7 +260,7 @@ TEST(KeyConditionTest, IsWhatTheModuleBeginsWith) {
   const int joints = skeleton.joints(), frames = 7;
   for (const bool partial : {false, true}) {
     for (const bool forward : {false, true}) {
-      FlowConfig config = Small(false);
+      FlowConfig config = Small(Form::kPaper);
       config.forward_embedding = forward;
       FlowModel model(config, skeleton);
       Pose key{{0.1, 0.9, 0.4}, 0.4 * Eigen::Matrix3Xd::Random(3, joints)};
@@ -276,7 +311,7 @@ TEST(FlowPresets, HaveTheSizesThatTheyPromise) {
     return count;
   };
   EXPECT_LE(parameters("ablation"), 500'000);
-  EXPECT_NEAR(static_cast<double>(parameters("paper-f")), 5e6, 4e5);
+  EXPECT_NEAR(static_cast<double>(parameters("paper-f")), 5.8e6, 4e5);
   EXPECT_NEAR(static_cast<double>(parameters("paper")), 99e6, 4e6);
   EXPECT_THROW(FlowConfig::Preset("large"), Error);
 }

@@ -116,6 +116,38 @@ TEST_F(TrainerTest, SizesAreOptionsAndWeightsTakeHalfTheBytes) {
   EXPECT_LT(std::filesystem::file_size(path), 3 * numbers);
 }
 
+TEST_F(TrainerTest, RolloutsBeginWhenTheyAreAsked) {
+  TrainOptions options = Options("late", 3);
+  options.report_every = 1;
+  options.flow.rollout_from = 2;
+  TrainFlow(options);
+  std::ifstream file(options.run / "curves.csv");
+  std::string header;
+  std::getline(file, header);
+  EXPECT_THAT(header, testing::HasSubstr("key_pose_dm"));
+  options.run = folder_.path() / "never";
+  options.flow.rollout_from = 3;
+  TrainFlow(options);
+  std::ifstream other(options.run / "curves.csv");
+  std::getline(other, header);
+  EXPECT_THAT(header, testing::Not(testing::HasSubstr("key_pose_dm")));
+}
+
+TEST_F(TrainerTest, AFlowMayDrawInnovations) {
+  TrainOptions options = Options("innovations", 1);
+  options.preset = "paper-f";
+  options.flow.flow_steps = 1;
+  TrainFlow(options);
+  const auto model = [&] { return LoadCheckpoint(options.run / "checkpoint.safetensors").model; };
+  EXPECT_TRUE(model()->config().innovations);
+  const auto buffers = model()->named_buffers();
+  EXPECT_GT(buffers["predict"].abs().max().item<double>(), 0.5);  // poses go on
+  options.run = folder_.path() / "features";
+  options.flow.no_innovations = true;
+  TrainFlow(options);
+  EXPECT_FALSE(model()->config().innovations);
+}
+
 TEST_F(TrainerTest, AResumedRunIsTheUndisturbedOne) {
   TrainFlow(Options("whole", 4));
   // Killed after the report of step 2: what is left is its state. The learning rate must be that of

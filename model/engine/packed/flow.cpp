@@ -61,25 +61,34 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config
       width(PoseCodec(skeleton).width()),
       encoded(config.condition_width > 0),
       live(config.history_frames * width + config.HeardWidth() + 1),
-      condition(encoded ? config.condition_width : live),
-      key_width(KeyConditionWidth(skeleton.joints(), width)),
-      static_width(encoded ? condition : key_width) {
+      encoding(encoded ? config.condition_width : live),
+      aimed(config.innovations ? 3 + 3 * skeleton.joints() : 0),
+      condition(encoding + aimed),
+      key_width(KeyConditionWidth(config, skeleton.joints(), width)),
+      static_width(encoded ? encoding + (aimed > 0 ? 2 * aimed + 1 : 0) : key_width) {
+  if (config.innovations && !encoded)
+    throw InvalidArgument("condition_width", "0, but innovations want a shared encoding");
   const PackedTensors tensors(content);
   feature_mean = tensors.Get("feature_mean", width);
   feature_std = tensors.Get("feature_std", width);
   feature_scale = feature_std.cwiseInverse();
+  if (config.innovations) {
+    predict = tensors.Get("predict", config.history_frames, width).transpose();
+    drawn_spread = tensors.Get("drawn_spread", width);
+  }
   audio_mean = tensors.Get("audio_mean", config.audio_features);
   audio_scale = tensors.Get("audio_std", config.audio_features).cwiseInverse();
 
   if (encoded) {
-    encode_static = tensors.Linear(kernels, "encode_static", key_width, condition);
+    encode_static =
+        tensors.Linear(kernels, "encode_static", key_width - (aimed > 0 ? 1 : 0), encoding);
     const long past = config.history_frames * width;
     encode_live = PackedLinear(
         products,
-        Stacked(tensors.Get("encode_past.weight", condition, past),
-                tensors.Get("encode_audio.weight", condition, live - past)),
-        tensors.Get("encode_past.bias", condition) + tensors.Get("encode_audio.bias", condition));
-    encode = tensors.Linear(products, "encode", condition, condition);
+        Stacked(tensors.Get("encode_past.weight", encoding, past),
+                tensors.Get("encode_audio.weight", encoding, live - past)),
+        tensors.Get("encode_past.bias", encoding) + tensors.Get("encode_audio.bias", encoding));
+    encode = tensors.Linear(products, "encode", encoding, encoding);
   }
 
   const int hidden = config.hidden, gates = 4 * hidden;  // of one LSTM layer
@@ -110,7 +119,22 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config
     log_det_sum += tensors.Get(name + "norm_log_scale", width).cast<double>().sum() +
                    tensors.Get(name + "log_diagonal", width).cast<double>().sum();
   }
+  if (config.innovations) log_det_sum -= drawn_spread.cast<double>().array().log().sum();
   log_det = static_cast<float>(log_det_sum);
+}
+
+Eigen::MatrixXf PackedFlow::WithAims(const Eigen::MatrixXf& encodings,
+                                     const Eigen::MatrixXf& conditions) const {
+  const long joints = aimed / 3 - 1;
+  Eigen::MatrixXf all(static_width, conditions.cols());
+  all.topRows(encoding) = encodings.topRows(encoding);
+  for (int i = 0; i < aimed; ++i) {
+    all.row(encoding + i) = (conditions.row(i).array() - feature_mean[i]) * feature_scale[i];
+    // Told joint by joint, the root's place last.
+    all.row(encoding + aimed + i) = conditions.row(aimed + (i < 3 ? joints : i / 3 - 1));
+  }
+  all.bottomRows(1) = conditions.bottomRows(1);
+  return all;
 }
 
 PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
@@ -133,7 +157,11 @@ void PackedTile::Begin(int slot_index, Eigen::MatrixXf conditions) {
     Eigen::MatrixXf encoded(flow.encode_static.padded(), conditions.cols());
     flow.encode_static.Run(conditions.data(), conditions.rows(), encoded.data(), encoded.rows(),
                            conditions.cols());
-    conditions = encoded.topRows(flow.static_width);
+    if (flow.aimed > 0) {
+      conditions = flow.WithAims(encoded, conditions);
+    } else {
+      conditions = encoded.topRows(flow.encoding);
+    }
   }
   slot.static_condition.assign(conditions.data(), conditions.data() + conditions.size());
   slot.state.assign(static_cast<size_t>(flow.state_width()), 0.0F);
@@ -177,19 +205,22 @@ void PackedTile::Condition(std::span<const FlowRow> rows) {
   }
   if (!flow.encoded) return;
   flow.encode_live.Run(live_, &encoding_, count);
-  for (long i = 0; i < count; ++i) {
+  const auto fixed = [&](long i) {
     const FlowRow& row = rows[static_cast<size_t>(i)];
     const Slot& slot = slots_[static_cast<size_t>(row.slot)];
-    Eigen::Map<Eigen::VectorXf>(encoding_.Row(i), flow.condition) +=
-        Eigen::Map<const Eigen::VectorXf>(
-            slot.static_condition.data() + row.frame * flow.static_width, flow.static_width);
-  }
+    return slot.static_condition.data() + row.frame * flow.static_width;
+  };
+  for (long i = 0; i < count; ++i)
+    Eigen::Map<Eigen::VectorXf>(encoding_.Row(i), flow.encoding) +=
+        Eigen::Map<const Eigen::VectorXf>(fixed(i), flow.encoding);
   flow.kernels.silu(encoding_.Row(0), count * encoding_.stride());
   // live_ has done its part, and is wider.
   flow.encode.Run(encoding_, &live_, count);
   for (long i = 0; i < count; ++i) {
-    flow.kernels.silu(live_.Row(i), flow.condition);
-    std::copy_n(live_.Row(i), flow.condition, input_.Row(i));
+    flow.kernels.silu(live_.Row(i), flow.encoding);
+    std::copy_n(live_.Row(i), flow.encoding, input_.Row(i));
+    if (flow.aimed > 0)
+      Aim(rows[static_cast<size_t>(i)], fixed(i) + flow.encoding, input_.Row(i) + flow.encoding);
   }
 }
 
@@ -252,6 +283,31 @@ void PackedTile::Couple(std::span<FlowRow> rows, int step) {
   std::swap(z_, mixed_);
 }
 
+void PackedTile::Aim(const FlowRow& row, const float* fixed, float* aim) const {
+  const PackedFlow& flow = *flow_;
+  const float* last = row.past.last(static_cast<size_t>(flow.width)).data();
+  const float *key = fixed, *asked = fixed + flow.aimed;
+  const float left = fixed[2 * flow.aimed];
+  for (int i = 0; i < flow.aimed; ++i) {
+    const float now = flow.Standard(last, i), before = flow.Standard(last - flow.width, i);
+    const float way = key[i] - now;
+    const float wanted =
+        left > 0 ? AccelerationTo(way, now - before, left) / flow.drawn_spread[i] : way;
+    aim[i] = asked[i] * std::clamp(wanted, static_cast<float>(-kFeatureClamp),
+                                   static_cast<float>(kFeatureClamp));
+  }
+}
+
+void PackedTile::AddPrediction(std::span<const float> past, float* x) const {
+  const PackedFlow& flow = *flow_;
+  for (int i = 0; i < flow.width; ++i) {
+    float sum = x[i] * flow.drawn_spread[i];
+    for (int t = 0; t < flow.config.history_frames; ++t)
+      sum += flow.predict(i, t) * flow.Standard(past.data() + static_cast<long>(t) * flow.width, i);
+    x[i] = sum;
+  }
+}
+
 void PackedTile::Run(std::span<FlowRow> rows) {
   const PackedFlow& flow = *flow_;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -266,7 +322,8 @@ void PackedTile::Run(std::span<FlowRow> rows) {
   Condition(rows);
   for (int step = flow.config.flow_steps - 1; step >= 0; --step) Couple(rows, step);
   for (size_t i = 0; i < rows.size(); ++i) {
-    const float* x = z_.Row(static_cast<long>(i));
+    float* x = z_.Row(static_cast<long>(i));
+    if (flow.config.innovations) AddPrediction(rows[i].past, x);
     rows[i].log_likelihood += BendSurprise({x, static_cast<size_t>(flow.width)});
     flow.kernels.bend(x, flow.feature_mean.data(), flow.feature_std.data(), flow.width,
                       kSampleBound, rows[i].features.data());

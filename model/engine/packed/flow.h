@@ -36,6 +36,13 @@ struct PackedFlow {
   PackedFlow(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
              const PackedKernels& kernels, const PackedKernels& products);
 
+  /// Of a model of innovations: behind each frame's encoding the standardised key, what of it is
+  /// asked, and the frames left, [static_width(), frames].
+  Eigen::MatrixXf WithAims(const Eigen::MatrixXf& encodings,
+                           const Eigen::MatrixXf& conditions) const;
+  float Standard(const float* features, int i) const {
+    return (features[i] - feature_mean[i]) * feature_scale[i];
+  }
   int low() const { return width / 2; }
   int high() const { return width - low(); }
   /// Floats of one slot's recurrent state: for each step h and c of both layers.
@@ -49,10 +56,16 @@ struct PackedFlow {
   int width;         ///< of a frame's features
   bool encoded;      ///< one shared condition encoding, else the raw condition
   int live;          ///< floats of past and music that a frame's condition is made of
-  int condition;     ///< columns of the condition that couplings see: the encoding's, or `live`
+  int encoding;      ///< of those the shared encoding, or `live`
+  int aimed;         ///< of a model of innovations, features that aim at the key: a pose's; else 0
+  int condition;     ///< columns of the condition that couplings see: both
   int key_width;     ///< of a frame's key condition
   int static_width;  ///< of it behind `encode_static`; the same where nothing is encoded
   Eigen::VectorXf feature_mean, feature_std, feature_scale;  ///< scale = 1 / std
+  /// Of a model of innovations, standardised: what of each past frame goes on, [width, tau], and
+  /// how far what is drawn spreads; else empty.
+  Eigen::MatrixXf predict;
+  Eigen::VectorXf drawn_spread;
   Eigen::VectorXf audio_mean, audio_scale;
   float log_det = 0;  ///< the part that is the same in every frame
   PackedLinear encode_static, encode_live, encode;
@@ -88,6 +101,10 @@ class PackedTile : public FlowTile {
   void Condition(std::span<const FlowRow> rows);
   void Couple(std::span<FlowRow> rows, int step);
   void Hidden(std::span<const FlowRow> rows, int step);
+  // Of a model of innovations: what would reach the key, and `x` from what was drawn to the
+  // standardised frame.
+  void Aim(const FlowRow& row, const float* fixed, float* aim) const;
+  void AddPrediction(std::span<const float> past, float* x) const;
 
   std::shared_ptr<const PackedFlow> flow_;
   std::vector<Slot> slots_;
