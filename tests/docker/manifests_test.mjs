@@ -1,24 +1,57 @@
-// docker/'s manifests against the schemas of Kubernetes' API; and what one file says of another.
+// docker/'s manifests against the schemas of Kubernetes' API and of Prometheus' operator; and what one file says of another.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
+import {parser as promql} from '@prometheus-io/lezer-promql';
 import yaml from 'js-yaml';
 
-const read = (name) => readFileSync(new URL(`../../docker/${name}`, import.meta.url), 'utf8');
-const objects = yaml.loadAll(read('kubernetes.yaml'));
+const readSource = (name) => readFileSync(new URL(`../../${name}`, import.meta.url), 'utf8');
+const read = (name) => readSource(`docker/${name}`);
+const kustomization = yaml.load(read('kustomization.yaml'));
+const objects = kustomization.resources.flatMap((name) => yaml.loadAll(read(name)));
 const ofKind = (kind) => objects.find((object) => object.kind === kind);
-const container = ofKind('Deployment').spec.template.spec.containers[0];
+const pod = ofKind('Deployment').spec.template.spec;
+const container = pod.containers[0];
+const setting = (name) => container.env.find((variable) => variable.name === name)?.value;
+const alerts = ofKind('PrometheusRule').spec.groups.flatMap((group) => group.rules);
+const metricSource = readSource('server/metrics.cpp');
+const exported = new Set([...metricSource.matchAll(/"([a-z_]+)",\s*\n?\s*(?:"|\[)/g)].map(([, name]) => `choreo_${name}`));
 
 async function validate(object) {
-  const {[object.kind]: Model} = await import(`kubernetes-models/${object.apiVersion}/${object.kind}`);
+  const models = object.apiVersion.startsWith('monitoring.') ? '@kubernetes-models/prometheus-operator' : 'kubernetes-models';
+  const {[object.kind]: Model} = await import(`${models}/${object.apiVersion}/${object.kind}`);
   new Model(object).validate();
 }
 
-test('every object of kubernetes.yaml is as the API wants it', async () => {
-  const kinds = ['Deployment', 'Service', 'HorizontalPodAutoscaler', 'PodDisruptionBudget', 'NetworkPolicy'];
+// Where `text` is no PromQL.
+function errorsOf(text) {
+  const found = [];
+  promql.parse(text).iterate({enter: ({type, from}) => { if (type.isError) found.push(from); }});
+  return found;
+}
+
+// All objects inside of `value`, itself too.
+function* parts(value) {
+  if (value === null || typeof value !== 'object') return;
+  yield value;
+  for (const part of Object.values(value)) yield* parts(part);
+}
+
+test('every object that is applied is as its API wants it', async () => {
+  const kinds = ['Deployment', 'Service', 'HorizontalPodAutoscaler', 'PodDisruptionBudget', 'NetworkPolicy', 'ServiceMonitor',
+    'PrometheusRule'];
   assert.deepEqual(objects.map((object) => object.kind), kinds);
   for (const object of objects) await validate(object);
   await assert.rejects(validate({...ofKind('Deployment'), spec: {replicas: 'two'}}));
+  await assert.rejects(validate({...ofKind('ServiceMonitor'), spec: {endpoints: 'metrics'}}));
+});
+
+test('the image has a registry and the tag of this release', () => {
+  assert.equal(kustomization.images.length, 1);
+  const [{name, newName, newTag}] = kustomization.images;
+  assert.equal(container.image, name);
+  assert.match(newName, /^[a-z0-9-]+(\.[a-z0-9-]+)+(:[0-9]+)?\/[a-z0-9/-]+$/);
+  assert.equal(newTag, readSource('CMakeLists.txt').match(/project\(choreo VERSION ([0-9.]+)/)[1]);
 });
 
 test('all of them speak of the same pods', () => {
@@ -31,22 +64,125 @@ test('all of them speak of the same pods', () => {
   assert.equal(ofKind('HorizontalPodAutoscaler').spec.scaleTargetRef.name, ofKind('Deployment').metadata.name);
 });
 
-test('settings are those of choreod, which drains within its grace', () => {
-  const settings = container.env.map(({name}) => name);
-  const flags = ['config_flags.cpp', '../client/cli/connection.cpp']
-      .map((file) => readFileSync(new URL(`../../server/${file}`, import.meta.url), 'utf8')).join('');
+test('settings are those of choreod, which waits and drains within its grace', () => {
+  const flags = ['server/config_flags.cpp', 'client/cli/connection.cpp'].map(readSource).join('');
+  const settings = [...container.env.map(({name}) => name), ...Object.keys(yaml.load(read('compose.yaml')).services.choreod.environment)];
   settings.forEach((name) => assert.ok(flags.includes(`"${name}"`), `nobody reads ${name}`));
-  const drain = Number(container.env.find(({name}) => name === 'CHOREO_DRAIN_SECONDS').value);
-  assert.ok(ofKind('Deployment').spec.template.spec.terminationGracePeriodSeconds >= drain + 5);
+  const {command: [program, seconds]} = container.lifecycle.preStop.exec;
+  assert.equal(program, 'sleep');
+  assert.ok(Number(seconds) > 0);
+  assert.ok(pod.terminationGracePeriodSeconds >= Number(seconds) + Number(setting('CHOREO_DRAIN_SECONDS')) + 5);
+});
+
+test('all probes ask the health of gRPC, where choreod listens and as it listens', () => {
+  const port = container.ports.find(({name}) => name === 'grpc').containerPort;
+  assert.ok(setting('CHOREO_LISTEN').endsWith(`:${port}`));
+  // With TLS neither gRPC's probe of Kubernetes nor a client without these would be answered.
+  assert.ok(setting('CHOREO_TLS_CERT') && setting('CHOREO_CA') && setting('CHOREO_SERVER_NAME'));
+  assert.equal(setting('CHOREO_TLS'), 'true');
+  for (const name of ['startupProbe', 'readinessProbe', 'livenessProbe']) {
+    const {exec, ...others} = container[name];
+    assert.deepEqual(exec?.command, ['choreo', 'health', '--server', `127.0.0.1:${port}`], name);
+    ['grpc', 'tcpSocket', 'httpGet'].forEach((way) => assert.ok(!(way in others), name));
+    // choreo gives up after 3 s by itself, and then says why.
+    assert.ok(others.timeoutSeconds > 3, name);
+  }
+  assert.ok(container.livenessProbe.failureThreshold > container.readinessProbe.failureThreshold);
+});
+
+test('the pod has all that it may have, in whole cores', () => {
+  assert.equal(pod.containers.length, 1);
+  const {requests, limits} = container.resources;
+  assert.deepEqual(Object.keys(limits).sort(), ['cpu', 'memory']);
+  assert.deepEqual(requests, limits);
+  assert.match(limits.cpu, /^[1-9][0-9]*$/);
+});
+
+test('calls are limited to what the page counts on for these kernels and cores', () => {
+  const rows = [...readSource('docs/operations.md').matchAll(/^\| `([a-z0-9_]+)` \| ([0-9]+) \|/gm)];
+  const capacity = Object.fromEntries(rows.map(([, kernels, dances]) => [kernels, Number(dances)]));
+  assert.ok(capacity[setting('CHOREO_KERNELS')] > 0, `docs/operations.md says nothing of ${setting('CHOREO_KERNELS')}`);
+  assert.ok(Number(setting('CHOREO_MAX_STREAMS')) <= capacity[setting('CHOREO_KERNELS')] * Number(container.resources.limits.cpu));
 });
 
 test('the metrics that others ask for are those that there are', () => {
-  const source = readFileSync(new URL('../../server/metrics.cpp', import.meta.url), 'utf8');
-  const exported = new Set([...source.matchAll(/"([a-z_]+)",\s*\n?\s*(?:"|\[)/g)].map(([, name]) => `choreo_${name}`));
-  const asked = [...(read('grafana.json') + read('kubernetes.yaml')).matchAll(/\bchoreo_[a-z_]+/g)]
-      .map(([name]) => name.replace(/_(bucket|sum|count)$/, ''));
+  const files = ['grafana.json', 'kubernetes.yaml', 'monitoring.yaml', 'prometheus-adapter.yaml'].map(read).join('');
+  const asked = [...files.matchAll(/\bchoreo_[a-z_]+/g)].map(([name]) => name.replace(/_(bucket|sum|count)$/, ''));
   assert.ok(asked.length > 20);
   new Set(asked).forEach((name) => assert.ok(exported.has(name), `nobody exports ${name}`));
+});
+
+test('the monitor finds where the pods show their metrics', () => {
+  const {selector, endpoints: [endpoint]} = ofKind('ServiceMonitor').spec;
+  assert.deepEqual(selector.matchLabels, ofKind('Service').metadata.labels);
+  const {targetPort, port} = ofKind('Service').spec.ports.find(({name}) => name === endpoint.port);
+  const {containerPort} = container.ports.find(({name}) => name === targetPort);
+  assert.equal(port, containerPort);
+  assert.ok(setting('CHOREO_METRICS').endsWith(`:${containerPort}`));
+  assert.ok(metricSource.includes(`"${endpoint.path}"`));
+  const allowed = ofKind('NetworkPolicy').spec.ingress.flatMap((rule) => rule.ports.map((open) => open.port));
+  assert.deepEqual(allowed.sort(), container.ports.map(({name}) => name).sort());
+});
+
+test('alerts are PromQL on metrics and statuses that there are', () => {
+  assert.equal(errorsOf('rate(choreo_frames_total[5m]) >').length, 1);
+  const asked = new Set();
+  const statuses = readSource('server/status.cpp');
+  for (const {alert, expr, labels, annotations} of alerts) {
+    assert.deepEqual(errorsOf(expr), [], alert);
+    assert.ok(['critical', 'warning'].includes(labels.severity) && annotations.summary, alert);
+    const names = [...expr.matchAll(/\bchoreo_[a-z_]+/g)].map(([name]) => name);
+    assert.ok(names.length > 0, alert);
+    names.forEach((name) => asked.add(name));
+    [...expr.matchAll(/status="([A-Z_]+)"/g)].forEach(([, status]) => assert.ok(statuses.includes(`"${status}"`), status));
+  }
+  ['choreo_streams_limit', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures']
+      .forEach((name) => assert.ok(asked.has(name), `nobody is woken for ${name}`));
+  assert.equal(new Set(alerts.map(({alert}) => alert)).size, alerts.length);
+});
+
+test('the adapter hands on what the autoscaler scales by, of each pod', () => {
+  const [{pods}] = ofKind('HorizontalPodAutoscaler').spec.metrics;
+  const [rule] = yaml.load(read('prometheus-adapter.yaml')).rules.custom;
+  assert.equal(rule.name.as, pods.metric.name);
+  assert.ok(rule.seriesQuery.startsWith(`${pods.metric.name}{`));
+  assert.deepEqual(errorsOf(rule.seriesQuery), []);
+  assert.deepEqual(Object.values(rule.resources.overrides).map(({resource}) => resource), ['namespace', 'pod']);
+  const asked = rule.metricsQuery.replace('<<.Series>>', pods.metric.name).replace('<<.GroupBy>>', 'pod')
+      .replace('<<.LabelMatchers>>', 'namespace="default"');
+  assert.deepEqual(errorsOf(asked), []);
+});
+
+test('Envoy turns gRPC-Web into gRPC, for pages that are named', () => {
+  const {listeners: [listener], clusters} = yaml.load(read('envoy.yaml')).static_resources;
+  const [chain] = listener.filter_chains;
+  const manager = chain.filters[0].typed_config;
+  assert.deepEqual(manager.http_filters.map(({name}) => name),
+      ['envoy.filters.http.grpc_web', 'envoy.filters.http.cors', 'envoy.filters.http.router']);
+  manager.http_filters.forEach(({name, typed_config: config}) =>
+    assert.ok(config['@type'].startsWith(`type.googleapis.com/envoy.extensions.${name.slice('envoy.'.length)}.v3.`), name));
+  // Browsers may speak HTTP/1.1.
+  assert.equal(manager.codec_type, 'AUTO');
+  assert.deepEqual(chain.transport_socket.typed_config.common_tls_context.alpn_protocols, ['h2', 'http/1.1']);
+  const [host] = manager.route_config.virtual_hosts;
+  const cors = host.typed_per_filter_config['envoy.filters.http.cors'];
+  assert.ok(cors['@type'].endsWith('.cors.v3.CorsPolicy'));
+  assert.ok(cors.allow_origin_string_match.every(({exact}) => exact?.startsWith('https://')));
+  ['content-type', 'x-grpc-web', 'authorization'].forEach((name) => assert.ok(cors.allow_headers.split(',').includes(name), name));
+  ['grpc-status', 'grpc-message', 'grpc-status-details-bin']
+      .forEach((name) => assert.ok(cors.expose_headers.split(',').includes(name), name));
+  for (const {match, route} of host.routes) {
+    assert.deepEqual(match, {prefix: '/'});
+    assert.ok(clusters.some(({name}) => name === route.cluster), route.cluster);
+  }
+  const [{health_checks: [check]}] = clusters;
+  const proto = readSource('proto/choreo/v1/choreography.proto');
+  assert.ok(proto.includes('package choreo.v1;') && proto.includes('service Choreography {'));
+  assert.equal(check.grpc_health_check.service_name, 'choreo.v1.Choreography');
+  // Each type says its package and its name.
+  for (const part of parts(listener)) {
+    if ('@type' in part) assert.match(part['@type'], /^type\.googleapis\.com\/envoy\.extensions\.[a-z0-9_.]+\.v3\.[A-Z][A-Za-z]+$/);
+  }
 });
 
 test('the dashboard is well formed, and no panel covers another', () => {
@@ -60,6 +196,10 @@ test('containers of compose.yaml may do little', () => {
   const service = yaml.load(read('compose.yaml')).services.choreod;
   assert.equal(service.read_only, true);
   assert.notEqual(service.user.split(':')[0], '0');
-  assert.ok(service.mem_limit && service.pids_limit);
+  assert.ok(service.mem_limit);
+  // Of 28 threads that choreod has and 8 of its health check, several times as many; and calls that take one each are off.
+  assert.ok(service.pids_limit >= 100);
+  assert.equal(service.environment.CHOREO_REFLECTION, 'false');
+  assert.match(service.image, /^\$\{CHOREO_IMAGE:-choreo\}$/);
   assert.ok(service.ports.every((port) => port.startsWith('127.0.0.1:')));
 });
