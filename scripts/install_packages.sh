@@ -26,7 +26,7 @@ demo=(fretsonfire-songs-sectoid)
 # What `choreo render --video` runs.
 video=(ffmpeg)
 # An independent reader of the files that we write; what the examples of other languages and web pages need (they are tests, too).
-test=(python3-numpy python3-grpcio python3-protobuf nodejs npm openssl)
+test=(python3-numpy python3-grpcio python3-protobuf python3-pip python3-setuptools python3-wheel nodejs npm openssl)
 # What `make bench` compares with.
 bench=(python3-torch python3-numpy)
 lint=(clang-format clang-tidy)

@@ -1,10 +1,10 @@
 // Edits a dance while its music plays: each pose is asked for 1.5 s ahead and changed 0.8 s ahead, and half way limbs get livelier.
-//   node live_edit.js [--server HOST:PORT] [--seconds 8] [--seed 1] [--speed 1]
-import { ChoreoClient, pose, positive, run, whole } from './choreo.js';
+//   node live_edit.js [--server HOST:PORT]... [--seconds 8] [--seed 1] [--speed 1]
+import { pose } from 'choreo-client';
 import { clicks, live, pcm, sampleRate } from './music.js';
+import { onResume, positive, run, whole } from './program.js';
 
 const flags = {
-  server: { type: 'string', default: process.env.CHOREO_SERVER ?? '127.0.0.1:50051' },
   seconds: { type: 'string', default: '8' },
   seed: { type: 'string', default: '1' },
   speed: { type: 'string', default: '1' },
@@ -48,15 +48,13 @@ async function* requests(options, model) {
   yield { keyframes_complete: {} };
 }
 
-await run(flags, async (options, signal) => {
-  const client = new ChoreoClient(options.server);
+await run(flags, async (client, options, signal) => {
   const model = (await client.info()).models[0];
   let frames = 0;
-  for await (const { frames: block, event } of client.streamDance(requests(options, model), { signal })) {
+  for await (const { frames: block, event } of client.streamDance(requests(options, model), { signal, onResume })) {
     frames += block?.count ?? 0;
     if (event?.keyframe_reached) console.log(`${event.keyframe_reached.id}: reached`);
     if (event?.keyframe_rejected) console.log(`${event.keyframe_rejected.id}: ${event.keyframe_rejected.reason}`);
   }
   console.log(`${frames} frames`);
-  client.close();
 });

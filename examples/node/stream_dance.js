@@ -1,11 +1,11 @@
 // Dances through two key poses to music that is still being played, or to a song:
-//   node stream_dance.js [--server HOST:PORT] [--song FILE] [--seconds 6] [--seed 1] [--speed 1] [--out dance.json]
+//   node stream_dance.js [--server HOST:PORT]... [--song FILE] [--seconds 6] [--seed 1] [--speed 1] [--out dance.json]
 import { writeFile } from 'node:fs/promises';
-import { ChoreoClient, pose, positive, run, whole } from './choreo.js';
+import { pose } from 'choreo-client';
 import { clicks, file, live, pcm } from './music.js';
+import { onResume, positive, run, whole } from './program.js';
 
 const flags = {
-  server: { type: 'string', default: process.env.CHOREO_SERVER ?? '127.0.0.1:50051' },
   song: { type: 'string' },
   seconds: { type: 'string', default: '6' },
   seed: { type: 'string', default: '1' },
@@ -30,12 +30,11 @@ async function* requests(options, { skeleton, model_frame_rate }) {
   yield { end_of_audio: {} };
 }
 
-await run(flags, async (options, signal) => {
-  const client = new ChoreoClient(options.server);
+await run(flags, async (client, options, signal) => {
   const model = (await client.info()).models[0];
   const dance = { frame_rate: 0, root_positions: [], rotations: [] };
   let frames = 0;
-  for await (const answer of client.streamDance(requests(options, model), { signal })) {
+  for await (const answer of client.streamDance(requests(options, model), { signal, onResume })) {
     switch (answer.response) {
       case 'header':
         dance.frame_rate = answer.header.frame_rate;
@@ -58,5 +57,4 @@ await run(flags, async (options, signal) => {
     }
   }
   if (options.out) await writeFile(options.out, JSON.stringify(dance));
-  client.close();
 });

@@ -1,17 +1,16 @@
 // Makes several ways from rest to a pose, best first:
-//   node transition.js [--server HOST:PORT] [--frames 45] [--candidates 3] [--seed 1]
-import { ChoreoClient, pose, run, whole } from './choreo.js';
+//   node transition.js [--server HOST:PORT]... [--frames 45] [--candidates 3] [--seed 1]
+import { pose } from 'choreo-client';
 import { clicks, pcm } from './music.js';
+import { run, whole } from './program.js';
 
 const flags = {
-  server: { type: 'string', default: process.env.CHOREO_SERVER ?? '127.0.0.1:50051' },
   frames: { type: 'string', default: '45' },
   candidates: { type: 'string', default: '3' },
   seed: { type: 'string', default: '1' },
 };
 
-await run(flags, async (options, signal) => {
-  const client = new ChoreoClient(options.server);
+await run(flags, async (client, options, signal) => {
   const { skeleton, model_frame_rate } = (await client.info()).models[0];
   const count = (name) => Number(whole(options, name, 1n, 1_000_000n));
   const frames = count('frames');
@@ -39,5 +38,4 @@ await run(flags, async (options, signal) => {
       }
     }
   }
-  client.close();
 });

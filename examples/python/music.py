@@ -26,12 +26,8 @@ def live(samples, speed=1.0):
 
 
 def file(path):
-    """The bytes of a WAV, FLAC, Ogg or MP3 file, which is opened at once: whoever sends them could not say that there is none."""
-    return _pieces(open(path, "rb"))
-
-
-def _pieces(song):
-    with song:
+    """The bytes of a WAV, FLAC, Ogg or MP3 file."""
+    with open(path, "rb") as song:
         start = 0
         while data := song.read(1 << 20):
             yield choreography.Audio(data=data, first_sample=start)

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """Dances through two key poses to music that is still being played, or to a song."""
 
-import argparse
 import json
-import os
 import sys
 
-from choreo_client import choreography, connect, pose, positive, run, seed
+from program import arguments, connect, positive, run, seed, tell_resume
+
+from choreo_client import choreography, pose
 from music import PCM, clicks, file, live
 
 
@@ -24,8 +24,7 @@ def requests(options, model, music):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--server", default=os.environ.get("CHOREO_SERVER", "127.0.0.1:50051"), help="HOST:PORT")
+    parser = arguments(__doc__)
     parser.add_argument("--song", help="file to dance to; default: clicks, played meanwhile")
     parser.add_argument("--seconds", type=positive, default=6)
     parser.add_argument("--seed", type=seed, default=1)
@@ -34,13 +33,12 @@ def main():
     options = parser.parse_args()
 
     music = file(options.song) if options.song else live(clicks(options.seconds), options.speed)
-    server = connect(options.server)
-    model = server.GetServerInfo(choreography.GetServerInfoRequest()).models[0]
-    call = server.StreamDance(choreography.StreamDanceRequest(**request) for request in requests(options, model, music))
+    client = connect(options)
+    model = client.info().models[0]
     dance = {"root_positions": [], "rotations": []}
     frames = 0
-    try:
-        for answer in call:
+    with client.stream_dance(requests(options, model, music), on_resume=tell_resume) as answers:
+        for answer in answers:
             if answer.HasField("header"):
                 dance["frame_rate"] = answer.header.frame_rate
                 print(f"{answer.header.model} dances with seed {answer.header.seed}")
@@ -54,8 +52,6 @@ def main():
                 print(f"\n{reached.id}: reached to {1e3 * reached.errors.final_error_m:.3f} mm")
             elif answer.HasField("summary"):
                 print(f"\n{frames} frames, {answer.summary.timing.real_time_factor:.1f} times as fast as danced")
-    finally:
-        call.cancel()  # whoever stops reading ends the dance; a finished call does not mind
     if options.out:
         with open(options.out, "w", encoding="utf-8") as out:
             json.dump(dance, out)

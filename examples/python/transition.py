@@ -1,25 +1,24 @@
 #!/usr/bin/python3
 """Makes several ways from rest to a pose, best first."""
 
-import argparse
 import collections
-import os
 import sys
 
-from choreo_client import choreography, connect, pose, run, seed, whole
+from program import arguments, connect, run, seed, whole
+
+from choreo_client import choreography, pose
 from music import PCM, clicks
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--server", default=os.environ.get("CHOREO_SERVER", "127.0.0.1:50051"), help="HOST:PORT")
+    parser = arguments(__doc__)
     parser.add_argument("--frames", type=whole(1, 10**6), default=45)
     parser.add_argument("--candidates", type=whole(1, 10**6), default=3)
     parser.add_argument("--seed", type=seed, default=1)
     options = parser.parse_args()
 
-    server = connect(options.server)
-    model = server.GetServerInfo(choreography.GetServerInfoRequest()).models[0]
+    client = connect(options)
+    model = client.info().models[0]
     request = choreography.GenerateTransitionRequest(
         config=choreography.DanceConfig(seed=options.seed, audio_format=PCM),
         frames=options.frames,
@@ -28,9 +27,8 @@ def main():
         audio=choreography.Audio(data=clicks(options.frames / model.model_frame_rate)),
     )
     frames = collections.Counter()  # of each candidate, as they come
-    call = server.GenerateTransition(request)
-    try:
-        for answer in call:
+    with client.generate_transition(request) as answers:
+        for answer in answers:
             if answer.HasField("frames"):
                 frames[answer.frames.candidate] += answer.frames.count
                 print("\r" + " + ".join(map(str, frames.values())) + " frames", end="", file=sys.stderr)
@@ -43,8 +41,6 @@ def main():
                         f"the model's own miss {100 * key.raw_error_m:.1f} cm, left of it {1000 * key.final_error_m:.3f} mm, "
                         f"skating {100 * ranked.report.skate_ratio:.0f} %"
                     )
-    finally:
-        call.cancel()
 
 
 run(main)

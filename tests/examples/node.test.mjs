@@ -1,4 +1,4 @@
-// examples/node against a real choreod, which $CHOREO_SERVER names.
+// examples/node, and the calls of client/node, against a real choreod, which $CHOREO_SERVER names.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
-import { ChoreoClient, ChoreoError, pose } from '../../examples/node/choreo.js';
+import { ChoreoClient, ChoreoError, pose } from '../../client/node/src/index.js';
 import { clicks, live, pcm } from '../../examples/node/music.js';
 
 const address = process.env.CHOREO_SERVER;

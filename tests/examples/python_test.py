@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""examples/python against a real choreod, which $CHOREO_SERVER names."""
+"""examples/python, and client/python, against a real choreod, which $CHOREO_SERVER names; $CHOREOD names its program."""
 
 import json
 import os
@@ -12,19 +12,23 @@ import time
 import unittest
 import wave
 
-FOLDER = pathlib.Path(__file__).resolve().parents[2] / "examples" / "python"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "examples" / "python"
 SERVER = os.environ["CHOREO_SERVER"]
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(FOLDER))
+sys.path[:0] = [str(FOLDER), str(ROOT / "client" / "python")]
 
 try:
-    import grpc
+    import grpc  # noqa: F401
 except ImportError:
     print("skipped: there is no grpcio here (scripts/install_packages.sh test)")
     sys.exit(int(os.environ.get("CHOREO_SKIP_CODE", 77)))
 
-from choreo_client import Requests, choreography, connect, field_violations, pose
+from choreo_client import ChoreoError, Client, choreography, pose
 from music import PCM, RATE, clicks
+from python_client_test import ClientTest  # noqa: F401  (its tests are run here)
+from python_package_test import PackageTest  # noqa: F401
+from servers import Server
 
 
 def program(name, *flags):
@@ -34,21 +38,19 @@ def program(name, *flags):
 
 def silence():
     """A dance to silence that goes on until somebody ends it."""
-    yield choreography.StreamDanceRequest(config=choreography.DanceConfig(audio_format=PCM))
-    yield choreography.StreamDanceRequest(keyframes_complete=choreography.KeyframesComplete())
+    yield {"config": {"audio_format": PCM}}
+    yield {"keyframes_complete": {}}
     first_sample = 0
     while True:
         time.sleep(0.005)
-        yield choreography.StreamDanceRequest(audio=choreography.Audio(data=bytes(2 * 735), first_sample=first_sample))
+        yield {"audio": {"data": bytes(2 * 735), "first_sample": first_sample}}
         first_sample += 735
 
 
 class PythonTest(unittest.TestCase):
     def setUp(self):
-        self.server = connect(SERVER)
-
-    def info(self):
-        return self.server.GetServerInfo(choreography.GetServerInfoRequest())
+        self.client = Client(SERVER)
+        self.addCleanup(self.client.close)
 
     def test_stream_dance_dances_live(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -88,7 +90,7 @@ class PythonTest(unittest.TestCase):
         for name, flag, value in (
             ("live_edit.py", "--seed", -1),
             ("live_edit.py", "--seconds", "nan"),
-            ("live_edit.py", "--lose-at", "-inf"),
+            ("live_edit.py", "--change-ahead", "-inf"),
             ("stream_dance.py", "--seconds", "inf"),
             ("stream_dance.py", "--speed", 0),
             ("stream_dance.py", "--seed", 2**64),
@@ -99,28 +101,30 @@ class PythonTest(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(f"argument {flag}: {value} is not a ", done.stderr)
 
-    def test_live_edit_survives_the_loss_of_its_connection(self):
-        with tempfile.TemporaryDirectory() as folder:
+    def test_live_edit_survives_its_server(self):
+        with tempfile.TemporaryDirectory() as folder, Server() as one:
             whole, resumed = pathlib.Path(folder, "whole.json"), pathlib.Path(folder, "resumed.json")
-            self.assertEqual(program("live_edit.py", "--seconds", 6, "--speed", 50, "--out", whole).returncode, 0)
-            done = program("live_edit.py", "--seconds", 6, "--speed", 50, "--lose-at", 3, "--out", resumed)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertRegex(done.stdout, r"goes on from frame \d+\n")
+            undisturbed = program("live_edit.py", "--seconds", 6, "--speed", 50, "--out", whole)
+            self.assertEqual(undisturbed.returncode, 0, undisturbed.stderr)
+            command = [sys.executable, "-B", "-u", FOLDER / "live_edit.py", "--server", one.address, "--server", SERVER]
+            command += ["--seconds", "6", "--speed", "4", "--out", resumed]
+            with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as running:
+                said = running.stdout.readline()  # the first key is reached, and two are to come
+                one.kill()
+                said += running.stdout.read()
+            self.assertEqual(running.returncode, 0)
+            self.assertRegex(said, rf"goes on at {SERVER} from frame \d+\n")
+            self.assertEqual(re.sub(r"\ngoes on .*\n", "", said), undisturbed.stdout)
             self.assertEqual(json.loads(resumed.read_text()), json.loads(whole.read_text()))
 
     def test_a_dance_without_music_goes_on_from_a_continuation(self):
-        def source():
-            yield {"config": choreography.DanceConfig(seed=3, frames=90)}
-            wanted = pose(self.info().models[0].skeleton, {"left_shoulder": [0, 0, 1]})
-            yield {"keyframe": choreography.Keyframe(id="up", frame=40, pose=wanted)}
-            yield {"keyframes_complete": choreography.KeyframesComplete()}
-
-        said = Requests(source())
-        answers = list(self.server.StreamDance(said.all()))
+        wanted = pose(self.client.info().models[0].skeleton, {"left_shoulder": [0, 0, 1]})
+        rest = [{"keyframe": choreography.Keyframe(id="up", frame=40, pose=wanted)}, {"keyframes_complete": {}}]
+        answers = list(self.client.stream_dance([{"config": {"seed": 3, "frames": 90}}, *rest]))
         whole = [number for answer in answers for number in answer.frames.rotations]
         continuation = next(answer.continuation for answer in answers if answer.HasField("continuation"))
-        rest = [number for answer in self.server.StreamDance(said.since(continuation)) for number in answer.frames.rotations]
-        self.assertEqual(rest, whole[len(whole) * continuation.frame // 90 :])
+        again = self.client.stream_dance([{"config": {"frames": 90, "continuation": continuation}}, *rest])
+        self.assertEqual([number for answer in again for number in answer.frames.rotations], whole[len(whole) * continuation.frame // 90 :])
 
     def test_a_missing_song_is_named(self):
         done = program("stream_dance.py", "--song", "/absent/song.mp3")
@@ -136,26 +140,29 @@ class PythonTest(unittest.TestCase):
         self.assertIn("field: frames", bad.stderr)
 
     def test_errors_name_field_and_value(self):
-        bad = pose(self.info().models[0].skeleton, {"pelvis": [1000, 0, 0]})
-        requests = [
-            choreography.StreamDanceRequest(config=choreography.DanceConfig()),
-            choreography.StreamDanceRequest(keyframe=choreography.Keyframe(id="a", frame=9, pose=bad)),
-        ]
-        with self.assertRaises(grpc.RpcError) as raised:
-            list(self.server.StreamDance(iter(requests)))
-        self.assertEqual(raised.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
-        ((field, description),) = field_violations(raised.exception)
+        bad = pose(self.client.info().models[0].skeleton, {"pelvis": [1000, 0, 0]})
+        requests = [{"config": {}}, {"keyframe": {"id": "a", "frame": 9, "pose": bad}}]
+        with self.assertRaises(ChoreoError) as raised:
+            list(self.client.stream_dance(requests))
+        self.assertEqual(raised.exception.code, "INVALID_ARGUMENT")
+        ((field, description),) = raised.exception.violations
         self.assertEqual(field, "keyframes[0].rotations[0]")
         self.assertIn("1000", description)
 
     def test_a_cancelled_call_ends_here_and_on_the_server(self):
-        call = self.server.StreamDance(silence())
-        with self.assertRaises(grpc.RpcError) as raised:
-            for answer in call:
+        answers = self.client.stream_dance(silence())
+        with self.assertRaises(ChoreoError) as raised:
+            for answer in answers:
                 if answer.HasField("frames"):
-                    call.cancel()
-        self.assertEqual(raised.exception.code(), grpc.StatusCode.CANCELLED)
-        while self.info().active_streams > 0:
+                    answers.cancel()
+        self.assertEqual(raised.exception.code, "CANCELLED")
+        # So does one that is no longer read, and one whose time is up.
+        with self.client.stream_dance(silence()) as answers:
+            next(answers)
+        with self.assertRaises(ChoreoError) as raised:
+            list(self.client.stream_dance(silence(), timeout=0.1))
+        self.assertEqual(raised.exception.code, "DEADLINE_EXCEEDED")
+        while self.client.info().active_streams > 0:
             time.sleep(0.005)
 
 

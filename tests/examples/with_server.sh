@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Runs a command with $CHOREO_SERVER naming a choreod of its own, which ends with it.
+# Runs a command with $CHOREO_SERVER naming a choreod of its own, which ends with it, and $CHOREOD the program.
 #   with_server.sh CHOREOD COMMAND...
 set -euo pipefail
+export CHOREOD=$1
 exec 3< <(exec "$1" --listen 127.0.0.1:0)
 server=$!
 trap 'kill "$server"; wait "$server" || true' EXIT

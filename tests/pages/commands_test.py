@@ -72,7 +72,7 @@ class Reader:
     def __init__(self, folder, made):
         self.folder = folder
         shutil.copytree(made, folder, dirs_exist_ok=True)
-        for name in ("docker", "examples", "proto"):
+        for name in ("client/node", "client/python", "docker", "examples", "proto"):
             shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("node_modules"))
         for name in ("model/checkpoints", "tests/proto", "build/release/bin", "build/example", "models", "docs/images"):
             (folder / name).mkdir(parents=True, exist_ok=True)

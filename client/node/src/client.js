@@ -1,0 +1,33 @@
+import { answerOf } from './answers.js';
+import { dance } from './dance.js';
+import { Replicas } from './replicas.js';
+import { transition } from './transition.js';
+
+/** A client of one server or of several replicas. index.d.ts explains each method. */
+export class ChoreoClient {
+  #replicas;
+
+  constructor(addresses, options = {}) {
+    this.#replicas = new Replicas([addresses].flat(), options);
+  }
+
+  close() {
+    this.#replicas.close();
+  }
+
+  async info({ signal, deadline } = {}) {
+    const replicas = this.#replicas;
+    async function* attempt({ stub }) {
+      yield await answerOf((callback) => stub.GetServerInfo({}, replicas.metadata(), { deadline }, callback), signal);
+    }
+    for await (const answer of replicas.persist(attempt, { signal, deadline })) return answer;
+  }
+
+  streamDance(requests, options) {
+    return dance(this.#replicas, requests, options);
+  }
+
+  generateTransition(request, options) {
+    return transition(this.#replicas, request, options);
+  }
+}

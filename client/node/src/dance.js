@@ -1,0 +1,158 @@
+// A dance that outlives its server: it goes on at another one from the last continuation, and the caller reads what it would have read.
+import grpc from '@grpc/grpc-js';
+import { answersOf } from './answers.js';
+import { ChoreoError, unavailable } from './error.js';
+import { firstOutputFrame, requireSameFingerprint } from './header.js';
+import { Journal, placeOf } from './journal.js';
+import { Seen } from './seen.js';
+
+/** The answers of StreamDance to `requests`. */
+export async function* dance(replicas, requests, { signal, deadline, onResume } = {}) {
+  const journal = new Journal(requests);
+  const progress = new Progress(journal, onResume);
+  try {
+    yield* replicas.persist((server, patience) => attempt(server, patience), { signal, deadline });
+  } finally {
+    journal.close();
+  }
+
+  async function* attempt(server, patience) {
+    progress.restart();
+    const call = server.stub.StreamDance(replicas.metadata(), { deadline });
+    const sent = { count: 0 };
+    say(call, journal, progress, sent);
+    try {
+      for await (const answer of answersOf(call, signal)) {
+        const news = progress.take(answer, server.address, sent.count);
+        if (!news) continue;
+        if (news.frames) patience.reset();
+        yield news;
+      }
+    } catch (error) {
+      if (journal.failure) throw journal.failure;
+      // All was said: nothing of the status matters any more.
+      if (!progress.complete) throw error instanceof ChoreoError ? because(progress, error) : error;
+    }
+    if (!progress.complete) throw because(progress, unavailable('the server ended the dance before its summary'));
+  }
+}
+
+function because(progress, error) {
+  progress.lostBecause = error;
+  return error;
+}
+
+/** Says what the journal holds, as fast as the server takes it, until the call is over. */
+async function say(call, journal, progress, sent) {
+  let over = false;
+  const end = new Promise((resolve) => call.once('status', resolve)).then(() => (over = true));
+  try {
+    for (let at = 0; ; ++at) {
+      const request = await journal.at(at);
+      if (over) return;
+      if (request === undefined) return call.end();
+      sent.count = at + 1;
+      if (request === null) continue;
+      const again = at === 0 ? progress.first(request) : request;
+      if (!call.write(again)) await Promise.race([end, new Promise((resolve) => call.once('drain', resolve))]);
+    }
+  } catch {
+    call.cancel(); // the journal knows what went wrong
+  }
+}
+
+/** What has come of a dance, and how another server goes on with it. */
+class Progress {
+  complete = false;
+  /** Why the last server was left. */
+  lostBecause;
+  #journal;
+  #onResume;
+  #header;
+  #continuation;
+  #seen;
+  #reached = []; // KeyframeReports
+
+  constructor(journal, onResume) {
+    this.#journal = journal;
+    this.#onResume = onResume;
+  }
+
+  /** The first request of an attempt. */
+  first(request) {
+    if (!this.#header || !request.config) return request;
+    // Another server has to dance the same dance, and by the same model.
+    const config = { ...request.config, seed: this.#header.seed, model: this.#header.model };
+    if (this.#continuation) {
+      delete config.history;
+      delete config.start;
+      config.continuation = this.#continuation;
+    }
+    if (this.#journal.bytesPerSample() > 0) {
+      config.audio_format = { ...config.audio_format, first_sample: this.#journal.firstSample() };
+    }
+    return { config };
+  }
+
+  /** Another server begins. */
+  restart() {
+    if (!this.#header) return;
+    const frame = Number(this.#continuation?.frame ?? this.#header.first_frame);
+    this.#seen.restart(frame, this.#journal.keysBefore(frame, this.#header.model_frame_rate));
+  }
+
+  /** What the caller is to see of an answer, if anything. `sent`: how many requests the server has been sent. */
+  take(answer, address, sent) {
+    switch (answer.response) {
+      case 'header':
+        return this.#takeHeader(answer, address);
+      case 'frames': {
+        const frames = this.#seen.frames(answer.frames);
+        return frames && { ...answer, frames };
+      }
+      case 'event': {
+        if (!this.#seen.event(answer.event)) return undefined;
+        const { frame, keyframe_reached: key } = answer.event;
+        if (key) this.#reached.push({ id: key.id, frame, errors: key.errors, max_acceleration: 0 });
+        return answer;
+      }
+      case 'continuation':
+        this.#continuation = answer.continuation;
+        this.#journal.forgetMusicBefore(Number(answer.continuation.audio_from_sample), sent);
+        return answer;
+      case 'summary':
+        return this.#takeSummary(answer);
+    }
+    return undefined; // of a newer version of the protocol
+  }
+
+  #takeHeader(answer, address) {
+    const { header } = answer;
+    if (!this.#header) {
+      this.#header = header;
+      this.#seen = new Seen(firstOutputFrame(header));
+      return answer;
+    }
+    const { frame_rate, skeleton } = this.#header;
+    if (header.frame_rate !== frame_rate || header.skeleton.joint_names.length !== skeleton.joint_names.length) {
+      const details = 'the server that should go on with the dance has another frame rate or body';
+      throw new ChoreoError({ code: grpc.status.DATA_LOSS, details });
+    }
+    // A continuation of another fingerprint was refused, or let through by the caller; without one nobody has looked.
+    if (!this.#continuation) requireSameFingerprint(this.#header, header, address);
+    this.#onResume?.({ address, frame: this.#seen.nextFrame(), exact: header.exact_resume, because: this.lostBecause });
+    return undefined;
+  }
+
+  #takeSummary(answer) {
+    this.complete = true;
+    // The server speaks of what it made itself; what came before a resume is known here.
+    const { report } = answer.summary;
+    const made = Number(report.frames) + Number(report.first_frame) - Number(this.#header.first_frame);
+    const known = new Set(report.keyframes.map((key) => placeOf(key.id, key.frame)));
+    const keyframes = [...report.keyframes, ...this.#reached.filter((key) => !known.has(placeOf(key.id, key.frame)))];
+    keyframes.sort((a, b) => a.frame - b.frame);
+    const whole = { ...report, first_frame: this.#header.first_frame, frames: String(made), keyframes };
+    return { ...answer, summary: { ...answer.summary, report: whole } };
+  }
+}

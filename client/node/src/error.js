@@ -1,0 +1,58 @@
+// What may go wrong, and when it is worth while to try again.
+import grpc from '@grpc/grpc-js';
+import { rpc } from './protos.js';
+
+/** A failed call: `code` as in 'INVALID_ARGUMENT', the server's words, and what it names. */
+export class ChoreoError extends Error {
+  /** `failure`: of gRPC, or made here: {code, details}. */
+  constructor(failure, violations = []) {
+    super(failure.details || failure.message || 'the server failed without saying why');
+    this.name = 'ChoreoError';
+    this.code = grpc.status[failure.code] ?? 'UNKNOWN';
+    /** [{field: 'keyframes[0].rotations', description: 'keyframes[0].rotations: 69 numbers, ...'}] */
+    this.violations = violations;
+    /** Try again after so many seconds, where that may help. */
+    this.retryAfter = undefined;
+    for (const bytes of failure.metadata?.get('grpc-status-details-bin') ?? []) this.#read(bytes);
+  }
+
+  #read(bytes) {
+    for (const { type_url, value } of rpc.lookupType('google.rpc.Status').decode(bytes).details) {
+      const type = type_url.split('/').pop();
+      if (type === 'google.rpc.BadRequest') {
+        this.violations.push(...rpc.lookupType(type).decode(value).fieldViolations);
+      } else if (type === 'google.rpc.RetryInfo') {
+        const { seconds, nanos } = rpc.lookupType(type).decode(value).retryDelay;
+        this.retryAfter = Number(seconds) + 1e-9 * nanos;
+      }
+    }
+  }
+}
+
+export function unavailable(details) {
+  return new ChoreoError({ code: grpc.status.UNAVAILABLE, details });
+}
+
+export function cancelled() {
+  return new ChoreoError({ code: grpc.status.CANCELLED, details: 'the call was cancelled' });
+}
+
+/** Of an option of ours; named as the server names its fields. */
+export function invalid(field, what) {
+  const details = `${field}: ${what}`;
+  return new ChoreoError({ code: grpc.status.INVALID_ARGUMENT, details }, [{ field, description: details }]);
+}
+
+/** What another replica may have been started with. */
+const ofTheReplica = ['config.model', 'config.continuation.fingerprint', 'config.continuation.skeleton'];
+
+/**
+ * How a call that failed may be tried again: `here`, at the same server; `elsewhere`, at another one; after `wait` seconds at least. A server
+ * that is away or full may be asked again. One that broke, is of another fingerprint or lacks the model would fail again, but another one
+ * may do better. Anything else fails everywhere.
+ */
+export function adviceFor(error) {
+  const here = error.retryAfter !== undefined || error.code === 'UNAVAILABLE';
+  const broken = error.code === 'INTERNAL' || error.code === 'UNKNOWN';
+  return { here, elsewhere: here || broken || ofTheReplica.includes(error.violations[0]?.field), wait: error.retryAfter ?? 0 };
+}

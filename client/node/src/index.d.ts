@@ -1,0 +1,107 @@
+import type { GenerateTransitionRequest } from '../types/choreo/v1/GenerateTransitionRequest.js';
+import type { GenerateTransitionResponse__Output } from '../types/choreo/v1/GenerateTransitionResponse.js';
+import type { GetServerInfoResponse__Output } from '../types/choreo/v1/GetServerInfoResponse.js';
+import type { ModelInfo__Output } from '../types/choreo/v1/ModelInfo.js';
+import type { Pose } from '../types/choreo/v1/Pose.js';
+import type { Skeleton__Output } from '../types/choreo/v1/Skeleton.js';
+import type { StreamDanceRequest } from '../types/choreo/v1/StreamDanceRequest.js';
+import type { StreamDanceResponse__Output } from '../types/choreo/v1/StreamDanceResponse.js';
+
+// Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
+// what comes has all of them. Numbers of 64 bits come as text.
+export type { GenerateTransitionRequest, Pose, StreamDanceRequest };
+export type GenerateTransitionResponse = GenerateTransitionResponse__Output;
+export type ModelInfo = ModelInfo__Output;
+export type ServerInfo = GetServerInfoResponse__Output;
+export type Skeleton = Skeleton__Output;
+export type StreamDanceResponse = StreamDanceResponse__Output;
+
+/** How to reach the servers, and how patiently. */
+export interface ClientOptions {
+  tls?: boolean;
+  /** PEM file of the authority to trust, with `tls`; default: those that Node.js trusts. */
+  caCertificate?: string;
+  /** PEM files of a certificate and its key, with `tls`, where the server wants to see one. */
+  clientCertificate?: string;
+  clientKey?: string;
+  /** Whose certificate the server must have, with `tls`; default: the one of its address. */
+  serverName?: string;
+  /** The token that the server wants, sent with each call. Needs `tls`, unless all addresses are of this machine. */
+  token?: string;
+  /** The file of it instead, read again for each call, so that it can be renewed. */
+  tokenFile?: string;
+  /** Seconds for one attempt at one address; default 5. */
+  connectTimeout?: number;
+  /** A server of which nothing is heard for so many seconds, not even the answer to a ping, is lost; at least 2, or 0: never. Default 5. */
+  silence?: number;
+  /** Seconds to try again and again since a call last made progress; default 10. 0: not at all, so nothing goes on elsewhere. */
+  retry?: number;
+  /** Seconds between tries, doubled with each, up to 2; default 0.1. */
+  firstBackoff?: number;
+}
+
+export interface CallOptions {
+  /** Ends the call, here and on the server. */
+  signal?: AbortSignal;
+  /** When the call must be over, all its attempts together. */
+  deadline?: Date;
+}
+
+/** A dance went on at another server. */
+export interface Resumed {
+  address: string;
+  /** The next frame to come, at the output rate. */
+  frame: number;
+  /** False: of another fingerprint, which config.allow_inexact_resume let through; the dance goes on smoothly, yet not as it would have. */
+  exact: boolean;
+  /** Why the other server was left. */
+  because: ChoreoError;
+}
+
+/** A failed call, or an option that cannot be used. The message is the server's, and names field, value and limit. */
+export class ChoreoError extends Error {
+  private constructor();
+  /** As in 'INVALID_ARGUMENT'. */
+  readonly code: string;
+  /** What is wrong: the field as in 'keyframes[0].rotations'. */
+  readonly violations: { field: string; description: string }[];
+  /** Try again after so many seconds, where that may help. */
+  readonly retryAfter?: number;
+}
+
+/**
+ * A client of one server or of several replicas. Connections are made when needed. A call whose server is lost, is full or refuses a model or
+ * fingerprint is tried at the next address.
+ */
+export class ChoreoClient {
+  /**
+   * `addresses`: HOST:PORT, unix:PATH or several of them, which are replicas: when one fails the next is asked. Calls take turns at the
+   * addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT). Throws ChoreoError for options that cannot be used.
+   */
+  constructor(addresses: string | string[], options?: ClientOptions);
+  close(): void;
+
+  /** Models, limits, devices. */
+  info(options?: CallOptions): Promise<ServerInfo>;
+
+  /**
+   * Dances. Sends the `requests`, an iterable that may be asynchronous (music that is being played, say), as fast as the server takes them,
+   * and yields the answers meanwhile. Whoever stops reading ends the dance. When its server is lost, the dance goes on at the next one from
+   * the last continuation: answers are those of an undisturbed dance, bit for bit, which `onResume` alone hears of. Requests must not be
+   * changed once they are said: they may be said again. (The summary's shares are those of the frames since the last resume.)
+   */
+  streamDance(
+    requests: Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>,
+    options?: CallOptions & { onResume?: (resumed: Resumed) => void },
+  ): AsyncGenerator<StreamDanceResponse, void, undefined>;
+
+  /** One transition, in one or several candidates. When its server is lost, another one makes it again; nothing is told twice. */
+  generateTransition(request: GenerateTransitionRequest, options?: CallOptions): AsyncGenerator<GenerateTransitionResponse, void, undefined>;
+}
+
+/** The body of `skeleton` standing at rest, where and however `rotations` ({joint name: [x, y, z] in radians}) turn it. */
+export function pose(
+  skeleton: Pick<Skeleton, 'pelvis_height' | 'joint_names'>,
+  rotations?: Record<string, [number, number, number]>,
+  place?: { x?: number; z?: number },
+): Pose;

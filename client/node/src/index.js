@@ -1,0 +1,4 @@
+// Talks to a choreod. index.d.ts says how.
+export { ChoreoClient } from './client.js';
+export { ChoreoError } from './error.js';
+export { pose } from './pose.js';

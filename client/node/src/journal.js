@@ -1,0 +1,107 @@
+// What has been said in a dance, in order, for another server to hear it again: a dance goes on from the last continuation and the same
+// messages. Only music that it no longer needs is forgotten.
+
+export class Journal {
+  #source;
+  #requests = []; // null: forgotten
+  #more; // while the source is asked
+  #over = false;
+  #musicEnd; // of what was forgotten
+  /** What the source threw. */
+  failure;
+
+  /** `requests`: an iterable, which may be asynchronous. It is asked for the next one when the server takes it. */
+  constructor(requests) {
+    this.#source = requests[Symbol.asyncIterator]?.() ?? requests[Symbol.iterator]();
+  }
+
+  /** Request number `index`: undefined where the source ended before it, null if it is forgotten. Throws what the source threw. */
+  async at(index) {
+    while (index >= this.#requests.length && !this.#over) {
+      this.#more ??= this.#ask();
+      await this.#more;
+    }
+    if (this.failure) throw this.failure;
+    return this.#requests[index];
+  }
+
+  async #ask() {
+    try {
+      const { done, value } = await this.#source.next();
+      if (done) this.#over = true;
+      else this.#requests.push(await value);
+    } catch (error) {
+      this.#over = true;
+      this.failure = error;
+      throw error;
+    } finally {
+      this.#more = undefined;
+    }
+  }
+
+  /** Nobody will ask any more. */
+  close() {
+    if (this.#over) return;
+    this.#over = true;
+    // A source that is at work ends when it is done with that.
+    Promise.resolve(this.#source.return?.()).catch(() => {});
+  }
+
+  /** Another server would need the music from this sample on alone. The present one has been told what stands before `sent`. */
+  forgetMusicBefore(sample, sent) {
+    const bytes = this.bytesPerSample();
+    if (bytes === 0) return;
+    for (let at = 0; at < sent && at < this.#requests.length; ++at) {
+      const audio = this.#requests[at]?.audio;
+      if (!audio) continue;
+      const end = Number(audio.first_sample ?? 0) + (audio.data?.length ?? 0) / bytes;
+      if (end > sample) return;
+      this.#musicEnd = end;
+      this.#requests[at] = null;
+    }
+  }
+
+  /** Where the music starts that is still here. */
+  firstSample() {
+    const first = this.#requests.find((request) => request?.audio);
+    return first ? (first.audio.first_sample ?? 0) : (this.#musicEnd ?? this.#format()?.first_sample ?? 0);
+  }
+
+  /** Of all channels together; 0 for a music file, which is decoded as a whole, and without music. */
+  bytesPerSample() {
+    const format = this.#format();
+    const bytes = { AUDIO_ENCODING_PCM_F32LE: 4, 1: 4, AUDIO_ENCODING_PCM_S16LE: 2, 2: 2 }[format?.encoding] ?? 0;
+    return bytes * (format?.channels ?? 0);
+  }
+
+  #format() {
+    return this.#requests[0]?.config?.audio_format;
+  }
+
+  /** What was said of keys that stood before `frame` then: as `placeOf` writes them, in order. Models run at `rate`. */
+  keysBefore(frame, rate) {
+    const found = [];
+    const frames = new Map();
+    let previous = 0;
+    for (const request of this.#requests) {
+      const id = request?.keyframe?.id ?? request?.remove_keyframe?.id;
+      if (id === undefined) continue;
+      if (request.keyframe) {
+        previous = frameOf(request.keyframe, previous, rate);
+        frames.set(id, previous);
+      }
+      if (frames.get(id) < frame) found.push(placeOf(id, frames.get(id)));
+    }
+    return found;
+  }
+}
+
+function frameOf({ frame, time, interval_after_previous: interval }, previous, rate) {
+  if (frame !== undefined) return Number(frame);
+  return time !== undefined ? Math.round(time * rate) : previous + Number(interval ?? 0);
+}
+
+/** A key by its id, and its frame at the model's rate. */
+export function placeOf(id, frame) {
+  return `${frame} ${id}`;
+}

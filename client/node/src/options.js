@@ -1,0 +1,142 @@
+// How to reach the servers, and how patiently: what the caller said, checked, as gRPC wants it.
+import { createPrivateKey, X509Certificate } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import { isIPv4 } from 'node:net';
+import { createSecureContext } from 'node:tls';
+import grpc from '@grpc/grpc-js';
+import { invalid } from './error.js';
+
+/** What index.d.ts explains. */
+const defaults = {
+  tls: false,
+  caCertificate: '',
+  clientCertificate: '',
+  clientKey: '',
+  serverName: '',
+  token: '',
+  tokenFile: '',
+  connectTimeout: 5,
+  silence: 5,
+  retry: 10,
+  firstBackoff: 0.1,
+};
+const leastSilence = 2; // seconds
+const mostPort = 65535;
+const mostTokenBytes = 4096; // gRPC's headers have 8 KiB in all
+
+/** The options with their defaults. Throws ChoreoError, naming the option, for those that cannot be used. */
+export function checkOptions(addresses, given) {
+  for (const name of Object.keys(given)) if (!(name in defaults)) throw invalid(name, `no option; there are ${Object.keys(defaults).join(', ')}`);
+  const options = { ...defaults, ...Object.fromEntries(Object.entries(given).filter(([, value]) => value !== undefined)) };
+  for (const [name, value] of Object.entries(options)) {
+    if (typeof value !== typeof defaults[name]) throw invalid(name, `${value} is no ${typeof defaults[name]}`);
+    if (typeof value === 'number' && !(value >= 0 && Number.isFinite(value))) throw invalid(name, `${value} is not a finite number >= 0`);
+  }
+  if (options.silence > 0 && options.silence < leastSilence) {
+    throw invalid('silence', `${options.silence} s is neither 0 nor at least ${leastSilence} s`);
+  }
+  if (addresses.length === 0) throw invalid('addresses', 'none is given');
+  for (const address of addresses) checkAddress(address);
+  checkToken(addresses, options);
+  return options;
+}
+
+// What gRPC would take for another port.
+function checkAddress(address) {
+  if (typeof address !== 'string' || address === '') throw invalid('addresses', `${JSON.stringify(address)} is no HOST:PORT`);
+  const port = /:(\d+)$/.exec(address)?.[1];
+  if (address.startsWith('unix:') || port === undefined) return;
+  if (Number(port) < 1 || Number(port) > mostPort) throw invalid('addresses', `${address}: port ${port} is not in [1, ${mostPort}]`);
+}
+
+/** Nobody else hears what is said to it. A name that only begins like an address is a name. */
+function isOfThisMachine(address) {
+  if (address.startsWith('unix:')) return true;
+  const hosts = address.replace(/^ipv[46]:/, '').split(',');
+  return hosts.every((host) => {
+    const name = host.replace(/:\d+$/, '');
+    return (isIPv4(name) && name.startsWith('127.')) || name === 'localhost' || name === '[::1]';
+  });
+}
+
+function checkToken(addresses, { token, tokenFile, tls }) {
+  if (!token && !tokenFile) return;
+  const name = token ? 'token' : 'tokenFile';
+  if (token && tokenFile) throw invalid('token', 'given beside tokenFile; one of them is sent');
+  const far = addresses.find((address) => !isOfThisMachine(address));
+  if (!tls && far) throw invalid(name, `a token goes to ${far} over TLS alone`);
+  if (token) requireToken('token', 'it', token);
+}
+
+// The value itself is never quoted.
+function requireToken(field, what, token) {
+  if (token.length > mostTokenBytes) throw invalid(field, `${what} has ${token.length} bytes, of at most ${mostTokenBytes}`);
+  if (!/^[!-~]+$/.test(token)) throw invalid(field, `${what} is no line of visible ASCII characters`);
+}
+
+function read(field, path) {
+  try {
+    return readFileSync(path);
+  } catch (error) {
+    throw invalid(field, error.code === 'ENOENT' ? `no file ${path}` : `cannot read ${path}: ${error.message}`);
+  }
+}
+
+/** The text of `path`, in which `check` finds no fault. */
+function readPem(field, path, what, check) {
+  const text = read(field, path);
+  try {
+    check(text);
+  } catch (error) {
+    throw invalid(field, `${path} ${what}: ${error.message}`);
+  }
+  return text;
+}
+
+/** gRPC's credentials for `options`. */
+export function credentialsFor(options) {
+  const { tls, caCertificate, clientCertificate, clientKey } = options;
+  if (!clientCertificate !== !clientKey) {
+    throw invalid(clientKey ? 'clientCertificate' : 'clientKey', 'missing; a certificate and its key go together');
+  }
+  if (!tls) {
+    for (const name of ['caCertificate', 'clientCertificate', 'serverName']) {
+      if (options[name]) throw invalid(name, `"${options[name]}" needs TLS, which is off`);
+    }
+    return grpc.credentials.createInsecure();
+  }
+  const certificate = (field, path) => readPem(field, path, 'holds no certificate in PEM', (text) => new X509Certificate(text));
+  const roots = caCertificate ? certificate('caCertificate', caCertificate) : null;
+  if (!clientKey) return grpc.credentials.createSsl(roots);
+  const cert = certificate('clientCertificate', clientCertificate);
+  const key = readPem('clientKey', clientKey, 'holds no private key in PEM without a passphrase', createPrivateKey);
+  readPem('clientKey', clientKey, `is not the key of ${clientCertificate}`, () => createSecureContext({ cert, key }));
+  return grpc.credentials.createSsl(roots, key, cert);
+}
+
+/** What each call carries: the token, which is read again for each, so that its file can be renewed. */
+export function metadataFor({ token, tokenFile }) {
+  const metadata = new grpc.Metadata();
+  let sent = token;
+  if (tokenFile) {
+    sent = read('tokenFile', tokenFile).toString('latin1').trimEnd();
+    requireToken('tokenFile', tokenFile, sent);
+  }
+  if (sent) metadata.set('authorization', `Bearer ${sent}`);
+  return metadata;
+}
+
+/** Of gRPC's channels. Calls take turns at all addresses of a name. */
+export function channelOptions({ serverName, silence }) {
+  const named = serverName && { 'grpc.ssl_target_name_override': serverName, 'grpc.default_authority': serverName };
+  // Half of the time until a ping, half for its answer.
+  const pings = silence && { 'grpc.keepalive_time_ms': 500 * silence, 'grpc.keepalive_timeout_ms': 500 * silence };
+  return {
+    'grpc.service_config': JSON.stringify({ loadBalancingConfig: [{ round_robin: {} }] }),
+    'grpc.max_receive_message_length': -1,
+    'grpc.initial_reconnect_backoff_ms': 100,
+    'grpc.max_reconnect_backoff_ms': 1000,
+    ...named,
+    ...pings,
+  };
+}

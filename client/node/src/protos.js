@@ -1,0 +1,30 @@
+// The API: its service, and the messages of its errors.
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import grpc from '@grpc/grpc-js';
+import protoLoader from '@grpc/proto-loader';
+import protobuf from 'protobufjs';
+
+const packed = fileURLToPath(new URL('../proto', import.meta.url));
+// A checkout has no copy: there the repository's are read.
+const folder = existsSync(packed) ? packed : fileURLToPath(new URL('../../../proto', import.meta.url));
+
+/** How messages become plain objects; the package's types are generated with the same. */
+export const literal = {
+  keepCase: true, // errors name fields as the proto does
+  longs: String, // a seed has 64 bits, a number only 53
+  enums: String,
+  defaults: true,
+  oneofs: true, // answer.response names what an answer holds
+};
+
+/** The stub of gRPC for choreo.v1.Choreography. */
+export const Choreography = grpc.loadPackageDefinition(
+  protoLoader.loadSync('choreo/v1/choreography.proto', { includeDirs: [folder], ...literal }),
+).choreo.v1.Choreography;
+
+/** google.rpc: Status and the details of errors. */
+export const rpc = new protobuf.Root();
+rpc.resolvePath = (_, file) => join(folder, file);
+rpc.loadSync(['google/rpc/status.proto', 'google/rpc/error_details.proto']);

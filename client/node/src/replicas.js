@@ -1,0 +1,124 @@
+// The servers that may be asked, one at a time, and how long to go on asking.
+import { setTimeout as sleep } from 'node:timers/promises';
+import grpc from '@grpc/grpc-js';
+import { adviceFor, cancelled, ChoreoError, unavailable } from './error.js';
+import { channelOptions, checkOptions, credentialsFor, metadataFor } from './options.js';
+import { Choreography } from './protos.js';
+
+const longestBackoff = 2; // seconds
+
+export class Replicas {
+  #servers;
+  #current = 0;
+
+  /** Throws ChoreoError for options that cannot be used. */
+  constructor(addresses, options) {
+    this.options = checkOptions(addresses, options);
+    const credentials = credentialsFor(this.options);
+    this.#servers = addresses.map((address) => ({
+      address,
+      stub: new Choreography(address, credentials, channelOptions(this.options)),
+    }));
+  }
+
+  close() {
+    for (const { stub } of this.#servers) stub.close();
+  }
+
+  metadata() {
+    return metadataFor(this.options);
+  }
+
+  /**
+   * The answers of `attempt(server, patience)`, an async generator, which is asked for again, of one server after another, until it ends or
+   * trying again would not help.
+   */
+  async *persist(attempt, { signal, deadline } = {}) {
+    const patience = new Patience(this.options, deadline, this.#servers.length);
+    for (;;) {
+      const server = this.#servers[this.#current];
+      try {
+        if (signal?.aborted) throw cancelled();
+        await connected(server, this.options.connectTimeout, deadline);
+        yield* attempt(server, patience);
+        return;
+      } catch (error) {
+        if (!(error instanceof ChoreoError) || signal?.aborted) throw error;
+        const wait = patience.next(error, this.#leave(server));
+        if (wait === undefined) throw named(patience.verdict, server);
+        await sleep(1000 * wait, undefined, { signal }).catch(() => {
+          throw cancelled();
+        });
+      }
+    }
+  }
+
+  /** This one failed: go on to the next, unless another call went on already. False where there is no other. */
+  #leave(failed) {
+    if (this.#servers[this.#current] === failed) this.#current = (this.#current + 1) % this.#servers.length;
+    return this.#servers.length > 1;
+  }
+}
+
+/** Waits until the server is there, or will not be: the call then says why. */
+function connected({ address, stub }, seconds, deadline = Infinity) {
+  const { READY, TRANSIENT_FAILURE, SHUTDOWN } = grpc.connectivityState;
+  const channel = stub.getChannel();
+  const end = Math.min(Date.now() + 1000 * seconds, Number(deadline));
+  return new Promise((resolve, reject) => {
+    const look = (late) => {
+      const state = channel.getConnectivityState(true);
+      if ([READY, TRANSIENT_FAILURE, SHUTDOWN].includes(state) || Date.now() >= Number(deadline)) resolve();
+      else if (late) reject(unavailable(`no connection within ${seconds} s`));
+      else channel.watchConnectivityState(state, end, look);
+    };
+    look();
+  });
+}
+
+/** Whoever is away is named. */
+function named(error, { address }) {
+  if (error.code === 'UNAVAILABLE') error.message = `${address}: ${error.message}`;
+  return error;
+}
+
+/** How long to wait before the next attempt of a call, if there is to be one. */
+class Patience {
+  #options;
+  #deadline;
+  #servers;
+  #failures = 0; // since the last progress
+  #refusals = 0; // of servers that would refuse again, one after another
+  #since = 0;
+  /** What to tell the caller. Why a server that is there would not serve says more than that another one is away. */
+  verdict;
+
+  constructor(options, deadline, servers) {
+    this.#options = options;
+    this.#deadline = deadline === undefined ? Infinity : Number(deadline);
+    this.#servers = servers;
+  }
+
+  /** There was progress: count from the beginning. */
+  reset() {
+    this.#failures = 0;
+    this.#refusals = 0;
+    this.verdict = undefined;
+  }
+
+  /** Seconds, or undefined where trying again would not help, or is no longer allowed. */
+  next(failed, elsewhere) {
+    const advice = adviceFor(failed);
+    const now = Date.now();
+    if (this.#failures === 0) this.#since = now;
+    if (!advice.here || !this.verdict || adviceFor(this.verdict).here) this.verdict = failed;
+    // Once all have refused there is no other one left to do better.
+    this.#refusals = advice.here ? 0 : this.#refusals + 1;
+    const useful = advice.here || (advice.elsewhere && this.#refusals < this.#servers);
+    if (!useful || now - this.#since >= 1000 * this.#options.retry) return undefined;
+    const doubled = Math.min(longestBackoff, this.#options.firstBackoff * 2 ** this.#failures++);
+    // Clients that lost the same server should not all come back at once; what a server asks for concerns itself.
+    const wait = Math.max(elsewhere ? 0 : advice.wait, doubled * (0.5 + 0.5 * Math.random()));
+    return now + 1000 * wait < this.#deadline ? wait : undefined;
+  }
+}

@@ -1,0 +1,79 @@
+// Tells what a resumed dance says again from what is new, so that the caller hears everything once.
+import grpc from '@grpc/grpc-js';
+import { ChoreoError } from './error.js';
+import { placeOf } from './journal.js';
+
+const perFrame = ['root_positions', 'rotations', 'contacts'];
+
+export class Seen {
+  #nextFrames = new Map(); // of each candidate, at the output rate; a dance has one
+  #firstFrame;
+  #rejected = []; // places of keys, as they were told
+  #expected = []; // rejections that the present server is still to repeat
+  #told = new Set(); // keys that were reached, warnings
+  #lastBeat = -1;
+
+  constructor(firstFrame) {
+    this.#firstFrame = firstFrame;
+  }
+
+  /** The next frame to be told, at the output rate. */
+  nextFrame(candidate = 0) {
+    return this.#nextFrames.get(candidate) ?? this.#firstFrame;
+  }
+
+  /**
+   * Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will reject the keys that stand before:
+   * `late`, each as often as it was spoken of.
+   */
+  restart(frame, late) {
+    this.#expected = [...late, ...this.#rejected.filter((place) => parseInt(place) >= frame)];
+  }
+
+  /** The frames without those that were told already; undefined if none is left. */
+  frames(frames) {
+    const due = this.nextFrame(frames.candidate);
+    const first = Number(frames.first_frame);
+    if (first > due) {
+      const details = `the server left out frames: ${first} came where ${due} was due`;
+      throw new ChoreoError({ code: grpc.status.DATA_LOSS, details });
+    }
+    if (first + frames.count <= due) return undefined;
+    this.#nextFrames.set(frames.candidate, first + frames.count);
+    if (first === due) return frames;
+    const rest = { ...frames, first_frame: String(due), count: first + frames.count - due };
+    for (const field of perFrame) {
+      rest[field] = frames[field].slice((frames[field].length / frames.count) * (due - first));
+    }
+    return rest;
+  }
+
+  /** Whether an event is new. */
+  event(event) {
+    switch (event.event) {
+      case 'keyframe_rejected':
+        return this.#isNewRejection(placeOf(event.keyframe_rejected.id, event.frame));
+      case 'keyframe_reached':
+        return this.#isNew(`reached ${placeOf(event.keyframe_reached.id, event.frame)}`);
+      case 'warning':
+        return this.#isNew(`warning ${event.frame} ${event.warning.message}`);
+      case 'beat':
+        if (event.time <= this.#lastBeat) return false;
+        this.#lastBeat = event.time;
+    }
+    return true;
+  }
+
+  #isNew(what) {
+    if (this.#told.has(what)) return false;
+    this.#told.add(what);
+    return true;
+  }
+
+  #isNewRejection(place) {
+    const at = this.#expected.indexOf(place);
+    if (at < 0) this.#rejected.push(place);
+    else this.#expected.splice(at, 1);
+    return at < 0;
+  }
+}

@@ -1,0 +1,36 @@
+// A transition whose server is lost is made again by another one; what was told already is left out.
+import { answersOf } from './answers.js';
+import { unavailable } from './error.js';
+import { firstOutputFrame, requireSameFingerprint } from './header.js';
+import { Seen } from './seen.js';
+
+/** The answers of GenerateTransition to `request`. */
+export async function* transition(replicas, request, { signal, deadline } = {}) {
+  let begun; // the first server's header
+  let seen;
+  yield* replicas.persist(attempt, { signal, deadline });
+
+  async function* attempt(server, patience) {
+    const config = begun ? { ...request.config, seed: begun.seed, model: begun.model } : request.config;
+    const call = server.stub.GenerateTransition({ ...request, config }, replicas.metadata(), { deadline });
+    let complete = false;
+    for await (const answer of answersOf(call, signal)) {
+      if (answer.header && begun) {
+        requireSameFingerprint(begun, answer.header, server.address);
+      } else if (answer.header) {
+        begun = answer.header;
+        seen = new Seen(firstOutputFrame(begun));
+        yield answer;
+      } else if (answer.frames) {
+        const frames = seen.frames(answer.frames);
+        if (!frames) continue;
+        patience.reset();
+        yield { ...answer, frames };
+      } else if (!answer.event || seen.event(answer.event)) {
+        complete ||= answer.response === 'summary';
+        yield answer;
+      }
+    }
+    if (!complete) throw unavailable('the server ended the transition before its summary');
+  }
+}

@@ -1,0 +1,76 @@
+from . import choreography
+from ._dance import dance
+from ._options import Options
+from ._replicas import Cancellation, Replicas
+from ._transition import transition
+
+
+class Answers:
+    """What a server answers, as it comes. As a context manager it ends the call, which who stops reading should do."""
+
+    def __init__(self, answers, until):
+        self._answers, self._until = answers, until
+
+    def __iter__(self):
+        return self
+
+    def __next__(self):
+        return next(self._answers)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.cancel()
+        self._answers.close()
+
+    def cancel(self):
+        """Ends the call, here and on the server, from any thread; reading then raises ChoreoError, code CANCELLED."""
+        self._until.cancel()
+
+
+class Client:
+    """A client of one server or of several replicas. Connections are made when needed. A call whose server is lost, is full or refuses a model
+    or fingerprint is tried at the next address. Thread-safe. Every failure is a ChoreoError.
+
+    `addresses`: HOST:PORT, unix:PATH or a list of them, which are replicas: when one fails the next is asked. Calls take turns at the
+    addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT), and pass those whose health says that they do not serve.
+    `options`: those of Options."""
+
+    def __init__(self, addresses, **options):
+        self._replicas = Replicas([addresses] if isinstance(addresses, str) else list(addresses), Options(**options))
+
+    def close(self):
+        self._replicas.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def info(self, timeout=None):
+        """Models, limits, devices: a GetServerInfoResponse. `timeout`: seconds, of all attempts together."""
+        until = Cancellation(timeout)
+        metadata = self._replicas.options.metadata
+
+        def attempt(server, _):
+            yield server.get_server_info(choreography.GetServerInfoRequest(), timeout=until.remaining(), metadata=metadata())
+
+        return next(self._replicas.persist(attempt, until))
+
+    def stream_dance(self, requests, on_resume=None, timeout=None):
+        """Dances. Sends the `requests`, an iterable of StreamDanceRequests or of their fields ({"keyframe": ...}), on another thread as fast as
+        the server takes them, and gives the answers meanwhile: Answers with StreamDanceResponses.
+
+        When its server is lost, the dance goes on at the next one from the last continuation: answers are those of an undisturbed dance, bit
+        for bit. `on_resume` alone hears of it: Resumed. Requests must not be changed once they are said: they may be said again. (The
+        summary's shares are those of the frames since the last resume.)"""
+        until = Cancellation(timeout)
+        return Answers(dance(self._replicas, requests, on_resume, until), until)
+
+    def generate_transition(self, request, timeout=None):
+        """One transition, in one or several candidates: Answers with GenerateTransitionResponses. When its server is lost, another one makes it
+        again; nothing is told twice."""
+        until = Cancellation(timeout)
+        return Answers(transition(self._replicas, request, until), until)

@@ -1,0 +1,161 @@
+"""A dance that outlives its server: it goes on at another one from the last continuation, and the caller reads what it would have read."""
+
+import dataclasses
+import threading
+
+import grpc
+
+from . import choreography
+from ._errors import ChoreoError, unavailable
+from ._journal import Journal
+from ._seen import Seen, require_same_fingerprint
+
+
+@dataclasses.dataclass(frozen=True)
+class Resumed:
+    """A dance went on at another server."""
+
+    address: str
+    frame: int  # the next one to come, at the output rate
+    exact: bool  # False: of another fingerprint, which config.allow_inexact_resume let through; not as it would have gone on
+    because: ChoreoError  # why the other server was left
+
+
+def dance(replicas, requests, on_resume, until):
+    """The answers of StreamDance to `requests`."""
+    journal = Journal(requests)
+    progress = _Progress(journal, on_resume)
+
+    def attempt(server, patience):
+        progress.restart()
+        saying = _Saying(journal, progress)
+        call = until.begin(server.stream_dance(iter(saying), timeout=until.remaining(), metadata=replicas.options.metadata()))
+        saying.begin(call)
+        try:
+            for answer in call:
+                if progress.take(answer, server.address, saying.count):
+                    if answer.HasField("frames"):
+                        patience.reset()
+                    yield answer
+        except (grpc.RpcError, ChoreoError) as failure:
+            if journal.failure is not None:
+                raise journal.failure from None
+            if not progress.complete:  # else nothing of the status matters any more
+                progress.lost_because = failure if isinstance(failure, ChoreoError) else ChoreoError.of(failure)
+                raise progress.lost_because from None
+        finally:
+            call.cancel()  # a finished one does not mind
+        if not progress.complete:
+            progress.lost_because = unavailable("the server ended the dance before its summary")
+            raise progress.lost_because
+
+    try:
+        yield from replicas.persist(attempt, until)
+    finally:
+        journal.close()
+
+
+class _Saying:
+    """What one call is sent, on a thread of gRPC's: what the journal holds."""
+
+    def __init__(self, journal, progress):
+        self._journal, self._progress = journal, progress
+        self._call = None
+        self._begun = threading.Event()
+        self.count = 0  # requests that it has been told
+
+    def begin(self, call):
+        self._call = call
+        self._begun.set()
+
+    def __iter__(self):
+        while True:
+            try:
+                request = self._journal.at(self.count)
+            except IndexError:
+                return
+            except BaseException:  # the journal knows what went wrong
+                self._begun.wait()
+                self._call.cancel()
+                return
+            self.count += 1
+            if request is not None:
+                yield self._progress.first(request) if self.count == 1 else request
+
+
+class _Progress:
+    """What has come of a dance, and how another server goes on with it."""
+
+    def __init__(self, journal, on_resume):
+        self._journal, self._on_resume = journal, on_resume
+        self._header = self._continuation = self._seen = None
+        self._reached = []  # KeyframeReports
+        self.complete = False
+        self.lost_because = None
+
+    def first(self, request):
+        """The first request of an attempt."""
+        if self._header is None or not request.HasField("config"):
+            return request
+        again = choreography.StreamDanceRequest()
+        again.CopyFrom(request)
+        # Another server has to dance the same dance, and by the same model.
+        again.config.seed, again.config.model = self._header.seed, self._header.model
+        if self._continuation is not None:
+            again.config.continuation.CopyFrom(self._continuation)
+        if self._journal.bytes_per_sample() > 0:
+            again.config.audio_format.first_sample = self._journal.first_sample()
+        return again
+
+    def restart(self):
+        """Another server begins."""
+        if self._header is not None:
+            frame = self._header.first_frame if self._continuation is None else self._continuation.frame
+            self._seen.restart(frame, self._journal.keys_before(frame, self._header.model_frame_rate))
+
+    def take(self, answer, address, sent):
+        """Whether the caller is to see an answer, which is changed to what the caller should see. `sent`: how many requests the server has
+        been sent."""
+        kind = answer.WhichOneof("response")
+        if kind == "header":
+            return self._take_header(answer.header, address)
+        if kind == "frames":
+            return self._seen.take_frames(answer.frames)
+        if kind == "event":
+            return self._take_event(answer.event)
+        if kind == "continuation":
+            self._continuation = answer.continuation
+            self._journal.forget_music_before(self._continuation.audio_from_sample, sent)
+        elif kind == "summary":
+            self._take_summary(answer.summary.report)
+        return kind is not None  # else of a newer version of the protocol
+
+    def _take_header(self, header, address):
+        if self._header is None:
+            self._header, self._seen = header, Seen(header)
+            return True
+        if header.frame_rate != self._header.frame_rate or header.skeleton.joint_names != self._header.skeleton.joint_names:
+            raise ChoreoError("DATA_LOSS", "the server that should go on with the dance has another frame rate or body")
+        # A continuation of another fingerprint was refused, or let through by the caller; without one nobody has looked.
+        if self._continuation is None:
+            require_same_fingerprint(self._header, header, address)
+        if self._on_resume is not None:
+            self._on_resume(Resumed(address, self._seen.next_frame(), header.exact_resume, self.lost_because))
+        return False
+
+    def _take_event(self, event):
+        if not self._seen.take_event(event):
+            return False
+        if event.HasField("keyframe_reached"):
+            reached = event.keyframe_reached
+            self._reached.append(choreography.KeyframeReport(id=reached.id, frame=event.frame, errors=reached.errors))
+        return True
+
+    def _take_summary(self, report):
+        """The server speaks of what it made itself; what came before a resume is known here."""
+        self.complete = True
+        report.frames += report.first_frame - self._header.first_frame
+        report.first_frame = self._header.first_frame
+        known = {(key.id, key.frame) for key in report.keyframes}
+        report.keyframes.extend(key for key in self._reached if (key.id, key.frame) not in known)
+        report.keyframes.sort(key=lambda key: key.frame)

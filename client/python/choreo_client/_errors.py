@@ -1,0 +1,72 @@
+"""What may go wrong, and when it is worth while to try again."""
+
+import collections
+import types
+
+from ._compile import ERRORS
+from ._protos import contents
+
+_rpc = types.SimpleNamespace(**contents(*ERRORS))
+
+Violation = collections.namedtuple("Violation", "field description")
+Violation.__doc__ = "What the server finds wrong: a field, as in 'keyframes[0].rotations', and what of it."
+
+
+class ChoreoError(Exception):
+    """A failed call, or an option that cannot be used. `code` as in "INVALID_ARGUMENT"; the message is the server's; `violations` has the
+    fields that it names; after `retry_after` seconds trying again may help (None: it will not, or nobody knows)."""
+
+    def __init__(self, code, message, violations=(), retry_after=None):
+        super().__init__(message)
+        self.code = code
+        self.violations = list(violations)
+        self.retry_after = retry_after
+
+    @classmethod
+    def of(cls, failure):
+        """A grpc.RpcError."""
+        error = cls(failure.code().name, failure.details() or "the server failed without saying why")
+        for key, value in failure.trailing_metadata() or ():
+            if key == "grpc-status-details-bin":
+                error._read(value)
+        return error
+
+    def _read(self, value):
+        for detail in _rpc.Status.FromString(value).details:
+            name = detail.type_url.rpartition("/")[2]
+            if name == "google.rpc.BadRequest":
+                fields = _rpc.BadRequest.FromString(detail.value).field_violations
+                self.violations += [Violation(wrong.field, wrong.description) for wrong in fields]
+            elif name == "google.rpc.RetryInfo":
+                delay = _rpc.RetryInfo.FromString(detail.value).retry_delay
+                self.retry_after = delay.seconds + 1e-9 * delay.nanos
+
+
+def unavailable(message):
+    return ChoreoError("UNAVAILABLE", message)
+
+
+def wrong_field(code, field, what):
+    """Named as the server names its fields."""
+    message = f"{field}: {what}"
+    return ChoreoError(code, message, [Violation(field, message)])
+
+
+def invalid(field, what):
+    return wrong_field("INVALID_ARGUMENT", field, what)
+
+
+# What another replica may have been started with.
+_OF_THE_REPLICA = ("config.model", "config.continuation.fingerprint", "config.continuation.skeleton")
+
+Advice = collections.namedtuple("Advice", "here elsewhere wait_s")
+
+
+def advice_for(error):
+    """How a call that failed may be tried again: `here`, at the same server; `elsewhere`, at another one; after `wait_s` at least. A server
+    that is away or full may be asked again. One that broke, is of another fingerprint or lacks the model would fail again, but another one
+    may do better. Anything else fails everywhere."""
+    here = error.retry_after is not None or error.code == "UNAVAILABLE"
+    broken = error.code in ("INTERNAL", "UNKNOWN")
+    of_the_replica = bool(error.violations) and error.violations[0].field in _OF_THE_REPLICA
+    return Advice(here, here or broken or of_the_replica, error.retry_after or 0)

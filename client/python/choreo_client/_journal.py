@@ -1,0 +1,100 @@
+"""What has been said in a dance, in order, for another server to hear it again: a dance goes on from the last continuation and the same
+messages. Only music that it no longer needs is forgotten."""
+
+import math
+import threading
+
+from . import choreography
+
+_BYTES = {choreography.AUDIO_ENCODING_PCM_F32LE: 4, choreography.AUDIO_ENCODING_PCM_S16LE: 2}
+
+
+class Journal:
+    """Calls take their requests from it on threads of their own, one after another."""
+
+    def __init__(self, requests):
+        self._source = iter(requests)
+        self._asking = threading.Lock()
+        self._said = []  # None: forgotten
+        self._over = False
+        self._music_end = None  # of what was forgotten
+        self.failure = None  # what the source raised
+
+    def at(self, index):
+        """Request number `index`, or None if it is forgotten; raises IndexError where the source ended before it, or what
+        the source raised."""
+        while index >= len(self._said):
+            with self._asking:  # the source is asked by one call at a time
+                if index < len(self._said):
+                    break
+                if self._over:
+                    raise self.failure or IndexError(index)
+                self._ask()
+        return self._said[index]
+
+    def _ask(self):
+        try:
+            request = next(self._source)
+            if not isinstance(request, choreography.StreamDanceRequest):
+                request = choreography.StreamDanceRequest(**request)
+            self._said.append(request)
+        except StopIteration:
+            self._over = True
+        except BaseException as failure:
+            self._over, self.failure = True, failure
+            raise
+
+    def close(self):
+        """Nobody will ask any more. A source that is at work is left to itself."""
+        if self._asking.acquire(blocking=False):
+            self._over = True
+            if hasattr(self._source, "close"):
+                self._source.close()
+            self._asking.release()
+
+    def forget_music_before(self, sample, sent):
+        """Another server would need the music from this sample on alone. The present one has been told the first `sent` requests."""
+        size = self.bytes_per_sample()
+        if size == 0:
+            return
+        for at, request in enumerate(self._said[:sent]):
+            if request is None or not request.HasField("audio"):
+                continue
+            end = request.audio.first_sample + len(request.audio.data) // size
+            if end > sample:
+                return
+            self._music_end = end
+            self._said[at] = None
+
+    def first_sample(self):
+        """Where the music starts that is still here."""
+        for request in list(self._said):
+            if request is not None and request.HasField("audio"):
+                return request.audio.first_sample
+        return self._said[0].config.audio_format.first_sample if self._music_end is None else self._music_end
+
+    def bytes_per_sample(self):
+        """Of all channels together; 0 for a music file, which is decoded as a whole, and without music."""
+        audio_format = self._said[0].config.audio_format
+        return _BYTES.get(audio_format.encoding, 0) * audio_format.channels
+
+    def keys_before(self, frame, rate):
+        """What was said of keys that stood before `frame` then: [(id, frame)], in order. Models run at `rate`."""
+        found, frames, previous = [], {}, 0
+        for request in list(self._said):
+            kind = request and request.WhichOneof("request")
+            if kind not in ("keyframe", "remove_keyframe"):
+                continue
+            key = getattr(request, kind)
+            if kind == "keyframe":
+                previous = frames[key.id] = _frame_of(key, previous, rate)
+            if frames.get(key.id, frame) < frame:
+                found.append((key.id, frames[key.id]))
+        return found
+
+
+def _frame_of(key, previous, rate):
+    when = key.WhichOneof("when")
+    if when == "frame":
+        return key.frame
+    return math.floor(key.time * rate + 0.5) if when == "time" else previous + key.interval_after_previous

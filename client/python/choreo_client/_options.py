@@ -1,0 +1,178 @@
+"""How to reach the servers, and how patiently: what the caller said, checked, as gRPC wants it."""
+
+import contextlib
+import dataclasses
+import ipaddress
+import json
+import math
+import os
+import re
+import ssl
+import typing
+
+import grpc
+
+from ._errors import invalid
+
+LEAST_SILENCE = 2  # seconds
+MOST_PORT = 65535
+MOST_TOKEN_BYTES = 4096  # gRPC's headers have 8 KiB in all
+
+Path = typing.Union[str, "os.PathLike[str]"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Options:
+    """What Client takes beside addresses; None: not given. All files are PEM, but for the token's.
+
+    ca_certificate      of the authority to trust, with tls; None: those that gRPC trusts
+    client_certificate, client_key      with tls, where the server wants to see a certificate
+    server_name         whose certificate the server must have, with tls; None: the one of its address
+    token               sent with each call; needs tls, unless all addresses are of this machine
+    token_file          the file of it instead, read again for each call, so that it can be renewed
+    connect_timeout_s   for one attempt at one address
+    silence_s           a server of which nothing is heard for so long, not even the answer to a ping, is lost; at least 2, or 0: never
+    retry_s             how long to try again since a call last made progress; 0: not at all, so nothing goes on elsewhere
+    first_backoff_s     between tries; doubled with each, up to 2 s
+    """
+
+    tls: bool = False
+    ca_certificate: typing.Optional[Path] = None
+    client_certificate: typing.Optional[Path] = None
+    client_key: typing.Optional[Path] = None
+    server_name: typing.Optional[str] = None
+    token: typing.Optional[str] = None
+    token_file: typing.Optional[Path] = None
+    connect_timeout_s: float = 5
+    silence_s: float = 5
+    retry_s: float = 10
+    first_backoff_s: float = 0.1
+
+    def check(self, addresses):
+        """Raises ChoreoError, naming the option, for those that cannot be used."""
+        for name in ("connect_timeout_s", "silence_s", "retry_s", "first_backoff_s"):
+            value = getattr(self, name)
+            if not 0 <= value < math.inf:
+                raise invalid(name, f"{value} is not a finite number >= 0")
+        if 0 < self.silence_s < LEAST_SILENCE:
+            raise invalid("silence_s", f"{self.silence_s} s is neither 0 nor at least {LEAST_SILENCE} s")
+        if not addresses:
+            raise invalid("addresses", "none is given")
+        for address in addresses:
+            _check_address(address)
+        self._check_token(addresses)
+
+    def _check_token(self, addresses):
+        if self.token is None and self.token_file is None:
+            return
+        if self.token is not None and self.token_file is not None:
+            raise invalid("token", "given beside token_file; one of them is sent")
+        name = "token_file" if self.token is None else "token"
+        far = [address for address in addresses if not _is_of_this_machine(address)]
+        if far and not self.tls:
+            raise invalid(name, f"a token goes to {far[0]} over TLS alone")
+        if self.token is not None:
+            _require_token("token", "it", self.token)
+
+    def credentials(self):
+        """gRPC's, or None without TLS."""
+        if (self.client_certificate is None) != (self.client_key is None):
+            missing = "client_key" if self.client_key is None else "client_certificate"
+            raise invalid(missing, "missing; a certificate and its key go together")
+        if not self.tls:
+            for name in ("ca_certificate", "client_certificate", "server_name"):
+                if getattr(self, name) is not None:
+                    raise invalid(name, f'"{getattr(self, name)}" needs TLS, which is off')
+            return None
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+        roots = cert = key = None
+        if self.ca_certificate is not None:
+            roots = _read("ca_certificate", self.ca_certificate)
+            with _naming("ca_certificate", f"{self.ca_certificate} holds no certificate in PEM"):
+                context.load_verify_locations(self.ca_certificate)
+        if self.client_key is not None:
+            cert, key = _read("client_certificate", self.client_certificate), _read("client_key", self.client_key)
+            with _naming("client_certificate", f"{self.client_certificate} holds no certificate in PEM"):
+                ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(self.client_certificate)
+            with _naming("client_key", f"{self.client_key} is not the key of {self.client_certificate}, in PEM without a passphrase"):
+                # OpenSSL would ask for a passphrase on the terminal.
+                context.load_cert_chain(self.client_certificate, self.client_key, password=lambda: "")
+        return grpc.ssl_channel_credentials(roots, key, cert)
+
+    def metadata(self):
+        """What each call carries."""
+        token = self.token
+        if self.token_file is not None:
+            token = _read("token_file", self.token_file).decode("latin-1").rstrip()
+            _require_token("token_file", self.token_file, token)
+        return [] if token is None else [("authorization", f"Bearer {token}")]
+
+    def channel_options(self):
+        """Calls take turns at all addresses of a name, but for those that say that they do not serve."""
+        service = {"loadBalancingConfig": [{"round_robin": {}}], "healthCheckConfig": {"serviceName": "choreo.v1.Choreography"}}
+        options = {
+            "grpc.service_config": json.dumps(service),
+            "grpc.max_receive_message_length": -1,
+            # gRPC's name for the time that one attempt to connect may take.
+            "grpc.min_reconnect_backoff_ms": round(1000 * self.connect_timeout_s),
+            "grpc.initial_reconnect_backoff_ms": 100,
+            "grpc.max_reconnect_backoff_ms": 1000,
+        }
+        if self.server_name is not None:
+            options["grpc.ssl_target_name_override"] = self.server_name
+        if self.silence_s > 0:
+            # Half of the time until a ping, half for its answer.
+            half = round(500 * min(self.silence_s, 1e6))
+            options |= {"grpc.keepalive_time_ms": half, "grpc.keepalive_timeout_ms": half, "grpc.http2.max_pings_without_data": 0}
+        return list(options.items())
+
+
+def _check_address(address):
+    if not isinstance(address, str) or not address:
+        raise invalid("addresses", f"{address!r} is no HOST:PORT")
+    port = re.search(r":([0-9]+)$", address)
+    # What gRPC would take for another port.
+    if port and not address.startswith("unix:") and not 1 <= int(port[1]) <= MOST_PORT:
+        raise invalid("addresses", f"{address}: port {port[1]} is not in [1, {MOST_PORT}]")
+
+
+def _is_of_this_machine(address):
+    """Nobody else hears what is said to it. A name that only begins like an address is a name."""
+    if address.startswith("unix:"):
+        return True
+    for host in re.sub(r"^ipv[46]:", "", address).split(","):
+        name = re.sub(r":[0-9]+$", "", host)
+        try:
+            loopback = ipaddress.IPv4Address(name).is_loopback
+        except ValueError:
+            loopback = name in ("localhost", "[::1]")
+        if not loopback:
+            return False
+    return True
+
+
+def _require_token(field, what, token):
+    """The value itself is never quoted."""
+    if len(token) > MOST_TOKEN_BYTES:
+        raise invalid(field, f"{what} has {len(token)} bytes, of at most {MOST_TOKEN_BYTES}")
+    if not re.fullmatch(r"[!-~]+", token):
+        raise invalid(field, f"{what} is no line of visible ASCII characters")
+
+
+def _read(field, path):
+    try:
+        with open(path, "rb") as file:
+            return file.read()
+    except FileNotFoundError:
+        raise invalid(field, f"no file {path}") from None
+    except OSError as error:
+        raise invalid(field, f"cannot read {path}: {error.strerror}") from None
+
+
+@contextlib.contextmanager
+def _naming(field, what):
+    """Names the field of what OpenSSL does not take."""
+    try:
+        yield
+    except (ssl.SSLError, ValueError) as error:
+        raise invalid(field, f"{what}: {error}") from None

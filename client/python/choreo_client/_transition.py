@@ -1,0 +1,39 @@
+"""A transition whose server is lost is made again by another one; what was told already is left out."""
+
+from . import choreography
+from ._errors import unavailable
+from ._seen import Seen, require_same_fingerprint
+
+
+def transition(replicas, request, until):
+    """The answers of GenerateTransition to `request`."""
+    asked = choreography.GenerateTransitionRequest()
+    asked.CopyFrom(request)
+    begun = seen = None  # by the first server
+
+    def attempt(server, patience):
+        nonlocal begun, seen
+        call = until.begin(server.generate_transition(asked, timeout=until.remaining(), metadata=replicas.options.metadata()))
+        complete = False
+        try:
+            for answer in call:
+                if answer.HasField("header") and begun is not None:
+                    require_same_fingerprint(begun, answer.header, server.address)
+                    continue
+                if answer.HasField("header"):
+                    begun, seen = answer.header, Seen(answer.header)
+                    asked.config.seed, asked.config.model = begun.seed, begun.model
+                elif answer.HasField("frames"):
+                    if not seen.take_frames(answer.frames):
+                        continue
+                    patience.reset()
+                elif answer.HasField("event") and not seen.take_event(answer.event):
+                    continue
+                complete |= answer.HasField("summary")
+                yield answer
+        finally:
+            call.cancel()  # a finished one does not mind
+        if not complete:
+            raise unavailable("the server ended the transition before its summary")
+
+    return replicas.persist(attempt, until)

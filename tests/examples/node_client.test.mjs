@@ -1,0 +1,240 @@
+// client/node, the package: who may come, and dances that outlive their server. $CHOREO_SERVER names a choreod, $CHOREOD the
+// program of it.
+import assert from 'node:assert/strict';
+import { createHash } from 'node:crypto';
+import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { ChoreoClient, pose } from '../../client/node/src/index.js';
+import { Journal } from '../../client/node/src/journal.js';
+import { clicks, live, pcm } from '../../examples/node/music.js';
+import { authority, withServer } from './servers.mjs';
+
+const other = process.env.CHOREO_SERVER;
+
+async function withFolder(use) {
+  const folder = await mkdtemp(join(tmpdir(), 'choreo-'));
+  try {
+    return await use(folder);
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+}
+
+async function withClient(addresses, options, use) {
+  const client = new ChoreoClient(addresses, options);
+  try {
+    return await use(client);
+  } finally {
+    client.close();
+  }
+}
+
+const info = (address, options) => withClient(address, { retry: 0, ...options }, (client) => client.info());
+
+async function collect(answers, each = () => {}) {
+  const all = [];
+  for await (const answer of answers) {
+    all.push(answer);
+    each(answer, all);
+  }
+  return all;
+}
+
+const tokenLine = (token, name) => `${createHash('sha256').update(token).digest('hex')} ${name}\n`;
+
+test('a token is sent, read again for each call, and a wrong one refused', () =>
+  withFolder(async (folder) => {
+    const [tokens, mine] = [join(folder, 'tokens'), join(folder, 'mine')];
+    await writeFile(tokens, tokenLine('secret', 'alice'));
+    await withServer(['--tokens', tokens], async ({ address }) => {
+      await assert.rejects(info(address), { code: 'UNAUTHENTICATED', message: /^a token is needed; send the metadata/ });
+      await assert.rejects(info(address, { token: 'guessed' }), { code: 'UNAUTHENTICATED', message: /^nobody here has that token/ });
+      assert.ok((await info(address, { token: 'secret' })).models.length > 0);
+      await withClient(address, { tokenFile: mine }, async (client) => {
+        await assert.rejects(client.info(), { code: 'INVALID_ARGUMENT', message: `tokenFile: no file ${mine}` });
+        await writeFile(mine, 'guessed\n');
+        const dance = () => collect(client.streamDance([{ config: { frames: 30 } }]));
+        await assert.rejects(dance(), { code: 'UNAUTHENTICATED' });
+        await writeFile(mine, 'secret\n');
+        assert.equal((await dance()).at(-1).response, 'summary');
+        assert.equal((await collect(client.generateTransition({ config: {}, frames: 9 }))).at(-1).response, 'summary');
+      });
+    });
+  }));
+
+test('TLS: authority, certificate of the client, name of the server', () =>
+  withFolder(async (folder) => {
+    const { ca, issue } = authority(folder);
+    const server = issue('server', 'DNS:choreod');
+    const own = issue('client', 'DNS:client');
+    const flags = ['--tls-cert', server.cert, '--tls-key', server.key, '--tls-client-ca', ca.cert];
+    await withServer(flags, async ({ address }) => {
+      const all = { tls: true, caCertificate: ca.cert, clientCertificate: own.cert, clientKey: own.key, serverName: 'choreod' };
+      assert.ok((await info(address, all)).models.length > 0);
+      const refused = (options, message = /./) => assert.rejects(info(address, options), { code: 'UNAVAILABLE', message });
+      await refused({ ...all, caCertificate: undefined }, /unable to verify|self-signed/);
+      await refused({ ...all, serverName: undefined }, /127\.0\.0\.1 is not|does not match/);
+      await refused({ ...all, clientCertificate: undefined, clientKey: undefined });
+      await refused({});
+    });
+  }));
+
+test('options that cannot be used are named', () =>
+  withFolder(async (folder) => {
+    const { ca, issue } = authority(folder);
+    const own = issue('client', 'DNS:client');
+    const far = '192.0.2.1:50051';
+    for (const [addresses, options, message] of [
+      [[], {}, 'addresses: none is given'],
+      ['localhost:70000', {}, 'addresses: localhost:70000: port 70000 is not in [1, 65535]'],
+      [far, { token: 'secret' }, `token: a token goes to ${far} over TLS alone`],
+      [`ipv4:127.0.0.1:1,${far}`, { token: 'secret' }, `token: a token goes to ipv4:127.0.0.1:1,${far} over TLS alone`],
+      [far, { tls: true, token: 'two words' }, 'token: it is no line of visible ASCII characters'],
+      [far, { caCertificate: ca.cert }, `caCertificate: "${ca.cert}" needs TLS, which is off`],
+      [far, { tls: true, caCertificate: join(folder, 'absent') }, `caCertificate: no file ${join(folder, 'absent')}`],
+      [far, { tls: true, clientKey: own.key }, 'clientCertificate: missing; a certificate and its key go together'],
+      [far, { tls: true, caCertificate: ca.key }, new RegExp(`^caCertificate: ${ca.key} holds no certificate in PEM`)],
+      [far, { tls: true, clientCertificate: own.cert, clientKey: ca.key }, new RegExp(`^clientKey: ${ca.key} is not the key of ${own.cert}`)],
+      [far, { silence: 1 }, 'silence: 1 s is neither 0 nor at least 2 s'],
+      [far, { retry: -1 }, 'retry: -1 is not a finite number >= 0'],
+      [far, { tls: 'yes' }, 'tls: yes is no boolean'],
+      [far, { token_file: 'x' }, /^token_file: no option; there are tls, caCertificate, /],
+    ]) {
+      assert.throws(() => new ChoreoClient(addresses, options), { code: 'INVALID_ARGUMENT', message });
+    }
+  }));
+
+const numbers = (answers) =>
+  ['root_positions', 'rotations', 'contacts'].map((field) => answers.flatMap(({ frames }) => frames?.[field] ?? []));
+/** All that a caller hears, but for how frames are packed and how quick they were. */
+const told = (answers) => ({
+  numbers: numbers(answers),
+  // A rejection comes at once, before or after the frames that are being made.
+  events: answers.flatMap(({ event }) => (event ? JSON.stringify(event) : [])).sort(),
+  continuations: answers.flatMap(({ continuation }) => continuation ?? []),
+  headers: answers.flatMap(({ header }) => header ?? []),
+  reached: answers.at(-1).summary.report.keyframes.map(({ id, frame, errors }) => ({ id, frame, errors })),
+  frames: answers.at(-1).summary.report.frames,
+});
+
+/** A dance to live music whose keys change on the way, one of them too late. Its last second waits for `goOn`. */
+async function* edited(skeleton, { goOn, frame_rate } = {}) {
+  yield { config: { seed: '5', audio_format: pcm, frames: 180, frame_rate, generate_until: 0 } };
+  const key = (id, when, turn) => ({ keyframe: { id, ...when, pose: { rotations: pose(skeleton, { head: [0, turn, 0] }).rotations } } });
+  yield key('early', { frame: 30 }, 0.2);
+  yield key('next', { interval_after_previous: 20 }, 0.4);
+  for await (const piece of live(clicks(6), 1000)) {
+    const second = piece.audio.first_sample / pcm.sample_rate;
+    if (second === 2) yield key('moved', { time: 3.5 }, 0.1);
+    if (second === 3) yield key('moved', { time: 4 }, 0.3);
+    if (second === 3) yield key('late', { frame: 20 }, 0.3);
+    if (second === 5) await goOn;
+    yield { generate_until: { frame: Math.round(30 * second) } };
+    yield piece;
+  }
+  yield { end_of_audio: {} };
+  yield { keyframes_complete: {} };
+}
+
+/** A dance without keys, which has no continuation for seconds. */
+async function* unkeyed(skeleton, { goOn } = {}) {
+  yield { config: { audio_format: pcm, frames: 90, seed: '9', generate_until: 0 } };
+  for await (const piece of live(clicks(3), 1000)) {
+    const second = piece.audio.first_sample / pcm.sample_rate;
+    if (second === 2) await goOn;
+    yield piece;
+    yield { generate_until: { frame: Math.round(30 * second) } };
+  }
+}
+
+/** Dances, and kills the server once `isTime(answers)`, in the middle of the dance. Returns what came, and what was told of the resume. */
+async function danceAndKill(source, isTime) {
+  let goOn;
+  const resumes = [];
+  return withServer([], (one) =>
+    withClient([one.address, other], {}, async (client) => {
+      const { skeleton } = (await client.info()).models[0];
+      const requests = source(skeleton, { goOn: new Promise((resolve) => (goOn = resolve)) });
+      const answers = await collect(client.streamDance(requests, { onResume: (resume) => resumes.push(resume) }), (_, all) => {
+        if (!goOn || !isTime(all)) return;
+        one.kill();
+        goOn();
+        goOn = undefined;
+      });
+      return { answers, resumes };
+    }),
+  );
+}
+
+const undisturbed = (source, more) =>
+  withClient(other, {}, async (client) => collect(client.streamDance(source((await client.info()).models[0].skeleton, more))));
+
+for (const frame_rate of [30, 50]) {
+  test(`a dance goes on where its server is killed, bit for bit: ${frame_rate} frames a second`, async () => {
+    const source = (skeleton, more) => edited(skeleton, { frame_rate, ...more });
+    const whole = await undisturbed(source);
+    assert.ok(whole.some(({ event }) => event?.keyframe_rejected?.id === 'late'));
+    const enough = (all) => all.filter((answer) => answer.continuation).length > 1 && all.at(-1).frames?.first_frame > 3.5 * frame_rate;
+    const { answers, resumes } = await danceAndKill(source, enough);
+    assert.equal(resumes.length, 1);
+    const [{ address, exact, frame, because }] = resumes;
+    assert.deepEqual([address, exact, because.code], [other, true, 'UNAVAILABLE']);
+    assert.ok(frame > 3.5 * frame_rate, frame);
+    assert.deepEqual(told(answers), told(whole));
+  });
+}
+
+test('a dance whose server is killed before its first continuation goes on, too', async () => {
+  const { answers, resumes } = await danceAndKill(unkeyed, (all) => all.at(-1).frames);
+  assert.equal(resumes.length, 1);
+  assert.deepEqual(told(answers), told(await undisturbed(unkeyed)));
+});
+
+test('calls wait for a server, and give up in time', async () => {
+  const refused = withClient('127.0.0.1:1', { retry: 0.3 }, (client) => client.info());
+  await assert.rejects(refused, { code: 'UNAVAILABLE', message: /^127\.0\.0\.1:1: .*ECONNREFUSED/ });
+  const signal = AbortSignal.timeout(50);
+  await assert.rejects(withClient('127.0.0.1:1', {}, (client) => client.info({ signal })), { code: 'CANCELLED' });
+  await withClient(['127.0.0.1:1', other], {}, async (client) => {
+    const transition = await collect(client.generateTransition({ config: { seed: '3' }, frames: 20, candidates: 2 }));
+    assert.equal(transition.reduce((sum, { frames }) => sum + (frames?.count ?? 0), 0), 40);
+  });
+});
+
+test('calls take turns at the addresses of a list', () =>
+  withServer([], (one) =>
+    withServer([], (two) =>
+      withClient(`ipv4:${one.address},${two.address}`, {}, async (client) => {
+        const stop = new AbortController();
+        async function* silence() {
+          yield { config: { audio_format: pcm } };
+          await new Promise((resolve) => stop.signal.addEventListener('abort', resolve));
+        }
+        const busy = async () => [(await info(one.address)).active_streams, (await info(two.address)).active_streams];
+        const dances = [];
+        // Connections are made one after the other: turns are taken once both are there.
+        while ((await busy()).includes(0)) {
+          assert.ok(dances.length < 40, 'all calls went to one server');
+          dances.push(collect(client.streamDance(silence(), { signal: stop.signal })));
+          await sleep(50);
+        }
+        stop.abort();
+        for (const { reason } of await Promise.allSettled(dances)) assert.equal(reason.code, 'CANCELLED');
+      }),
+    ),
+  ));
+
+test('a journal forgets the music that is past, and nothing else', async () => {
+  const music = (first_sample) => ({ audio: { data: Buffer.alloc(40), first_sample } });
+  const said = [{ config: { audio_format: { ...pcm, first_sample: 0 } } }, music(0), { keyframe: { id: 'a', frame: 9 } }, music(20), music(40)];
+  const journal = new Journal(said);
+  for (let at = 0; await journal.at(at); ++at);
+  journal.forgetMusicBefore(39, 5);
+  assert.deepEqual(await Promise.all([0, 1, 2, 3].map((at) => journal.at(at))), [said[0], null, said[2], said[3]]);
+  assert.equal(journal.firstSample(), 20);
+  journal.forgetMusicBefore(100, 4); // the server has not been sent the last piece
+  assert.equal(journal.firstSample(), 40);
+});

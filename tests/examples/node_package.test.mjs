@@ -1,0 +1,100 @@
+// client/node as others get it: packed, and installed into a folder that knows nothing of this repository. $CHOREO_SERVER names a choreod.
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { cp, mkdir, mkdtemp, readdir, readFile, rm, symlink, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+const root = fileURLToPath(new URL('../../', import.meta.url));
+const tools = join(root, 'client/node/node_modules');
+const noNetwork = /ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|EHOSTUNREACH|ENETUNREACH|ETIMEDOUT|ERR_SOCKET_TIMEOUT/;
+let scratch;
+let app; // a folder with the package in it
+let skip = false;
+
+function run(program, args, cwd) {
+  return new Promise((resolve) => {
+    execFile(program, args, { cwd }, (failure, out, err) => resolve({ code: failure?.code ?? 0, said: out + err, out }));
+  });
+}
+
+/** Packs as a release does, from a copy: others may be testing the same sources. */
+async function pack() {
+  const source = join(scratch, 'checkout/client/node');
+  const isOurs = (path) => !/\/(node_modules|proto|types)$/.test(path);
+  await cp(join(root, 'client/node'), source, { recursive: true, filter: isOurs });
+  await cp(join(root, 'proto'), join(scratch, 'checkout/proto'), { recursive: true });
+  await cp(join(root, 'LICENSE'), join(scratch, 'checkout/LICENSE'));
+  await symlink(tools, join(source, 'node_modules'));
+  const { code, said } = await run('npm', ['pack', '--pack-destination', scratch], source);
+  assert.equal(code, 0, said);
+  const left = (await readdir(source)).filter((name) => ['proto', 'types', 'LICENSE'].includes(name));
+  assert.deepEqual(left, [], 'of what packing puts there');
+  await rm(join(scratch, 'checkout'), { recursive: true });
+  return join(scratch, (await readdir(scratch)).find((name) => name.endsWith('.tgz')));
+}
+
+before(async () => {
+  scratch = await mkdtemp(join(tmpdir(), 'choreo-'));
+  const tarball = await pack();
+  app = join(scratch, 'app');
+  await mkdir(app);
+  await writeFile(join(app, 'package.json'), '{ "type": "module" }');
+  const { code, said } = await run('npm', ['install', '--ignore-scripts', '--no-audit', '--no-fund', '--fetch-retries=1', tarball], app);
+  skip = code !== 0 && process.env.CHOREO_SKIP_CODE !== '1' && noNetwork.test(said) && 'npm reaches no registry';
+  assert.ok(code === 0 || skip, said);
+});
+after(() => rm(scratch, { recursive: true }));
+
+const program = `
+import { ChoreoClient, pose, type StreamDanceRequest } from 'choreo-client';
+const client = new ChoreoClient([process.argv[2]!]);
+const model = (await client.info()).models[0]!;
+const requests: StreamDanceRequest[] = [
+  { config: { seed: '1', frames: 60 } },
+  { keyframe: { id: 'a', frame: 40, pose: pose(model.skeleton!, { head: [0, 0.5, 0] }) } },
+];
+let frames: number = 0;
+for await (const answer of client.streamDance(requests)) {
+  frames += answer.frames?.count ?? 0;
+  if (answer.event?.keyframe_reached) console.log(answer.event.keyframe_reached.id);
+}
+console.log(frames);
+await client.streamDance([{ keyframe: { id: '' } }]).next().catch((error) => console.log(error.code, error.violations[0]?.field));
+client.close();
+`;
+
+test('the installed package dances, and its errors name the field', async (t) => {
+  if (skip) return t.skip(skip);
+  const plain = program.replace(/, type StreamDanceRequest|: StreamDanceRequest\[\]|: number|(?<=\])!|(?<=skeleton)!/g, '');
+  await writeFile(join(app, 'dance.js'), plain);
+  const { code, said, out } = await run(process.execPath, ['dance.js', process.env.CHOREO_SERVER], app);
+  assert.equal(code, 0, said);
+  assert.match(out, /^a\n60\nINVALID_ARGUMENT \w+\n$/);
+});
+
+test('its types know the messages', async (t) => {
+  if (skip) return t.skip(skip);
+  const wrong = `
+// @ts-expect-error: no such field
+requests.push({ keyframe: { id: 'b', frames: 40 } });
+for await (const answer of client.streamDance(requests)) {
+  // @ts-expect-error: 64 bits are text
+  frames = answer.frames!.first_frame;
+}
+// @ts-expect-error: it is tokenFile
+new ChoreoClient([], { token_file: 'x' });
+`;
+  await writeFile(join(app, 'dance.ts'), program + wrong);
+  const options = ['--noEmit', '--strict', '--noUncheckedIndexedAccess', '--module', 'nodenext', '--target', 'es2022'];
+  const types = ['--typeRoots', join(tools, '@types'), '--types', 'node'];
+  const { code, said } = await run(process.execPath, [join(tools, 'typescript/bin/tsc'), ...options, ...types, 'dance.ts'], app);
+  assert.equal(code, 0, said);
+});
+
+test('the package has the version of the server', async () => {
+  const [, version] = /project\(choreo VERSION (\S+)/.exec(await readFile(join(root, 'CMakeLists.txt'), 'utf8'));
+  assert.equal(JSON.parse(await readFile(join(root, 'client/node/package.json'))).version, version);
+});

@@ -1,0 +1,222 @@
+"""client/python, the package: who may come, and dances that outlive their server. python_test.py runs it; $CHOREO_SERVER names a
+choreod, $CHOREOD the program of it."""
+
+import hashlib
+import os
+import pathlib
+import tempfile
+import threading
+import time
+import unittest
+
+from choreo_client import ChoreoError, Client, choreography, pose
+from music import PCM, RATE, clicks, live
+from servers import Authority, Server
+
+OTHER = os.environ["CHOREO_SERVER"]
+
+
+def info(address, **options):
+    with Client(address, **({"retry_s": 0} | options)) as client:
+        return client.info()
+
+
+def token_line(token, name):
+    return f"{hashlib.sha256(token.encode()).hexdigest()} {name}\n"
+
+
+def edited(skeleton, frame_rate=0, go_on=None):
+    """A dance to live music whose keys change on the way, one of them too late. Its last second waits for `go_on`."""
+    yield {"config": choreography.DanceConfig(seed=5, audio_format=PCM, frames=180, frame_rate=frame_rate, generate_until=0)}
+
+    def key(turn, **fields):
+        wanted = pose(skeleton, {"head": [0, turn, 0]})
+        wanted.ClearField("root_position")
+        return {"keyframe": choreography.Keyframe(pose=wanted, **fields)}
+
+    yield key(0.2, id="early", frame=30)
+    yield key(0.4, id="next", interval_after_previous=20)
+    said = {2: [key(0.1, id="moved", time=3.5)], 3: [key(0.3, id="moved", time=4), key(0.3, id="late", frame=20)]}
+    for piece in live(clicks(6), 1000):
+        yield from said.pop(piece.first_sample / RATE, [])
+        if go_on and piece.first_sample == 5 * RATE:
+            go_on.wait()
+        yield {"generate_until": {"frame": round(30 * piece.first_sample / RATE)}}
+        yield {"audio": piece}
+    yield {"end_of_audio": {}}
+    yield {"keyframes_complete": {}}
+
+
+def unkeyed(skeleton, frame_rate=0, go_on=None):
+    """A dance without keys, which has no continuation for seconds."""
+    del skeleton
+    yield {"config": choreography.DanceConfig(seed=9, audio_format=PCM, frames=90, frame_rate=frame_rate, generate_until=0)}
+    for piece in live(clicks(3), 1000):
+        if go_on and piece.first_sample == 2 * RATE:
+            go_on.wait()
+        yield {"audio": piece}
+        yield {"generate_until": {"frame": round(30 * piece.first_sample / RATE)}}
+
+
+def told(answers):
+    """All that a caller hears, but for how frames are packed and how quick they were."""
+    frames = [answer.frames for answer in answers if answer.HasField("frames")]
+    report = answers[-1].summary.report
+    return {
+        "root_positions": [number for block in frames for number in block.root_positions],
+        "rotations": [number for block in frames for number in block.rotations],
+        "contacts": [number for block in frames for number in block.contacts],
+        # A rejection comes at once, before or after the frames that are being made.
+        "events": sorted(answer.event.SerializeToString() for answer in answers if answer.HasField("event")),
+        "continuations": [answer.continuation for answer in answers if answer.HasField("continuation")],
+        "headers": [answer.header for answer in answers if answer.HasField("header")],
+        "reached": [(key.id, key.frame, key.errors) for key in report.keyframes],
+        "frames": (report.first_frame, report.frames),
+    }
+
+
+def dance_and_kill(source, is_time):
+    """Dances, and kills the server once `is_time(answers)`, in the middle of the dance: what came, and what was told of the resume."""
+    go_on, killed, resumes, answers = threading.Event(), False, [], []
+    with Server() as one, Client([one.address, OTHER]) as client:
+        requests = source(client.info().models[0].skeleton, go_on=go_on)
+        for answer in client.stream_dance(requests, on_resume=resumes.append):
+            answers.append(answer)
+            if not killed and is_time(answers):
+                killed = True
+                one.kill()
+                go_on.set()
+    return answers, resumes
+
+
+def undisturbed(source):
+    with Client(OTHER) as client:
+        return list(client.stream_dance(source(client.info().models[0].skeleton)))
+
+
+class ClientTest(unittest.TestCase):
+    maxDiff = 2000
+
+    def assert_refused(self, code, pattern, call, *arguments, **options):
+        with self.assertRaisesRegex(ChoreoError, pattern) as raised:
+            call(*arguments, **options)
+        self.assertEqual(raised.exception.code, code, str(raised.exception))
+        return raised.exception
+
+    def test_a_token_is_sent_and_read_again_and_a_wrong_one_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tokens, mine = pathlib.Path(folder, "tokens"), pathlib.Path(folder, "mine")
+            tokens.write_text(token_line("secret", "alice"))
+            with Server("--tokens", tokens) as server:
+                self.assert_refused("UNAUTHENTICATED", "^a token is needed; send the metadata", info, server.address)
+                self.assert_refused("UNAUTHENTICATED", "^nobody here has that token", info, server.address, token="guessed")
+                self.assertTrue(info(server.address, token="secret").models)
+                with Client(server.address, token_file=mine) as client:
+                    self.assert_refused("INVALID_ARGUMENT", f"^token_file: no file {mine}$", client.info)
+                    mine.write_text("guessed\n")
+                    dance = lambda: list(client.stream_dance([{"config": {"frames": 30}}]))
+                    self.assert_refused("UNAUTHENTICATED", "^nobody", dance)
+                    mine.write_text("secret\n")
+                    self.assertTrue(dance()[-1].HasField("summary"))
+                    request = choreography.GenerateTransitionRequest(config={}, frames=9)
+                    self.assertTrue(list(client.generate_transition(request))[-1].HasField("summary"))
+
+    def test_tls_with_authority_certificate_and_server_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            authority = Authority(folder)
+            certificate, key = authority.issue("server", "DNS:choreod")
+            own, own_key = authority.issue("client", "DNS:client")
+            with Server("--tls-cert", certificate, "--tls-key", key, "--tls-client-ca", authority.certificate) as server:
+                options = {"tls": True, "ca_certificate": authority.certificate, "server_name": "choreod"}
+                both = options | {"client_certificate": own, "client_key": own_key}
+                self.assertTrue(info(server.address, **both).models)
+                for wrong in (options, both | {"ca_certificate": None}, both | {"server_name": None}, {}):
+                    self.assert_refused("UNAVAILABLE", f"^{server.address}: ", info, server.address, **wrong)
+
+    def test_options_that_cannot_be_used_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            authority = Authority(folder)
+            own, own_key = authority.issue("client", "DNS:client")
+            far, absent = "192.0.2.1:50051", pathlib.Path(folder, "absent")
+            for addresses, options, message in (
+                ([], {}, "addresses: none is given$"),
+                ("localhost:70000", {}, r"addresses: localhost:70000: port 70000 is not in \[1, 65535\]$"),
+                (far, {"token": "secret"}, f"token: a token goes to {far} over TLS alone$"),
+                (f"ipv4:127.0.0.1:1,{far}", {"token": "secret"}, "token: a token goes to ipv4:.* over TLS alone$"),
+                (far, {"tls": True, "token": "two words"}, "token: it is no line of visible ASCII characters$"),
+                (far, {"ca_certificate": own}, f'ca_certificate: "{own}" needs TLS, which is off$'),
+                (far, {"tls": True, "ca_certificate": absent}, f"ca_certificate: no file {absent}$"),
+                (far, {"tls": True, "client_key": own_key}, "client_certificate: missing; a certificate and its key go together$"),
+                (far, {"tls": True, "ca_certificate": own_key}, f"ca_certificate: {own_key} holds no certificate in PEM"),
+                (far, {"tls": True, "client_certificate": own, "client_key": authority.key}, f"client_key: {authority.key} is not the key of {own}"),
+                (far, {"silence_s": 1}, "silence_s: 1 s is neither 0 nor at least 2 s$"),
+                (far, {"retry_s": -1}, "retry_s: -1 is not a finite number >= 0$"),
+            ):
+                self.assert_refused("INVALID_ARGUMENT", "^" + message, Client, addresses, **options)
+
+    def test_a_dance_goes_on_where_its_server_is_killed_bit_for_bit(self):
+        for rate in (30, 50):
+            with self.subTest(rate=rate):
+
+                def source(skeleton, go_on=None):
+                    return edited(skeleton, rate, go_on)
+
+                def is_time(answers):
+                    continuations = sum(answer.HasField("continuation") for answer in answers)
+                    return continuations > 1 and answers[-1].frames.first_frame > 3.5 * rate
+
+                whole = undisturbed(source)
+                self.assertIn("late", [answer.event.keyframe_rejected.id for answer in whole])
+                answers, resumes = dance_and_kill(source, is_time)
+                ((address, exact, code),) = [(resumed.address, resumed.exact, resumed.because.code) for resumed in resumes]
+                self.assertEqual((address, exact, code), (OTHER, True, "UNAVAILABLE"))
+                self.assertGreater(resumes[0].frame, 3.5 * rate)
+                self.assertEqual(told(answers), told(whole))
+
+    def test_a_dance_whose_server_is_killed_before_its_first_continuation_goes_on(self):
+        answers, resumes = dance_and_kill(unkeyed, lambda answers: answers[-1].HasField("frames"))
+        self.assertEqual(len(resumes), 1)
+        self.assertEqual(told(answers), told(undisturbed(unkeyed)))
+
+    def test_calls_wait_for_a_server_and_give_up_in_time(self):
+        error = self.assert_refused("UNAVAILABLE", "^127.0.0.1:1: ", info, "127.0.0.1:1", retry_s=0.3)
+        self.assertEqual(error.violations, [])
+        begun = time.monotonic()
+        with Client("127.0.0.1:1", retry_s=60) as client:
+            answers = client.stream_dance([{"config": {}}])
+            threading.Timer(0.2, answers.cancel).start()
+            self.assert_refused("CANCELLED", "", list, answers)
+        self.assertLess(time.monotonic() - begun, 30)
+        with Client(["127.0.0.1:1", OTHER]) as client:
+            request = choreography.GenerateTransitionRequest(config={"seed": 3}, frames=20, candidates=2)
+            blocks = [answer.frames.count for answer in client.generate_transition(request)]
+            self.assertEqual(sum(blocks), 40)
+
+    def test_calls_take_turns_at_the_addresses_of_a_list(self):
+        def silence():
+            yield {"config": {"audio_format": PCM}}
+            stop.wait()
+
+        stop = threading.Event()
+        with Server() as one, Client(f"ipv4:{one.address},{OTHER}") as client:
+            dances = []
+            # Connections are made one after the other: turns are taken once both are there.
+            while not all(info(address).active_streams for address in (one.address, OTHER)):
+                self.assertLess(len(dances), 40, "all calls went to one server")
+                dances.append(client.stream_dance(silence()))
+                next(dances[-1])
+            for dance in dances:
+                dance.cancel()
+                self.assert_refused("CANCELLED", "", list, dance)
+            stop.set()
+
+    def test_a_mistake_in_the_requests_ends_the_call_with_that_mistake(self):
+        def requests():
+            yield {"config": {"audio_format": PCM}}
+            raise OSError("the microphone is gone")
+
+        with Client(OTHER) as client:
+            with self.assertRaisesRegex(OSError, "the microphone is gone"):
+                list(client.stream_dance(requests()))
+            with self.assertRaisesRegex(ValueError, "keyfarme"):
+                list(client.stream_dance([{"config": {}}, {"keyfarme": {}}]))
