@@ -62,8 +62,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
          {core, audio, motion, fit, body, formats, draw, "tls", "choreo", "google", "grpc"}},
         {"studio", {core, audio, motion, formats, "client", "choreo"}},
         {"bench",
-         {core, audio, motion, formats, flow, controllers, engine, dance, "server", "client",
-          "choreo"}},
+         {core, audio, motion, formats, flow, controllers, engine, dance, metrics, "server",
+          "client", "choreo"}},
     };
   }();
   return rooms;
