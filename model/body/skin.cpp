@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace choreo {
 namespace {
@@ -18,6 +19,17 @@ int Carrier(const Skeleton& skeleton, const DollPart& part) {
   const DollBall& end = part.b;
   return end.joint != part.a.joint && end.offset.norm() < kOnJoint ? skeleton.parents[end.joint]
                                                                    : end.joint;
+}
+
+bool IsSame(const DollBall& one, const DollBall& other) {
+  return one.joint == other.joint && one.offset == other.offset && one.radius == other.radius;
+}
+
+// Whether another part ends with this ball, too, as thigh and shin both end with the knee.
+bool IsShared(const std::vector<DollPart>& doll, const DollPart& part, const DollBall& ball) {
+  return std::ranges::any_of(doll, [&](const DollPart& other) {
+    return &other != &part && (IsSame(other.a, ball) || IsSame(other.b, ball));
+  });
 }
 
 // One capsule: a pole, rings of latitude over both balls, a pole. On the tangent circles both balls
@@ -100,8 +112,23 @@ std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
     const size_t first = patch->positions.size();
     AddCapsule(*patch, parts[i].shape, doll[i].a.joint, Carrier(skeleton, doll[i]));
     const std::vector<const PlacedPart*> around = SkinAround(parts, i);
+    // Two bones that share a ball turn against each other, and both are seen there, in dots: the
+    // ball is round for either, or else the shade that each has at rest shows through the other's.
+    std::vector<const PlacedPart*> of_bone;
+    std::ranges::copy_if(around, std::back_inserter(of_bone), [&](const PlacedPart* other) {
+      const DollPart& part = doll[other - parts.data()];
+      return part.a.joint == doll[i].a.joint &&
+             Carrier(skeleton, part) == Carrier(skeleton, doll[i]);
+    });
+    const auto& [shape, colour] = parts[i];
+    const bool is_a_shared = IsShared(doll, doll[i], doll[i].a);
+    const bool is_b_shared = IsShared(doll, doll[i], doll[i].b);
     for (size_t vertex = first; vertex < patch->positions.size(); ++vertex) {
-      patch->normals[vertex] = SkinNormal(around, patch->positions[vertex], patch->normals[vertex]);
+      const Vector3f& point = patch->positions[vertex];
+      Vector3f& normal = patch->normals[vertex];
+      const bool is_at_b = (point - shape.radius_b * normal - shape.b).norm() <
+                           (point - shape.radius_a * normal - shape.a).norm();
+      normal = SkinNormal((is_at_b ? is_b_shared : is_a_shared) ? of_bone : around, point, normal);
     }
   }
   return patches;

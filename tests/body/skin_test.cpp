@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
@@ -92,6 +94,30 @@ TEST(Skin, StaysOnTheDollWhenTheBodyBends) {
             << kSmpl.joint_names[joint];
       }
     }
+  }
+}
+
+// Thigh and shin are seen there at once, however they turn: they have the same shade.
+TEST(Skin, ABallThatTwoBonesShareIsRound) {
+  const JointPlacement rest = ForwardKinematics(kSmpl, RestPose(kSmpl));
+  const std::vector<SkinPatch> skin = MakeSkin(kSmpl);
+  for (const auto& [joint, radius] : {std::pair("left_knee", 0.056f),
+                                      {"right_knee", 0.056f},
+                                      {"left_elbow", 0.040f},
+                                      {"right_elbow", 0.040f}}) {
+    const Vector3f centre = rest.positions.col(kSmpl.Find(joint)).cast<float>();
+    const Colour& colour = std::string_view(joint).starts_with("left") ? kLeftColour : kRightColour;
+    int count = 0;
+    for (const SkinPatch& patch : skin) {
+      if (!(patch.colour == colour)) continue;
+      for (size_t i = 0; i < patch.positions.size(); ++i) {
+        const Vector3f radial = patch.positions[i] - centre;
+        if (std::abs(radial.norm() - radius) > 1e-5f) continue;
+        EXPECT_GT(patch.normals[i].dot(radial.normalized()), 0.999f) << joint;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 200) << joint;
   }
 }
 

@@ -3,6 +3,7 @@ import { effect, signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Pose } from './body';
 import { Doll } from './doll';
+import { KeepTake } from './keep_take';
 import { Library } from './library';
 import { Panels } from './panels';
 import { PhotoCard } from './photo_card';
@@ -45,11 +46,7 @@ function View() {
     <main class="stage" id="stage" tabIndex={-1} aria-label="Stage">
       <canvas ref={canvas} class={studio.drawing.value ? 'drawing' : ''} tabIndex={0} role="img" aria-label="The dancer. Drag to look around; drag a handle of a chosen key to pose it." />
       {takes.length > 0 && marks.value.map(({ x, y }, i) => i <= takes.length && (
-        <span class="mark" style={{ left: `${x}px`, top: `${y}px` }} key={i}>
-          {i === 0
-            ? <button class="quiet" onClick={() => (studio.takes.value = [])}>Keep A</button>
-            : <button onClick={() => studio.keepTake(takes[i - 1])}>Keep {'ABCDEFG'[i]}</button>}
-        </span>
+        <span class="mark" style={{ left: `${x}px`, top: `${y}px` }} key={i}><KeepTake nth={i} /></span>
       ))}
       {!studio.project.value && !studio.sketch.value && <Welcome />}
       <PhotoCard />
@@ -74,10 +71,11 @@ function Welcome() {
 
 function Progress() {
   const [there, all] = [studio.danced.value, studio.total.value];
-  if (studio.filming.value !== null) {
+  if (studio.filming.value) {
+    const { share, left } = studio.filming.value;
     return (
       <div class="progress filming" role="status">
-        filming … {Math.round(100 * studio.filming.value)} % <button onClick={studio.leaveFilm}>Leave off</button>
+        filming … {Math.round(100 * share)} %{left && `, ${left} left`} <button onClick={studio.leaveFilm}>Leave off</button>
       </div>
     );
   }
@@ -144,12 +142,15 @@ function Bar() {
   );
 }
 
+/// Whether Space plays while this has the focus. It presses other buttons; keys and intervals are pressed by Enter.
+const playsOn = (at: HTMLElement) => !at.matches('button') || at.matches('.key, .interval');
+
 function useKeyboard() {
   useEffect(() => {
     const press = (event: KeyboardEvent) => {
       const at = event.target as HTMLElement;
       if (event.defaultPrevented || at.matches('input, select')) return;
-      if (event.key === ' ' && !at.matches('button')) studio.togglePlay();
+      if (event.key === ' ' && playsOn(at)) studio.togglePlay();
       else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z') event.shiftKey ? studio.redo() : studio.undo();
       else if (event.key === 'Escape') {
         [studio.selectedKey.value, studio.chosen.value, studio.takes.value] = [null, null, []];
@@ -160,8 +161,17 @@ function useKeyboard() {
       else return;
       event.preventDefault();
     };
+    // Some browsers press a button when Space is let go of.
+    const release = (event: KeyboardEvent) => {
+      const at = event.target as HTMLElement;
+      if (event.key === ' ' && at.matches('button') && playsOn(at)) event.preventDefault();
+    };
     window.addEventListener('keydown', press);
-    return () => window.removeEventListener('keydown', press);
+    window.addEventListener('keyup', release);
+    return () => {
+      window.removeEventListener('keydown', press);
+      window.removeEventListener('keyup', release);
+    };
   }, []);
 }
 

@@ -6,6 +6,8 @@ import { toQuaternion } from './body';
 import type { Pose, Skeleton, Triple } from './body';
 import type { Motion } from './motion';
 
+const shirt = 'trunk'; // the material's name in the body's file
+
 export class Doll {
   private readonly bones: Object3D[];
   private readonly turns: Quaternion[];
@@ -43,6 +45,16 @@ export class Doll {
       part.parent!.add(mask);
       part.material = material;
     }
+    return this;
+  }
+
+  /// Gives it a shirt of its own colour.
+  wear(colour: string) {
+    this.scene.traverse((part) => {
+      if (!(part instanceof Mesh) || part.material.name !== shirt) return;
+      part.material = part.material.clone();
+      part.material.color.set(colour);
+    });
     return this;
   }
 

@@ -1,6 +1,6 @@
 // What is dropped or chosen, and what is saved.
-import { film, height, width } from './film';
-import type { Kind } from './film';
+import { film, fps, height, width } from './film';
+import type { Kind, Painter } from './film';
 import { danceFrom, made, push } from './history';
 import { compose } from './keys';
 import { readKey } from './dancer';
@@ -10,8 +10,8 @@ import { emptyProject } from './project';
 import { fromJson, inOrder, toJson } from './project_file';
 import { dropSketch, photoExtensions, readPhoto } from './photos';
 import { audio, hear, playSilence, songExtensions } from './songs';
-import type { Stage } from './stage';
 import { begin, filming, kept, live, message, moment, project, song, takes, tell, welcome, work } from './state';
+import { timeLeft } from './time_left';
 
 const motionExtensions = ['npz', 'bvh', 'glb'];
 /// What the file chooser offers.
@@ -101,27 +101,31 @@ let filmed: AbortController | null = null;
 export const leaveFilm = () => filmed?.abort();
 
 /// Makes a film of the dance, as the camera sees it.
-export const exportFilm = (kind: Kind, stage: Stage) => work(async () => {
+export const exportFilm = (kind: Kind, painter: Painter) => work(async () => {
   if (filmed) return;
   const { song: played } = moment.value;
   const motion = await made(moment.value);
   audio.pause();
   dropSketch();
-  [takes.value, filming.value] = [[], 0];
+  [takes.value, filming.value] = [[], { share: 0, left: '' }];
   filmed = new AbortController();
+  let began: number | null = null; // ms: the sound, which comes first, says nothing of the pictures
   try {
     const bytes = await film({
       kind,
       motion,
       song: played,
-      draw: (time) => stage.picture(motion, time, width, height),
-      told: (share) => (filming.value = share),
+      draw: (time) => painter.picture(motion, time, 1 / fps, width, height),
+      told: (share) => {
+        began ??= performance.now();
+        filming.value = { share, left: timeLeft(share, (performance.now() - began) / 1000) };
+      },
       signal: filmed.signal,
     });
     download(`${stem()}.${kind}`, bytes as BlobPart, `video/${kind}`);
   } finally {
     [filmed, filming.value] = [null, null];
-    stage.leave();
+    painter.leave();
   }
 });
 

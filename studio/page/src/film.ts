@@ -80,6 +80,12 @@ async function encodeSound(sound: AudioBuffer, encoder: AudioEncoder) {
   encoder.close();
 }
 
+/// What draws the pictures of a film, one each `pace` seconds, until it may leave.
+export type Painter = {
+  picture: (motion: Motion, time: number, pace: number, width: number, height: number) => HTMLCanvasElement;
+  leave: () => void;
+};
+
 type Plan = {
   kind: Kind;
   motion: Motion;

@@ -1,7 +1,7 @@
 // The path on the stage's floor: drawn with the pointer, shown as a line with a dot for each second.
 import * as THREE from 'three';
-import type { Spot, Step } from './floor_path';
 import { colour } from './palette';
+import type { Spot, Step } from './project';
 
 const width = 0.035; // metres
 const height = 0.006; // above the floor, so that it is not hidden by it

@@ -2,14 +2,10 @@
 import type { Pose } from './body';
 import { total, danceFrom } from './history';
 import { dancer } from './link';
-import type { Key } from './project';
+import type { Key, Spot, Step } from './project';
 import { audio } from './songs';
 import { chosen, motion, project, tell } from './state';
 import { signal } from '@preact/signals';
-
-/// Where the dancer is to be at a frame; metres. A path has at least two, in order of time.
-export type Step = { frame: number; x: number; z: number };
-export type Spot = { x: number; z: number };
 
 /// Whether the next stroke on the stage draws one.
 export const drawing = signal(false);

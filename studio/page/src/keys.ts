@@ -9,12 +9,13 @@ import { danceFrom, edit } from './history';
 import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
-import { closest, emptyProject, freeId, sorted } from './project';
+import { closest, emptyProject, freeId, sorted, spoken } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
 import type { Moment } from './state';
 
+const one = 5; // frames: a pose that is set so near a key takes its place
 const reach = 15; // frames within which a key that finds its place taken looks for another
 
 /// Key poses of the library on the song's beats: a dance to begin with.
@@ -43,13 +44,22 @@ function freeFrame(keys: Key[], frame: number): number | null {
   return null;
 }
 
-/// Sets a pose of the library where the dancer is at that moment, facing as she does.
+/// The key in whose place a pose comes that is set at a frame: the nearest, where one is as good as there.
+export function keyNear(frame: number): Key | undefined {
+  const away = (key: Key) => Math.abs(key.frame - frame);
+  const near = live.value ? [] : project.value?.keys.filter((key) => away(key) <= one) ?? [];
+  return near.sort((a, b) => away(a) - away(b))[0];
+}
+
+/// Sets a pose of the library where the dancer is at that moment, facing as she does; in place of a key that stands there.
 /// While it is danced live, on a beat to come, or at `at`.
 export function addKey(pose: LibraryPose, at?: number) {
   if (!project.value) return;
   if (live.value) return addLiveKey(pose, at ?? null);
-  const keys = project.value.keys;
-  const frame = freeFrame(keys, at ?? Math.round(audio.currentTime * dancer.fps));
+  const wanted = at ?? Math.round(audio.currentTime * dancer.fps);
+  const old = keyNear(wanted);
+  const keys = project.value.keys.filter((key) => key !== old);
+  const frame = freeFrame(keys, old?.frame ?? wanted);
   if (frame === null) return complain(new Error('There is no room for a key here.'));
   const root = pose.pose!.rootPosition!;
   let placed: Pose = { root: [root.x, root.y, root.z], rotations: [...pose.pose!.rotations] };
@@ -61,6 +71,7 @@ export function addKey(pose: LibraryPose, at?: number) {
   const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
+  if (old) tell(`${spoken(key.id)} stands in place of ${spoken(old.id)} now. Undo brings that back.`);
 }
 
 export const keyOf = (id: string | null) => project.value?.keys.find((key) => key.id === id);

@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import type { Pose } from './body';
 import type { LibraryPose } from './generated/studio/studio_pb';
+import { spoken } from './project';
 import * as studio from './studio';
 import { dropPose, frameUnder } from './timeline';
 
@@ -38,7 +39,7 @@ function Item({ pose, isOwn, pictureOf }: Props & { pose: LibraryPose; isOwn: bo
       <button title={pose.description} disabled={!studio.project.value} onPointerDown={carry(pose)}
         onClick={() => !carried.value && studio.addKey(pose)}>
         <img alt="" draggable={false} src={pictureOf(standing(pose))} />
-        <span>{pose.id.replaceAll('_', ' ')}</span>
+        <span>{spoken(pose.id)}</span>
       </button>
       {isOwn && <button class="icon forget" aria-label={`Forget ${pose.id}`} title="Forget this pose" onClick={() => studio.forgetPose(pose.id)}>×</button>}
     </li>
@@ -50,7 +51,11 @@ export function Library({ pictureOf }: Props) {
   const own = studio.welcome.value ? studio.ownPoses(studio.skeleton.joints) : [];
   return (
     <aside class="library" aria-label="Poses">
-      <h2>Poses</h2>
+      <div class="row head">
+        <h2>Poses</h2>
+        <button disabled={!studio.shownSong.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.complain)}
+          title="Other poses of the library on the song's beats">New poses</button>
+      </div>
       <p class="small">Drag one onto the timeline, or press it to set it at the playhead. Drop a photo to make your own.</p>
       <ul>
         {own.map((pose) => <Item key={`own ${pose.id}`} pose={pose} isOwn pictureOf={pictureOf} />)}

@@ -1,7 +1,7 @@
 // Which joints of a pose are worked on: those of some parts of the body, or those that a partial key asks for.
 import { computed, signal } from '@preact/signals';
 import { BodyPart } from './generated/choreo/v1/choreography_pb';
-import { parts } from './project';
+import { parts, spoken } from './project';
 import { project, selectedKey, sketch, welcome } from './state';
 
 /// Of each of `parts`: whether it is worked on, where the key does not say so itself.
@@ -27,7 +27,7 @@ export const partsOf = (asked: number[] | null): boolean[] => parts.map((_, part
 export function inWords(asked: number[], names: string[]): string {
   const isWhole = (part: number) => joints().every((joint) => partOf(joint) !== part || asked.includes(joint));
   const whole = parts.filter((_, part) => isWhole(part));
-  const others = asked.filter((joint) => !isWhole(partOf(joint))).map((joint) => names[joint].replaceAll('_', ' '));
+  const others = asked.filter((joint) => !isWhole(partOf(joint))).map((joint) => spoken(names[joint]));
   return [...whole, ...others].join(', ');
 }
 

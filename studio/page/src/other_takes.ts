@@ -1,6 +1,7 @@
 // Other takes of an interval, beside the dancer from left to right.
 import * as THREE from 'three';
 import type { Doll } from './doll';
+import { colour, shirtOf } from './palette';
 import * as studio from './studio';
 
 export const apart = 1.25; // metres between takes
@@ -16,7 +17,7 @@ export class OtherTakes {
   show(time: number, centre: THREE.Vector3, camera: THREE.Camera, middle: THREE.Vector3) {
     const takes = studio.takes.value;
     while (this.dolls.length < takes.length) {
-      this.dolls.push(this.doll.another());
+      this.dolls.push(this.doll.another().wear(colour(shirtOf(this.dolls.length + 1))));
       this.scene.add(this.dolls.at(-1)!.scene);
     }
     const side = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion).setY(0).normalize();
@@ -26,8 +27,10 @@ export class OtherTakes {
       doll.scene.visible = i < takes.length;
       if (!doll.scene.visible) return;
       doll.follow(takes[i].motion, time);
-      doll.scene.position.copy(side).multiplyScalar((i + 1) * apart);
-      names.push(doll.place().clone().add(doll.scene.position).setY(nameHeight));
+      // Beside each other, wherever each dances: somebody who walks off would leave the stage, or stand in another.
+      const place = side.clone().multiplyScalar((i + 1) * apart).add(centre).setY(nameHeight);
+      doll.scene.position.copy(place).sub(doll.place()).setY(0);
+      names.push(place);
     });
     return takes.length ? names : [];
   }

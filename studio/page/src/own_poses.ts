@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import type { Pose } from './body';
 import { LibraryPoseSchema } from './generated/studio/studio_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
-import { complain } from './state';
+import { complain, tell } from './state';
 
 const place = 'choreo poses';
 const most = 200;
@@ -42,12 +42,12 @@ function keep(all: Kept[]) {
   }
 }
 
-/// Keeps a pose under a free name; it stands at the origin.
-export function keepPose(name: string, pose: Pose) {
+/// Remembers a pose under a free name, which it tells; it stands at the origin.
+export function addPose(name: string, pose: Pose) {
   let id = name;
   for (let i = 2; kept.value.some((other) => other.id === id); ++i) id = `${name}_${i}`;
   keep([{ id, height: pose.root[1], rotations: pose.rotations }, ...kept.value].slice(0, most));
-  return id;
+  tell(`Added to the poses as ${id}.`);
 }
 
 export const forgetPose = (id: string) => keep(kept.value.filter((other) => other.id !== id));

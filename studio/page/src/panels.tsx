@@ -1,8 +1,9 @@
 // What is beside the stage: the chosen key, takes, style, liveliness.
 import { signal } from '@preact/signals';
+import { KeepTake } from './keep_take';
 import { PathPoints } from './path_points';
 import { PoseTools } from './pose_tools';
-import { parts } from './project';
+import { parts, spoken } from './project';
 import type { Stage } from './stage';
 import * as studio from './studio';
 
@@ -15,7 +16,7 @@ function KeyPanel({ stage }: { stage: Stage | null }) {
   return (
     <section aria-label="Key">
       <h2>
-        {studio.sketch.value ? 'Photo' : key ? key.id.replaceAll('_', ' ') : 'Key'}
+        {studio.sketch.value ? 'Photo' : key ? spoken(key.id) : 'Key'}
         {key && <small> {(key.frame / studio.dancer.fps).toFixed(2)} s</small>}
       </h2>
       {pose
@@ -43,10 +44,7 @@ function TakesPanel() {
               <button class="primary" disabled={!studio.moment.value} onClick={() => void studio.tryTakes()}>Try 3 more</button>
               {interval && <button onClick={() => void studio.tryTheRest()}>Freeze it, try the rest</button>}
             </>
-          : <>
-              <button onClick={() => (studio.takes.value = [])}>Keep A</button>
-              {takes.map((take, i) => <button key={i} class="primary" onClick={() => studio.keepTake(take)}>Keep {'BCDEFG'[i]}</button>)}
-            </>}
+          : [...Array(takes.length + 1).keys()].map((nth) => <KeepTake key={nth} nth={nth} />)}
       </div>
     </section>
   );
@@ -156,7 +154,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
         <label class="check">
           <input type="checkbox" checked={follows.value} onChange={(event) => {
             follows.value = event.currentTarget.checked;
-            if (stage) stage.follows = follows.value;
+            if (stage) stage.view.follows = follows.value;
           }} />
           The camera follows
         </label>

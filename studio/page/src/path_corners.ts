@@ -2,7 +2,7 @@
 import { computed, signal } from '@preact/signals';
 import { heading } from './body';
 import { away, clearPath, least, lengthOf, stretch, walk } from './floor_path';
-import type { Spot, Step } from './floor_path';
+import type { Spot, Step } from './project';
 import { live, moment, motion, project, tell } from './state';
 import type { Moment } from './state';
 

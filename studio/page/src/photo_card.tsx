@@ -44,9 +44,9 @@ export function PhotoCard() {
       <div class="row">
         <button class="primary" disabled={!studio.project.value} onClick={set}>Set as a key</button>
         <button onClick={() => {
-          studio.tell(`Kept among the poses as ${studio.keepPose(id, pose)}.`);
+          studio.addPose(id, pose);
           studio.dropSketch();
-        }}>Keep the pose</button>
+        }}>Add to poses</button>
         <button class="icon" aria-label="Put the photo away" onClick={studio.dropSketch}>×</button>
       </div>
     </section>

@@ -5,7 +5,7 @@ import { turned } from './body';
 import type { Pose } from './body';
 import { degreesOf, withDegrees } from './joint_angles';
 import { NumberField } from './number_field';
-import { parts } from './project';
+import { parts, spoken } from './project';
 import { canPull, floorHandle, handles } from './reach';
 import type { Stage } from './stage';
 import * as studio from './studio';
@@ -21,7 +21,6 @@ const ways: Record<string, [number, number, number]> = {
 };
 /// The joint whose degrees are shown.
 const joint = signal('left_shoulder');
-const spoken = (name: string) => name.replaceAll('_', ' ');
 
 /// Which parts are worked on, and whether the key asks for these alone.
 function Parts() {
@@ -128,7 +127,7 @@ export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) 
         <button disabled={areHipsFixed} onClick={change((old) => studio.skeleton.grounded(old))}>To the floor</button>
         <button aria-label="Turn left" title="Turn left" class="icon" disabled={areHipsFixed} onClick={change((old) => turned(old, Math.PI / 12))}>⟲</button>
         <button aria-label="Turn right" title="Turn right" class="icon" disabled={areHipsFixed} onClick={change((old) => turned(old, -Math.PI / 12))}>⟳</button>
-        {key && <button title="Keep this pose among yours" onClick={() => studio.tell(`Kept among the poses as ${studio.keepPose(key, pose)}.`)}>Keep</button>}
+        {key && <button title="Have this pose among the poses, to set it elsewhere" onClick={() => studio.addPose(key, pose)}>Add to poses</button>}
         {key && <button onClick={() => studio.removeKey(key)}>Remove</button>}
       </div>
       <Parts />

@@ -1,6 +1,10 @@
 // What people make: key poses, and how to dance between them.
 import type { Pose } from './body';
-import type { Step } from './floor_path';
+
+/// A place on the floor; metres.
+export type Spot = { x: number; z: number };
+/// Where the dancer is to be at a frame. A path has at least two, in order of time.
+export type Step = Spot & { frame: number };
 
 /// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
 /// all of them.
@@ -36,6 +40,9 @@ export const emptyProject = (song: string, seconds: number): Project => ({
 });
 
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
+
+/// An id or a joint's name, for people.
+export const spoken = (name: string) => name.replaceAll('_', ' ');
 
 /// An id that no key has: "kick", "kick-2", ...
 export const freeId = (keys: Key[], name: string) => {

@@ -1,7 +1,6 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
 import { closest, emptyProject, parts, sorted } from './project';
-import type { Step } from './floor_path';
-import type { Key, Project } from './project';
+import type { Key, Project, Step } from './project';
 
 const format = 1; // of the file
 // As the program has them: kLongestDance, kMaxVelocityFactor, kMaxPosition.

@@ -1,6 +1,5 @@
 // The stage: floor, light, camera, the dancers, and the handles of the pose that is being made.
 import * as THREE from 'three';
-import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Pose } from './body';
 import { Doll } from './doll';
 import { FloorLine } from './floor_line';
@@ -9,19 +8,18 @@ import type { Motion } from './motion';
 import { floorHandle, handles, pull } from './reach';
 import type { Handle } from './reach';
 import { Onion } from './onion';
-import { apart, OtherTakes } from './other_takes';
+import { OtherTakes } from './other_takes';
 import { colour } from './palette';
 import { floorTexture, looks, makeFloor, makeLamp, makeSky } from './scenery';
 import * as studio from './studio';
+import { View } from './view';
 
-const middle = 0.92; // metres: what the camera looks at
 const ground = new THREE.Plane(new THREE.Vector3(0, 1, 0), 0);
 const farthest = 9; // metres from where the camera looks: a path may lead there
-const photoWidth = 272; // pixels of the stage at most (style.css)
+const longest = 0.3; // seconds between two looks at the dancer: what is more was a rest
 const near = 26; // pixels from a handle that still grab it
 
 export class Stage {
-  follows = true;
   /// Called with the pose that was pulled into shape, when the handle is let go.
   onPosed: (pose: Pose) => void = () => {};
   /// Pictures a second, while there is something to draw.
@@ -29,8 +27,8 @@ export class Stage {
 
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
-  private readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
-  private readonly controls: OrbitControls;
+  readonly view: View;
+  private readonly camera: THREE.PerspectiveCamera;
   private readonly lamp = makeLamp();
   private readonly sky = makeSky(looks.light.sky);
   private readonly floor = makeFloor();
@@ -40,14 +38,14 @@ export class Stage {
   private readonly dots = new HandleDots();
   private readonly line = new FloorLine();
   private posing: Pose | null = null;
-  private seat: THREE.Vector3 | null = null; // from which somebody got up to draw
   private grabbed: { handle: Handle; plane: THREE.Plane; from: Pose; offset: THREE.Vector3 } | null = null;
   /// How far the sound went while a picture was made, seconds: at most, while it played last.
   lateness = 0;
 
   private readonly middle = new THREE.Vector3(); // of all dancers
   private seen: unknown[] = [];
-  private drawn = 0;
+  private drawn = 0; // when the last picture was, ms
+  private looked = 0; // when the dancer was looked at last, ms
   private isDark = false;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly doll: Doll, private readonly posed: () => Pose | null, private readonly onPlaced: (marks: { x: number; y: number }[]) => void) {
@@ -60,14 +58,8 @@ export class Stage {
     this.onion = new Onion(doll);
     this.others = new OtherTakes(doll);
     this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene, this.others.scene);
-    this.camera.position.set(1.5, 1.35, 4.4);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.target.set(0, middle, 0);
-    this.controls.enablePan = false;
-    this.controls.minDistance = 1.2;
-    this.controls.maxDistance = 14;
-    this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
-    this.controls.enableDamping = true;
+    this.view = new View(canvas);
+    this.camera = this.view.camera;
     canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
     canvas.addEventListener('pointermove', (event) => this.drag(event));
     canvas.addEventListener('pointerup', () => this.release());
@@ -123,7 +115,7 @@ export class Stage {
   /// The spot of the floor that is under the pointer; null above the horizon, and too far away.
   private spot(event: PointerEvent) {
     const hit = this.ray(event).intersectPlane(ground, new THREE.Vector3());
-    return hit && hit.distanceTo(this.controls.target) < farthest ? { x: hit.x, z: hit.z } : null;
+    return hit && hit.distanceTo(this.view.target) < farthest ? { x: hit.x, z: hit.z } : null;
   }
 
   private grab(event: PointerEvent) {
@@ -132,7 +124,7 @@ export class Stage {
       if (!spot) return;
       event.stopImmediatePropagation();
       this.canvas.setPointerCapture(event.pointerId);
-      this.controls.enabled = false;
+      this.view.controls.enabled = false;
       return this.line.begin(spot);
     }
     if (!this.posing) return;
@@ -152,7 +144,7 @@ export class Stage {
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, place);
     const hit = this.ray(event).intersectPlane(plane, new THREE.Vector3()) ?? place;
     this.grabbed = { handle, plane, from: this.posing, offset: place.clone().sub(hit) };
-    this.controls.enabled = false;
+    this.view.controls.enabled = false;
   }
 
   private drag(event: PointerEvent) {
@@ -167,13 +159,13 @@ export class Stage {
 
   private release() {
     if (this.line.isDrawn) {
-      this.controls.enabled = true;
+      this.view.controls.enabled = true;
       return studio.drawPath(this.line.end());
     }
     if (!this.grabbed) return;
     const changed = this.posing !== this.grabbed.from;
     this.grabbed = null;
-    this.controls.enabled = true;
+    this.view.controls.enabled = true;
     if (changed && this.posing) this.onPosed(this.posing);
   }
 
@@ -194,8 +186,10 @@ export class Stage {
     this.dots.show(this.posing);
     const isSet = studio.areCornersShown.value || !!studio.askedCorners.value;
     const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps, isSet ? studio.corners.value : null, studio.heldCorner.value);
-    this.look(this.middle);
-    this.stepAside();
+    const now = performance.now();
+    this.look(this.middle, Math.min(longest, (now - this.looked) / 1000));
+    this.looked = now;
+    this.view.stepAside();
     this.camera.updateMatrixWorld();
     // A picture that would be the same again is not drawn.
     const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
@@ -209,26 +203,27 @@ export class Stage {
     this.adapt();
   }
 
-  /// Draws one picture of the dance alone, so many pixels large, for a film: the page's own pictures rest until `leave`.
-  picture(motion: Motion, time: number, width: number, height: number): HTMLCanvasElement {
+  /// Draws one picture of the dance alone, so many pixels large, for a film with one each `pace` seconds: the page's own pictures rest
+  /// until `leave`.
+  picture(motion: Motion, time: number, pace: number, width: number, height: number): HTMLCanvasElement {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== 1) {
       this.camera.clearViewOffset();
       this.renderer.setAnimationLoop(null);
       this.renderer.setPixelRatio(1);
       this.renderer.setSize(width, height, false);
-      this.camera.aspect = width / height;
-      this.camera.updateProjectionMatrix();
-      for (const part of [this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene]) part.visible = false;
+      this.view.fit(width, height);
+      for (const part of [this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene, this.others.scene]) part.visible = false;
+      this.doll.scene.visible = true; // be it the first picture at all
     }
     this.doll.follow(motion, time);
-    this.look(this.doll.place());
+    this.look(this.doll.place(), pace);
     this.renderer.render(this.scene, this.camera);
     return this.canvas;
   }
 
   leave() {
-    for (const part of [this.line.scene, this.onion.scene]) part.visible = true;
+    for (const part of [this.line.scene, this.onion.scene, this.others.scene]) part.visible = true;
     this.seen = [];
     this.sharpen();
     this.renderer.setAnimationLoop(() => this.draw());
@@ -261,49 +256,13 @@ export class Stage {
     if (this.ghost.scene.visible) this.ghost.take(key!.pose);
   }
 
-  private look(at: THREE.Vector3) {
-    if (this.follows && !this.grabbed && !studio.drawing.value) {
-      const step = new THREE.Vector3(at.x, middle, at.z).sub(this.controls.target).multiplyScalar(0.12);
-      this.controls.target.add(step);
-      this.camera.position.add(step);
-    }
-    this.sit();
-    this.controls.update();
-    // All dancers fit into the picture.
-    const width = 2 * this.camera.position.distanceTo(this.controls.target) * Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect;
-    const wanted = Math.min(1, width / ((studio.takes.value.length + 1) * apart + 0.4));
-    if (Math.abs(wanted - this.camera.zoom) > 1e-3) {
-      this.camera.zoom += (wanted - this.camera.zoom) * 0.2;
-      this.camera.updateProjectionMatrix();
-    }
-    this.lamp.target.position.copy(this.controls.target);
-    this.lamp.position.copy(this.controls.target).add(new THREE.Vector3(1.6, 4.2, 2.6));
-    this.floor.position.set(this.controls.target.x - (this.controls.target.x % 0.5), 0, this.controls.target.z - (this.controls.target.z % 0.5));
-  }
-
-  /// A photo lies on the left of the stage: who stands in the middle steps aside.
-  private stepAside() {
-    const { clientWidth, clientHeight } = this.canvas;
-    const shift = studio.sketch.value ? Math.round(Math.min(clientWidth * 0.38, photoWidth) / 2) : 0;
-    const { view } = this.camera;
-    if ((view?.enabled ? -view.offsetX : 0) === shift && (!shift || (view!.fullWidth === clientWidth && view!.fullHeight === clientHeight))) return;
-    if (shift) this.camera.setViewOffset(clientWidth, clientHeight, -shift, 0, clientWidth, clientHeight);
-    else this.camera.clearViewOffset();
-  }
-
-  /// Who draws on the floor looks at it from above, rests there while the hand draws, and comes back to where they sat.
-  private sit() {
-    const { position } = this.camera;
-    const { target } = this.controls;
-    if (this.line.isDrawn) return;
-    if (studio.drawing.value) {
-      this.seat ??= position.clone().sub(target);
-      const aside = this.seat.clone().setY(0).setLength(3.2);
-      position.lerp(aside.setY(5.2).add(target), 0.25);
-    } else if (this.seat) {
-      const goal = this.seat.clone().add(target);
-      if (position.lerp(goal, 0.25).distanceTo(goal) < 0.02) this.seat = null;
-    }
+  /// Looks at somebody for so many seconds; light and floor come along.
+  private look(at: THREE.Vector3, seconds: number) {
+    this.view.look(at, seconds, this.grabbed ? 'bends' : this.line.isDrawn ? 'draws' : 'free');
+    const { target } = this.view;
+    this.lamp.target.position.copy(target);
+    this.lamp.position.copy(target).add(new THREE.Vector3(1.6, 4.2, 2.6));
+    this.floor.position.set(target.x - (target.x % 0.5), 0, target.z - (target.z % 0.5));
   }
 
   private resize() {
@@ -311,9 +270,6 @@ export class Stage {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x === clientWidth && size.y === clientHeight) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
-    // A narrow screen needs distance, not a cut-off body.
-    this.camera.fov = this.camera.aspect < 1 ? 40 : 32;
-    this.camera.updateProjectionMatrix();
+    this.view.fit(clientWidth, clientHeight);
   }
 }

@@ -48,8 +48,8 @@ export const chosen = signal<[number, number] | null>(null);
 export const takes = signal<Take[]>([]);
 /// What is seen through beside the dancer: nothing, the keys around, or the frames around.
 export const onion = signal<'off' | 'keys' | 'frames'>('off');
-/// How much of a film is made, 0 to 1; null while none is.
-export const filming = signal<number | null>(null);
+/// How much of a film is made, 0 to 1, and how long the rest takes, for people: empty while nobody knows. Null while none is made.
+export const filming = signal<{ share: number; left: string } | null>(null);
 export const live = signal<Live | null>(null);
 export const sketch = signal<Sketch | null>(null);
 

@@ -12,7 +12,7 @@ export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_p
 export { change, motionAt, redo, total, undo } from './history';
 export * from './keys';
 export { addCorner, areCornersShown, askedCorners, corners, heldCorner, setCorners } from './path_corners';
-export { forgetPose, keepPose, ownPoses } from './own_poses';
+export { addPose, forgetPose, ownPoses } from './own_poses';
 export { dropSketch } from './photos';
 export { inWords, movable, partsOf, worked } from './masks';
 export { dancer, skeleton } from './link';
@@ -48,7 +48,8 @@ export const togglePlay = () => {
   if (live.value) return void stopLive();
   if (!audio.paused) return audio.pause();
   if (audio.ended) audio.currentTime = 0;
-  void audio.play().catch(complain);
+  // Who pauses at once takes the wish to play back: that is no error.
+  void audio.play().catch((error: DOMException) => error.name !== 'AbortError' && complain(error));
 };
 
 /// Whether the model hears music at all.

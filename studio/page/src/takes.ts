@@ -3,11 +3,25 @@ import type { Watch } from './dancer';
 import { made, push, stream, total } from './history';
 import { dancer, skeleton } from './link';
 import { Motion } from './motion';
+import { audio } from './songs';
 import { chosen, moment, moments, project, takes, tell, warnings, work } from './state';
 import type { Moment, Take } from './state';
+import { mostUnlike, unlikeness } from './unlike';
+
+const alike = 0.002; // of `unlikeness`: less is not seen
+const near = 4; // seconds, within which the playhead stays
 
 /// Of takes that may never be kept, nothing is said.
 const silent: Watch = { grown: () => {}, noted: () => {} };
+
+/// Goes to where they differ most between two frames, if the playhead rests where all are alike: takes have their keys in common.
+function goWhereTheyDiffer(from: number, to: number) {
+  const all = [moment.value.motion.value, ...takes.value.map((take) => take.motion)];
+  const now = Math.round(audio.currentTime * dancer.fps);
+  if (!audio.paused || unlikeness(all, now) > alike) return;
+  const frame = mostUnlike(all, from, Math.min(to, total.value));
+  if (unlikeness(all, frame) > alike) audio.currentTime = frame / dancer.fps;
+}
 
 /// Other ways to dance the chosen interval, or all of it.
 export const tryTakes = (count = 3) => work(async () => {
@@ -18,7 +32,9 @@ export const tryTakes = (count = 3) => work(async () => {
   if (!chosen.value) return tryWholes(before, seed, count);
   const [from, to] = chosen.value;
   const motions = await dancer.between(before.project, whole, from, Math.min(to, whole.count), seed, count, silent);
-  if (moment.value === before) takes.value = motions.map((other) => ({ seed: before.project.seed, motion: other }));
+  if (moment.value !== before) return;
+  takes.value = motions.map((other) => ({ seed: before.project.seed, motion: other }));
+  goWhereTheyDiffer(from, to);
 });
 
 /// Other ways to dance all but the chosen interval, which stays as it is.
@@ -36,6 +52,8 @@ export const tryTheRest = (count = 3) => work(async () => {
     if (moment.value !== before || chosen.value !== interval || takes.value.length !== seed - first) return;
     takes.value = [...takes.value, { seed: asked.seed, motion: other }];
   }
+  if (to < whole.count - 1) goWhereTheyDiffer(to, to + near * dancer.fps);
+  else goWhereTheyDiffer(0, from);
 });
 
 async function tryWholes(before: Moment, seed: number, count: number) {
@@ -51,6 +69,10 @@ async function tryWholes(before: Moment, seed: number, count: number) {
       takes.value = others.filter(({ motion: some }) => some.count > 0);
     } }, signal);
   }));
+  if (moment.value === before && takes.value.length === count) {
+    const now = Math.round(audio.currentTime * dancer.fps);
+    goWhereTheyDiffer(now, now + near * dancer.fps);
+  }
 }
 
 export function keepTake(take: Take) {

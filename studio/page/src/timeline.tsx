@@ -4,11 +4,11 @@ import { useEffect, useRef } from 'preact/hooks';
 import WaveSurfer from 'wavesurfer.js';
 import type { Pose } from './body';
 import { colour } from './palette';
+import { spoken } from './project';
 import type { Key } from './project';
 import * as studio from './studio';
 
 const zoom = signal(48); // pixels a second
-const speed = signal(1);
 const loops = signal(false);
 const isPlaying = signal(false);
 const dark = matchMedia('(prefers-color-scheme: dark)');
@@ -121,6 +121,7 @@ const carriedKey = signal<{ id: string; frame: number } | null>(null);
 function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => string }) {
   const { fps } = studio.dancer;
   const isSelected = studio.selectedKey.value === item.id;
+  const isReplaced = dropPose.value !== null && studio.keyNear(dropPose.value) === item;
   const frame = carriedKey.value?.id === item.id ? carriedKey.value.frame : item.frame;
   const choose = () => {
     if (studio.live.value) return;
@@ -170,9 +171,9 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
     event.preventDefault();
   };
   return (
-    <button class={`key${isSelected ? ' selected' : ''}${item.asks ? ' partial' : ''}`} style={{ left: `${x(frame / fps)}px` }} data-key={item.id} data-frame={item.frame}
+    <button class={`key${isSelected ? ' selected' : ''}${item.asks ? ' partial' : ''}${isReplaced ? ' replaced' : ''}`} style={{ left: `${x(frame / fps)}px` }} data-key={item.id} data-frame={item.frame}
       aria-label={`Key ${item.id} at ${(frame / fps).toFixed(1)} s${item.asks ? `, only ${studio.inWords(item.asks, studio.skeleton.names)}` : ''}`} aria-pressed={isSelected}
-      title={`${item.id.replaceAll('_', ' ')} at ${(frame / fps).toFixed(2)} s. Drag to move, press to pose.`}
+      title={`${spoken(item.id)} at ${(frame / fps).toFixed(2)} s. Drag to move, press to pose.`}
       onPointerDown={grab} onKeyDown={press} onClick={(event) => event.detail === 0 && choose()}>
       <img alt="" draggable={false} src={pictureOf(item.pose)} />
     </button>
@@ -207,17 +208,13 @@ function Transport({ time }: { time: preact.Ref<HTMLElement> }) {
         {studio.live.value ? '■' : isPlaying.value ? '❚❚' : '▶'}
       </button>
       <output ref={time as preact.Ref<HTMLOutputElement>} class="clock">0:00.0</output>
-      <div class="choices" role="group" aria-label="Speed">
-        {[1, 0.5, 0.25].map((factor) => (
-          <button key={factor} aria-pressed={speed.value === factor} onClick={() => (speed.value = studio.audio.defaultPlaybackRate = studio.audio.playbackRate = factor)}>
-            {{ 1: '1×', 0.5: '½×', 0.25: '¼×' }[factor]}
-          </button>
-        ))}
-      </div>
+      <select aria-label="Speed" title="Speed" onChange={(event) => (studio.audio.defaultPlaybackRate = studio.audio.playbackRate = Number(event.currentTarget.value))}>
+        <option value="1">1×</option>
+        <option value="0.5">½×</option>
+        <option value="0.25">¼×</option>
+      </select>
       <button aria-pressed={loops.value} onClick={() => (loops.value = !loops.value)} title="Loop the chosen interval, or all of it">Loop</button>
       <span class="space" />
-      <button disabled={!studio.shownSong.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.complain)}
-        title="Other poses of the library on the song's beats">New poses</button>
       <div class="choices" role="group" aria-label="Zoom">
         <button class="icon" aria-label="Show more of the song" onClick={() => turn(0.7)}>−</button>
         <button class="icon" aria-label="Show less of the song" onClick={() => turn(1.4)}>+</button>

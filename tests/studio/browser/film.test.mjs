@@ -36,6 +36,15 @@ await inStudio(async ({ page, until, settle, message, give, download }) => {
     });
   }
 
+  await check('a film in the making says how long it still takes', async () => {
+    let isMade = false;
+    const made = download(() => page.getByLabel('Export the dance').selectOption('webm')).finally(() => (isMade = true));
+    const said = new Set();
+    for (; !isMade; await page.waitForTimeout(100)) said.add(await page.evaluate(() => document.querySelector('.filming')?.textContent ?? ''));
+    await made;
+    assert.ok([...said].some((text) => /^filming … \d+ %, (about \d+ (s|min)|a few seconds) left/.test(text)), [...said].join(' | '));
+  });
+
   await check('a film plays in a browser', async () => {
     const base64 = readFileSync(inFolder('dance.webm')).toString('base64');
     const length = await page.evaluate(async (base64) => {

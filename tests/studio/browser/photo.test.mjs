@@ -91,7 +91,7 @@ await inStudio(async ({ page, until, settle, message, drop, give }) => {
 
   await check('it is kept among the poses, and still there after a reload', async () => {
     const id = await page.evaluate(() => window.choreo.sketch.value.id);
-    await page.getByRole('button', { name: 'Keep the pose' }).click();
+    await page.getByRole('button', { name: 'Add to poses' }).click();
     assert.equal(await page.evaluate(() => window.choreo.sketch.value), null);
     await page.reload();
     await page.getByRole('button', { name: `Forget ${id}` }).waitFor();

@@ -27,6 +27,29 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     return (joint) => new RegExp(`${joint}[=: ]+([-0-9., ]+)`).exec(said)[1].split(/[, ]+/).filter(Boolean).map(Number);
   };
 
+  await check('bent knees have no dots: thigh and shin, which both are seen there, are equally round', async () => {
+    await until(() => window.choreo.stage.value?.doll);
+    const bent = await page.evaluate(() => {
+      const { doll } = window.choreo.stage.value;
+      const { height, names } = doll.skeleton;
+      const knee = window.choreo.place({ root: [0, height, 0], rotations: Array(3 * names.length).fill(0) }, 'left_knee');
+      const out = [];
+      doll.scene.traverse(({ material, geometry }) => {
+        if (material?.name !== 'left') return;
+        const { position, normal } = geometry.attributes;
+        for (let i = 0; i < position.count; ++i) {
+          const away = [0, 1, 2].map((axis) => position.getComponent(i, axis) - knee[axis]);
+          const radius = Math.hypot(...away);
+          if (Math.abs(radius - 0.056) > 1e-4) continue;
+          out.push(away.reduce((sum, value, axis) => sum + (value / radius) * normal.getComponent(i, axis), 0));
+        }
+      });
+      return out;
+    });
+    assert.ok(bent.length > 200, `${bent.length} corners`);
+    assert.ok(Math.min(...bent) > 0.999, `${Math.min(...bent)}`);
+  });
+
   await check('joints are turned by numbers and arrow keys, and mean what `choreo pose` means', async () => {
     await choose(1);
     await panel.getByText('Joints in degrees').click();

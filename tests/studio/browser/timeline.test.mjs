@@ -1,0 +1,90 @@
+// Keys on the studio's timeline: what Space does there, and a pose that is set where one stands already.
+//   node timeline.test.mjs CHOREO_PROGRAM PICTURES_FOLDER
+import assert from 'node:assert/strict';
+import { check, clicks, inFolder, inStudio } from './harness.mjs';
+
+const seconds = 8;
+
+await inStudio(async ({ page, until, settle, message, scale, give }) => {
+  await until(() => window.choreo?.isConnected.value);
+  await give(['clicks.wav', clicks(seconds)]);
+  await page.locator('.key').first().waitFor();
+  await settle();
+  const keys = () => page.evaluate(() => window.choreo.project.value.keys.map(({ id, frame }) => ({ id, frame })));
+  const isPlaying = () => page.evaluate(() => !window.choreo.audio.paused);
+
+  for (const [what, part] of [['a key', '.key'], ['an interval', '.interval']]) {
+    await check(`Space plays while ${what} has the focus, and Enter presses it`, async () => {
+      await page.locator(part).nth(1).click();
+      assert.equal(await page.evaluate((part) => document.activeElement.matches(part), part), true);
+      const pressed = () => page.locator(part).nth(1).getAttribute('aria-pressed');
+      const before = await pressed();
+      await page.keyboard.press('Space');
+      await until(() => !window.choreo.audio.paused);
+      await page.keyboard.press('Space');
+      await until(() => window.choreo.audio.paused);
+      assert.equal(await pressed(), before, 'Space pressed it, too');
+      assert.equal((await message())?.isError ?? false, false, 'who pauses at once is told of an error');
+      await page.locator(part).nth(0).focus();
+      await page.keyboard.press('Enter');
+      assert.equal(await page.locator(part).nth(0).getAttribute('aria-pressed'), 'true');
+      assert.equal(await isPlaying(), false);
+    });
+  }
+
+  await check('Space presses the other buttons', async () => {
+    await page.getByRole('button', { name: 'Loop' }).focus();
+    await page.keyboard.press('Space');
+    assert.equal(await page.getByRole('button', { name: 'Loop' }).getAttribute('aria-pressed'), 'true');
+    assert.equal(await isPlaying(), false);
+    await page.keyboard.press('Space');
+  });
+
+  await check('a pose dropped on a key takes its place: it is said, and undo brings the other one back', async () => {
+    const before = await keys();
+    const { id, frame } = before[2];
+    const item = page.locator('.library li button').nth(1);
+    const from = await item.boundingBox();
+    const lane = await page.locator('.lane').boundingBox();
+    const pixels = await scale();
+    await page.mouse.move(from.x + 30, from.y + 30);
+    await page.mouse.down();
+    await page.mouse.move(from.x + 40, from.y + 40);
+    await page.mouse.move(lane.x + 40 + pixels * (frame / 30) + 3, lane.y + 40, { steps: 3 });
+    assert.equal(await page.locator('.key.replaced').getAttribute('data-key'), id, 'it is not seen which one');
+    await page.screenshot({ path: inFolder('replaced.png') });
+    await page.mouse.up();
+    await settle();
+    const after = await keys();
+    assert.equal(after.length, before.length, 'two keys stand in one place');
+    assert.equal(after[2].frame, frame);
+    assert.notEqual(after[2].id, id);
+    const { text, isError } = await message();
+    assert.ok(!isError && text.includes(id.replaceAll('_', ' ')) && text.includes('Undo'), text);
+    await page.keyboard.press('Control+z');
+    await settle();
+    assert.deepEqual(await keys(), before);
+  });
+
+  await check('so does one that is pressed while the playhead rests on a key', async () => {
+    const before = await keys();
+    await page.locator('.key').nth(1).click();
+    await page.locator('.library li button').nth(2).click();
+    await settle();
+    assert.equal((await keys()).length, before.length);
+    assert.match((await message()).text, /Undo/);
+    await page.keyboard.press('Control+z');
+    await settle();
+    assert.deepEqual(await keys(), before);
+  });
+
+  await check('a pose is added to the poses, a take is kept: two words for two things', async () => {
+    await page.locator('.key').nth(1).click();
+    await page.getByRole('button', { name: 'Try 3 more' }).click();
+    await page.getByRole('complementary', { name: 'Settings' }).getByRole('button', { name: 'Keep D' }).waitFor();
+    const words = async (text) => (await page.getByRole('button').allInnerTexts()).filter((words) => words.startsWith(text));
+    assert.ok((await words('Keep')).every((text) => /^Keep [A-D]$/.test(text)), `${await words('Keep')}`);
+    await page.getByRole('region', { name: 'Key' }).getByRole('button', { name: 'Add to poses' }).click();
+    assert.match((await message()).text, /^Added to the poses as /);
+  });
+});
