@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Writes what pages quote from docs/figures/*.json, which scripts/evaluate.sh measures, so that it can't drift.
+"""Writes what pages quote from docs/figures/*.json, so that it can't drift. scripts/evaluate.sh and scripts/train_papers.sh measure these;
+printed.json has the papers' own.
 
     scripts/quote_figures.py            writes
     scripts/quote_figures.py --check    changes nothing; fails where a page says something else
@@ -16,7 +17,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FIGURES = ROOT / "docs/figures"
-PAGES = ("docs/results.md", "docs/weight.md")
+PAGES = ("docs/results.md", "docs/weight.md", "docs/papers.md")
 WANTED = json.loads((FIGURES / "wanted.json").read_text())
 
 
@@ -44,9 +45,9 @@ def cell(row, column):
 def table(place, *columns):
     file, name = place.split()
     wanted = WANTED.get(name, {})
-    only = dict(column.split("=") for column in columns if re.fullmatch(r"\w+=\w+", column))
+    only = dict(column.split("=") for column in columns if re.fullmatch(r"\w+=[\w ]+", column))
     only_wanted = "wanted" in columns
-    columns = [column for column in columns if column != "wanted" and not re.fullmatch(r"\w+=\w+", column)]
+    columns = [column for column in columns if column != "wanted" and not re.fullmatch(r"\w+=[\w ]+", column)]
     lines = [columns + (["wanted"] if wanted else [])]
     for row in rows_of(file, name):
         if any(row.get(column) != value for column, value in only.items()) or (only_wanted and row[columns[0]] not in wanted):

@@ -6,8 +6,8 @@
 #   paper-f f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
 #   paper-c c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
 # or `all` for every one. Killed, it goes on from where it was when it is started again; what is finished is not trained again.
-# $F_STEPS and $C_STEPS are the steps of these two, $F_ABLATION_STEPS and $C_ABLATION_STEPS those of the others, beside which
-# `eval` wants f-full and c-full of as many. $DEVICE says where flows train: cpu, cuda:0, auto.
+# $F_FIRST, $F_STEPS, $C_FIRST, $C_SECOND and $C_STEPS are the steps of each part, $F_ABLATION_STEPS and $C_ABLATION_STEPS those of the others'
+# last one, beside which `eval` wants f-full and c-full of as many. $DEVICE says where flows train: cpu, cuda:0, auto.
 set -euo pipefail
 (($# >= 3)) || { echo "train_papers.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -37,11 +37,12 @@ json.dump({"dancedb": groups}, sys.stdout)
 PYTHON
 }
 
-# Steps, windows a step (of paper F half of those of 30 frames) and peak rates. The papers train for some 40 hours on a GPU at 1e-4; so few
-# steps want a higher rate, and the real frames' share to fall as much sooner. Paper F's key and feet losses begin when likelihood has had
-# two thirds of the steps: before, what is sampled is noise, and a step with them takes three times as long.
-f_steps=${F_STEPS:-4500} f_batch=${F_BATCH:-16}
-c_steps=${C_STEPS:-20000} c_batch=${C_BATCH:-32}
+# The papers train for some 40 hours on a GPU at 1e-4; so few steps want a higher rate, and networks learn in parts. Paper F's by likelihood
+# alone first (of a schedule of 4,500 steps the first 2,500), then with roll-outs, a step of which takes three times as long. Paper C's on
+# transitions of up to 22 frames first (of a curriculum of 20,000 steps the first 5,000), then of 20 to 70 (of 4,500 steps the first 1,500), then
+# the same until its rate has fallen; the real frames' share falls in each part.
+f_first=${F_FIRST:-2500} f_steps=${F_STEPS:-1000} f_batch=${F_BATCH:-16}
+c_first=${C_FIRST:-5000} c_second=${C_SECOND:-1500} c_steps=${C_STEPS:-800} c_batch=${C_BATCH:-32}
 
 train() {  # train NAME STEPS OPTION...
   local folder=$run/$1 name=$1 steps=$2
@@ -54,14 +55,20 @@ train() {  # train NAME STEPS OPTION...
   touch "$folder/finished"
 }
 flow() {  # flow NAME STEPS OPTION...
-  train "$@" --preset paper-f --data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --batch "$f_batch" \
-    --rate 0.001 --shortest 10 --longest 90 --rollout-from $(($2 * 2 / 3)) --device "${DEVICE:-cpu}"
+  local all=(--preset paper-f --data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --batch "$f_batch"
+    --rate 0.001 --shortest 10 --longest 90 --device "${DEVICE:-cpu}" "${@:3}")
+  train "$1-first" $((f_first * 9 / 5)) --stop-after "$f_first" --rollout-from "$f_first" "${all[@]}"
+  train "$1" "$2" --from "$run/$1-first/checkpoint.safetensors" "${all[@]}"
 }
 controllers() {  # controllers NAME STEPS OPTION...
-  local steps=$2
+  local all=(--preset controllers-paper --data "$run/data/dancedb" --splits "$run/random_splits.json" --batch "$c_batch" --rate 0.001
+    --longest 70 "${@:3}")
   # From 1 to a hundredth, as after 92,000 steps of the paper's 0.99995.
-  train "$@" --preset controllers-paper --data "$run/data/dancedb" --splits "$run/random_splits.json" --batch "$c_batch" --rate 0.001 \
-    --longest 70 --truth-decay "$(awk -v n="$steps" 'BEGIN { printf "%.6f", exp(log(0.01) / n) }')"
+  decay() { awk -v n="$1" 'BEGIN { printf "%.6f", exp(log(0.01) / n) }'; }
+  train "$1-first" $((4 * c_first)) --stop-after "$c_first" --truth-decay "$(decay $((4 * c_first)))" "${all[@]}"
+  train "$1-second" $((3 * c_second)) --stop-after "$c_second" --from "$run/$1-first/checkpoint.safetensors" --shortest 20 \
+    --truth-decay "$(decay $((3 * c_second)))" "${all[@]}"
+  train "$1" "$2" --from "$run/$1-second/checkpoint.safetensors" --shortest 20 --truth-decay "$(decay "$2")" "${all[@]}"
 }
 one() {
   local f=${F_ABLATION_STEPS:-$f_steps} c=${C_ABLATION_STEPS:-$c_steps}

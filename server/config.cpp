@@ -192,10 +192,11 @@ std::vector<std::filesystem::path> ShippedCheckpoints(const std::vector<std::str
       if (!std::filesystem::is_regular_file(path)) continue;
       known += (known.empty() ? "" : ", ") + std::string(name);
       ship.emplace(name, path);
-      found.push_back(path);
+      if (std::ranges::find(kEverydayModels, name) != std::end(kEverydayModels))
+        found.push_back(path);
     }
     looked += "\n  " + folder.lexically_normal().string();
-    if (found.empty()) continue;
+    if (names.empty() ? found.empty() : ship.empty()) continue;
     if (names.empty()) return found;
     found.clear();
     for (const std::string& name : names) {

@@ -17,12 +17,12 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
   app.add_option("--checkpoint", config.checkpoints,
                  "Model to serve, a .safetensors file; give several for several models, the "
-                 "default first. Without it, the models that ship.")
+                 "default first. Without it, default and free, which ship.")
       ->envname("CHOREO_CHECKPOINT");
   app.add_option(
          "--model", config.names,
-         "Name of a model that ships, to be served alone: default or free; give several for "
-         "several.")
+         "Name of a model that ships, to be served alone: default, free, or a paper's own network, "
+         "paper-f or paper-c; give several for several.")
       ->envname("CHOREO_MODEL");
   app.add_option("--models", config.models,
                  "Folder of models to serve instead: each .safetensors file in it, "

@@ -8,8 +8,10 @@ namespace choreo {
 inline constexpr int kFailed = 1;
 inline constexpr int kMisused = 2;
 
-/// The models that ship, the default first. A choreod serves all of them unless told otherwise.
-inline constexpr std::string_view kShippedModels[] = {"default", "free"};
+/// The models that ship, the default first; behind those that a choreod serves unless told
+/// otherwise, the papers' own networks.
+inline constexpr std::string_view kEverydayModels[] = {"default", "free"};
+inline constexpr std::string_view kShippedModels[] = {"default", "free", "paper-f", "paper-c"};
 
 /// What the first model was called before 0.2.0 where controls were wanted; server and client take
 /// it still, with a warning.

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <torch/torch.h>
 
 #include <filesystem>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "model/engine/engines.h"
 #include "tests/engine/engine_dances.h"
+#include "tests/support/load_checkpoint.h"
 
 // What every checkpoint in model/checkpoints is, whatever network is in it.
 namespace choreo::shipped_checkpoints_test {
@@ -38,6 +40,32 @@ TEST(ShippedCheckpoints, AreSmallBearTheirNamesAndCardsAndDance) {
       EXPECT_TRUE(frame.pose.rotations.allFinite() && frame.pose.root_position.allFinite());
     }
   }
+}
+
+// What it draws, x -> z -> x in float32.
+TEST(ShippedCheckpoints, PaperFsFlowIsInvertible) {
+  const torch::NoGradGuard no_grad;
+  torch::manual_seed(2);
+  const Checkpoint checkpoint = LoadCheckpoint(Shipped().at("paper-f"));
+  FlowModel model = checkpoint.model;
+  CouplingFlow flow = model->flow();
+  constexpr int64_t kDances = 4, kFrames = 40;
+  const int64_t condition = model->config().condition_width + 3 + 3 * model->skeleton().joints();
+  const torch::Tensor told = torch::randn({kDances, kFrames, condition});
+  const auto inverse = model->InverseWeights();
+  const auto draw = [&](const torch::Tensor& z) {
+    FlowState state = flow->InitialState(kDances);
+    std::vector<torch::Tensor> x;
+    for (int64_t t = 0; t < kFrames; ++t)
+      x.push_back(flow->Inverse(z.narrow(1, t, 1), told.narrow(1, t, 1), inverse, &state, nullptr));
+    return torch::cat(x, 1);
+  };
+  const torch::Tensor x = draw(torch::randn({kDances, kFrames, model->feature_width()}));
+  FlowState state = flow->InitialState(kDances);
+  torch::Tensor log_det = torch::zeros({kDances, kFrames});
+  const torch::Tensor z = flow->Forward(x, told, &state, &log_det);
+  EXPECT_GT((z - x).abs().mean().item<double>(), 0.5);  // it has learnt something
+  EXPECT_LE((draw(z) - x).abs().max().item<double>(), 1e-4);
 }
 
 TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {

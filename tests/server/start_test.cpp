@@ -82,7 +82,8 @@ TEST_F(StartTest, OneThatShipsIsServedAloneByItsName) {
   EXPECT_EQ(models[0].name, "free");
   const Outcome other = Shell("'" CHOREOD_PROGRAM "' --listen 127.0.0.1:0 --model nosuch");
   EXPECT_EQ(other.code, 1);
-  EXPECT_THAT(other.said, testing::HasSubstr("\"nosuch\" does not ship, but default, free"));
+  EXPECT_THAT(other.said,
+              testing::HasSubstr("\"nosuch\" does not ship, but default, free, paper-f, paper-c"));
   const Outcome both =
       Shell("'" CHOREOD_PROGRAM "' --model free --checkpoint '" + path_.string() + "'");
   EXPECT_EQ(both.code, 2);
