@@ -17,7 +17,7 @@ struct ServerConfig {
   std::string listen = "127.0.0.1:" + std::to_string(kDefaultPort);
   /// One model each; the first is the default. Empty: checkpoints that ship.
   std::vector<std::filesystem::path> checkpoints;
-  std::vector<std::string> names;  ///< of the checkpoints that ship; empty: all
+  std::vector<std::string> names;  ///< of the checkpoints that ship; empty: those for every day
   std::filesystem::path models;    ///< a folder of checkpoints instead (ModelFolder); empty: none
   std::string device = "auto";     ///< auto, cpu, or cuda:N[,N...]
   std::string engine = "auto";     ///< one of kEngineKindNames
@@ -76,7 +76,7 @@ struct CommandLine {
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 
 /// The checkpoints that ship and have these names: installed beside the program, or in the source
-/// tree that it was built in. Without names all, the default first. Throws Error(kNotFound) naming
+/// tree that it was built in. Without names those for every day. Throws Error(kNotFound) naming
 /// where it looked, or which there are.
 std::vector<std::filesystem::path> ShippedCheckpoints(const std::vector<std::string>& names);
 

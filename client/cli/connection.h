@@ -25,7 +25,7 @@ struct ServerOptions {
 };
 
 /// The server that was named, or else one of our own for as long as this lives. That one serves
-/// `model` alone ("": the default), so that it loads no other; none: all that ship.
+/// `model` alone ("": the default), so that it loads no other; none: those for every day.
 class Connection {
  public:
   explicit Connection(const ServerOptions& options, const std::optional<std::string>& model = {});

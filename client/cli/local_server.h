@@ -13,9 +13,9 @@ namespace choreo::cli {
 class LocalServer {
  public:
   /// Starts the choreod that lies beside this program and returns when it listens. `model`: one
-  /// that ships, to serve alone; any other name: all that ship. Throws Error(kNotFound) if there is
-  /// none, and Error(kUnavailable) if it does not listen within two minutes; it has then said why
-  /// on stderr.
+  /// that ships, to serve alone; any other name: those for every day. Throws Error(kNotFound) if
+  /// there is none, and Error(kUnavailable) if it does not listen within two minutes; it has then
+  /// said why on stderr.
   static std::unique_ptr<LocalServer> Start(const std::string& model);
   /// `listen`: HOST:PORT; port 0 takes a free one.
   explicit LocalServer(const std::filesystem::path& program,

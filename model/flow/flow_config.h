@@ -30,9 +30,9 @@ struct FlowConfig {
   int condition_width = 0;  ///< 0: the raw condition goes to every coupling (the paper); else one
                             ///< shared encoding of this width
   /// false: the flow draws a frame's features (the paper). true: it draws what is left of them
-  /// beyond a linear prediction of each from its own past, and is told besides, in that measure, the
-  /// acceleration that would reach the key (KeyAim). A small network learns late to go on as bodies
-  /// do, and to bend towards a pose. Wants a shared encoding.
+  /// beyond a linear prediction of each from its own past, and is told besides, in that measure,
+  /// the acceleration that would reach the key (AccelerationTo). A small network learns late to go
+  /// on as bodies do, and to bend towards a pose. Wants a shared encoding.
   bool innovations = false;
   int max_transition_frames = kMaxTransitionFrames;
   double temperature = 1.0;  ///< served by default
