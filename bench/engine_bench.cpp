@@ -13,24 +13,22 @@
 #include "bench/random_checkpoints.h"
 #include "model/core/grid.h"
 #include "model/core/threads.h"
-#include "model/engine/engines.h"
+#include "model/engine/samplers.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
 #include "model/flow/flow_tokens.h"
 #include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
 
-/// Both engines, and beside them what limits them: the bare matrix products of the same shapes, and
+/// Transitions of both engines, and beside them what limits them: the bare matrix products of the same shapes, and
 /// memory. All on one thread, in CPU time of that thread, so that a machine that does something
 /// else besides disturbs less; quote ratios of one run.
 ///
-/// `default` is the model that ships, a continuous flow that samples a transition when it is
-/// admitted; `paper` has paper F's size and random weights. Where a GPU answers, `paper` on it,
-/// too.
+/// `default` is the model that ships, a continuous flow that samples a transition at once; `paper`
+/// has paper F's size and random weights, and makes one frame after another. Where a GPU answers,
+/// `paper` on it, too.
 namespace choreo {
 namespace {
-
-constexpr int kMostStreams = 64, kMostStreamsOfGpu = 512;
 
 /// What a run measures, and where it is for a while.
 class Models {
@@ -47,20 +45,17 @@ class Models {
   Models& operator=(const Models&) = delete;
 
   const std::filesystem::path& Path(const std::string& model) const { return paths_.at(model); }
-  StepEngine& Engine(const std::string& model, const std::string& kind, const Device& device = {}) {
-    std::unique_ptr<StepEngine>& engine = engines_[model + kind + device.name()];
-    if (!engine) {
-      const int slots = device.kind == Device::Kind::kCuda ? kMostStreamsOfGpu : kMostStreams;
-      engine = MakeEngine(paths_.at(model), device, slots, ParseEngineKind(kind));
-    }
-    return *engine;
+  Sampler& Get(const std::string& model, const std::string& kind, const Device& device = {}) {
+    std::unique_ptr<Sampler>& sampler = samplers_[model + kind + device.name()];
+    if (!sampler) sampler = MakeSampler(paths_.at(model), device, ParseEngineKind(kind));
+    return *sampler;
   }
 
  private:
   std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("engine_bench_" + std::to_string(getpid()));
   std::map<std::string, std::filesystem::path> paths_;
-  std::map<std::string, std::unique_ptr<StepEngine>> engines_;
+  std::map<std::string, std::unique_ptr<Sampler>> samplers_;
 };
 
 TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
@@ -72,8 +67,11 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.target = Target{key, {}};
   spec.seed = seed;
   spec.temperature = static_cast<float>(model.default_temperature);
-  spec.has_audio = model.audio_features > 0;
-  spec.audio_history = Eigen::MatrixXf::Zero(model.audio_features, model.history_frames);
+  spec.has_audio = model.hears_music;
+  if (spec.has_audio) {
+    spec.audio_history = Eigen::MatrixXf::Zero(model.audio_features, model.history_frames);
+    spec.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
+  }
   if (model.root_path) {
     const Eigen::Vector3d from = spec.history.back().root_position;
     const Eigen::Vector3d way = key.root_position - from;
@@ -83,44 +81,11 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   return spec;
 }
 
-/// Frames of streams that step together, all of a frame but the dance around it.
-void Frames(benchmark::State& state, StepEngine& engine, int streams) {
-  const std::vector<float> audio(static_cast<size_t>(engine.model().audio_features));
-  std::vector<StepInput> inputs(static_cast<size_t>(streams));
-  std::vector<StepOutput> outputs(inputs.size());
-  std::vector<Pose> previous(inputs.size());
-  int frame = kUsualFrames;
-  const auto release = [&] {
-    for (const StepInput& input : inputs) engine.Release(input.slot);
-  };
-  bool admitted = false;
-  for (auto _ : state) {
-    if (frame == kUsualFrames) {
-      state.PauseTiming();
-      if (admitted) release();
-      for (size_t i = 0; i < inputs.size(); ++i) {
-        inputs[i] = {engine.Admit(Spec(engine.model(), i)), nullptr, audio};
-      }
-      admitted = true;
-      frame = 0;
-      state.ResumeTiming();
-    }
-    engine.Step(inputs, outputs);
-    ++frame;
-    for (size_t i = 0; i < inputs.size(); ++i) {
-      previous[i] = outputs[i].pose;
-      inputs[i].previous = &previous[i];
-    }
-  }
-  release();
-  state.SetItemsProcessed(state.iterations() * streams);
-}
-
-/// Admissions of transitions of kUsualFrames: all that is computed ahead.
-void Admissions(benchmark::State& state, StepEngine& engine, const std::vector<double>& beats) {
-  TransitionSpec spec = Spec(engine.model(), 1);
+/// Transitions of kUsualFrames, one after the other.
+void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<double>& beats) {
+  TransitionSpec spec = Spec(sampler.model(), 1);
   spec.beats = beats;
-  for (auto _ : state) engine.Release(engine.Admit(spec));
+  for (auto _ : state) benchmark::DoNotOptimize(sampler.Sample(spec));
   state.SetItemsProcessed(state.iterations());
 }
 
@@ -161,14 +126,15 @@ std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
   return shapes;
 }
 
-void Bare(benchmark::State& state, const std::vector<BareProducts::Shape>& shapes, int rows,
-          int items, bool bf16) {
-  BareProducts products(shapes, rows, bf16);
-  for (auto _ : state) products.Run();
-  state.SetItemsProcessed(state.iterations() * items);
-  state.SetBytesProcessed(state.iterations() * static_cast<int64_t>(products.bytes()));
-  state.counters["flops"] =
-      benchmark::Counter(products.operations(), benchmark::Counter::kIsIterationInvariantRate);
+/// The bare products of one transition: `times` those.
+void Bare(benchmark::State& state, BareProducts& products, int times) {
+  for (auto _ : state) {
+    for (int i = 0; i < times; ++i) products.Run();
+  }
+  state.SetItemsProcessed(state.iterations());
+  state.SetBytesProcessed(state.iterations() * times * static_cast<int64_t>(products.bytes()));
+  state.counters["flops"] = benchmark::Counter(times * products.operations(),
+                                               benchmark::Counter::kIsIterationInvariantRate);
 }
 
 /// Read in several places at once with the widest vectors there are: a core that reads one word
@@ -211,44 +177,38 @@ void Register(Models* models) {
   };
   const std::string model = "paper";
   for (const std::string& kind : kinds) {
-    for (const int streams : {1, 8, 32, 64}) {
-      add("paper/" + kind + "/" + std::to_string(streams),
-          [=](benchmark::State& state) { Frames(state, models->Engine(model, kind), streams); });
-    }
-    add("paper/admission/" + kind,
-        [=](benchmark::State& state) { Admissions(state, models->Engine(model, kind), {}); });
+    add("paper/" + kind,
+        [=](benchmark::State& state) { Transitions(state, models->Get(model, kind), {}); });
   }
   const int width = 3 + 3 * Skeleton::Smpl24().joints() + 3 + 4;
   for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
-    for (const int rows : {1, 8, 32, 64}) {
-      add(std::string("paper/") + (half ? "bare-bf16" : "bare") + "/" + std::to_string(rows),
-          [=](benchmark::State& state) {
-            Bare(state, Shapes(FlowConfig::Preset(model), width), rows, rows, half);
-          });
-    }
+    add(std::string("paper/") + (half ? "bare-bf16" : "bare"), [=](benchmark::State& state) {
+      BareProducts products(Shapes(FlowConfig::Preset(model), width), 1, half);
+      Bare(state, products, kUsualFrames);
+    });
   }
   // By the clock: the thread waits for the GPU.
   if (TorchDevices().cuda_devices > 0) {
-    for (const int streams : {1, 32, kMostStreamsOfGpu}) {
-      benchmark::RegisterBenchmark(
-          ("paper/cuda/torch/" + std::to_string(streams)).c_str(),
-          [=](benchmark::State& state) {
-            Frames(state, models->Engine(model, "torch", {Device::Kind::kCuda}), streams);
-          })
-          ->Unit(benchmark::kMillisecond)
-          ->UseRealTime();
-    }
+    benchmark::RegisterBenchmark("paper/cuda/torch",
+                                 [=](benchmark::State& state) {
+                                   Transitions(
+                                       state,
+                                       models->Get(model, "torch", {Device::Kind::kCuda, 0}), {});
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
   }
   for (const std::string& kind : kinds) {
-    add("default/admission/" + kind,
-        [=](benchmark::State& state) { Admissions(state, models->Engine("default", kind), {}); });
+    add("default/" + kind,
+        [=](benchmark::State& state) { Transitions(state, models->Get("default", kind), {}); });
     add("default/to_beats/" + kind, [=](benchmark::State& state) {
-      Admissions(state, models->Engine("default", kind), {0, 15, 30, 45, 60});  // 120 a minute
+      Transitions(state, models->Get("default", kind), {0, 15, 30, 45, 60});  // 120 a minute
     });
   }
   for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
     add(std::string("default/") + (half ? "bare-bf16" : "bare"), [=](benchmark::State& state) {
-      Bare(state, Shapes(ContinuousFlowConfig{}, Skeleton::Smpl24()), 0, 1, half);
+      BareProducts products(Shapes(ContinuousFlowConfig{}, Skeleton::Smpl24()), 0, half);
+      Bare(state, products, 1);
     });
   }
   benchmark::RegisterBenchmark("memory", ReadMemory)->Unit(benchmark::kMillisecond);
@@ -271,7 +231,7 @@ int Measure(Models* models, int argc, char** argv) {
   benchmark::AddCustomContext("blas", DetectBlas().name);
   Register(models);
   if (TorchDevices().cuda_devices > 0) {
-    const auto gpu = models->Engine("paper", "torch", {Device::Kind::kCuda, 0}).model().fingerprint;
+    const auto gpu = models->Get("paper", "torch", {Device::Kind::kCuda, 0}).model().fingerprint;
     benchmark::AddCustomContext("gpu", gpu.substr(gpu.rfind('/') + 1));
   }
   return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 2;

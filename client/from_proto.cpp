@@ -160,7 +160,7 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
   }
   if (out.models.empty()) throw Broken("a server without models");
   out.devices.assign(response.devices().begin(), response.devices().end());
-  out.slots = response.slots();
+  out.workers = response.slots();
   out.active_streams = response.active_streams();
   const v1::Limits& limits = response.limits();
   out.limits = {limits.max_message_bytes(),     limits.max_audio_s(),

@@ -40,7 +40,7 @@ struct ServerDescription {
   std::string version = {};
   std::vector<ModelDescription> models = {};  ///< the first is the default
   std::vector<std::string> devices = {};
-  int slots = 0;
+  int workers = 0;
   int active_streams = 0;
   /// What the server refuses to go beyond.
   struct Limits {

@@ -12,7 +12,7 @@
 #include "model/core/programs.h"
 #include "model/core/threads.h"
 #include "model/engine/engine_choice.h"
-#include "model/engine/step_engine.h"
+#include "model/engine/transition_spec.h"
 #include "server/config_flags.h"
 #include "server/listener.h"
 #include "server/music_file.h"
@@ -60,7 +60,6 @@ void CheckLimits(const ServerConfig& config) {
   CheckRange("--first-message-seconds", config.first_message_seconds, 0.1, kDay);
   CheckRange("--idle-seconds", config.idle_seconds, 0.1, kDay);
   CheckRange("--unread-seconds", config.unread_seconds, 0.1, kDay);
-  CheckRange("--max-sleep-seconds", config.max_sleep_seconds, 0, 60);
   CheckRange("--max-load", config.max_load, 0.1, 2);
   // gRPC counts milliseconds in 32 bits.
   CheckRange("--max-connection-seconds", config.max_connection_seconds, 0, 24 * kDay);
@@ -126,7 +125,6 @@ void ServerConfig::Validate() const {
   // Whether they are there is told when they are used; `auto` is whatever is there.
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
-  CheckRange("--slots", slots, 0, kMostSlots);
   CheckRange("--max-waiting", max_waiting, 0, 65536);
   CheckRange("--max-streams", max_streams, 1, 65536);
   CheckRange("--workers", workers, 0, 1024);

@@ -21,10 +21,9 @@ struct ServerConfig {
   std::filesystem::path models;    ///< a folder of checkpoints instead (ModelFolder); empty: none
   std::string device = "auto";     ///< auto, cpu, or cuda:N[,N...]
   std::string engine = "auto";     ///< one of kEngineKindNames
-  int slots = 0;                   ///< transitions in progress at once, for each model; see Slots
-  int max_waiting = 64;       ///< of GenerateTransition that may wait for a slot, for each model
+  int max_waiting = 128;      ///< transitions of GenerateTransition in hand at once, of each model
   int max_streams = 64;       ///< calls in progress at once; those beyond are refused
-  int workers = 0;            ///< of the CPU, an engine each; 0: one for every usable core
+  int workers = 0;            ///< of the CPU, for each model; 0: one for every usable core
   int threads = 1;            ///< of one matrix product; part of the fingerprint
   int io_threads = 2;         ///< that decode files, and as many for long pieces of music
   double drain_seconds = 20;  ///< that streams get to finish after SIGTERM
@@ -47,13 +46,9 @@ struct ServerConfig {
   double first_message_seconds = 10;  ///< within which a call's first message must come
   double idle_seconds = 120;          ///< that a call may go on with nothing coming or going
   double unread_seconds = 60;         ///< that an answer may wait for its client
-  double max_sleep_seconds = 0.5;     ///< that a dance which waits keeps a slot others wait for
   double max_load = 0.9;  ///< share of the engines' time that may be promised (FrameBudget)
   double max_connection_seconds = 0;  ///< then a connection takes no new calls; 0: for ever
 
-  /// Slots of a model on each device. If not set, two for each call: half of them are for dances
-  /// alone (Scheduler), so whoever is admitted also dances.
-  int Slots() const { return slots > 0 ? slots : 2 * max_streams; }
   /// HOST:PORT of `metrics`; a port alone is of this machine.
   std::string MetricsAddress() const;
   int MaxStreamsOfPeer() const {

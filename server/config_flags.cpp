@@ -41,13 +41,9 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
          "auto, the fastest of them here. Replicas that take over each other's dances must agree.")
       ->envname("CHOREO_ENGINE")
       ->capture_default_str();
-  app.add_option("--slots", config.slots,
-                 "Transitions in progress at once, for each model and device; those of "
-                 "GenerateTransition get half of them. 0: two for each of --max-streams.")
-      ->envname("CHOREO_SLOTS")
-      ->capture_default_str();
   app.add_option("--max-waiting", config.max_waiting,
-                 "Transitions of GenerateTransition that may wait for a slot, for each model.")
+                 "Transitions of GenerateTransition that may be in progress or wait, for each model: "
+                 "candidates, not calls. Those beyond are refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
   app.add_option("--max-streams", config.max_streams,
@@ -55,7 +51,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_MAX_STREAMS")
       ->capture_default_str();
   app.add_option("--workers", config.workers,
-                 "Workers of the CPU, which share the slots. 0: one for every usable core.")
+                 "Workers of the CPU, for each model: transitions made at once. 0: one for every "
+                 "usable core.")
       ->envname("CHOREO_WORKERS")
       ->capture_default_str();
   app.add_option("--threads", config.threads,
@@ -96,7 +93,7 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
   const char* file = std::getenv("CHOREO_CONFIG");
   const bool is_named = file != nullptr && *file != '\0';
   app.set_config("--config", is_named ? file : "",
-                 "Read settings from this TOML or INI file, as in: slots = 32", is_named)
+                 "Read settings from this TOML or INI file, as in: workers = 2", is_named)
       ->envname("CHOREO_CONFIG");
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
@@ -118,12 +115,6 @@ void AddLimits(CLI::App& app, ServerConfig& config) {
   app.add_option("--unread-seconds", config.unread_seconds,
                  "A call whose client does not take an answer within these is reset.")
       ->envname("CHOREO_UNREAD_SECONDS")
-      ->capture_default_str();
-  app.add_option(
-         "--max-sleep-seconds", config.max_sleep_seconds,
-         "A dance that waits for its music or for its client keeps its slot for these, once "
-         "others wait for one. It goes on later, and is the same.")
-      ->envname("CHOREO_MAX_SLEEP_SECONDS")
       ->capture_default_str();
   app.add_option(
          "--max-load", config.max_load,

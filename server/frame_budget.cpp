@@ -12,7 +12,7 @@ namespace {
 /// Within so many seconds a transition's frames are to be made, if it can be done.
 constexpr double kTransitionSeconds = 10;
 
-double LoadOf(const std::map<const Scheduler*, double>& frames_per_second) {
+double LoadOf(const std::map<const SampleQueue*, double>& frames_per_second) {
   double load = 0;
   for (const auto& [model, frames] : frames_per_second) load += model->LoadOf(frames);
   return load;
@@ -22,11 +22,11 @@ std::string Percent(double share) { return std::to_string(std::lround(100 * shar
 
 }  // namespace
 
-void FrameBudget::TakeDance(const void* call, const Scheduler& model, const std::string& address) {
+void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const std::string& address) {
   Take(call, {&model, address, model.model().fps});
 }
 
-void FrameBudget::TakeTransition(const void* call, const Scheduler& model,
+void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
                                  const std::string& address, int frames) {
   double frames_per_second = frames / kTransitionSeconds;
   const double most = std::min(shares_.of_all, shares_.of_peer) / 2;

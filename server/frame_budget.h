@@ -4,7 +4,7 @@
 #include <mutex>
 #include <string>
 
-#include "model/engine/scheduler.h"
+#include "model/engine/sample_queue.h"
 
 namespace choreo {
 
@@ -15,7 +15,7 @@ struct FrameShares {
 };
 
 /// The engines' time, promised to calls as they come: each is charged with the frames that it will
-/// take, at what frames cost now (Scheduler::LoadOf), until it gives them back. So a crowd that
+/// take, at what frames cost now (SampleQueue::LoadOf), until it gives them back. So a crowd that
 /// comes at once is served as far as the engines can, and the rest is told so before it begins.
 /// Models share the devices, so the times of all are one; a model that calls are charged with
 /// outlives them. Thread-safe.
@@ -26,10 +26,10 @@ class FrameBudget {
   /// A dance: it goes on as fast as it is played, whenever its music comes. Throws
   /// Error(kResourceExhausted) where that is more than is left. Who is alone is always taken: slow
   /// engines serve one at a time. Once for each call, named by any address that is its own.
-  void TakeDance(const void* call, const Scheduler& model, const std::string& address);
+  void TakeDance(const void* call, const SampleQueue& model, const std::string& address);
   /// A transition of so many frames, candidates counted; as often as it asks to be made. It is
   /// charged with half of all time at most, however long it is: it yields to dances anyway.
-  void TakeTransition(const void* call, const Scheduler& model, const std::string& address,
+  void TakeTransition(const void* call, const SampleQueue& model, const std::string& address,
                       int frames);
   /// Also for calls that took nothing.
   void GiveBack(const void* call) noexcept;
@@ -40,13 +40,13 @@ class FrameBudget {
 
  private:
   struct Charge {
-    const Scheduler* model;
+    const SampleQueue* model;
     std::string address;
     double frames_per_second;
   };
 
   void Take(const void* call, Charge charge);
-  using Frames = std::map<const Scheduler*, double>;  // a second
+  using Frames = std::map<const SampleQueue*, double>;  // a second
 
   // With mutex_ held: of all calls, or of those from one address.
   Frames FramesOf(const std::string* address) const;

@@ -6,8 +6,8 @@
 #include "model/core/error.h"
 #include "model/core/programs.h"
 #include "model/core/threads.h"
-#include "model/engine/engine_cost.h"
-#include "model/engine/engines.h"
+#include "model/engine/samplers.h"
+#include "model/engine/sampling_cost.h"
 #include "server/config.h"
 #include "server/listener.h"
 #include "server/log.h"
@@ -19,9 +19,9 @@ namespace choreo {
 namespace {
 
 // Of settings that change nothing; whoever says them expects something of them.
-void WarnOfUnheeded(const ServerConfig& config, const StepEngine& engine) {
-  const Heeded heeded = HeededBy(engine);
-  const std::string& name = engine.model().name;
+void WarnOfUnheeded(const ServerConfig& config, const Sampler& sampler) {
+  const Heeded heeded = HeededBy(sampler);
+  const std::string& name = sampler.model().name;
   if (config.engine != "auto" && !heeded.kind) {
     spdlog::warn("--engine {}: model \"{}\" does not heed it; LibTorch runs it", config.engine,
                  name);
@@ -34,26 +34,22 @@ void WarnOfUnheeded(const ServerConfig& config, const StepEngine& engine) {
 
 ModelFolder::Loader MakeLoader(const ServerConfig& config) {
   const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
-  // One small network does not keep several cores busy: each gets a worker, with its share of the
-  // slots.
+  // One small network does not keep several cores busy: each gets a worker.
   std::vector<Device> workers = devices;
-  int slots = config.Slots();
   if (devices.front().kind == Device::Kind::kCpu) {
-    const int wanted = config.workers == 0 ? UsableCores() : config.workers;
-    const int count = std::min(wanted, config.Slots());
+    const int count = config.workers == 0 ? UsableCores() : config.workers;
     workers.assign(static_cast<size_t>(count), devices.front());
-    slots = (config.Slots() + count - 1) / count;
   }
-  return [&config, workers, slots](const std::filesystem::path& path) {
-    Server::Engines engines =
-        MakeEngines(path, workers, slots, ParseEngineKind(config.engine), config.kernels);
-    for (const auto& engine : engines) WarmUp(*engine);
-    const StepEngine& engine = *engines.front();
-    spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...) of {} slots",
-                 path.string(), engine.model().name, engine.model().fingerprint, workers.size(),
-                 engine.device(), slots);
-    WarnOfUnheeded(config, engine);
-    return engines;
+  return [&config, workers](const std::filesystem::path& path) {
+    Server::Samplers samplers =
+        MakeSamplers(path, workers, ParseEngineKind(config.engine), config.kernels);
+    for (const auto& sampler : samplers) WarmUp(*sampler);
+    const Sampler& sampler = *samplers.front();
+    spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...)", path.string(),
+                 sampler.model().name, sampler.model().fingerprint, workers.size(),
+                 sampler.device());
+    WarnOfUnheeded(config, sampler);
+    return samplers;
   };
 }
 

@@ -140,24 +140,22 @@ class Figures final : public prometheus::Collectable {
       const char* name;
       const char* help;
       MetricType type;
-      double (*of)(const Scheduler::Stats&);
+      double (*of)(const SampleQueue::Stats&);
     };
-    using Stats = Scheduler::Stats;
+    using Stats = SampleQueue::Stats;
     static constexpr Figure kFigures[] = {
-        {"slots", "Transitions that may be in progress.", MetricType::Gauge,
-         [](const Stats& stats) { return double(stats.slots); }},
-        {"slots_used", "Of those, the taken.", MetricType::Gauge,
+        {"workers", "Workers that make transitions.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.workers); }},
+        {"transitions_active", "Transitions that a worker has begun.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.active); }},
-        {"slots_asleep", "Of the taken, those that wait for music, grants or their reader.",
-         MetricType::Gauge, [](const Stats& stats) { return double(stats.asleep); }},
-        {"transitions_waiting", "Transitions that wait for a slot.", MetricType::Gauge,
+        {"transitions_waiting", "Transitions that no worker has begun.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.waiting); }},
-        {"transitions_parked", "Transitions that slept for so long that they lost theirs.",
-         MetricType::Gauge, [](const Stats& stats) { return double(stats.parked); }},
         {"engine_failures", "How often an engine has failed in a row.", MetricType::Gauge,
          [](const Stats& stats) { return double(stats.failures); }},
         {"frames_total", "Frames made.", MetricType::Counter,
          [](const Stats& stats) { return double(stats.frames); }},
+        {"transitions_total", "Transitions made.", MetricType::Counter,
+         [](const Stats& stats) { return double(stats.transitions); }},
     };
     for (const Figure& figure : kFigures) {
       out.Begin(figure.name, figure.help, figure.type);
@@ -168,17 +166,18 @@ class Figures final : public prometheus::Collectable {
   }
 
   static void AddHistograms(const std::map<std::string, Models::Figures>& models, Families& out) {
-    using Histograms = Scheduler::Histograms;
+    using Histograms = SampleQueue::Histograms;
     struct Figure {
       const char* name;
       const char* help;
       Histogram::Snapshot Histograms::*of;
     };
     static constexpr Figure kFigures[] = {
-        {"batch_frames", "Frames of a step.", &Histograms::batch},
-        {"step_seconds", "Time of a step.", &Histograms::step_s},
-        {"admission_seconds", "Time of a transition's admission.", &Histograms::admission_s},
-        {"lateness_seconds", "How late frames of dances were made, 0 for those in time.",
+        {"slice_seconds", "Time of a slice of a transition, for which all else waits.",
+         &Histograms::slice_s},
+        {"transition_seconds", "Time of a transition, all of its slices.",
+         &Histograms::transition_s},
+        {"lateness_seconds", "How late transitions of dances were made, 0 for those in time.",
          &Histograms::lateness_s},
     };
     for (const Figure& figure : kFigures) {

@@ -62,10 +62,10 @@ ModelFolder::Stamp ModelFolder::StampOf(const std::filesystem::path& file) {
           .changed_ns = Nanoseconds(status.st_ctim)};
 }
 
-Server::Engines ModelFolder::LoadFile(const std::filesystem::path& file, Files* files) const {
+Server::Samplers ModelFolder::LoadFile(const std::filesystem::path& file, Files* files) const {
   RequireRegularFile(kFlag, file);
   const Stamp stamp = StampOf(file);  // before: what is written meanwhile counts the next time
-  Server::Engines engines = load_(file);
+  Server::Samplers engines = load_(file);
   const ModelInfo& model = engines.front()->model();
   for (const auto& [other, served] : *files) {
     if (served.model == model.name) {
@@ -77,8 +77,8 @@ Server::Engines ModelFolder::LoadFile(const std::filesystem::path& file, Files* 
   return engines;
 }
 
-std::vector<Server::Engines> ModelFolder::Load() {
-  std::vector<Server::Engines> models;
+std::vector<Server::Samplers> ModelFolder::Load() {
+  std::vector<Server::Samplers> models;
   for (const auto& file : List()) models.push_back(LoadFile(file, &served_));
   return models;
 }
@@ -88,10 +88,10 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
     const std::vector<std::filesystem::path> listed = List();
     Files files;
     Faults faults;
-    std::vector<Server::Engines> fresh;
+    std::vector<Server::Samplers> fresh;
     for (const auto& file : listed) {
       if (stopped()) return;
-      if (std::optional<Server::Engines> engines = Look(file, &files, &faults)) {
+      if (std::optional<Server::Samplers> engines = Look(file, &files, &faults)) {
         fresh.push_back(std::move(*engines));
       }
     }
@@ -116,7 +116,7 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
   }
 }
 
-std::optional<Server::Engines> ModelFolder::Look(const std::filesystem::path& file, Files* files,
+std::optional<Server::Samplers> ModelFolder::Look(const std::filesystem::path& file, Files* files,
                                                  Faults* faults) const {
   try {
     const auto before = served_.find(file);
@@ -125,7 +125,7 @@ std::optional<Server::Engines> ModelFolder::Look(const std::filesystem::path& fi
       files->insert(*before);
       return std::nullopt;
     }
-    Server::Engines engines = LoadFile(file, files);
+    Server::Samplers engines = LoadFile(file, files);
     const Served& now = files->at(file);
     const bool is_served = std::ranges::any_of(served_, [&](const auto& other) {
       const Served& then = other.second;

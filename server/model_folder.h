@@ -21,14 +21,14 @@ namespace choreo {
 class ModelFolder {
  public:
   /// Loads a checkpoint and makes engines that are ready to dance.
-  using Loader = std::function<Server::Engines(const std::filesystem::path&)>;
+  using Loader = std::function<Server::Samplers(const std::filesystem::path&)>;
 
   ModelFolder(std::filesystem::path folder, Loader load)
       : folder_(std::move(folder)), load_(std::move(load)) {}
 
   /// All models, for a start. Throws what the loader throws, Error(kInvalidArgument, "--models")
   /// for a folder that has none or cannot be read, and for two files with models of one name.
-  std::vector<Server::Engines> Load();
+  std::vector<Server::Samplers> Load();
 
   /// Looks again: loads the files that are new or have changed since, and tells the server what it
   /// serves now. A file that cannot be used is logged as an error and tried again the next time;
@@ -58,10 +58,10 @@ class ModelFolder {
   static Stamp StampOf(const std::filesystem::path& file);
   static bool Has(const Files& files, const std::string& model);
   /// Loads it, and notes in `files` what it has. Throws where a model of that name is there.
-  Server::Engines LoadFile(const std::filesystem::path& file, Files* files) const;
+  Server::Samplers LoadFile(const std::filesystem::path& file, Files* files) const;
   /// Notes in `files` what it has, or in `faults` why it cannot be used; engines where these are
   /// not served already.
-  std::optional<Server::Engines> Look(const std::filesystem::path& file, Files* files,
+  std::optional<Server::Samplers> Look(const std::filesystem::path& file, Files* files,
                                       Faults* faults) const;
   /// Of files at fault, notes what is served of them as before; once all others have been looked
   /// at, which have the right of way.

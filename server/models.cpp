@@ -13,18 +13,15 @@ namespace choreo {
 namespace {
 
 void Add(const Models::Figures& more, Models::Figures* to) {
-  Scheduler::Stats& stats = to->stats;
+  SampleQueue::Stats& stats = to->stats;
+  stats.workers += more.stats.workers;
   stats.active += more.stats.active;
-  stats.asleep += more.stats.asleep;
   stats.waiting += more.stats.waiting;
-  stats.parked += more.stats.parked;
-  stats.slots += more.stats.slots;
   stats.frames += more.stats.frames;
-  stats.steps += more.stats.steps;
+  stats.transitions += more.stats.transitions;
   stats.failures = std::max(stats.failures, more.stats.failures);
-  to->histograms.batch += more.histograms.batch;
-  to->histograms.step_s += more.histograms.step_s;
-  to->histograms.admission_s += more.histograms.admission_s;
+  to->histograms.slice_s += more.histograms.slice_s;
+  to->histograms.transition_s += more.histograms.transition_s;
   to->histograms.lateness_s += more.histograms.lateness_s;
 }
 
@@ -34,27 +31,27 @@ void AddTo(std::map<std::string, Models::Figures>& all, const std::string& name,
   if (!is_new) Add(more, &at->second);
 }
 
-Models::Figures FiguresOf(const Scheduler& scheduler) {
-  return {scheduler.stats(), scheduler.histograms()};
+Models::Figures FiguresOf(const SampleQueue& queue) {
+  return {queue.stats(), queue.histograms()};
 }
 
 }  // namespace
 
-Models::Entry::Entry(std::unique_ptr<Scheduler> one)
-    : scheduler(std::move(one)),
-      use(scheduler.get(), [unused = unused](Scheduler* /*owned*/) { *unused = true; }) {}
+Models::Entry::Entry(std::unique_ptr<SampleQueue> one)
+    : queue(std::move(one)),
+      use(queue.get(), [unused = unused](SampleQueue* /*owned*/) { *unused = true; }) {}
 
-Models::Models(std::vector<std::unique_ptr<Scheduler>> models) {
+Models::Models(std::vector<std::unique_ptr<SampleQueue>> models) {
   std::vector<std::string> names;
   for (const auto& model : models) names.push_back(model->model().name);
   Set(names, std::move(models));
 }
 
 void Models::Set(const std::vector<std::string>& names,
-                 std::vector<std::unique_ptr<Scheduler>> fresh) {
+                 std::vector<std::unique_ptr<SampleQueue>> fresh) {
   if (names.empty()) throw InvalidArgument("models", "a server needs at least one");
   std::vector<Entry> made;
-  for (auto& scheduler : fresh) made.emplace_back(std::move(scheduler));
+  for (auto& queue : fresh) made.emplace_back(std::move(queue));
   const std::lock_guard lock(mutex_);
   std::set<std::string> seen;
   for (const std::string& name : names) {
@@ -87,7 +84,7 @@ void Models::Set(const std::vector<std::string>& names,
 }
 
 void Models::FreeUnused() {
-  std::vector<Entry> ended;  // after the lock: a scheduler waits for its threads
+  std::vector<Entry> ended;  // after the lock: a queue joins its threads
   const std::lock_guard lock(mutex_);
   ended.reserve(former_.size());
   for (auto at = former_.begin(); at != former_.end();) {
@@ -95,11 +92,11 @@ void Models::FreeUnused() {
       ++at;
       continue;
     }
-    Figures last = FiguresOf(*at->scheduler);
-    last.stats.slots = last.stats.failures = 0;
+    Figures last = FiguresOf(*at->queue);
+    last.stats.workers = last.stats.failures = 0;
     AddTo(past_, at->name(), last);
     spdlog::info("model \"{}\", fingerprint {}: nobody dances it any more; it is gone", at->name(),
-                 at->scheduler->model().fingerprint);
+                 at->queue->model().fingerprint);
     ended.push_back(std::move(*at));
     at = former_.erase(at);
   }
@@ -135,7 +132,7 @@ std::map<std::string, Models::Figures> Models::figures() const {
   const std::lock_guard lock(mutex_);
   std::map<std::string, Figures> all = past_;
   for (const auto* entries : {&served_, &former_}) {
-    for (const Entry& entry : *entries) AddTo(all, entry.name(), FiguresOf(*entry.scheduler));
+    for (const Entry& entry : *entries) AddTo(all, entry.name(), FiguresOf(*entry.queue));
   }
   return all;
 }
@@ -143,7 +140,7 @@ std::map<std::string, Models::Figures> Models::figures() const {
 int Models::transitions() const {
   int count = 0;
   for (const auto& [name, figures] : this->figures()) {
-    count += figures.stats.active + figures.stats.waiting + figures.stats.parked;
+    count += figures.stats.active + figures.stats.waiting;
   }
   return count;
 }

@@ -91,11 +91,11 @@ class Reloader {
   std::jthread thread_;                 // last: it uses the above
 };
 
-std::vector<Server::Engines> LoadAll(const ServerConfig& config, ModelFolder& folder,
+std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& folder,
                                      const ModelFolder::Loader& load) {
   const LeaveAtOnce leave;
   if (!config.models.empty()) return folder.Load();
-  std::vector<Server::Engines> models;
+  std::vector<Server::Samplers> models;
   for (const auto& path :
        config.checkpoints.empty() ? ShippedCheckpoints(config.names) : config.checkpoints) {
     models.push_back(load(path));

@@ -83,7 +83,7 @@ void TellOfSecurity(const ServerConfig& config, const Tokens& tokens) {
                                : "not asked for");
 }
 
-void TellOfTime(const Scheduler& model) {
+void TellOfTime(const SampleQueue& model) {
   constexpr int kDances = 64;
   const double load = model.LoadOf(kDances * model.model().fps);
   if (load <= 0) return;  // nobody has measured
@@ -102,26 +102,25 @@ class WithoutReflection final : public grpc::ServerBuilderOption {
   }
 };
 
-std::vector<std::unique_ptr<Scheduler>> MakeSchedulers(std::vector<Server::Engines> models,
-                                                       const Scheduler::Options& options) {
-  std::vector<std::unique_ptr<Scheduler>> schedulers;
-  for (auto& engines : models) {
-    schedulers.push_back(std::make_unique<Scheduler>(std::move(engines), options));
-    TellOfTime(*schedulers.back());
+std::vector<std::unique_ptr<SampleQueue>> MakeQueues(std::vector<Server::Samplers> models,
+                                                     const SampleQueue::Options& options) {
+  std::vector<std::unique_ptr<SampleQueue>> queues;
+  for (auto& samplers : models) {
+    queues.push_back(std::make_unique<SampleQueue>(std::move(samplers), options));
+    TellOfTime(*queues.back());
   }
-  return schedulers;
+  return queues;
 }
 
 }  // namespace
 
 struct Server::Impl {
-  Impl(const ServerConfig& config, std::vector<Engines> models)
-      : scheduling{.max_waiting = config.max_waiting,
-                   .max_sleep = Milliseconds(config.max_sleep_seconds)},
-        serving(MakeSchedulers(std::move(models), scheduling), LimitsOf(config), SharesOf(config),
+  Impl(const ServerConfig& config, std::vector<Samplers> models)
+      : queueing{.max_bulk = config.max_waiting},
+        serving(MakeQueues(std::move(models), queueing), LimitsOf(config), SharesOf(config),
                 config.tokens, static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
-        service(serving, config.max_sleep_seconds),
+        service(serving),
         resets(kWaitingCalls * CallsOfConnection(config)),
         listener(config.listen) {
     // Never taken back: the last grpc_shutdown of a process can wait ten seconds for gRPC's
@@ -177,16 +176,16 @@ struct Server::Impl {
     const std::string name = v1::Choreography::service_full_name();
     bool all = !drained;
     std::set<std::string> told = {"", name};
-    for (const Models::Use& scheduler : serving.models.served()) {
-      const int failures = scheduler->stats().failures;
+    for (const Models::Use& queue : serving.models.served()) {
+      const int failures = queue->stats().failures;
       const bool works = failures < kBroken;
       all &= works;
-      const std::string of_model = name + '/' + scheduler->model().name;
+      const std::string of_model = name + '/' + queue->model().name;
       told.insert(of_model);
       if (TellHealth(of_model, works && !drained) && !works) {
         spdlog::error(
             "model \"{}\": its engine has failed {} times in a row; health says NOT_SERVING",
-            scheduler->model().name, failures);
+            queue->model().name, failures);
       }
     }
     for (const auto& [former, serves] : health) {
@@ -205,7 +204,7 @@ struct Server::Impl {
     return true;
   }
 
-  const Scheduler::Options scheduling;
+  const SampleQueue::Options queueing;
   Serving serving;
   ChoreographyService service;
   ResetGuard resets;
@@ -221,7 +220,7 @@ struct Server::Impl {
   std::optional<MetricsEndpoint> metrics;
 };
 
-Server::Server(const ServerConfig& config, std::vector<Engines> models)
+Server::Server(const ServerConfig& config, std::vector<Samplers> models)
     : impl_(std::make_unique<Impl>(config, std::move(models))) {}
 
 Server::~Server() { Drain(0); }
@@ -234,9 +233,9 @@ int Server::transitions() const { return impl_->serving.models.transitions(); }
 
 int Server::calls() const { return impl_->serving.calls.count(); }
 
-bool Server::SetModels(const std::vector<std::string>& names, std::vector<Engines> fresh) {
+bool Server::SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh) {
   if (impl_->drained) return false;
-  impl_->serving.models.Set(names, MakeSchedulers(std::move(fresh), impl_->scheduling));
+  impl_->serving.models.Set(names, MakeQueues(std::move(fresh), impl_->queueing));
   impl_->UpdateHealth();
   return true;
 }

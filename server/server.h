@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/engine/step_engine.h"
+#include "model/engine/sampler.h"
 #include "server/config.h"
 
 namespace choreo {
@@ -14,13 +14,13 @@ namespace choreo {
 class Server {
  public:
   /// The engines of one model, one a device. The first model is the default.
-  using Engines = std::vector<std::unique_ptr<StepEngine>>;
+  using Samplers = std::vector<std::unique_ptr<Sampler>>;
 
   /// Listens when it returns. Of `config` only what concerns serving is read: listen, max_waiting,
   /// max_streams, io_threads, outbox_kib, max_file_music_mib, max_network_mib, TLS, tokens,
   /// reflection, metrics, and what clients may take. Throws Error(kInvalidArgument) for engines
   /// that do not go together, Error(kUnavailable) naming an address that cannot be listened on.
-  Server(const ServerConfig& config, std::vector<Engines> models);
+  Server(const ServerConfig& config, std::vector<Samplers> models);
   ~Server();  ///< Drain(0)
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
@@ -29,7 +29,7 @@ class Server {
   int port() const;
   /// Where Prometheus finds figures; 0 without.
   int metrics_port() const;
-  /// Transitions that hold a slot, wait for one, or have lost theirs while they slept, over all
+  /// Transitions that are being made, or wait, over all
   /// models.
   int transitions() const;
   /// Calls in progress; those without a first message do not count.
@@ -40,7 +40,7 @@ class Server {
   /// keep what they began with; a model is freed once nobody is left who dances it. False, and
   /// nothing happens, after Drain. Throws Error(kInvalidArgument), and changes nothing, for no
   /// names, a name twice, one that no model has, and engines that do not go together.
-  bool SetModels(const std::vector<std::string>& names, std::vector<Engines> fresh);
+  bool SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh);
 
   /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on; those in progress may
   /// go on for `seconds`, then end as UNAVAILABLE; streams at a transition, if one comes in the

@@ -106,19 +106,18 @@ void ChoreographyService::Describe(v1::GetServerInfoResponse* response) const {
   limits->set_max_candidates(kMaxCandidates);
   limits->set_max_frame_rate(kMaxOutputFps);
   FillLimits(serving_.calls.limits(), limits);
-  limits->set_max_sleep_s(max_sleep_s_);
-  int slots = 0;
-  for (const Models::Use& scheduler : serving_.models.served()) {
-    FromModel(scheduler->model(), response->add_models());
-    slots += scheduler->stats().slots;
-    for (const std::string& device : scheduler->devices()) {
+  int workers = 0;
+  for (const Models::Use& queue : serving_.models.served()) {
+    FromModel(queue->model(), response->add_models());
+    workers += queue->stats().workers;
+    for (const std::string& device : queue->devices()) {
       const auto& known = response->devices();
       if (std::find(known.begin(), known.end(), device) == known.end()) {
         response->add_devices(device);
       }
     }
   }
-  response->set_slots(slots);
+  response->set_slots(workers);
   response->set_active_streams(serving_.calls.count());
 }
 

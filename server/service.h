@@ -16,8 +16,7 @@ class ChoreographyService final
           v1::Choreography::WithRawCallbackMethod_StreamDance<
               v1::Choreography::WithCallbackMethod_GetServerInfo<v1::Choreography::Service>>> {
  public:
-  ChoreographyService(Serving& serving, double max_sleep_s)
-      : serving_(serving), max_sleep_s_(max_sleep_s) {}
+  explicit ChoreographyService(Serving& serving) : serving_(serving) {}
 
   grpc::ServerWriteReactor<grpc::ByteBuffer>* GenerateTransition(
       grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) override;
@@ -33,7 +32,6 @@ class ChoreographyService final
   void Describe(v1::GetServerInfoResponse* response) const;
 
   Serving& serving_;
-  const double max_sleep_s_;
   std::mutex mutex_;
   std::map<std::string, int> unread_infos_;  // by address, above 0. Lock: mutex_
 };

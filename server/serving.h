@@ -19,7 +19,7 @@ namespace choreo {
 
 /// What the calls of one server share. Thread-safe after construction; outlives every call.
 struct Serving {
-  Serving(std::vector<std::unique_ptr<Scheduler>> schedulers, const CallLimits& limits,
+  Serving(std::vector<std::unique_ptr<SampleQueue>> queues, const CallLimits& limits,
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
           int64_t file_music_bytes, int io_threads)
       : calls(limits),
@@ -27,7 +27,7 @@ struct Serving {
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
-        models(std::move(schedulers)),
+        models(std::move(queues)),
         decoding(io_threads),
         tasks(io_threads) {}
 

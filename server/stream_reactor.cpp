@@ -59,7 +59,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   void HandleHalfClose() {
     Guard([&] {
-      if (!scheduler_) throw InvalidArgument("config", "missing: the stream ended without it");
+      if (!queue_) throw InvalidArgument("config", "missing: the stream ended without it");
       const auto stream = dance();
       if (!stream) return;
       DecodeFile(*stream);
@@ -82,13 +82,13 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       serving_.tally.key_error_m.Add(key->arrival.raw_error_m);
     }
     DanceResponse response;
-    FromEvent(event, scheduler_->model().fps, response.mutable_event());
+    FromEvent(event, queue_->model().fps, response.mutable_event());
     outbox().Send(std::move(response));
   }
 
   void OnContinuation(const Continuation& continuation) override {
     DanceResponse response;
-    FromContinuation(continuation, scheduler_->model(), seed_, audio_ ? &*audio_ : nullptr,
+    FromContinuation(continuation, queue_->model(), seed_, audio_ ? &*audio_ : nullptr,
                      response.mutable_continuation());
     outbox().Send(std::move(response));
     if (serving_.calls.ends_at_transitions()) Fail(HandedOn());
@@ -99,7 +99,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     DanceResponse response;
     v1::DanceSummary* summary = response.mutable_summary();
     FromReport(report, summary->mutable_report());
-    FillTiming(static_cast<double>(report.frames) / scheduler_->model().fps,
+    FillTiming(static_cast<double>(report.frames) / queue_->model().fps,
                summary->mutable_timing());
     outbox().Send(std::move(response));
     End(grpc::Status::OK);
@@ -113,7 +113,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       throw InvalidArgument("request", "empty; one of its fields must be there");
     }
     if (request.has_config()) return Configure(request.config());
-    if (!scheduler_) throw InvalidArgument("config", "missing: it must be the first message");
+    if (!queue_) throw InvalidArgument("config", "missing: it must be the first message");
     const auto stream = dance();
     if (!stream) return;
     switch (request.request_case()) {
@@ -141,12 +141,12 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void Configure(const v1::DanceConfig& message) {
-    if (scheduler_) throw InvalidArgument("config", "came before; it comes once");
+    if (queue_) throw InvalidArgument("config", "came before; it comes once");
     const Models::Use found = serving_.models.Find(message.model(), "config.model");
     const ModelInfo& model = found->model();
     const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
     serving_.frames.TakeDance(this, *found, address());
-    scheduler_ = found;
+    queue_ = found;
     encoding_ = message.encoding();
     seed_ = config.seed;
     finds_beats_ = config.music_beats.empty();
@@ -154,7 +154,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const bool exact =
         !config.continuation || config.continuation->fingerprint == model.fingerprint;
     SendHeader(model, message, config, config.FirstFrame(), exact);
-    Adopt(std::make_shared<DanceStream>(*scheduler_, config, shared_from_this()));
+    Adopt(std::make_shared<DanceStream>(*queue_, config, shared_from_this()));
   }
 
   void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
@@ -185,7 +185,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
-    const ModelInfo& model = scheduler_->model();
+    const ModelInfo& model = queue_->model();
     const std::string field = stream.NextKeyframe();
     if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
     const Target target =
@@ -201,7 +201,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   // Of the configuration; written before the stream is there.
-  Models::Use scheduler_;  // whatever is served meanwhile, the dance keeps its model
+  Models::Use queue_;  // whatever is served meanwhile, the dance keeps its model
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
   std::optional<v1::AudioFormat> audio_;

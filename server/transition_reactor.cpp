@@ -35,11 +35,11 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       v1::GenerateTransitionRequest message;
       ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
-      scheduler_ = serving_.models.Find(message.config().model(), "config.model");
-      GroupRequest request = ToGroupRequest(message, scheduler_->model(), Serving::FreshSeed());
+      queue_ = serving_.models.Find(message.config().model(), "config.model");
+      GroupRequest request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
       // What is out of range is named once the music is there.
       const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
-      serving_.frames.TakeTransition(this, *scheduler_, address(), request.candidates * frames);
+      serving_.frames.TakeTransition(this, *queue_, address(), request.candidates * frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
         return Begin(message, std::move(request));
       }
@@ -69,7 +69,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
   void OnWarning(const DanceWarning& warning) override {
     v1::GenerateTransitionResponse response;
-    FromEvent(warning, scheduler_->model().fps, response.mutable_event());
+    FromEvent(warning, queue_->model().fps, response.mutable_event());
     outbox().Send(std::move(response));
   }
 
@@ -81,7 +81,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       v1::Candidate* candidate = summary->add_candidates();
       candidate->set_candidate(static_cast<uint32_t>(report.candidate));
       FromReport(report.quality, candidate->mutable_report());
-      FromContinuation(report.continuation, scheduler_->model(), seed_, audio_ ? &*audio_ : nullptr,
+      FromContinuation(report.continuation, queue_->model(), seed_, audio_ ? &*audio_ : nullptr,
                        candidate->mutable_continuation());
       frames += report.quality.frames;
       if (report.quality.support) serving_.tally.support.Add(*report.quality.support);
@@ -89,7 +89,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
         serving_.tally.key_error_m.Add(key.arrival.raw_error_m);
       }
     }
-    FillTiming(static_cast<double>(frames) / scheduler_->model().fps, summary->mutable_timing());
+    FillTiming(static_cast<double>(frames) / queue_->model().fps, summary->mutable_timing());
     outbox().Send(std::move(response));
     End(grpc::Status::OK);
   }
@@ -107,7 +107,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   }
 
   void Begin(const v1::GenerateTransitionRequest& message, GroupRequest request) {
-    const ModelInfo& model = scheduler_->model();
+    const ModelInfo& model = queue_->model();
     RequireOpen();  // whoever is gone by now is not begun for
     request.Validate(model);
     encoding_ = message.config().encoding();
@@ -116,11 +116,11 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
     SendHeader(model, message.config(), request, request.FirstFrame(),
                !request.ResumesInexactly(model));
-    Adopt(std::make_shared<TransitionGroup>(*scheduler_, std::move(request), shared_from_this()));
+    Adopt(std::make_shared<TransitionGroup>(*queue_, std::move(request), shared_from_this()));
   }
 
   // Written before the group is there. Nothing of the message itself: it may go before the group.
-  Models::Use scheduler_;  // whatever is served meanwhile, the transition keeps its model
+  Models::Use queue_;  // whatever is served meanwhile, the transition keeps its model
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   std::optional<v1::AudioFormat> audio_;
   uint64_t seed_ = 0;

@@ -6,7 +6,7 @@
 #include "choreo/v1/choreography.pb.h"
 #include "choreo/v1/motion.pb.h"
 #include "model/dance/dance_stream.h"
-#include "model/engine/step_engine.h"
+#include "model/engine/transition_spec.h"
 
 /// The dance's own types -> messages of the API. Pure functions, thread-safe.
 namespace choreo {

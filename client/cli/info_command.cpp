@@ -131,7 +131,7 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
     nlohmann::ordered_json out;
     out["version"] = server.version;
     out["devices"] = server.devices;
-    out["slots"] = server.slots;
+    out["workers"] = server.workers;
     out["active_streams"] = server.active_streams;
     out["limits"] = {{"max_audio_s", server.limits.max_audio_s},
                      {"max_keyframes", server.limits.max_keyframes},
@@ -144,8 +144,8 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
     std::cout << out.dump(2) << std::endl;
     return;
   }
-  std::printf("choreod %s, %d slots, %d calls in progress, on", server.version.c_str(),
-              server.slots, server.active_streams);
+  std::printf("choreod %s, %d workers, %d calls in progress, on", server.version.c_str(),
+              server.workers, server.active_streams);
   for (const std::string& device : server.devices) std::printf(" %s", device.c_str());
   std::printf("\n");
   for (const client::ModelDescription& model : server.models) {

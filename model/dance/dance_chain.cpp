@@ -5,74 +5,96 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/dance/scheduled_transition.h"
+#include "model/dance/asked_transition.h"
 
 namespace choreo {
+namespace {
 
-/// One transition of the chain. Its run changes with the chain's mutex held.
-class DanceChain::Job : public ScheduledTransition {
+constexpr size_t kMostAhead = 1;  // transitions sampled ahead of the one that is handed out
+
+}  // namespace
+
+/// One transition of the chain, from the moment that it is asked for until its last frame is handed
+/// out.
+class DanceChain::Job : public SampleJob {
  public:
-  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, AskedTransition asked)
-      : ScheduledTransition(
-            chain->model_, std::move(asked), chain->audio(),
-            chain->start_time_ + chain->Seconds(segment.from - chain->first_frame_)),
-        chain_(std::move(chain)),
-        segment_(segment) {}
-
-  bool Ready() const override {
-    std::lock_guard lock(chain_->mutex_);
-    if (chain_->paused_) return false;
-    const int64_t frame = NextFrame();
-    const Segment* current = chain_->timeline_.Current();  // null: this one is done
-    return current != nullptr && frame < current->stop && chain_->timeline_.Certain(frame) &&
-           (!chain_->audio_ || chain_->audio_->ready() > frame);
+  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, AskedTransition asked,
+      std::vector<MusicBeat> beats)
+      : chain_(std::move(chain)),
+        segment_(segment),
+        deadline_(chain_->start_time_ + chain_->Seconds(segment.from - chain_->first_frame_)),
+        run_(chain_->model_, asked.request),
+        before_(asked.request.history),
+        beats_(std::move(beats)) {
+    WarnOfSpeed(chain_->model_, run_, &asked);
+    warnings_ = std::move(asked.warnings);
   }
 
-  void OnRestart() override {
+  /// Once it is sampled it hands frames out, in slices, too.
+  bool Continue(Sampler& sampler) override {
+    if (is_sampled_) return chain_->HandOut(kFramesASlice);
+    if (run_.Continue(sampler)) return true;
+    is_sampled_ = true;
     std::lock_guard lock(chain_->mutex_);
-    ScheduledTransition::OnRestart();
-  }
-
-  bool OnFrame(const StepOutput& raw) override {
-    bool more = false;
-    {
-      std::lock_guard lock(chain_->mutex_);
-      const std::optional<DanceFrame> frame = TakeNew(raw);
-      if (!frame) return true;
-      chain_->Emit(*this, *frame);
-      more = !chain_->CurrentIsDanced();
-    }
-    chain_->mailbox_.Deliver();
-    return more;
+    sampled_ = true;
+    chain_->AskNext();
+    return true;
   }
 
   void OnDone(const Error* failure) noexcept override {
-    chain_->Act([this, failure] {
-      chain_->job_ = nullptr;
-      if (failure != nullptr && !retired_) return chain_->mailbox_.PostError(*failure);
-      chain_->timeline_.Finish();
-      if (danced() > 0) chain_->PostContinuation();
-      chain_->Advance(/*inherits=*/true);
-    });
+    if (failure == nullptr || retired_) return;
+    chain_->Act([this, failure] { chain_->Fail(*this, *failure); });
   }
 
+  double Deadline() const override { return deadline_; }
+  int frames() const override { return run_.spec().frames; }
   bool Cancelled() const override { return retired_ || chain_->cancelled_; }
 
-  /// The dance, or the transition, turned out to end before the next frame: it ends in good order.
+  /// Nobody needs it any more.
   void Retire() { retired_ = true; }
+  void Fail(const Error& failure) { failure_ = failure; }
 
+  /// Of what follows all but constants is the chain's, under its mutex.
+  bool sampled() const { return sampled_; }
+  const std::optional<Error>& failure() const { return failure_; }
   const Segment& segment() const { return segment_; }
+  const std::vector<DanceWarning>& warnings() const { return warnings_; }
+  const std::vector<MusicBeat>& beats() const { return beats_; }
+  /// The last tau poses before its first frame.
+  const std::vector<Pose>& before() const { return before_; }
+  /// Once it is sampled.
+  const TransitionRun& run() const { return run_; }
+  Eigen::Vector3d StageBefore(int64_t frame) const {
+    return run_.StageAfter(static_cast<size_t>(frame - segment_.from));
+  }
+  const DanceFrame& FrameAt(int64_t frame) const {
+    return run_.frames()[static_cast<size_t>(frame - segment_.from)];
+  }
+  /// The last tau poses before a frame of it, or behind its last one.
+  std::vector<Pose> HistoryBefore(int64_t frame) const {
+    std::vector<Pose> history = before_;
+    for (int64_t at = segment_.from; at < frame; ++at) MoveOn(FrameAt(at).pose, &history);
+    return history;
+  }
 
  private:
   const std::shared_ptr<DanceChain> chain_;
   const Segment segment_;
+  const double deadline_;
+  TransitionRun run_;
+  const std::vector<Pose> before_;
+  const std::vector<MusicBeat> beats_;
+  std::vector<DanceWarning> warnings_;
+  bool is_sampled_ = false;  // of the worker's thread
+  bool sampled_ = false;
+  std::optional<Error> failure_;
   std::atomic<bool> retired_ = false;
 };
 
-DanceChain::DanceChain(Scheduler& scheduler, const DanceConfig& config,
+DanceChain::DanceChain(SampleQueue& queue, const DanceConfig& config,
                        std::shared_ptr<DanceSink> sink)
-    : scheduler_(scheduler),
-      model_(scheduler.model()),
+    : queue_(queue),
+      model_(queue.model()),
       config_(config),
       first_frame_(config.FirstFrame()),
       mailbox_(std::move(sink)),
@@ -105,10 +127,10 @@ void DanceChain::Change(const std::function<void(Timeline&)>& change) {
     std::lock_guard lock(mutex_);
     if (over()) return;
     change(timeline_);
-    if (job_ != nullptr && CurrentIsDanced()) job_->Retire();
-    Advance(/*inherits=*/false);
+    AskNext();
   }
-  mailbox_.Deliver();
+  while (HandOut(kFramesASlice)) {
+  }
 }
 
 void DanceChain::SetControls(const ControlRequest& request, const std::string& field) {
@@ -139,12 +161,13 @@ void DanceChain::SetMusicBeats(const std::vector<double>& seconds) {
 
 void DanceChain::SetPaused(bool paused) {
   paused_ = paused;
-  if (!paused) Act([this] { Advance(/*inherits=*/false); });
+  if (!paused) Act([] {});
 }
 
 void DanceChain::Cancel() noexcept {
   cancelled_ = true;
-  Act([this] { Advance(/*inherits=*/false); });  // where a job runs, its OnDone follows
+  queue_.LookForCancelled();
+  Act([this] { mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled")); });
 }
 
 void DanceChain::Act(const std::function<void()>& act) noexcept {
@@ -152,59 +175,138 @@ void DanceChain::Act(const std::function<void()>& act) noexcept {
     {
       std::lock_guard lock(mutex_);
       act();
+      AskNext();
     }
-    mailbox_.Deliver();
+    while (HandOut(kFramesASlice)) {
+    }
   } catch (...) {
     mailbox_.GiveUp();
+    std::lock_guard lock(mutex_);
+    DropJobs();
   }
 }
 
-bool DanceChain::CurrentIsDanced() {
-  // No step can be under way past either: NextInput lets only certain frames through.
-  const std::optional<int64_t> end = timeline_.End();
-  return next_frame_ >= timeline_.Current()->stop || (end && next_frame_ >= *end);
+// They keep the chain alive.
+void DanceChain::DropJobs() {
+  for (const std::shared_ptr<Job>& job : jobs_) job->Retire();
+  jobs_.clear();
 }
 
-void DanceChain::Advance(bool inherits) {
-  if (job_ != nullptr) return scheduler_.Wake(job_);
-  if (over()) return;
-  if (cancelled_) return mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled"));
-  const std::optional<int64_t> end = timeline_.End();
-  if (timeline_.complete() && end && next_frame_ >= *end) return Summarise();
-  const Segment* segment = timeline_.Current();
-  if (segment == nullptr || paused_ || !timeline_.Certain(segment->from)) return;
-  // A slot that is held already is kept while the music catches up; a new one is asked for when the
-  // first frame can be made. Rows before the first frame are there once that frame's predecessor
-  // has been danced.
-  if (!audio_ || audio_->ready() > (inherits ? segment->from - 1 : segment->from)) Start(*segment);
+bool DanceChain::HandOut(int most) {
+  std::unique_lock lock(mutex_);
+  look_again_ = true;
+  if (std::exchange(handing_out_, true)) return false;
+  for (int count = 0; count < most && look_again_; ++count) {
+    look_again_ = HandOutNext();
+    lock.unlock();
+    try {
+      mailbox_.Deliver();  // the sink may pause the dance
+    } catch (...) {
+      lock.lock();
+      handing_out_ = false;
+      throw;
+    }
+    lock.lock();
+  }
+  handing_out_ = false;
+  return look_again_;
 }
 
-void DanceChain::Start(const Segment& segment) {
+void DanceChain::Fail(Job& job, const Error& failure) {
+  if (!job.sampled()) {
+    job.Fail(failure);  // told when all before it is handed out
+  } else if (failure.code() != ErrorCode::kUnavailable) {
+    mailbox_.PostError(failure);  // the sink's; whatever becomes of the queue, what is there goes out
+  }
+}
+
+bool DanceChain::IsOver(const Segment& segment) const {
+  const std::optional<int64_t> end = timeline_.End();
+  return next_frame_ >= segment.stop || (end && next_frame_ >= *end);
+}
+
+bool DanceChain::HandOutNext() {
+  if (over()) DropJobs();
+  if (over() || paused_) return false;
+  if (jobs_.empty()) {
+    const std::optional<int64_t> end = timeline_.End();
+    if (failure_) {
+      mailbox_.PostError(*failure_);
+    } else if (timeline_.complete() && end && next_frame_ >= *end) {
+      Summarise();
+    } else {
+      return false;
+    }
+    return true;
+  }
+  Job& job = *jobs_.front();
+  if (IsOver(*timeline_.Planned())) {
+    if (!job.sampled()) job.Retire();  // else it may be what hands frames out
+    timeline_.Finish();
+    if (next_frame_ > job.segment().from) PostContinuation();
+    jobs_.pop_front();
+    // Behind the end nothing is danced.
+    if (const std::optional<int64_t> end = timeline_.End(); end && next_frame_ >= *end) DropJobs();
+    queue_.LookForCancelled();
+    AskNext();
+    return true;
+  }
+  if (job.failure()) {
+    mailbox_.PostError(*job.failure());
+    return true;
+  }
+  if (!job.sampled() || !timeline_.Certain(next_frame_)) return false;
+  if (audio_ && audio_->ready() <= next_frame_) return false;
+  Emit(job, job.FrameAt(next_frame_));
+  return true;
+}
+
+void DanceChain::AskNext() {
+  if (over() || cancelled_ || failure_ || jobs_.size() > kMostAhead) return;
+  if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // nobody knows where it leads to
+  const Segment* segment = timeline_.Planned(jobs_.size());
+  const std::optional<int64_t> end = timeline_.End();
+  if (segment == nullptr || (end && segment->from >= *end) || !timeline_.Certain(segment->from))
+    return;
+  int64_t rows_end = segment->from;
+  if (model_.hears_music) rows_end = std::min(segment->to, config_.end_frame.value_or(segment->to));
+  // Who finds the beats of the whole music does before its first row is there.
+  if (!audio_ || audio_->ready() >= std::max(rows_end, first_frame_ + 1)) Ask(*segment, rows_end);
+}
+
+void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
   // Who waited for itself is due from now on: no right to be first grows out of waiting.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
   try {
-    AskedTransition asked = AskTransition(config_, model_, controls_, audio(), segment, history_);
-    asked.request.stage = stage_;
-    asked.request.beats = beats_.Around(segment.from, segment.to);
-    history_ = asked.request.history;
-    // The next one may begin a frame later.
-    if (audio_) audio_->Forget(segment.from - model_.history_frames);
-    const auto job = std::make_shared<Job>(shared_from_this(), segment, std::move(asked));
-    scheduler_.Submit(job);
-    job_ = job.get();  // until its OnDone, which waits for mutex_
+    const Job* before = jobs_.empty() ? nullptr : jobs_.back().get();
+    AskedTransition asked =
+        AskTransition(config_, model_, controls_, audio(), segment, rows_end,
+                      before == nullptr ? history_ : before->HistoryBefore(segment.from));
+    asked.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
+    std::vector<MusicBeat> beats = beats_.For(segment.from, segment.to);
+    asked.request.beats = beats_.Around(beats, segment.from, segment.to);
+    auto job =
+        std::make_shared<Job>(shared_from_this(), segment, std::move(asked), std::move(beats));
+    queue_.Submit(job);
+    jobs_.push_back(std::move(job));  // it waits for mutex_ before it tells anything
   } catch (const Error& error) {
-    mailbox_.PostError(error);
+    failure_ = error;
   }
 }
 
 void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
   const TransitionRun& run = job.run();
-  if (run.done() == 1) {
+  const Segment& segment = job.segment();
+  if (next_frame_ == segment.from) {
     for (const DanceWarning& warning : job.warnings()) Post(warning);
+    history_ = job.before();
+    beats_.Begin(job.beats(), segment.from);
+    // Who goes on from here may begin a frame later.
+    if (audio_) audio_->Forget(segment.from - model_.history_frames);
   }
   const int64_t emitted = next_frame_++;
   MoveOn(frame.pose, &history_);
-  stage_ = run.stage();
+  stage_ = job.StageBefore(next_frame_);
   meter_.Add(frame);
   OutputFrames frames = output_.Push(frame);
   if (!frames.poses.empty()) {
@@ -213,8 +315,8 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
     });
   }
   for (const MusicBeat& beat : beats_.Of(emitted)) Post(beat);
-  if (run.arrival()) {
-    const Key& key = *job.segment().key;
+  if (next_frame_ == segment.to && run.arrival()) {
+    const Key& key = *segment.key;
     meter_.AddKey(key.id, *run.arrival());
     Post(KeyReached{key.id, key.frame, Seconds(key.frame), *run.arrival()});
   }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -18,18 +19,18 @@
 #include "model/dance/quality_report.h"
 #include "model/dance/timeline.h"
 #include "model/dance/transition.h"
-#include "model/engine/scheduler.h"
+#include "model/engine/sample_queue.h"
 
 namespace choreo {
 
-/// The chain of transitions behind a DanceStream: takes what the timeline has planned, runs it
-/// through the scheduler one transition after the other, and tells the sink. Thread-safe. Lock
-/// order: the chain's before the scheduler's and the audio feed's; the sink is called under none.
-/// Kept alive by its running job.
+/// The chain of transitions behind a DanceStream: has what the timeline plans sampled one transition
+/// after the other, each as soon as it is known where it begins, and hands frames out as they are
+/// granted, as their music comes and as the sink takes them. Thread-safe. Lock order: the chain's
+/// before the queue's and the audio feed's; the sink is called under none. Kept alive by its jobs.
 class DanceChain : public std::enable_shared_from_this<DanceChain> {
  public:
   /// The config must be valid.
-  DanceChain(Scheduler& scheduler, const DanceConfig& config, std::shared_ptr<DanceSink> sink);
+  DanceChain(SampleQueue& queue, const DanceConfig& config, std::shared_ptr<DanceSink> sink);
 
   /// What there is to say before the first message.
   void Begin();
@@ -61,21 +62,27 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
  private:
   class Job;
 
-  // Called without mutex_: acts with it held, and tells the sink what came of it.
+  // Called without mutex_: acts with it held, then goes on with the dance.
   void Act(const std::function<void()>& act) noexcept;
+  // Hands out what may go out, and tells the sink: `most` frames and ends of transitions at most.
+  // One thread at a time does; what others come for it hands out, too. True where there may be more.
+  bool HandOut(int most);
 
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }
 
   // Those below are called with mutex_ held.
-  // Wakes the running job, or starts the next one, or ends the dance.
-  void Advance(bool inherits);
-  void Start(const Segment& segment);
-  bool CurrentIsDanced();
+  // A frame, or the end of a transition or of the dance; false where nothing may go out now.
+  bool HandOutNext();
+  void AskNext();
+  void Ask(const Segment& segment, int64_t rows_end);
+  bool IsOver(const Segment& segment) const;
+  void Fail(Job& job, const Error& failure);
+  void DropJobs();
   void PostContinuation();
   void Summarise();
   void Emit(const Job& job, const DanceFrame& frame);
 
-  Scheduler& scheduler_;
+  SampleQueue& queue_;
   const ModelInfo& model_;
   const DanceConfig config_;
   const int64_t first_frame_;
@@ -88,12 +95,15 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   double start_time_;         // of the playback: frames are due by it
   Timeline timeline_;
   ControlTrack controls_;
-  // The last tau poses; empty until the first transition of a dance that is given none.
+  // Of the timeline's transitions the first ones: the one that is handed out, and one ahead of it.
+  // All but the last are sampled.
+  std::deque<std::shared_ptr<Job>> jobs_;
+  std::optional<Error> failure_;  // for which no transition can be asked for behind them
+  // The last tau poses handed out; empty until the first frame of a dance that is given none.
   std::vector<Pose> history_;
   std::optional<Eigen::Vector3d> stage_;  // where the dance keeps to, from the first transition on
-  int64_t next_frame_;                    // to be emitted
-  Job* job_ = nullptr;  // of the timeline's current transition: submitted and not done; the
-                        // scheduler keeps it alive
+  int64_t next_frame_;                    // to be handed out
+  bool handing_out_ = false, look_again_ = false;
   QualityMeter meter_;
   OutputRate output_;
   MusicBeats beats_;

@@ -27,11 +27,11 @@ void DanceStream::FinishAudio() {
   chain_->Change([](Timeline&) {});
 }
 
-DanceStream::DanceStream(Scheduler& scheduler, const DanceConfig& config,
+DanceStream::DanceStream(SampleQueue& queue, const DanceConfig& config,
                          std::shared_ptr<DanceSink> sink)
-    : model_(scheduler.model()) {
+    : model_(queue.model()) {
   config.Validate(model_);
-  chain_ = std::make_shared<DanceChain>(scheduler, config, std::move(sink));
+  chain_ = std::make_shared<DanceChain>(queue, config, std::move(sink));
   chain_->Begin();
 }
 
@@ -117,6 +117,7 @@ void DanceStream::Cancel() noexcept { chain_->Cancel(); }
 int DanceStream::LatencyFrames(const DanceStart& config, const ModelInfo& model) {
   double seconds = 0;
   if (config.audio) {
+    if (model.hears_music) seconds += kUsualFrames / model.fps;
     const FeatureStream stream(config.audio->sample_rate, config.audio->channels);
     seconds += static_cast<double>(stream.latency_samples()) / kModelSampleRate;
   }

@@ -12,7 +12,7 @@
 #include "model/dance/dance_config.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/timeline.h"
-#include "model/engine/scheduler.h"
+#include "model/engine/sample_queue.h"
 
 namespace choreo {
 
@@ -26,11 +26,11 @@ class DanceChain;
 /// starts at ResumeSample, and frames behind that continuation come again.
 ///
 /// A message that throws leaves the stream as it was; after the last callback it is ignored.
-/// Thread-safe. Destruction cancels. The scheduler must outlive the last callback.
+/// Thread-safe. Destruction cancels. The queue must outlive the last callback and all jobs.
 class DanceStream {
  public:
   /// Throws as DanceConfig::Validate does.
-  DanceStream(Scheduler& scheduler, const DanceConfig& config, std::shared_ptr<DanceSink> sink);
+  DanceStream(SampleQueue& queue, const DanceConfig& config, std::shared_ptr<DanceSink> sink);
   ~DanceStream();
   DanceStream(const DanceStream&) = delete;
   DanceStream& operator=(const DanceStream&) = delete;
@@ -70,15 +70,16 @@ class DanceStream {
   /// A client's half-close: EndOfAudio and KeysComplete, as far as they have not come.
   void HalfClose();
 
-  /// Back-pressure: while paused no frame is made (one step that is under way may still deliver).
+  /// Back-pressure: while paused no frame is handed out (one that is under way may still come).
   /// Never changes the dance.
   void SetPaused(bool paused);
 
-  /// Frees the slot; the sink gets OnError(kCancelled) unless it has had its last call. Idempotent.
+  /// The sink gets OnError(kCancelled) unless it has had its last call. Idempotent.
   void Cancel() noexcept;
 
-  /// By how many frames of output the dance lags behind the music: the audio window and the
-  /// resampling.
+  /// By how many frames of output the dance lags behind the music: the audio window, the
+  /// resampling, and, of a model that hears music, the usual transition, of which it hears all
+  /// before it dances (one that leads to a key is as long as its way).
   static int LatencyFrames(const DanceStart& config, const ModelInfo& model);
 
  private:

@@ -31,6 +31,12 @@ double StepAt(std::span<const double> seconds, size_t i) {
   return step > kPauseSeconds ? 0 : step;
 }
 
+std::vector<double> SecondsOf(std::span<const MusicBeat> beats) {
+  std::vector<double> seconds;
+  for (const MusicBeat& beat : beats) seconds.push_back(beat.seconds);
+  return seconds;
+}
+
 }  // namespace
 
 MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
@@ -77,14 +83,21 @@ int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const st
   return ahead - seconds.begin();
 }
 
-std::vector<double> MusicBeats::Around(int64_t from, int64_t to) {
+std::vector<MusicBeat> MusicBeats::For(int64_t from, int64_t to) {
   for (; !given_.empty() && given_.front().from <= from; given_.pop_front())
     Replace(given_.front().begin, given_.front().seconds, MusicBeat::Source::kGiven);
   std::vector<MusicBeat> beats = known_;
   if (hears_) Predict(from, to, &beats);
-  std::vector<double> seconds;
-  for (const MusicBeat& beat : beats) seconds.push_back(beat.seconds);
+  return beats;
+}
 
+std::vector<double> MusicBeats::Around(std::span<const MusicBeat> beats, int64_t from,
+                                       int64_t to) const {
+  return BeatsAround(SecondsOf(beats), fps_, from, static_cast<int>(to - from));
+}
+
+void MusicBeats::Begin(std::span<const MusicBeat> beats, int64_t from) {
+  const std::vector<double> seconds = SecondsOf(beats);
   ahead_.clear();
   std::optional<double> last = last_;
   const auto behind =
@@ -95,7 +108,6 @@ std::vector<double> MusicBeats::Around(int64_t from, int64_t to) {
     ahead_.push_back(beats[i]);
     last = seconds[i];
   }
-  return BeatsAround(seconds, fps_, from, static_cast<int>(to - from));
 }
 
 void MusicBeats::Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const {

@@ -49,9 +49,14 @@ class MusicBeats {
   /// kMostBeats.
   int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field);
 
-  /// A transition of the frames [from, to) begins: its beats as TransitionRequest::beats. In order
-  /// of time. Rows before `from` must be ready.
-  std::vector<double> Around(int64_t from, int64_t to);
+  /// All that is known for a transition of the frames [from, to), ascending; transitions are asked
+  /// for in order of time, each once. Rows before `from` must be ready.
+  std::vector<MusicBeat> For(int64_t from, int64_t to);
+  /// Of those the ones that the transition is timed to, as TransitionRequest::beats.
+  std::vector<double> Around(std::span<const MusicBeat> beats, int64_t from, int64_t to) const;
+
+  /// The frames of the transition that has these beats come next, from `from` on.
+  void Begin(std::span<const MusicBeat> beats, int64_t from);
 
   /// What is told with a frame of that transition whose row is ready; each frame is asked for once,
   /// in order. Every beat is told once, also where two transitions put it on either side of their

@@ -217,10 +217,10 @@ void Timeline::Grant(int64_t frame) {
   PlanTo(frontier_);
 }
 
-const Segment* Timeline::Current() {
+const Segment* Timeline::Planned(size_t ahead) {
   // When all is granted nothing can change any more, so when to plan no longer matters.
-  if (planned_.empty() && complete_) PlanTo(planned_to_ + 1);
-  return planned_.empty() ? nullptr : &planned_.front();
+  if (planned_.size() == ahead && complete_) PlanTo(planned_to_ + 1);
+  return planned_.size() <= ahead ? nullptr : &planned_[ahead];
 }
 
 void Timeline::Finish() { planned_.pop_front(); }

@@ -113,9 +113,10 @@ class Timeline {
   /// The music ends before `frame`.
   void SetAudioEnd(int64_t frame);
 
-  /// The transition to be danced now; null while none may start. Its `stop` may change until it is
-  /// done. After Complete with music that has not ended it never runs dry.
-  const Segment* Current();
+  /// The transition to be danced now (0), and those behind it; null while none may start. The
+  /// `stop` of the last one may change until it is done; others are frozen. After Complete with
+  /// music that has not ended they never run dry.
+  const Segment* Planned(size_t ahead = 0);
   /// The current transition is danced up to its stop.
   void Finish();
 

@@ -105,95 +105,122 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   for (auto place : spec_.controls.root_path.colwise())
     place = ground_.ToLocal(Eigen::Vector3d(place)).unaryExpr(&ToFloat);
   footwork_ = request.footwork;
-  if (footwork_ && FootLock::Fits(model.skeleton, model.fps, request.frames)) {
-    foot_lock_.emplace(model.skeleton, model.fps, request.frames, spec_.history, spec_.target);
-  }
   if (!request.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;
   if (request.after) after = ground_.ToLocal(*request.after);
-  arrival_.emplace(request.arrival_frames, request.frames, *spec_.target, spec_.history, after);
+  spec_.arrival.emplace(request.arrival_frames, request.frames, *spec_.target, spec_.history,
+                        after);
+  arrival_window_ = spec_.arrival->window();
 }
 
-void TransitionRun::CheckFinite(const Pose& pose, std::span<const float> contacts,
+bool TransitionRun::Continue(Sampler& sampler) {
+  if (!sampling_) {
+    sampling_ = sampler.Begin(spec_);
+    return true;
+  }
+  if (plan_.empty()) {
+    if (!sampling_->Continue()) Steer();
+    return true;
+  }
+  PutOnFeet();
+  if (frames_.size() < plan_.size()) return true;
+  TellArrival();
+  return false;
+}
+
+void TransitionRun::Steer() {
+  drawn_ = sampling_->TakePlan();
+  plan_.reserve(drawn_.poses.size());
+  frames_.reserve(drawn_.poses.size());
+  std::optional<Arrival> arrival = spec_.arrival;
+  for (size_t at = 0; at < drawn_.poses.size(); ++at) {
+    const Pose& drawn = drawn_.poses[at];
+    CheckFinite(at, drawn, drawn_.contacts[at], "as the model makes it");
+    if (!drawn_.log_likelihoods.empty() && !std::isfinite(drawn_.log_likelihoods[at])) {
+      throw Error(ErrorCode::kInternal, "",
+                  "the likelihood of frame " +
+                      std::to_string(spec_.first_frame + static_cast<int64_t>(at)) +
+                      " is not finite");
+    }
+    plan_.push_back(arrival ? arrival->Apply(drawn) : drawn);
+    if (drawn_.poses.size() - at <= static_cast<size_t>(arrival_window_)) {
+      correction_m_ = std::max(
+          correction_m_,
+          ComparePoses(model_->skeleton, drawn, plan_.back(), spec_.target->mask).position_m);
+    }
+  }
+}
+
+void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const float> contacts,
                                 const std::string& whose) const {
   bool finite = pose.root_position.allFinite() && pose.rotations.allFinite();
   for (float contact : contacts) finite = finite && std::isfinite(contact);
   if (finite && pose.rotations.cols() == model_->skeleton.joints()) return;
   throw Error(ErrorCode::kInternal, "",
-              "frame " + std::to_string(spec_.first_frame + done_) + ", " + whose +
-                  ", is not a finite pose");
+              "frame " + std::to_string(spec_.first_frame + static_cast<int64_t>(frame)) + ", " +
+                  whose + ", is not a finite pose");
 }
 
-// Of a plan the frames that come next. A long one is put on its feet piece by piece, so that nobody
-// waits for all of it.
+// The frames that come next. A long plan is put on its feet piece by piece, so that nobody waits for
+// all of it.
 void TransitionRun::PutOnFeet() {
-  const auto from = plan_.begin() + done_;
+  const auto from = plan_.begin() + std::ssize(frames_);
   const bool ends = std::distance(from, plan_.end()) <= kFootworkFrames;
   const auto to = ends ? plan_.end() : from + kFootworkFrames;
-  std::vector<Pose> history = spec_.history;
-  history.insert(history.end(), plan_.begin(), from);
-  const FootworkContext context{.skeleton = model_->skeleton,
-                                .history = std::span(history).last(spec_.history.size()),
-                                .keyed = ends && arrival_,
-                                .has_path = spec_.controls.root_path.cols() > 0,
-                                .offset_before = standing_.offset,
-                                .fps = model_->fps,
-                                .options = model_->footwork};
-  std::vector<Pose> piece(from, to);
-  Footwork footwork = StandOnFeet(context, &piece);
-  std::ranges::copy(piece, from);
-  standing_.contacts.insert(standing_.contacts.end(), footwork.contacts.begin(),
-                            footwork.contacts.end());
-  standing_.offset = footwork.offset;
+  std::vector<Contacts> contacts;
+  if (footwork_) {
+    std::vector<Pose> history = spec_.history;
+    history.insert(history.end(), plan_.begin(), from);
+    const FootworkContext context{.skeleton = model_->skeleton,
+                                  .history = std::span(history).last(spec_.history.size()),
+                                  .keyed = ends && spec_.arrival,
+                                  .has_path = spec_.controls.root_path.cols() > 0,
+                                  .offset_before = offset_,
+                                  .fps = model_->fps,
+                                  .options = model_->footwork};
+    std::vector<Pose> piece(from, to);
+    Footwork footwork = StandOnFeet(context, &piece);
+    std::ranges::copy(piece, from);
+    contacts = std::move(footwork.contacts);
+    offset_ = footwork.offset;
+  }
+  const auto first = frames_.size();
+  const auto last = static_cast<size_t>(to - plan_.begin());
+  if (!contacts.empty())
+    std::ranges::copy(contacts, drawn_.contacts.begin() + static_cast<std::ptrdiff_t>(first));
+  for (size_t at = first; at < last; ++at) frames_.push_back(Finish(at));
 }
 
-DanceFrame TransitionRun::Take(const StepOutput& raw) {
-  CheckFinite(raw.pose, raw.contacts, "as the model makes it");
-  if (raw.log_likelihood && !std::isfinite(*raw.log_likelihood)) {
-    throw Error(
-        ErrorCode::kInternal, "",
-        "the likelihood of frame " + std::to_string(spec_.first_frame + done_) + " is not finite");
-  }
-  const PoseMask mask = spec_.target ? spec_.target->mask : PoseMask{};
-  if (done_ == 0 && footwork_ && !raw.plan.empty()) {
-    // Of a plan all frames are known: arrival steers them ahead of time, as it will one by one.
-    plan_.assign(raw.plan.begin(), raw.plan.end());
-    if (std::optional<Arrival> arrival = arrival_) {
-      for (Pose& pose : plan_) pose = arrival->Apply(pose);
-    }
-  }
-  const auto at = static_cast<size_t>(done_);
-  if (at < plan_.size() && at == standing_.contacts.size()) PutOnFeet();
-  steered_ = arrival_ ? arrival_->Apply(raw.pose) : raw.pose;
-  if (arrival_ && spec_.frames - done_ <= arrival_->window()) {
-    correction_m_ = std::max(correction_m_,
-                             ComparePoses(model_->skeleton, raw.pose, steered_, mask).position_m);
-  }
-  Pose emitted = steered_;
-  Contacts contacts = raw.contacts;
-  if (at < standing_.contacts.size()) {
-    emitted = plan_[at];
-    contacts = standing_.contacts[at];
-  } else if (foot_lock_) {
-    emitted = foot_lock_->Apply(steered_);
-    contacts = foot_lock_->contacts();
-  }
-  world_ = RoundToFloat(KeepSigns(ground_.ToWorld(emitted), world_));
-  CheckFinite(world_, contacts, "as arrival and footwork leave it");
-  ++done_;
-  if (done_ == spec_.frames && spec_.target) {
-    const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
-    arrival_result_ =
-        ArrivalResult{ComparePoses(model_->skeleton, raw.pose, spec_.target->pose, mask).position_m,
-                      final.position_m, final.angle_deg, correction_m_};
-  }
-  if (spec_.controls.root_path.cols() > 0 || (arrival_result_ && mask.root_position))
-    stage_ = world_.root_position;
-  DanceFrame frame{world_, contacts, raw.log_likelihood};
+DanceFrame TransitionRun::Finish(size_t at) {
+  const Contacts& contacts = drawn_.contacts[at];
+  world_ = RoundToFloat(KeepSigns(ground_.ToWorld(plan_[at]), world_));
+  CheckFinite(at, world_, contacts, "as arrival and footwork leave it");
+  DanceFrame frame{world_, contacts};
+  if (!drawn_.log_likelihoods.empty()) frame.log_likelihood = drawn_.log_likelihoods[at];
   const auto& factors = spec_.controls.velocity_factors;
-  if (factors.cols() > 0)
-    std::ranges::copy(factors.col(done_ - 1), frame.asked_speeds.emplace().begin());
+  if (factors.cols() > 0) {
+    std::ranges::copy(factors.col(static_cast<Eigen::Index>(at)),
+                      frame.asked_speeds.emplace().begin());
+  }
   return frame;
+}
+
+void TransitionRun::TellArrival() {
+  if (!spec_.target) return;
+  const PoseMask& mask = spec_.target->mask;
+  const PoseError raw =
+      ComparePoses(model_->skeleton, drawn_.poses.back(), spec_.target->pose, mask);
+  const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
+  arrival_result_ =
+      ArrivalResult{raw.position_m, final.position_m, final.angle_deg, correction_m_};
+}
+
+Eigen::Vector3d TransitionRun::StageAfter(size_t frames) const {
+  if (frames == 0) return stage_;
+  const bool is_there =
+      frames == frames_.size() && spec_.target && spec_.target->mask.root_position;
+  const bool has_path = spec_.controls.root_path.cols() > 0;
+  return is_there || has_path ? frames_[frames - 1].pose.root_position : stage_;
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {
@@ -216,6 +243,15 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
     }
   }
   return speed;
+}
+
+TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request,
+                              const std::function<void(int)>& danced) {
+  TransitionRun run(sampler.model(), request);
+  while (run.Continue(sampler)) {
+  }
+  if (danced) danced(request.frames);
+  return run;
 }
 
 }  // namespace choreo

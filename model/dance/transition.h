@@ -2,16 +2,17 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "model/dance/arrival.h"
-#include "model/dance/foot_lock.h"
-#include "model/engine/step_engine.h"
+#include "model/engine/sampler.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
+#include "model/plan/arrival.h"
 #include "model/plan/footwork.h"
 
 namespace choreo {
@@ -71,9 +72,9 @@ struct RequiredSpeed {
   bool TooFast() const { return root_m_per_s > kRootLimit || joint_rad_per_s > kJointLimit; }
 };
 
-/// One transition in progress: makes what the engine needs and turns what it gives into the dance.
-/// A pure function of the request, the audio rows and the model; the same code serves streams,
-/// single transitions, training and evaluation. Not thread-safe.
+/// One transition on its way to the dance: sampled, steered onto its key, put on its feet, slice by
+/// slice. A pure function of the request and the model; the same code serves streams, single
+/// transitions, training and evaluation. Not thread-safe.
 class TransitionRun {
  public:
   /// Throws Error(kInvalidArgument) for a request of the wrong shape ("frames",
@@ -81,48 +82,51 @@ class TransitionRun {
   TransitionRun(const ModelInfo& model, const TransitionRequest& request);
 
   const TransitionSpec& spec() const { return spec_; }
-  int frames() const { return spec_.frames; }
-  /// How many frames have been taken.
-  int done() const { return done_; }
-  /// StepInput::previous: the last frame as arrival steered it, in the canonical frame, before the
-  /// foot lock. (A model that saw locked legs leave its plan would answer with the whole body.)
-  /// Null before the first frame.
-  const Pose* previous() const { return done_ == 0 ? nullptr : &steered_; }
 
-  /// The model's next frame → the dance's. Throws Error(kInternal) for a value that is not finite,
-  /// be it the model's or made of its frame here.
-  DanceFrame Take(const StepOutput& raw);
+  /// Makes the next slice with this sampler, the same one each time. True while more are left.
+  /// Throws Error(kInternal) for a value that is not finite, be it the model's or made of its frame
+  /// here, and Error(kInvalidArgument) as Sampler::Begin does.
+  bool Continue(Sampler& sampler);
 
+  /// All of them, once Continue has returned false.
+  const std::vector<DanceFrame>& frames() const { return frames_; }
   /// After the last frame of a transition with a target.
   const std::optional<ArrivalResult>& arrival() const { return arrival_result_; }
-  /// TransitionRequest::stage of who goes on from the newest frame: a path, and a key that says
-  /// where the root is, move it there.
-  const Eigen::Vector3d& stage() const { return stage_; }
+  /// TransitionRequest::stage of who goes on behind so many of the frames: a path, and a key that
+  /// says where the root is, move it there.
+  Eigen::Vector3d StageAfter(size_t frames) const;
   /// None without a target.
   std::optional<RequiredSpeed> required_speed() const;
 
  private:
+  void Steer();
   void PutOnFeet();
-  void CheckFinite(const Pose& pose, std::span<const float> contacts,
+  DanceFrame Finish(size_t at);
+  void TellArrival();
+  void CheckFinite(size_t frame, const Pose& pose, std::span<const float> contacts,
                    const std::string& whose) const;
 
   const ModelInfo* model_;
   TransitionSpec spec_;
   std::optional<Target> world_target_;
   GroundFrame ground_;
-  std::optional<Arrival> arrival_;
+  int arrival_window_ = 0;  // 0: nothing is steered
   bool footwork_;
-  std::vector<Pose> plan_;  // canonical, steered by arrival; its first frames stand on their feet
-  Footwork standing_;       // of those, all contacts
-  // Where the model makes frame after frame and nobody knows its plan.
-  std::optional<FootLock> foot_lock_;
+  Eigen::Vector3d stage_;  // of the request, world
+  Pose world_;             // the newest frame, whose signs are kept
+
+  std::unique_ptr<Sampling> sampling_;
+  Plan drawn_;               // once it is sampled
+  std::vector<Pose> plan_;   // canonical, steered; those of frames_ stand on their feet
+  Eigen::Matrix<double, 3, 2> offset_ = Eigen::Matrix<double, 3, 2>::Zero();  // Footwork::offset
+  std::vector<DanceFrame> frames_;
   std::optional<ArrivalResult> arrival_result_;
   double correction_m_ = 0;
-  Eigen::Vector3d stage_;  // world
-  Pose steered_;           // canonical
-  Pose world_;             // last emitted, whose signs are kept
-  int done_ = 0;
 };
+
+/// All slices at once; `danced` is told how many frames were made. Throws as TransitionRun does.
+TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request,
+                              const std::function<void(int)>& danced = {});
 
 /// The history that a transition has when it is given `poses`: exactly tau poses, each number a
 /// float's.

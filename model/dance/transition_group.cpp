@@ -10,7 +10,7 @@
 #include "model/core/error.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
-#include "model/dance/scheduled_transition.h"
+#include "model/dance/asked_transition.h"
 
 namespace choreo {
 
@@ -30,7 +30,7 @@ void RankCandidates(std::vector<CandidateReport>& candidates) {
 
 class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGroup::Impl> {
  public:
-  Impl(Scheduler& scheduler, GroupRequest request, std::shared_ptr<GroupSink> sink);
+  Impl(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink);
 
   void Begin();
   void SetPaused(bool paused);
@@ -44,9 +44,9 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   }
 
   void Done(CandidateReport report);
-  void WakeAll();
+  std::vector<std::shared_ptr<Job>> TakeJobs();
 
-  Scheduler& scheduler_;
+  SampleQueue& queue_;
   const ModelInfo& model_;
   const int64_t first_frame_;
   GroupRequest request_;  // without its samples, once they are heard
@@ -55,80 +55,109 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   Mailbox<GroupSink> mailbox_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
-  std::vector<const Job*> jobs_;  // constant once they are submitted; the scheduler owns them
+  SampleQueue::Reservation room_;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;                        // of what follows
+  std::vector<std::shared_ptr<Job>> jobs_;  // until all are done, or cancelled
   std::vector<CandidateReport> reports_;
 };
 
-class TransitionGroup::Impl::Job : public ScheduledTransition {
+class TransitionGroup::Impl::Job : public SampleJob {
  public:
-  // All candidates ask for the same: what is wrong with it, or worth a warning, the first one says.
-  Job(std::shared_ptr<Impl> group, const AskedTransition& asked)
-      : ScheduledTransition(group->model_, asked, group->audio_.get(), PlaybackClock(),
-                            asked.request.candidate == 0 ? Begins::kAtOnce : Begins::kLate),
-        group_(std::move(group)),
-        candidate_(static_cast<int>(asked.request.candidate)),
-        history_(asked.request.history),
+  /// `run`: of the first candidate, which has looked at what all ask for; the others begin theirs
+  /// when it is their turn: they are many, and may be cancelled before.
+  Job(std::shared_ptr<Impl> group, const TransitionRequest& request,
+      std::optional<TransitionRun> run)
+      : group_(std::move(group)),
+        request_(request),
+        run_(std::move(run)),
+        history_(request.history),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
                 history_.back()) {}
 
-  bool Ready() const override { return !group_->paused_; }
-
-  bool OnFrame(const StepOutput& raw) override {
-    const std::optional<DanceFrame> frame = TakeNew(raw);
-    if (!frame) return true;
-    meter_.Add(*frame);
-    MoveOn(frame->pose, &history_);
-    if (run().arrival()) meter_.AddKey(group_->request_.target_id, *run().arrival());
-    OutputFrames frames = output_.Push(*frame);
-    if (!frames.poses.empty()) {
-      group_->mailbox_.Post([candidate = candidate_, frames = std::move(frames)](GroupSink& sink) {
-        sink.OnFrames(candidate, frames.first_frame, frames.poses, frames.contacts);
-      });
-      group_->mailbox_.Deliver();
-    }
-    return run().done() < run().frames();
+  bool Continue(Sampler& sampler) override {
+    if (is_sampled_) return HandOut();
+    if (!run_) run_.emplace(group_->model_, request_);
+    is_sampled_ = !run_->Continue(sampler);
+    return true;
   }
 
   void OnDone(const Error* failure) noexcept override {
+    if (failure == nullptr) return;
     try {
-      if (failure == nullptr) {
-        group_->Done({candidate_, meter_.Report(group_->request_.music_beats), GoesOn()});
-      } else {
-        group_->mailbox_.PostError(*failure);
-        group_->Cancel();  // one candidate short the ranking means nothing
-      }
+      group_->mailbox_.PostError(*failure);
       group_->mailbox_.Deliver();
     } catch (...) {
       group_->mailbox_.GiveUp();
-      group_->Cancel();
     }
+    group_->Cancel();  // one candidate short the ranking means nothing
   }
 
+  double Deadline() const override { return deadline_; }
+  int frames() const override { return request_.frames; }
   bool Cancelled() const override { return group_->cancelled_; }
 
+  /// The next frames, once it is sampled, unless the group is paused. True while there are more.
+  bool HandOut() {
+    for (int count = 0; count < kFramesASlice; ++count) {
+      bool any = false;
+      {
+        std::lock_guard lock(mutex_);
+        any = HandOutNext();
+      }
+      group_->mailbox_.Deliver();  // the sink may pause the group
+      if (!any) return false;
+    }
+    return true;
+  }
+
  private:
+  bool HandOutNext() {
+    if (!is_sampled_ || group_->paused_ || group_->cancelled_ || handed_out_ == frames())
+      return false;
+    const DanceFrame& frame = run_->frames()[static_cast<size_t>(handed_out_++)];
+    meter_.Add(frame);
+    MoveOn(frame.pose, &history_);
+    const bool is_last = handed_out_ == frames();
+    if (is_last && run_->arrival()) meter_.AddKey(group_->request_.target_id, *run_->arrival());
+    OutputFrames output = output_.Push(frame);
+    if (!output.poses.empty()) {
+      group_->mailbox_.Post([candidate = Number(), output = std::move(output)](GroupSink& sink) {
+        sink.OnFrames(candidate, output.first_frame, output.poses, output.contacts);
+      });
+    }
+    if (is_last) group_->Done({Number(), meter_.Report(group_->request_.music_beats), GoesOn()});
+    return true;
+  }
+
+  int Number() const { return static_cast<int>(request_.candidate); }
+
   Continuation GoesOn() const {
-    Continuation end{NextFrame(), history_, group_->model_.fingerprint};
-    end.stage = run().stage();
+    Continuation end{request_.first_frame + frames(), history_, group_->model_.fingerprint};
+    end.stage = run_->StageAfter(run_->frames().size());
     if (const auto& audio = group_->request_.audio)
       end.audio_from_sample = LatestFirstSample(end.frame, audio->sample_rate, group_->model_);
     return end;
   }
 
   const std::shared_ptr<Impl> group_;
-  const int candidate_;
+  const TransitionRequest request_;
+  const double deadline_ = PlaybackClock();
+  std::optional<TransitionRun> run_;       // of the worker's thread until it is sampled
+  std::atomic<bool> is_sampled_ = false;
+
+  std::mutex mutex_;  // of what follows
+  int handed_out_ = 0;
   std::vector<Pose> history_;
   QualityMeter meter_;
   OutputRate output_;
 };
 
-TransitionGroup::Impl::Impl(Scheduler& scheduler, GroupRequest request,
+TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
                             std::shared_ptr<GroupSink> sink)
-    : scheduler_(scheduler),
-      model_(scheduler.model()),
+    : queue_(queue),
+      model_(queue.model()),
       first_frame_(request.FirstFrame()),
       request_(std::move(request)),
       controls_(model_),
@@ -160,7 +189,7 @@ void TransitionGroup::Impl::Begin() {
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask};
   AskedTransition asked =
-      AskTransition(request_, model_, controls_, audio_.get(), segment, request_.Before());
+      AskTransition(request_, model_, controls_, audio_.get(), segment, end, request_.Before());
   TransitionRequest& transition = asked.request;
   transition.after = request_.after;
   transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);
@@ -170,50 +199,77 @@ void TransitionGroup::Impl::Begin() {
   if (path && path->frames.back() < first_frame_)
     asked.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
 
+  room_ = queue_.ReserveBulk(request_.candidates);
+  // All candidates ask for the same: what is wrong with it, or worth a warning, the first one says.
+  std::optional<TransitionRun> run(std::in_place, model_, transition);
+  WarnOfSpeed(model_, *run, &asked);
+  for (const DanceWarning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
+  for (const DanceWarning& warning : asked.warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
     transition.candidate = static_cast<uint32_t>(candidate);
-    jobs.push_back(std::make_shared<Job>(shared_from_this(), asked));
+    jobs.push_back(std::make_shared<Job>(shared_from_this(), transition, std::exchange(run, {})));
   }
-  for (const DanceWarning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
-  for (const DanceWarning& warning : jobs.front()->warnings()) Warn(warning);
-  for (const auto& job : jobs) jobs_.push_back(job.get());
+  {
+    std::lock_guard lock(mutex_);
+    jobs_ = jobs;
+  }
   try {
-    scheduler_.SubmitGroup({jobs.begin(), jobs.end()});
+    for (auto& job : jobs) queue_.SubmitBulk(std::move(job));
   } catch (...) {
-    cancelled_ = true;
     mailbox_.PostLast([](GroupSink&) {});  // the caller hears of it; the sink stays silent
+    Cancel();
     throw;
   }
   mailbox_.Deliver();
 }
 
-void TransitionGroup::Impl::WakeAll() {
-  for (const Job* job : jobs_) scheduler_.Wake(job);
+std::vector<std::shared_ptr<TransitionGroup::Impl::Job>> TransitionGroup::Impl::TakeJobs() {
+  std::lock_guard lock(mutex_);
+  return std::exchange(jobs_, {});
 }
 
 void TransitionGroup::Impl::SetPaused(bool paused) {
   paused_ = paused;
-  if (!paused) WakeAll();
+  if (paused) return;
+  std::vector<std::shared_ptr<Job>> jobs;
+  {
+    std::lock_guard lock(mutex_);
+    jobs = jobs_;
+  }
+  for (const auto& job : jobs) {
+    while (job->HandOut()) {
+    }
+  }
 }
 
 void TransitionGroup::Impl::Cancel() noexcept {
-  if (!cancelled_.exchange(true)) WakeAll();  // each job that ends so cancels the group again
+  if (cancelled_.exchange(true)) return;
+  queue_.LookForCancelled();
+  try {
+    mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled"));
+    mailbox_.Deliver();
+  } catch (...) {
+    mailbox_.GiveUp();
+  }
+  TakeJobs();
 }
 
 void TransitionGroup::Impl::Done(CandidateReport report) {
+  std::vector<std::shared_ptr<Job>> done;  // after the lock
   std::lock_guard lock(mutex_);
   reports_.push_back(std::move(report));
-  if (reports_.size() < jobs_.size()) return;
+  if (std::ssize(reports_) < request_.candidates) return;
+  done.swap(jobs_);
   RankCandidates(reports_);
   if (const auto warning = controls_.SpeedsMissed(reports_.front().quality)) Warn(*warning);
   mailbox_.PostLast([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
 }
 
-TransitionGroup::TransitionGroup(Scheduler& scheduler, GroupRequest request,
+TransitionGroup::TransitionGroup(SampleQueue& queue, GroupRequest request,
                                  std::shared_ptr<GroupSink> sink) {
-  request.Validate(scheduler.model());
-  impl_ = std::make_shared<Impl>(scheduler, std::move(request), std::move(sink));
+  request.Validate(queue.model());
+  impl_ = std::make_shared<Impl>(queue, std::move(request), std::move(sink));
   impl_->Begin();
 }
 

@@ -8,7 +8,7 @@
 #include "model/dance/dance_config.h"
 #include "model/dance/quality_report.h"
 #include "model/dance/warning.h"
-#include "model/engine/scheduler.h"
+#include "model/engine/sample_queue.h"
 
 namespace choreo {
 
@@ -39,14 +39,14 @@ class GroupSink {
 /// frozen motion), then the candidate's number. Without a target nothing is steered.
 void RankCandidates(std::vector<CandidateReport>& candidates);
 
-/// GenerateTransition: runs the candidates of one transition through the scheduler, which steps
-/// them together as slots allow. Candidate 0 is what DanceStream dances for the same interval.
-/// Destruction cancels. Thread-safe. The scheduler must outlive it.
+/// GenerateTransition: has the candidates of one transition sampled, as bulk, and hands their frames
+/// out as the sink takes them. Candidate 0 is what DanceStream dances for the same interval.
+/// Destruction cancels. Thread-safe. The queue must outlive it.
 class TransitionGroup {
  public:
   /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if not all candidates
-  /// find room.
-  TransitionGroup(Scheduler& scheduler, GroupRequest request, std::shared_ptr<GroupSink> sink);
+  /// find room (SampleQueue::ReserveBulk); they have it until all of this is gone.
+  TransitionGroup(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink);
   ~TransitionGroup();
   TransitionGroup(const TransitionGroup&) = delete;
   TransitionGroup& operator=(const TransitionGroup&) = delete;

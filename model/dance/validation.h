@@ -6,7 +6,7 @@
 
 #include "model/core/limits.h"
 #include "model/dance/transition.h"
-#include "model/engine/step_engine.h"
+#include "model/engine/transition_spec.h"
 #include "model/motion/motion.h"
 #include "model/motion/pose_limits.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/engine/step_engine.h"
+#include "model/engine/transition_spec.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {

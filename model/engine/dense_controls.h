@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/engine/step_engine.h"
+#include "model/engine/transition_spec.h"
 
 namespace choreo {
 

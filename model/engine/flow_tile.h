@@ -39,13 +39,11 @@ struct FlowRow {
   float log_likelihood = 0;   ///< written: nats, standardised space
 };
 
-/// The flow on one device, with recurrent state and condition of as many transitions as its engine
-/// has slots. Not thread-safe.
+/// The flow on one device, with recurrent state and condition of as many transitions as it has
+/// slots. Not thread-safe.
 class FlowTile {
  public:
   virtual ~FlowTile() = default;
-  /// Rows that one Run takes at most.
-  virtual int rows() const = 0;
   /// A transition starts in `slot`, with state zero. `conditions`: [width, frames] as KeyConditions
   /// has them.
   virtual void Begin(int slot, Eigen::MatrixXf conditions) = 0;

@@ -36,7 +36,7 @@ std::string WithoutSide(const std::string& joint) {
 
 Table BandTable(const Evaluation& evaluation, const Method& method, const LivelyDances& real,
                 const LivelyDances& danced) {
-  const ModelInfo& model = method.engine->model();
+  const ModelInfo& model = method.sampler->model();
   Table table =
       evaluation.NewTable("liveliness_bands", "How fast in which band", {"joint"}, &method);
   table.note =

@@ -6,16 +6,15 @@
 
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
-#include "model/engine/engines.h"
-#include "model/evaluation/interpolation_engine.h"
+#include "model/engine/samplers.h"
+#include "model/evaluation/interpolation_sampler.h"
 #include "model/metrics/song_beats.h"
 
 namespace choreo {
 namespace {
 
-constexpr int kSlots = 16;  // a tile of the torch engine: a fuller batch is hardly dearer
 const char* const kFree = "model without keys";
-const char* const kLockedLine = "interpolation, foot lock";
+const char* const kFootworkLine = "interpolation, footwork";
 
 struct Other {
   std::string name;
@@ -23,7 +22,7 @@ struct Other {
 };
 
 std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std::string& judged) {
-  std::set<std::string> taken = {kFree, "real", "interpolation", kLockedLine};
+  std::set<std::string> taken = {kFree, "real", "interpolation", kFootworkLine};
   if (!taken.insert(judged).second)
     throw InvalidArgument("--name", "'" + judged + "': another row is called so");
   std::vector<Other> others;
@@ -39,7 +38,7 @@ std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std:
   return others;
 }
 
-// What steps a model, from the kernels at the end of its fingerprint. Of float32 the instructions
+// What computes a model, from the kernels at the end of its fingerprint. Of float32 the instructions
 // don't matter.
 std::string EngineOf(const ModelInfo& model, EngineKind kind) {
   const size_t packed = model.fingerprint.find("/packed ");
@@ -61,33 +60,33 @@ Contest MakeContest(const ContestOptions& options) {
   const std::vector<Other> others = ParseOthers(options.others, options.name);
   const EngineKind kind = ParseEngineKind(options.engine);
   Contest contest;
-  const auto add = [&](std::unique_ptr<StepEngine> engine) {
-    contest.engines.push_back(std::move(engine));
-    return contest.engines.back().get();
+  const auto add = [&](std::unique_ptr<Sampler> sampler) {
+    contest.samplers.push_back(std::move(sampler));
+    return contest.samplers.back().get();
   };
-  StepEngine* judged = add(MakeEngine(options.model, Device{}, kSlots, kind));
+  Sampler* judged = add(MakeSampler(options.model, Device{}, kind));
   const ModelInfo& model = judged->model();
   contest.stepped_by = EngineOf(model, kind);
   const std::set<std::string> wanted(options.baselines.begin(), options.baselines.end());
   if (wanted.contains("real")) contest.methods.push_back({"real", Kind::kReal});
   if (wanted.contains("interpolation")) {
     contest.methods.push_back({"interpolation", Kind::kInterpolation});
-    contest.methods.push_back({kLockedLine, Kind::kEngine,
-                               add(std::make_unique<InterpolationEngine>(model)), true, false});
+    contest.methods.push_back({kFootworkLine, Kind::kModel,
+                               add(std::make_unique<InterpolationSampler>(model)), true, false});
   }
   if (wanted.contains("music_only"))
-    contest.methods.push_back({kFree, Kind::kEngine, judged, false});
+    contest.methods.push_back({kFree, Kind::kModel, judged, false});
   for (const Other& other : others) {
-    StepEngine* engine = add(MakeEngine(other.checkpoint, Device{}, kSlots, kind));
-    if (!(engine->model().skeleton == model.skeleton)) {
+    Sampler* sampler = add(MakeSampler(other.checkpoint, Device{}, kind));
+    if (!(sampler->model().skeleton == model.skeleton)) {
       throw InvalidArgument("--other", "'" + other.checkpoint.string() +
                                            "' dances on another skeleton than the model");
     }
-    contest.methods.push_back({other.name, Kind::kEngine, engine, LearntKeys(other.checkpoint)});
-    const std::string by = EngineOf(engine->model(), kind);
+    contest.methods.push_back({other.name, Kind::kModel, sampler, LearntKeys(other.checkpoint)});
+    const std::string by = EngineOf(sampler->model(), kind);
     if (by != EngineOf(model, kind)) contest.stepped_by += "; " + by + " for " + other.name;
   }
-  contest.methods.push_back({options.name, Kind::kEngine, judged, LearntKeys(options.model)});
+  contest.methods.push_back({options.name, Kind::kModel, judged, LearntKeys(options.model)});
   return contest;
 }
 

@@ -21,15 +21,15 @@ struct ContestOptions {
 
 /// The engines of one evaluation, and the methods that use them: the judged one is last.
 struct Contest {
-  std::vector<std::unique_ptr<StepEngine>> engines;
+  std::vector<std::unique_ptr<Sampler>> samplers;
   std::vector<Method> methods;
   std::string stepped_by;  ///< "packed float32; torch for Harvey et al. 2020"
 
-  StepEngine& judged() const { return *engines.front(); }
+  Sampler& judged() const { return *samplers.front(); }
 };
 
 /// Throws Error(kInvalidArgument, "--other") for what is not NAME=CHECKPOINT, a name that another
-/// row has (--name, if it is that one's), or a model on another skeleton; otherwise as MakeEngine
+/// row has (--name, if it is that one's), or a model on another skeleton; otherwise as MakeSampler
 /// does. Names are looked at before anything is loaded.
 Contest MakeContest(const ContestOptions& options);
 

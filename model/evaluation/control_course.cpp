@@ -12,7 +12,7 @@ std::vector<Method> WaysOf(const std::vector<Method>& methods) {
   std::vector<Method> ways = {{"real", Method::Kind::kReal},
                               {"interpolation", Method::Kind::kInterpolation}};
   for (const Method& method : methods) {
-    if (method.kind != Method::Kind::kEngine) continue;
+    if (method.kind != Method::Kind::kModel) continue;
     if (method.Judged()) {
       ways.push_back(method);
       ways.back().name += ", network alone";
@@ -59,11 +59,11 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
   }
 }
 
-TransitionInput ControlCourse::InputFor(size_t window) const {
-  TransitionInput input = InputOf(model_, evaluation_.set, windows_[window], frames_,
-                                  evaluation_.options.temperature, window);
-  input.request.target->pose = windows_[window].key;
-  return input;
+TransitionRequest ControlCourse::RequestFor(size_t window) const {
+  TransitionRequest request = RequestOf(model_, evaluation_.set, windows_[window], frames_,
+                                        evaluation_.options.temperature, window);
+  request.target->pose = windows_[window].key;
+  return request;
 }
 
 void ControlCourse::Redraw(const Draw& draw) {
@@ -72,7 +72,7 @@ void ControlCourse::Redraw(const Draw& draw) {
     asked.root_path = draw(&windows_[i]);
     ControlTrack track(model_);
     track.Set(asked, 0, "path");
-    TransitionRequest request = InputFor(i).request;
+    TransitionRequest request = RequestFor(i);
     std::vector<DanceWarning> warnings;
     track.Ask("key", &request, &warnings);
     windows_[i].path = request.controls.root_path;
@@ -90,7 +90,7 @@ void ControlCourse::AskConstant(const std::array<float, kBodyParts>& speeds) {
 Dances ControlCourse::Dance(const Method& way, double scale) const {
   Dances dances;
   if (!way.Lasts(frames_)) return dances;
-  if (way.kind != Method::Kind::kEngine) {
+  if (way.kind != Method::Kind::kModel) {
     for (const ControlledWindow& window : windows_) {
       std::vector<Pose>& poses = dances.emplace_back(window.real);
       if (way.kind == Method::Kind::kReal) continue;
@@ -101,16 +101,16 @@ Dances ControlCourse::Dance(const Method& way, double scale) const {
     }
     return dances;
   }
-  std::vector<TransitionInput> inputs;
+  std::vector<TransitionRequest> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
-    TransitionInput input = InputFor(i);
-    if (way.TakesPath()) input.request.controls.root_path = windows_[i].path;
+    TransitionRequest request = RequestFor(i);
+    if (way.TakesPath()) request.controls.root_path = windows_[i].path;
     if (way.TakesVelocityFactors())
-      input.request.controls.velocity_factors = (scale * windows_[i].factors).cast<float>();
-    way.Restrict(&input.request);
-    inputs.push_back(std::move(input));
+      request.controls.velocity_factors = (scale * windows_[i].factors).cast<float>();
+    way.Restrict(&request);
+    requests.push_back(std::move(request));
   }
-  return evaluation_.runner.Dance(*way.engine, inputs);
+  return evaluation_.runner.Dance(*way.sampler, requests);
 }
 
 std::vector<ClipFigure> ControlCourse::FiguresOf(const Dances& dances, const Figure& figure) const {

@@ -23,7 +23,7 @@ std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) 
   brief.long_frames = std::min(brief.long_frames, kMostFrames);
   std::vector<LongPlan> plans;
   for (const LongPlan& input :
-       PlanLongDances(method.engine->model(), evaluation.set, times, kInputs, brief)) {
+       PlanLongDances(method.sampler->model(), evaluation.set, times, kInputs, brief)) {
     for (int sample = 0; sample < kSamples; ++sample) {
       plans.push_back(input);
       plans.back().temperature = evaluation.TemperatureOf(method);
@@ -68,11 +68,11 @@ EncodedFigures MeasureEncoded(const Evaluation& evaluation, const Method& method
     figures.fid = distance(SideBySide(real.odd));
     figures.diversity = MeanApart(real.odd);
   }
-  if (method.kind != Method::Kind::kEngine) return figures;
+  if (method.kind != Method::Kind::kModel) return figures;
   const std::vector<LongPlan> plans = Plans(evaluation, method);
   std::vector<Eigen::MatrixXd> codes, firsts;
-  for (const LongDance& dance : evaluation.runner.DanceLong(*method.engine, plans))
-    codes.push_back(encoder.Encode(method.engine->model().skeleton, dance.poses));
+  for (const LongDance& dance : evaluation.runner.DanceLong(*method.sampler, plans))
+    codes.push_back(encoder.Encode(method.sampler->model().skeleton, dance.poses));
   const size_t inputs = plans.size() / kSamples;
   figures.variability = 0;
   for (auto first = codes.begin(); first != codes.end(); first += kSamples) {

@@ -65,7 +65,7 @@ void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& le
   for (const Method& method : methods) {
     // The other engines have the limit of the judged one, and names that nobody gave them.
     if (!method.Judged()) continue;
-    const ModelInfo& model = method.engine->model();
+    const ModelInfo& model = method.sampler->model();
     if (longest <= model.max_transition_frames) continue;
     const std::string option = &method == &methods.back() ? "--model" : "--other " + method.name;
     throw InvalidArgument("--lengths", std::to_string(longest) + " frames are more than the " +
@@ -210,7 +210,7 @@ void AddEvalCommand(CLI::App& app) {
   command
       ->add_option("--baseline", arguments->contest.baselines,
                    "Further rows of the tables: \"real\" by real, \"interpolation\" and "
-                   "\"interpolation, foot lock\" by interpolation, \"model without keys\" by "
+                   "\"interpolation, footwork\" by interpolation, \"model without keys\" by "
                    "music_only")
       ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
   command->add_option("--name", arguments->contest.name, "What the rows of --model are called");

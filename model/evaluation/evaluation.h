@@ -19,24 +19,24 @@ struct Method {
   enum class Kind {
     kReal,           ///< what was really danced
     kInterpolation,  ///< lerp and slerp between last pose and key, as they are
-    kEngine,         ///< an engine, through model/dance as the server has it
+    kModel,          ///< a sampler, through model/dance as the server has it
   };
   std::string name;
-  Kind kind = Kind::kEngine;
-  StepEngine* engine = nullptr;  ///< of kEngine; not owned
-  bool keys = true;              ///< kEngine: false for a dance to the music alone
-  bool network = true;           ///< kEngine: false for one that nobody trained
-  bool finished = true;          ///< kEngine: as served, with arrival and foot lock
+  Kind kind = Kind::kModel;
+  Sampler* sampler = nullptr;  ///< of kModel; not owned
+  bool keys = true;            ///< kModel: false for a dance to the music alone
+  bool network = true;         ///< kModel: false for one that nobody trained
+  bool finished = true;        ///< kModel: as served, with arrival and footwork
 
   /// A network that gets tables of its own, beside its rows.
-  bool Judged() const { return kind == Kind::kEngine && network && keys; }
+  bool Judged() const { return kind == Kind::kModel && network && keys; }
   /// Whether it can dance that many frames at all.
   bool Lasts(int frames) const {
-    return kind != Kind::kEngine || frames <= engine->model().max_transition_frames;
+    return kind != Kind::kModel || frames <= sampler->model().max_transition_frames;
   }
-  bool TakesPath() const { return kind != Kind::kEngine || engine->model().root_path; }
+  bool TakesPath() const { return kind != Kind::kModel || sampler->model().root_path; }
   bool TakesVelocityFactors() const {
-    return kind == Kind::kEngine && engine->model().velocity_factors;
+    return kind == Kind::kModel && sampler->model().velocity_factors;
   }
   /// Takes from a request what this method is not told, and what it does without.
   void Restrict(TransitionRequest* request) const {
@@ -63,18 +63,18 @@ struct EvalOptions {
 /// One set, and who dances beside it. Nothing is owned.
 struct Evaluation {
   const ClipSet& set;
-  const std::vector<Method>& methods;  ///< the judged one, an engine, is last
+  const std::vector<Method>& methods;  ///< the judged one, a model, is last
   const EvalOptions& options;
   const Runner& runner;
   const MotionEncoder* encoder = nullptr;  ///< of EvaluateEncoded
   const ClipSet* training = nullptr;       ///< the set's clips that train, or null
 
   const Method& judged() const { return methods.back(); }
-  const ModelInfo& model() const { return judged().engine->model(); }
+  const ModelInfo& model() const { return judged().sampler->model(); }
   /// What a method is danced at where tables compare models as they are served.
   float TemperatureOf(const Method& method) const {
-    return options.own_temperatures && method.kind == Method::Kind::kEngine
-               ? static_cast<float>(method.engine->model().default_temperature)
+    return options.own_temperatures && method.kind == Method::Kind::kModel
+               ? static_cast<float>(method.sampler->model().default_temperature)
                : options.temperature;
   }
 
@@ -99,7 +99,7 @@ struct Evaluation {
 ///   keys_SET         every method: how far it misses keys, raw and as served
 std::vector<Table> EvaluateTransitions(const Evaluation& evaluation);
 
-/// Paper F's tables, of every method raw (without arrival and foot lock) and as served, each at
+/// Paper F's tables, of every method raw (without arrival and footwork) and as served, each at
 /// its own temperature unless one is asked for:
 ///   paper_l2p_SET     Table 2: mean of EvalOptions::best_of samples
 ///   paper_dances_SET  Table 1: long dances with keys each 100 frames
@@ -148,7 +148,7 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation);
 /// of models that take them, as all that follow. Methods that take none stand beside it without.
 ///   lrp_SET, avf_SET, art_SET  its Tables 2-4 at 10, 50, 100 and 150 frames: real motion,
 ///                              interpolation along the path, each network alone and as served
-///                              (arrival, foot lock), and without keys
+///                              (arrival, footwork), and without keys
 ///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET, tremor_SET  of the same dances
 std::vector<Table> EvaluateControls(const Evaluation& evaluation);
 

@@ -40,7 +40,7 @@ struct KeyedDances {
 void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio, Table* table) {
   table->Begin({figure});
   table->Put("real motion", 2, real);
-  table->Put("real, foot lock", 2, locked);
+  table->Put("real, footwork", 2, locked);
   table->Put("danced", 2, danced);
   table->Put("danced ÷ real", 2, ratio);
 }
@@ -53,15 +53,15 @@ void AddDanced(const std::string& figure, Cell danced, Table* table) {
 
 KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
   const ClipSet& set = evaluation.set;
-  const ModelInfo& model = method.engine->model();
-  const std::vector<LongPlan> plans = PlanKeyedDances(model, set, evaluation.options.temperature);
+  const ModelInfo& model = method.sampler->model();
+  std::vector<LongPlan> plans = PlanKeyedDances(model, set, evaluation.options.temperature);
+  for (LongPlan& plan : plans) plan.finished = method.finished;
   KeyedDances dances;
   for (const LongPlan& plan : plans) {
     dances.real.push_back(MeasureLiveliness(model, plan, RealMotionBeside(plan, set)));
-    dances.locked.push_back(MeasureLiveliness(model, plan, RealThroughFootLock(model, plan, set)));
+    dances.locked.push_back(MeasureLiveliness(model, plan, RealThroughFootwork(model, plan, set)));
   }
   if (plans.empty()) return dances;
-  // All together: the fuller the batch, the cheaper.
   std::vector<LongPlan> all;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
     all.insert(all.end(), plans.begin(), plans.end());
@@ -74,7 +74,7 @@ KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
       all.push_back(std::move(plan));
     }
   }
-  const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.engine, all);
+  const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.sampler, all);
   for (size_t i = 0; i < all.size(); ++i) {
     const size_t repeat = i / plans.size();
     LivelyDances& of = repeat < kSeeds ? dances.seeds[repeat] : dances.songs[repeat - kSeeds];
@@ -156,7 +156,7 @@ void AddHits(const KeyedDances& dances, double fps, Table* table) {
 }
 
 void AddFrechet(const Evaluation& evaluation, const Method& method, Table* table) {
-  const TransitionJudge judge(evaluation, method.engine->model(), kFrechetFrames);
+  const TransitionJudge judge(evaluation, method.sampler->model(), kFrechetFrames);
   if (judge.windows().empty()) return;
   const RealFeatures features = GatherRealFeatures(evaluation.set, kFrechetFrames);
   const Figures real = judge.Run({"real", Method::Kind::kReal}, 0);
@@ -202,11 +202,12 @@ struct FreeDances {
 };
 
 FreeDances DanceFree(const Evaluation& evaluation, const Method& method) {
-  const ModelInfo& model = method.engine->model();
+  const ModelInfo& model = method.sampler->model();
   const EvalOptions& options = evaluation.options;
-  const std::vector<LongPlan> plans =
+  std::vector<LongPlan> plans =
       PlanLongDances(model, evaluation.set, KeyTimes::kNone, options.free_dances, options);
-  const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.engine, plans);
+  for (LongPlan& plan : plans) plan.finished = method.finished;
+  const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.sampler, plans);
   FreeDances free;
   for (size_t i = 0; i < plans.size(); ++i) {
     free.whole.push_back(MeasureLong(model.skeleton, model.fps, chains[i].poses, {}));
@@ -234,7 +235,7 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model,
 
 Table LivelinessTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances,
                       const FreeDances& free) {
-  const double fps = method.engine->model().fps;
+  const double fps = method.sampler->model().fps;
   Table table = evaluation.NewTable("liveliness", "Does it live", {"figure"}, &method);
   if (!dances.real.empty()) {
     AddMovement(dances, &table);
@@ -243,7 +244,7 @@ Table LivelinessTable(const Evaluation& evaluation, const Method& method, const 
     AddCritic(evaluation, dances, fps, &table);
   }
   AddFrechet(evaluation, method, &table);
-  AddFree(evaluation, method.engine->model(), free.whole, &table);
+  AddFree(evaluation, method.sampler->model(), free.whole, &table);
   table.note = std::to_string(dances.real.size()) + " clips, " + std::to_string(kSeeds) +
                " seeds, the clips' own poses each 2 s as keys and nothing else of them; free: " +
                std::to_string(free.whole.size()) +

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "model/engine/step_engine.h"
+#include "model/engine/sampler.h"
 #include "model/evaluation/windows.h"
 #include "model/metrics/groove.h"
 #include "model/metrics/joint_track.h"

@@ -5,7 +5,6 @@
 
 #include "model/core/grid.h"
 #include "model/core/random.h"
-#include "model/dance/foot_lock.h"
 
 namespace choreo {
 namespace {
@@ -113,19 +112,27 @@ std::vector<double> ShuffledBeats(double bpm, uint64_t seed, double fps, int fra
   return beats;
 }
 
-std::vector<Pose> RealThroughFootLock(const ModelInfo& model, const LongPlan& plan,
+std::vector<Pose> RealThroughFootwork(const ModelInfo& model, const LongPlan& plan,
                                       const ClipSet& set) {
   const std::vector<Pose> real = RealMotionBeside(plan, set);
   std::vector<Pose> emitted = plan.history;
-  int from = 0;
-  for (const auto& [key, pose] : plan.keys) {
-    const int frames = key + 1 - from;
-    if (FootLock::Fits(model.skeleton, model.fps, frames)) {
-      FootLock lock(model.skeleton, model.fps, frames, emitted, Target{pose, {}});
-      for (; from <= key; ++from) emitted.push_back(RoundToFloat(lock.Apply(real[from])));
-    }
-    for (; from <= key; ++from) emitted.push_back(real[from]);
-  }
+  size_t from = 0;
+  const auto stand = [&](size_t to, bool keyed) {
+    std::vector<Pose> piece(real.begin() + static_cast<std::ptrdiff_t>(from),
+                            real.begin() + static_cast<std::ptrdiff_t>(to));
+    StandOnFeet({.skeleton = model.skeleton,
+                 .history = std::span(emitted).last(plan.history.size()),
+                 .keyed = keyed,
+                 .fps = model.fps,
+                 .options = model.footwork},
+                &piece);
+    std::vector<Pose> standing;
+    for (const Pose& pose : piece) standing.push_back(RoundToFloat(pose));
+    emitted.insert(emitted.end(), standing.begin(), standing.end());
+    from = to;
+  };
+  for (const auto& [key, pose] : plan.keys) stand(static_cast<size_t>(key) + 1, true);
+  if (from < real.size()) stand(real.size(), false);
   emitted.erase(emitted.begin(), emitted.begin() + std::ssize(plan.history));
   return emitted;
 }

@@ -37,9 +37,9 @@ std::vector<double> RegularBeats(double bpm, double phase, double fps, int frame
 /// what is danced to them meets the regular ones by chance alone.
 std::vector<double> ShuffledBeats(double bpm, uint64_t seed, double fps, int frames);
 
-/// Real motion as if a model had danced it between the keys of a plan: through the foot lock,
-/// rounded as sent. [plan.frames] poses.
-std::vector<Pose> RealThroughFootLock(const ModelInfo& model, const LongPlan& plan,
+/// Real motion as if a model had danced it between the keys of a plan: put on its feet, rounded as
+/// sent. [plan.frames] poses.
+std::vector<Pose> RealThroughFootwork(const ModelInfo& model, const LongPlan& plan,
                                       const ClipSet& set);
 
 }  // namespace choreo

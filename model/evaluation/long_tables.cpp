@@ -134,7 +134,7 @@ std::vector<Table> EvaluateLongDances(const Evaluation& evaluation) {
     const std::vector<LongPlan> plans =
         PlanLongDances(model, set, kind.times, options.long_seeds, options);
     const std::vector<LongDance> chains =
-        evaluation.runner.DanceLong(*evaluation.judged().engine, plans);
+        evaluation.runner.DanceLong(*evaluation.judged().sampler, plans);
     const bool keyed = kind.times == KeyTimes::kEachTwoSeconds;
     std::vector<LongFigures> dances, beside;
     double worst_key = 0;

@@ -19,14 +19,14 @@ constexpr int kPairedFrames = 12;  // a second
 
 void DrawPairedSheets(const ClipSet& set, const Method& method, float temperature,
                       const std::filesystem::path& json) {
-  const ModelInfo& model = method.engine->model();
+  const ModelInfo& model = method.sampler->model();
   std::vector<LongPlan> plans = PlanKeyedDances(model, set, temperature);
   const auto frames = static_cast<int>(std::lround(kPairedSeconds * model.fps));
   for (LongPlan& plan : plans) {
     plan.frames = frames;
     plan.keys.erase(plan.keys.lower_bound(frames), plan.keys.end());
   }
-  const std::vector<LongDance> chains = Runner().DanceLong(*method.engine, plans);
+  const std::vector<LongDance> chains = Runner().DanceLong(*method.sampler, plans);
   ContactSheetOptions sheet;
   sheet.frames = 2 * kPairedSeconds * kPairedFrames;
   sheet.columns = kPairedFrames;

@@ -14,7 +14,7 @@ namespace {
 std::vector<Method> WithRaw(const std::vector<Method>& methods) {
   std::vector<Method> all;
   for (const Method& method : methods) {
-    if (method.kind == Method::Kind::kEngine && method.network) {
+    if (method.kind == Method::Kind::kModel && method.network) {
       all.push_back(method);
       all.back().name += ", raw";
       all.back().finished = false;
@@ -72,7 +72,7 @@ std::vector<LongScore> ScoreDances(const Evaluation& evaluation, const Method& m
     plan.temperature = evaluation.TemperatureOf(method);
     plan.finished = method.finished;
   }
-  const std::vector<LongDance> dances = evaluation.runner.DanceLong(*method.engine, plans);
+  const std::vector<LongDance> dances = evaluation.runner.DanceLong(*method.sampler, plans);
   for (size_t i = 0; i < dances.size(); ++i)
     scores.push_back(ScoreDance(evaluation, plans[i], dances[i].poses));
   return scores;
@@ -90,7 +90,7 @@ void AddLongRows(const Evaluation& evaluation, const Method& method, Table* tabl
       dances ? ScoreDances(evaluation, method, KeyTimes::kEqual) : std::vector<LongScore>{};
   if (!dances) return;
   const EncodedFigures encoded = MeasureEncoded(evaluation, method);
-  const bool keyed = method.keys && method.kind == Method::Kind::kEngine;
+  const bool keyed = method.keys && method.kind == Method::Kind::kModel;
   table->Begin({method.name});
   table->Put("beat hit rate %", 1, music ? HitRate(equal) : Cell());
   table->Put("coverage", 2,
@@ -130,7 +130,7 @@ std::vector<Table> EvaluatePaperTransitions(const Evaluation& evaluation) {
     if (method.kind == Method::Kind::kReal) continue;
     table.Begin({method.name});
     for (const Length& length : lengths) {
-      const bool samples = method.kind == Method::Kind::kEngine && method.network;
+      const bool samples = method.kind == Method::Kind::kModel && method.network;
       const int count = samples ? std::max(1, evaluation.options.best_of) : 1;
       std::vector<ClipFigure> way, norm, line, line_norm;
       for (int sample = 0; sample < count; ++sample) {

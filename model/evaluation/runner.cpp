@@ -7,15 +7,21 @@
 namespace choreo {
 namespace {
 
-TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const LongDance& chain) {
+/// The next transition of a long dance, and how many of its frames are danced.
+struct Next {
+  TransitionRequest request;
+  int danced;
+};
+
+Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain) {
   const int at = static_cast<int>(chain.poses.size());
   const auto key = plan.keys.lower_bound(at);
-  TransitionInput input;
-  TransitionRequest& request = input.request;
+  Next out;
+  TransitionRequest& request = out.request;
   const auto next = key == plan.keys.end() ? std::nullopt : std::optional<int64_t>(key->first);
   const auto to = static_cast<int>(TransitionEnd(at, next, model.max_transition_frames));
   request.frames = to - at;
-  input.stop = std::min(to, plan.frames) - at;
+  out.danced = std::min(to, plan.frames) - at;
   if (next && *next + 1 == to) request.target = Target{key->second, {}};
   request.history = plan.history;
   request.stage = chain.stage;
@@ -30,46 +36,44 @@ TransitionInput NextInput(const ModelInfo& model, const LongPlan& plan, const Lo
     request.arrival_frames = 0;
     request.footwork = false;
   }
-  if (plan.audio.cols() > 0) {
+  if (plan.audio.cols() > 0 && model.hears_music) {
+    const int history = model.history_frames;
     request.has_audio = true;
-    request.audio_history = plan.audio.middleCols(at, model.history_frames);
-    input.audio_rows = plan.audio.middleCols(at + model.history_frames, *input.stop);
+    request.audio_history = plan.audio.middleCols(at, history);
+    // Behind the plan's end nothing is danced, whatever is heard there.
+    request.audio_rows = Eigen::MatrixXf::Zero(plan.audio.rows(), request.frames);
+    request.audio_rows.leftCols(out.danced) = plan.audio.middleCols(at + history, out.danced);
   }
-  return input;
+  return out;
 }
 
 }  // namespace
 
-Dances Runner::Dance(StepEngine& engine, std::span<const TransitionInput> inputs) const {
+Dances Runner::Dance(Sampler& sampler, std::span<const TransitionRequest> requests) const {
   Dances dances;
-  for (const TransitionResult& result : DanceTransitions(engine, inputs, danced_)) {
+  for (const TransitionRequest& request : requests) {
     std::vector<Pose>& poses = dances.emplace_back();
-    for (const DanceFrame& frame : result.frames) poses.push_back(frame.pose);
+    const TransitionRun run = DanceTransition(sampler, request, danced_);
+    for (const DanceFrame& frame : run.frames()) poses.push_back(frame.pose);
   }
   return dances;
 }
 
-std::vector<LongDance> Runner::DanceLong(StepEngine& engine,
-                                         std::span<const LongPlan> plans) const {
-  std::vector<LongDance> chains(plans.size());
-  while (true) {
-    std::vector<TransitionInput> inputs;
-    std::vector<size_t> whose;
-    for (size_t i = 0; i < plans.size(); ++i) {
-      if (static_cast<int>(chains[i].poses.size()) >= plans[i].frames) continue;
-      inputs.push_back(NextInput(engine.model(), plans[i], chains[i]));
-      whose.push_back(i);
-    }
-    if (inputs.empty()) return chains;
-    const auto results = DanceTransitions(engine, inputs, danced_);
-    for (size_t i = 0; i < results.size(); ++i) {
-      LongDance& chain = chains[whose[i]];
-      for (const DanceFrame& frame : results[i].frames) chain.poses.push_back(frame.pose);
-      chain.stage = results[i].stage;
-      if (results[i].arrival)
-        chain.keys[static_cast<int>(chain.poses.size()) - 1] = results[i].arrival->final_error_m;
+std::vector<LongDance> Runner::DanceLong(Sampler& sampler, std::span<const LongPlan> plans) const {
+  std::vector<LongDance> chains;
+  for (const LongPlan& plan : plans) {
+    LongDance& chain = chains.emplace_back();
+    while (static_cast<int>(chain.poses.size()) < plan.frames) {
+      const Next next = NextOf(sampler.model(), plan, chain);
+      const TransitionRun run = DanceTransition(sampler, next.request, danced_);
+      const auto danced = static_cast<size_t>(next.danced);
+      for (size_t i = 0; i < danced; ++i) chain.poses.push_back(run.frames()[i].pose);
+      chain.stage = run.StageAfter(danced);
+      if (run.arrival() && danced == run.frames().size())
+        chain.keys[static_cast<int>(chain.poses.size()) - 1] = run.arrival()->final_error_m;
     }
   }
+  return chains;
 }
 
 }  // namespace choreo

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/dance/transition_batch.h"
+#include "model/dance/transition.h"
 
 namespace choreo {
 
@@ -28,7 +28,7 @@ struct LongPlan {
   uint64_t seed = 0;
   float temperature = 0;
   std::string style = {};  ///< as TransitionRequest has it
-  bool finished = true;    ///< as served; false: without arrival and foot lock
+  bool finished = true;    ///< as served; false: without arrival and footwork
 };
 
 struct LongDance {
@@ -39,18 +39,18 @@ struct LongDance {
 
 using Dances = std::vector<std::vector<Pose>>;  ///< [dances] of [frames]
 
-/// Dances what tables ask for, all of a call together. Not thread-safe.
+/// Dances what tables ask for, as the server does. Not thread-safe.
 class Runner {
  public:
-  /// `danced` is told how many frames each step made.
+  /// `danced` is told how many frames each transition has.
   explicit Runner(std::function<void(int)> danced = {}) : danced_(std::move(danced)) {}
 
-  /// DanceTransitions: the poses of each.
-  Dances Dance(StepEngine& engine, std::span<const TransitionInput> inputs) const;
+  /// The poses of each. Throws as TransitionRun does.
+  Dances Dance(Sampler& sampler, std::span<const TransitionRequest> requests) const;
 
   /// Of each plan a transition at a time (TransitionEnd). No dance depends on the others. Throws
   /// Error(kInternal) as soon as a model gives a value that is not finite.
-  std::vector<LongDance> DanceLong(StepEngine& engine, std::span<const LongPlan> plans) const;
+  std::vector<LongDance> DanceLong(Sampler& sampler, std::span<const LongPlan> plans) const;
 
  private:
   std::function<void(int)> danced_;

@@ -74,20 +74,19 @@ struct Danced {
 std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   const ClipSet& set = evaluation.set;
-  std::vector<TransitionInput> inputs;
+  std::vector<TransitionRequest> requests;
   std::vector<Danced> all;
   for (const EvalWindow& window :
        ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip)) {
-    inputs.push_back(
-        InputOf(model, set, window, one.frames, evaluation.options.temperature, inputs.size()));
-    TransitionRequest& request = inputs.back().request;
+    TransitionRequest& request = requests.emplace_back(RequestOf(
+        model, set, window, one.frames, evaluation.options.temperature, requests.size()));
     request.target = KeyOf(one, model.skeleton, request);
     all.push_back({{.fps = model.fps, .frames = RealPoses(set, window, one.frames, kFramesBefore)},
                    request.target,
                    TransitionRun(model, request).required_speed()});
   }
   if (one.way == Way::kReal) return all;
-  const auto dances = evaluation.runner.Dance(*evaluation.judged().engine, inputs);
+  const auto dances = evaluation.runner.Dance(*evaluation.judged().sampler, requests);
   for (size_t i = 0; i < dances.size(); ++i)
     std::ranges::copy(dances[i], all[i].motion.frames.begin() + kFramesBefore);
   return all;

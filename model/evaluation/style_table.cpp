@@ -66,7 +66,7 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
     }
   }
   const std::vector<LongDance> dances =
-      evaluation.runner.DanceLong(*evaluation.judged().engine, plans);
+      evaluation.runner.DanceLong(*evaluation.judged().sampler, plans);
   for (size_t i = 0; i < dances.size(); ++i)
     danced.push_back({plans[i].clip, recognised(dances[i].poses, StyleIn(styles, plans[i].style))});
   Table table =

@@ -86,14 +86,14 @@ TransitionJudge::TransitionJudge(const Evaluation& evaluation, const ModelInfo& 
 
 Figures TransitionJudge::Run(const Method& method, float temperature, uint32_t candidate) const {
   Dances dances;
-  if (method.kind == Method::Kind::kEngine) dances = Dance(method, temperature, candidate);
+  if (method.kind == Method::Kind::kModel) dances = Dance(method, temperature, candidate);
   Figures figures;
   for (size_t i = 0; i < windows_.size(); ++i) {
     const std::vector<Pose> real = RealPoses(evaluation_.set, windows_[i], frames_, kFramesBefore);
     std::vector<Pose> danced = real;
     for (int t = 0; t < frames_; ++t) {
       Pose& pose = danced[kFramesBefore + t];
-      if (method.kind == Method::Kind::kEngine) {
+      if (method.kind == Method::Kind::kModel) {
         pose = dances[i][t];
       } else if (method.kind == Method::Kind::kInterpolation && t + 1 < frames_) {
         pose = InterpolatePoses(real[kFramesBefore - 1], real.back(),
@@ -119,13 +119,13 @@ void TransitionJudge::AddRawKeys(Method method, float temperature, Figures* figu
 }
 
 Dances TransitionJudge::Dance(const Method& method, float temperature, uint32_t candidate) const {
-  std::vector<TransitionInput> inputs;
+  std::vector<TransitionRequest> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
-    inputs.push_back(InputOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));
-    inputs.back().request.candidate = candidate;
-    method.Restrict(&inputs.back().request);
+    requests.push_back(RequestOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));
+    requests.back().candidate = candidate;
+    method.Restrict(&requests.back());
   }
-  return evaluation_.runner.Dance(*method.engine, inputs);
+  return evaluation_.runner.Dance(*method.sampler, requests);
 }
 
 }  // namespace choreo

@@ -24,7 +24,7 @@ struct WindowFigures {
   double skate_ratio = 0, p95_acceleration = 0, max_acceleration = 0;  ///< quality_report.h
   double key_distance = 0;                     ///< KPD at the last frame, m^2
   double final_key_m = 0, final_key_deg = 0;   ///< ComparePoses there: the worst joint
-  double raw_key_distance = 0, raw_key_m = 0;  ///< the same without arrival, foot lock
+  double raw_key_distance = 0, raw_key_m = 0;  ///< the same without arrival, footwork
   Pace pace;
   Eigen::VectorXd kinetic, geometric;  ///< geometric: empty where the skeleton has none
 };
@@ -58,7 +58,7 @@ class TransitionJudge {
   /// Linear for the root, spherical for the joints.
   Figures Interpolation() const { return Run({"", Method::Kind::kInterpolation}, 0); }
 
-  /// Fills in the raw key figures of an engine: the same noise, no arrival, no foot lock.
+  /// Fills in the raw key figures of an engine: the same noise, no arrival, no footwork.
   void AddRawKeys(Method method, float temperature, Figures* figures) const;
 
  private:

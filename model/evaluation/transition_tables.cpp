@@ -66,7 +66,7 @@ Table NearnessTable(const Evaluation& evaluation, const Method& method) {
   table.note = "L2P over interpolation's, at temperature 0, as served, best of " +
                std::to_string(options.best_of) + " there.";
   for (const int frames : options.lengths) {
-    const TransitionJudge judge(evaluation, method.engine->model(), frames);
+    const TransitionJudge judge(evaluation, method.sampler->model(), frames);
     if (judge.windows().empty()) continue;
     const Figures line = judge.Interpolation();
     const Figures mean = judge.Run(method, 0);
@@ -112,7 +112,7 @@ std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
     const RealFeatures real = GatherRealFeatures(set, frames);
     for (const Method& method : evaluation.methods) {
       Figures figures = judge.Run(method, temperature);
-      if (method.kind == Method::Kind::kEngine) judge.AddRawKeys(method, temperature, &figures);
+      if (method.kind == Method::Kind::kModel) judge.AddRawKeys(method, temperature, &figures);
       table.Begin({std::to_string(frames), method.name});
       AddCells(figures, line, real, &table);
       keys.Begin({std::to_string(frames), method.name});
@@ -131,7 +131,7 @@ std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
   table.note.back() = '.';
   table.plot = plot;
   keys.note =
-      "Raw: without arrival and foot lock; error: of the worst joint. Keys are real motion's own "
+      "Raw: without arrival and footwork; error: of the worst joint. Keys are real motion's own "
       "poses; who is told of no key misses it." +
       hardest;
   return {table, keys};

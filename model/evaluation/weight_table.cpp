@@ -101,7 +101,7 @@ void AddCritics(const Weighed& all, Table* table) {
 std::vector<Table> WeightTable(const Evaluation& evaluation, const Method& method,
                                const LivelyDances& real, const std::vector<LivelyDances>& keyed,
                                const LivelyDances& free) {
-  const ModelInfo& model = method.engine->model();
+  const ModelInfo& model = method.sampler->model();
   if (real.empty() || !BalanceGauge::Fits(model.skeleton)) return {};
   const Weighed all = WeighAll(evaluation, model, real, keyed, free);
   Table table = evaluation.NewTable("weight", "Has she weight", {"figure"}, &method);

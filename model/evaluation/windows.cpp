@@ -32,14 +32,13 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
   return windows;
 }
 
-TransitionInput InputOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
-                        int frames, float temperature, size_t number) {
+TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
+                            int frames, float temperature, size_t number) {
   constexpr int kBeatMargin = 60;  // frames around a transition, whose timing looks to both sides
   const PreparedClip& clip = set.clips[window.clip];
   const auto first = clip.motion.frames.begin() + window.start;
   const int history = model.history_frames;
-  TransitionInput input;
-  TransitionRequest& request = input.request;
+  TransitionRequest request;
   request.frames = frames;
   request.history.assign(first - history, first);
   request.target = Target{first[frames - 1], {}};
@@ -48,12 +47,12 @@ TransitionInput InputOf(const ModelInfo& model, const ClipSet& set, const EvalWi
   request.beats =
       set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
   for (double& beat : request.beats) beat -= kBeatMargin;
-  if (clip.audio.cols() > 0 && model.audio_features > 0) {
+  if (clip.audio.cols() > 0 && model.hears_music) {
     request.has_audio = true;
     request.audio_history = clip.audio.middleCols(window.start - history, history);
-    input.audio_rows = clip.audio.middleCols(window.start, frames);
+    request.audio_rows = clip.audio.middleCols(window.start, frames);
   }
-  return input;
+  return request;
 }
 
 std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/transition_batch.h"
+#include "model/dance/transition.h"
 #include "model/training/prepared_clip.h"
 
 namespace choreo {
@@ -36,8 +36,8 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
 
 /// The request for a window, with its real key and its clip's music, if it has any. The window's
 /// number is the seed.
-TransitionInput InputOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
-                        int frames, float temperature, size_t number);
+TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
+                            int frames, float temperature, size_t number);
 
 /// What was really danced there, with `before` frames of the history in front.
 std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before);

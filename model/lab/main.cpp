@@ -5,7 +5,7 @@
 #include "model/core/error.h"
 #include "model/core/programs.h"
 #include "model/core/threads.h"
-#include "model/engine/engines.h"
+#include "model/engine/samplers.h"
 #include "model/evaluation/eval_command.h"
 #include "model/evaluation/study_command.h"
 #include "model/evaluation/weigh_command.h"

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "model/core/grid.h"
@@ -49,6 +50,14 @@ struct PoseMask {
   bool Asks(Eigen::Index joint) const {
     return joints.empty() || joints[static_cast<size_t>(joint)];
   }
+};
+
+/// The key pose at the end of a transition.
+struct Target {
+  Pose pose;
+  PoseMask mask;
+  /// The root's above the floor, metres, of a key that leaves its position open. None: open too.
+  std::optional<double> height = {};
 };
 
 /// `key` where `mask` asks for it, and `open` where it leaves the pose open. Both have as many

@@ -14,15 +14,15 @@ using testing::HasSubstr;
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
 /// One that takes no music.
-class DeafEngine final : public ControlledEngine {
+class SilentSampler final : public ControlledSampler {
  public:
-  DeafEngine() { model_.audio_features = 0; }
+  SilentSampler() { model_.audio_features = 0; }
 };
 
 /// One that draws nothing.
-class DeterministicEngine final : public ControlledEngine {
+class DeterministicSampler final : public ControlledSampler {
  public:
-  DeterministicEngine() { model_.deterministic = true; }
+  DeterministicSampler() { model_.deterministic = true; }
 };
 
 class ControlledCommandTest : public CommandTest {
@@ -39,7 +39,7 @@ class ControlledCommandTest : public CommandTest {
   std::string Walker() const { return " --server " + walker_.address() + " "; }
   Motion Read(const std::string& name) const { return ReadMotion(folder_ / name, Body()); }
 
-  const TestServer walker_{std::make_unique<ControlledEngine>()};
+  const TestServer walker_{std::make_unique<ControlledSampler>()};
 };
 
 constexpr const char* kPath = R"({"about": "a bow", "points": [
@@ -156,7 +156,7 @@ TEST_F(ControlledCommandTest, AnEditTakesThemToo) {
 }
 
 TEST_F(ControlledCommandTest, ADeterministicModelIsDancedToItsLastFrame) {
-  const TestServer server(std::make_unique<DeterministicEngine>());
+  const TestServer server(std::make_unique<DeterministicSampler>());
   const Outcome outcome =
       Choreo("dance --server " + server.address() + " --seconds 12 --temperature 1 -o " +
              At("d.npz") + " --report " + At("d.json"));
@@ -168,7 +168,7 @@ TEST_F(ControlledCommandTest, ADeterministicModelIsDancedToItsLastFrame) {
 }
 
 TEST_F(ControlledCommandTest, ADeterministicModelHasNoOtherDance) {
-  const TestServer server(std::make_unique<DeterministicEngine>());
+  const TestServer server(std::make_unique<DeterministicSampler>());
   const std::string to = " --server " + server.address() + " -o " + At("t.npz") + " ";
   const auto changes_nothing = [](const char* option) {
     return HasSubstr("is deterministic; " + std::string(option) + " changes nothing");
@@ -250,7 +250,7 @@ TEST_F(ControlledCommandTest, InfoShowsControlsAndReferences) {
 }
 
 TEST_F(ControlledCommandTest, ADeafModelDancesToTheBeatsOfASongThatItDoesNotHear) {
-  const TestServer deaf(std::make_unique<DeafEngine>());
+  const TestServer deaf(std::make_unique<SilentSampler>());
   WriteClicks(folder_ / "song.wav", 6);
   const Outcome outcome =
       Choreo("dance --server " + deaf.address() + " " + At("song.wav") + " -o " + At("d.npz"));

@@ -14,12 +14,11 @@ namespace choreo::client::controls_test {
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
 /// Dies with its server once it has made so many frames.
-class DyingEngine final : public ControlledEngine {
+class DyingSampler final : public ControlledSampler {
  public:
-  explicit DyingEngine(int steps) : left_(steps) {}
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+  explicit DyingSampler(int frames) : left_(frames) {}
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
     if (--left_ == 0) throw Error(ErrorCode::kUnavailable, "", "the device is gone");
-    FakeEngine::Step(in, out);
   }
 
  private:
@@ -39,7 +38,7 @@ double Asked(const Pose& pose, BodyPart part) {
 }
 
 TEST(ControlsTest, OfTheConfigHoldFromTheFirstFrameOn) {
-  const TestServer server(std::make_unique<ControlledEngine>());
+  const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   const DanceResult dance = client.Dance({.frames = 250, .controls = Way()}, {}, {});
   ASSERT_EQ(dance.motion.frames.size(), 250U);
@@ -56,7 +55,7 @@ TEST(ControlsTest, OfTheConfigHoldFromTheFirstFrameOn) {
 }
 
 TEST(ControlsTest, AStyleIsDancedByBothCalls) {
-  const TestServer server(std::make_unique<ControlledEngine>());
+  const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   EXPECT_EQ(client.GetServerInfo().models.at(0).styles, (std::vector<std::string>{"calm", "wild"}));
   const auto danced = [&](const std::string& style) {
@@ -74,7 +73,7 @@ TEST(ControlsTest, AStyleIsDancedByBothCalls) {
 }
 
 TEST(ControlsTest, ChangeWhileTheDanceGoesOn) {
-  const TestServer server(std::make_unique<ControlledEngine>());
+  const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   const auto dance = client.StartDance({.frames = 120, .controls = Way()});
   dance->GenerateUntil(60);
@@ -93,9 +92,9 @@ TEST(ControlsTest, ChangeWhileTheDanceGoesOn) {
 }
 
 TEST(ControlsTest, SurviveTheLossOfAServer) {
-  const TestServer whole(std::make_unique<ControlledEngine>());
-  const TestServer second(std::make_unique<ControlledEngine>());
-  const TestServer first(std::make_unique<DyingEngine>(150));
+  const TestServer whole(std::make_unique<ControlledSampler>());
+  const TestServer second(std::make_unique<ControlledSampler>());
+  const TestServer first(std::make_unique<DyingSampler>(150));
   const auto perform = [](const Client& client) {
     DanceResult result;
     const auto dance = client.StartDance({.seed = 5, .frames = 250, .controls = Way()});
@@ -136,7 +135,7 @@ TEST(ControlsTest, SurviveTheLossOfAServer) {
 }
 
 TEST(ControlsTest, OfATransitionAndOfAnEdit) {
-  const TestServer server(std::make_unique<ControlledEngine>());
+  const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   TransitionRequest request;
   request.config.controls = Way();
@@ -163,7 +162,7 @@ TEST(ControlsTest, OfATransitionAndOfAnEdit) {
 }
 
 TEST(ControlsTest, AreDescribedByTheServer) {
-  const TestServer server(std::make_unique<ControlledEngine>());
+  const TestServer server(std::make_unique<ControlledSampler>());
   const auto model = Client({.addresses = {server.address()}}).GetServerInfo().models.at(0);
   EXPECT_THAT(model.controls, testing::ElementsAre("root_path", "velocity_factors"));
   ASSERT_EQ(model.velocity_references.size(), 2U);
@@ -173,7 +172,7 @@ TEST(ControlsTest, AreDescribedByTheServer) {
 }
 
 TEST(ControlsTest, OfNoBodyPartAreRefusedBeforeTheyAreSent) {
-  const TestServer server(std::make_unique<ControlledEngine>());
+  const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   Controls controls;
   controls.velocity_factors = {.parts = {"tail"}, .factors = {1}};

@@ -99,7 +99,7 @@ TEST_F(CommandTest, AnEditWarnsOfAKeyThatNoBodyCouldDance) {
 
 TEST_F(CommandTest, WritesWhatCameOfADanceThatIsCutOff) {
   WriteClicks(folder_ / "song.wav", 8);
-  TestServer breaking(std::make_unique<BreakingEngine>(200));
+  TestServer breaking(std::make_unique<BreakingSampler>(200));
   const Outcome outcome =
       Choreo("dance --server " + breaking.address() + " " + At("song.wav") + " -o " + At("d.bvh"));
   EXPECT_EQ(outcome.code, 1);

@@ -302,7 +302,7 @@ TEST(ResumeTest, ReportsTheWholeAndSaysWhatItMeasured) {
 }
 
 TEST(DanceTest, WhatCameIsThereWhenTheDanceIsCutOff) {
-  TestServer breaking(std::make_unique<BreakingEngine>(130));
+  TestServer breaking(std::make_unique<BreakingSampler>(130));
   TestServer sound;
   DanceResult whole;
   Client({.addresses = {sound.address()}})

@@ -295,7 +295,7 @@ client::FinishedDance Standing(size_t frames) {
 
 // Only what the new frames hear is sent: a song may be longer than a message.
 TEST(EditLibraryTest, HearsTheMusicAroundTheKeyAlone) {
-  TestServer server;
+  TestServer server(std::make_unique<HearingSampler>());
   const client::Client client({.addresses = {server.address()}});
   client::EditOptions options;
   options.model = client.GetServerInfo().models.front();

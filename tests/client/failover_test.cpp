@@ -115,7 +115,7 @@ TEST(FailoverTest, EndsOnceAllHaveRefused) {
 }
 
 TEST(FailoverTest, InternalAtOneReplicaIsTriedAtAnother) {
-  TestServer breaking(std::make_unique<BreakingEngine>(130));
+  TestServer breaking(std::make_unique<BreakingSampler>(130));
   TestServer sound;
   const Danced danced = Dance(Client(Replicas({breaking.address(), sound.address()})));
   ExpectSame(danced.motion, Undisturbed());
@@ -123,9 +123,9 @@ TEST(FailoverTest, InternalAtOneReplicaIsTriedAtAnother) {
   EXPECT_EQ(danced.resumed[0].address, sound.address());
   EXPECT_EQ(danced.resumed[0].reason, "the device is gone");
 
-  TestServer broken(std::make_unique<BreakingEngine>(5));
+  TestServer broken(std::make_unique<BreakingSampler>(5));
   const TransitionRequest request{.config = {.seed = 1}, .frames = 10};
-  TestServer alone(std::make_unique<BreakingEngine>(5));
+  TestServer alone(std::make_unique<BreakingSampler>(5));
   Options once = Replicas({alone.address()});
   once.retry_s = 0;
   ExpectError(ErrorCode::kInternal, "the device is gone",

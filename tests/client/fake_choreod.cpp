@@ -11,19 +11,19 @@
 
 #include "server/log.h"
 #include "server/serve.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace {
 
-choreo::Server::Engines Load(const std::filesystem::path& path) {
+choreo::Server::Samplers Load(const std::filesystem::path& path) {
   std::string slow;
   if (std::getline(std::ifstream(path), slow)) {
     std::ifstream file(slow);
     const std::string read(std::istreambuf_iterator<char>(file), {});
   }
-  choreo::Server::Engines engines;
-  engines.push_back(std::make_unique<choreo::ControlledEngine>());
-  return engines;
+  choreo::Server::Samplers samplers;
+  samplers.push_back(std::make_unique<choreo::ControlledSampler>());
+  return samplers;
 }
 
 }  // namespace

@@ -18,17 +18,16 @@ namespace choreo::interruption_test {
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
 /// Takes its time, and counts.
-class SlowEngine final : public FakeEngine {
+class SlowSampler final : public FakeSampler {
  public:
-  explicit SlowEngine(std::atomic<int>* steps) : steps_(steps) {}
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+  explicit SlowSampler(std::atomic<int>* frames) : frames_(frames) {}
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    FakeEngine::Step(in, out);
-    ++*steps_;
+    ++*frames_;
   }
 
  private:
-  std::atomic<int>* steps_;
+  std::atomic<int>* frames_;
 };
 
 class InterruptionTest : public CommandTest {
@@ -54,7 +53,7 @@ TEST_F(InterruptionTest, WhatCameOfADanceIsKept) {
   WriteClicks(folder_ / "song.wav", 60);
   for (const int signal : {SIGINT, SIGTERM}) {
     std::atomic<int> steps = 0;
-    const TestServer slow(std::make_unique<SlowEngine>(&steps));
+    const TestServer slow(std::make_unique<SlowSampler>(&steps));
     const Outcome outcome =
         Interrupt("dance --server " + slow.address() + " " + At("song.wav") + " -o " + At("d.npz"),
                   signal, [&] { return steps > 300; });

@@ -250,7 +250,7 @@ TEST(KillTest, TheShippedModelGoesOnBitForBit) {
 }
 
 // The other way round: a client's process is killed while it is served.
-TEST(KillTest, AKilledClientGivesItsSlotsBack) {
+TEST(KillTest, AKilledClientGivesItsPlacesBack) {
   TestServer server;
   std::vector<std::string> arguments = {
       CHOREO_PROGRAM, "transition",    "--from",       "groove",

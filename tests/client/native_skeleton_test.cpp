@@ -7,7 +7,7 @@
 #include "client/choreo_client.h"
 #include "client/cli/choreography.h"
 #include "client/cli/pose_library.h"
-#include "model/engine/engines.h"
+#include "model/engine/samplers.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "model/training/prepare.h"
@@ -66,8 +66,8 @@ class NativeSkeletonTest : public testing::Test {
     train.longest = 10;
     train.report_every = 100;
     TrainFlow(train);
-    std::vector<Server::Engines> models(1);
-    models[0].push_back(MakeEngine(train.run / "checkpoint.safetensors", {}, 2));
+    std::vector<Server::Samplers> models(1);
+    models[0].push_back(MakeSampler(train.run / "checkpoint.safetensors", {}));
     ServerConfig config;
     config.listen = "127.0.0.1:0";
     server_ = std::make_unique<Server>(config, std::move(models));

@@ -41,7 +41,7 @@ class ProjectTest : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  const TestServer server_{std::make_unique<ControlledEngine>()};
+  const TestServer server_{std::make_unique<ControlledSampler>()};
   json project_;
 };
 

@@ -34,7 +34,7 @@ void Eventually(const std::function<bool()>& condition, const std::string& what)
 
 bool Serves(const Options& options) {
   try {
-    return Client(options).GetServerInfo().slots > 0;
+    return Client(options).GetServerInfo().workers > 0;
   } catch (const Error&) {
     return false;
   }
@@ -43,7 +43,7 @@ bool Serves(const Options& options) {
 class SecurityTest : public testing::Test {
  protected:
   std::unique_ptr<TestServer> Start(const std::function<void(ServerConfig&)>& change) {
-    return std::make_unique<TestServer>(std::make_unique<FakeEngine>(), "127.0.0.1:0", change);
+    return std::make_unique<TestServer>(std::make_unique<FakeSampler>(), "127.0.0.1:0", change);
   }
   static void Serve(const Certificate& own, ServerConfig& config) {
     config.tls_certificate = own.certificate;

@@ -7,23 +7,22 @@
 #include <vector>
 
 #include "server/server.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo {
 
-/// A FakeEngine of any fingerprint.
-class NamedFakeEngine final : public FakeEngine {
+/// A FakeSampler of any fingerprint.
+class NamedSampler final : public FakeSampler {
  public:
-  explicit NamedFakeEngine(std::string fingerprint) { model_.fingerprint = std::move(fingerprint); }
+  explicit NamedSampler(std::string fingerprint) { model_.fingerprint = std::move(fingerprint); }
 };
 
-/// A FakeEngine that is lost after so many steps.
-class BreakingEngine final : public FakeEngine {
+/// A FakeSampler that is lost after so many frames.
+class BreakingSampler final : public FakeSampler {
  public:
-  explicit BreakingEngine(int steps) : left_(steps) {}
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+  explicit BreakingSampler(int frames) : left_(frames) {}
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
     if (left_-- == 0) throw Error(ErrorCode::kInternal, "", "the device is gone");
-    FakeEngine::Step(in, out);
   }
 
  private:
@@ -35,14 +34,14 @@ class TestServer {
  public:
   explicit TestServer(const std::string& fingerprint = "fake-1",
                       const std::string& listen = "127.0.0.1:0")
-      : TestServer(std::make_unique<NamedFakeEngine>(fingerprint), listen) {}
-  explicit TestServer(std::unique_ptr<StepEngine> engine, const std::string& listen = "127.0.0.1:0",
+      : TestServer(std::make_unique<NamedSampler>(fingerprint), listen) {}
+  explicit TestServer(std::unique_ptr<Sampler> sampler, const std::string& listen = "127.0.0.1:0",
                       const std::function<void(ServerConfig&)>& change = {}) {
     ServerConfig config;
     config.listen = listen;
     if (change) change(config);
-    std::vector<Server::Engines> models(1);
-    models[0].push_back(std::move(engine));
+    std::vector<Server::Samplers> models(1);
+    models[0].push_back(std::move(sampler));
     server_ = std::make_unique<Server>(config, std::move(models));
     address_ = "127.0.0.1:" + std::to_string(server_->port());
   }

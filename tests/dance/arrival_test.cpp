@@ -1,4 +1,4 @@
-#include "model/dance/arrival.h"
+#include "model/plan/arrival.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo::control_track_test {
 
@@ -47,13 +47,13 @@ class ControlTrackTest : public testing::Test {
   }
   void ExpectRefused(const ControlRequest& request, const std::string& message) const {
     ExpectError(ErrorCode::kInvalidArgument, message,
-                [&] { request.Validate(engine_.model(), "controls"); });
+                [&] { request.Validate(sampler_.model(), "controls"); });
   }
 
-  const ControlledEngine engine_;
-  const double standing_ = engine_.model().skeleton.pelvis_height;
-  ControlTrack track_{engine_.model()};
-  Pose here_ = RestPose(engine_.model().skeleton);
+  const ControlledSampler sampler_;
+  const double standing_ = sampler_.model().skeleton.pelvis_height;
+  ControlTrack track_{sampler_.model()};
+  Pose here_ = RestPose(sampler_.model().skeleton);
   std::optional<Target> target_;
 };
 
@@ -143,7 +143,7 @@ TEST_F(ControlTrackTest, AKeyWithoutAPlaceStandsUnlessThePathSaysHowHighItIs) {
   track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
   AimAt(0);
   target_->mask.root_position = false;
-  const Skeleton& skeleton = engine_.model().skeleton;
+  const Skeleton& skeleton = sampler_.model().skeleton;
   for (const int knee : {skeleton.left_knee, skeleton.right_knee})
     target_->pose.rotations(0, knee) = 0.8;
   for (const int hip : {skeleton.left_hip, skeleton.right_hip})
@@ -184,12 +184,12 @@ TEST_F(ControlTrackTest, SaysWhereAKeyStandsElsewhereThanThePathHasIt) {
   EXPECT_EQ(told(1.3)[0].kind, DanceWarning::Kind::kKeyOffPath);
   target_->mask.root_position = false;
   target_->mask.joints.assign(24, false);
-  target_->mask.joints[static_cast<size_t>(engine_.model().skeleton.left_elbow)] = true;
+  target_->mask.joints[static_cast<size_t>(sampler_.model().skeleton.left_elbow)] = true;
   EXPECT_TRUE(told(1.3).empty());
 }
 
 TEST_F(ControlTrackTest, OneOfWhomNothingIsKnownStandsWhereThePathBegins) {
-  EXPECT_EQ(track_.Stance(0, {}).root_position, RestPose(engine_.model().skeleton).root_position);
+  EXPECT_EQ(track_.Stance(0, {}).root_position, RestPose(sampler_.model().skeleton).root_position);
   track_.Set(Way({30, 90}, {4, 5}, {0.5, 0.5}), 0, "controls");
   EXPECT_EQ(track_.Stance(0, {}).root_position.x(), 0);
   EXPECT_NEAR(track_.Stance(30, {}).root_position.x(), 4 - 1.0 / 60, 1e-9);
@@ -345,7 +345,7 @@ TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {
 }
 
 TEST_F(ControlTrackTest, RefusesWhatTheModelDoesNotTake) {
-  const FakeEngine plain;
+  const FakeSampler plain;
   const auto refused = [&](const ControlRequest& request, const std::string& message) {
     ExpectError(ErrorCode::kInvalidArgument, message,
                 [&] { request.Validate(plain.model(), "controls"); });
@@ -362,7 +362,7 @@ TEST_F(ControlTrackTest, KeepsNoMoreThanItsLimits) {
   ExpectError(ErrorCode::kInvalidArgument, "controls[7]: is one more than the limit of 1000", [&] {
     track_.Set(Way({0, 1}, {0, 0}), 0, "controls[7]");
   });
-  ControlTrack other(engine_.model());
+  ControlTrack other(sampler_.model());
   VelocityRequest huge;
   huge.values.assign(kMaxControlValues + 1, 1);
   ExpectError(ErrorCode::kInvalidArgument, "1000001 points and values, the limit is 1000000",

@@ -9,12 +9,6 @@ namespace choreo::controlled_dance_test {
 
 using testing::HasSubstr;
 
-std::unique_ptr<Scheduler> ControlledScheduler() {
-  std::vector<std::unique_ptr<StepEngine>> engines;
-  engines.push_back(std::make_unique<ControlledEngine>());
-  return std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{64, 64});
-}
-
 /// Over the floor from x0 to x1, metres, at an angle of 45 degrees.
 ControlRequest Way(int64_t from, int64_t to, double x0, double x1) {
   ControlRequest request;
@@ -41,7 +35,7 @@ class ControlledDanceTest : public testing::Test {
   Recording Perform(const std::function<void(DanceStream&)>& messages, int64_t frames = 300) {
     config_.end_frame = frames;
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*scheduler_, config_, sink);
+    DanceStream stream(*queue_, config_, sink);
     messages(stream);
     stream.HalfClose();
     return sink->WaitForEnd();
@@ -54,7 +48,7 @@ class ControlledDanceTest : public testing::Test {
     return pose;
   }
 
-  const std::unique_ptr<Scheduler> scheduler_ = ControlledScheduler();
+  const std::unique_ptr<SampleQueue> queue_ = QueueOf<ControlledSampler>();
   DanceConfig config_;
 };
 
@@ -337,7 +331,7 @@ TEST_F(ControlledDanceTest, ASingleTransitionTellsOfAPathThatItHasNoFrameOf) {
     request.frames = 60;
     request.controls = Way(from, from + 99, 0, 1);
     auto sink = std::make_shared<GroupRecorder>();
-    const TransitionGroup group(*scheduler_, request, sink);
+    const TransitionGroup group(*queue_, request, sink);
     const Recording transition = sink->Wait();
     ASSERT_EQ(transition.warnings.size(), 1u);
     EXPECT_EQ(transition.warnings[0].kind, kind);
@@ -358,7 +352,7 @@ TEST_F(ControlledDanceTest, ASingleTransitionIsThatOfTheStream) {
   request.target = Target{key, {}};
   request.controls = path;
   auto sink = std::make_shared<GroupRecorder>();
-  const TransitionGroup group(*scheduler_, request, sink);
+  const TransitionGroup group(*queue_, request, sink);
   const Recording transition = sink->Wait();
   ASSERT_TRUE(dance.summary && transition.summary);
   ASSERT_EQ(transition.poses.size(), dance.poses.size());

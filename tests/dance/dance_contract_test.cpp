@@ -19,7 +19,7 @@ class DanceContract : public ::testing::Test {
                       bool with_audio = false) {
     DanceConfig config;
     if (with_audio) config.audio = DanceConfig::Audio{22050, 2, 0};
-    DanceStream stream(*scheduler_, config, std::make_shared<Recorder>());
+    DanceStream stream(*queue_, config, std::make_shared<Recorder>());
     try {
       message(stream);
     } catch (const Error& error) {
@@ -29,7 +29,7 @@ class DanceContract : public ::testing::Test {
     return "accepted";
   }
 
-  std::unique_ptr<Scheduler> scheduler_ = FakeScheduler();
+  std::unique_ptr<SampleQueue> queue_ = FakeQueue();
   Pose rest_ = RestPose(Skeleton::Smpl24());
 };
 
@@ -126,7 +126,7 @@ TEST_F(DanceContract, ADanceNeedsAnEnd) {
 
 TEST_F(DanceContract, LateKeysAreAnsweredAndTheDanceGoesOn) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*scheduler_, {}, sink);
+  DanceStream stream(*queue_, {}, sink);
   stream.GenerateUntil(0);
   stream.SetKey("a", AtFrame{50}, rest_);
   stream.GenerateUntil(60);
@@ -143,7 +143,7 @@ TEST_F(DanceContract, LateKeysAreAnsweredAndTheDanceGoesOn) {
 
 TEST_F(DanceContract, MessagesAfterTheEndAreIgnored) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*scheduler_, {}, sink);
+  DanceStream stream(*queue_, {}, sink);
   stream.SetKey("a", AtFrame{20}, rest_);
   stream.Cancel();
   EXPECT_TRUE(sink->WaitForEnd().error);
@@ -151,42 +151,39 @@ TEST_F(DanceContract, MessagesAfterTheEndAreIgnored) {
   stream.GenerateUntil(1000);
   stream.KeysComplete();
   stream.Cancel();
-  EXPECT_TRUE(scheduler_->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_TRUE(queue_->WaitUntilIdle(std::chrono::seconds(30)));
   EXPECT_EQ(sink->Snapshot().calls_after_end, 0);
 }
 
-TEST_F(DanceContract, StoppingTheSchedulerDrainsOrEndsDances) {
+TEST_F(DanceContract, StoppingTheQueueEndsDancesBehindWhatIsSampled) {
   const Dance dance = RandomDance(31);
-  for (bool drain : {true, false}) {
-    const auto scheduler = FakeScheduler();
-    auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*scheduler, dance.config, sink);
-    // Paused at its first frames, it is surely under way when the stop comes.
-    std::promise<void> began;
-    std::once_flag once;
-    sink->on_frames = [&](size_t) {
-      std::call_once(once, [&] {
-        stream.SetPaused(true);
-        began.set_value();
-      });
-    };
-    for (const Key& key : dance.keys) SendKey(stream, key);
-    stream.KeysComplete();
-    began.get_future().wait();
-    scheduler->Stop(drain);
-    stream.SetPaused(false);
-    const Recording recording = sink->WaitForEnd();
-    EXPECT_EQ(recording.summary.has_value(), drain);
-    if (!drain) {
-      EXPECT_EQ(recording.error->code(), ErrorCode::kUnavailable);
-    }
-  }
+  const auto queue = FakeQueue();
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*queue, dance.config, sink);
+  // Paused at its first frames, it is surely under way when the stop comes.
+  std::promise<void> began;
+  std::once_flag once;
+  sink->on_frames = [&](size_t) {
+    std::call_once(once, [&] {
+      stream.SetPaused(true);
+      began.set_value();
+    });
+  };
+  for (const Key& key : dance.keys) SendKey(stream, key);
+  stream.KeysComplete();
+  began.get_future().wait();
+  queue->Stop();
+  stream.SetPaused(false);
+  const Recording recording = sink->WaitForEnd();
+  ASSERT_TRUE(recording.error);
+  EXPECT_EQ(recording.error->code(), ErrorCode::kUnavailable);
+  EXPECT_TRUE(recording.in_order);
+  EXPECT_EQ(recording.poses.size(), static_cast<size_t>(recording.continuations.back().frame));
 }
 
-// Dances that are cancelled, dropped, paused and refused at any moment, several at once on too few
-// slots.
-TEST_F(DanceContract, ChaosEndsEveryDanceOnceAndFreesEverySlot) {
-  const auto scheduler = FakeScheduler(3, 2, 4);
+// Dances that are cancelled, dropped, paused and refused at any moment, several at once.
+TEST_F(DanceContract, ChaosEndsEveryDanceOnce) {
+  const auto queue = QueueOf<FakeSampler>(2);
   std::vector<std::thread> clients;
   for (uint32_t client = 0; client < 6; ++client) {
     clients.emplace_back([&, client] {
@@ -200,7 +197,7 @@ TEST_F(DanceContract, ChaosEndsEveryDanceOnceAndFreesEverySlot) {
           const std::shared_ptr<DanceStream> alive = handle.lock();
           if (alive != nullptr && count == stop_at) alive->Cancel();
         };
-        auto stream = std::make_shared<DanceStream>(*scheduler, dance.config, sink);
+        auto stream = std::make_shared<DanceStream>(*queue, dance.config, sink);
         handle = stream;
         for (const Key& key : dance.keys) SendKey(*stream, key);
         if (random() % 4 == 0) stream->SetPaused(true);
@@ -225,13 +222,13 @@ TEST_F(DanceContract, ChaosEndsEveryDanceOnceAndFreesEverySlot) {
     });
   }
   for (std::thread& client : clients) client.join();
-  EXPECT_TRUE(scheduler->WaitUntilIdle(std::chrono::seconds(30)));
-  EXPECT_EQ(scheduler->stats().active, 0);
-  EXPECT_TRUE(Perform(*scheduler, RandomDance(32)).summary);
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_EQ(queue->stats().active, 0);
+  EXPECT_TRUE(Perform(*queue, RandomDance(32)).summary);
 }
 
-TEST_F(DanceContract, LatencyCountsWindowFilterAndResampling) {
-  const ModelInfo& model = scheduler_->model();
+TEST_F(DanceContract, LatencyCountsWindowFilterResamplingAndWhatAModelHears) {
+  const ModelInfo model = FakeSampler().model();
   DanceConfig config;
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 0);
   config.output_fps = 60;
@@ -241,22 +238,21 @@ TEST_F(DanceContract, LatencyCountsWindowFilterAndResampling) {
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 2);  // 1024 / 735 frames
   config.output_fps = 120;
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 10);  // (1024 / 735 + 1) * 4
+  EXPECT_EQ(DanceStream::LatencyFrames(config, HearingSampler().model()), 10 + 4 * kUsualFrames);
 }
 
 // One that is not trained for more.
-class CalmEngine : public FakeEngine {
+class CalmSampler : public FakeSampler {
  public:
-  CalmEngine() { model_.max_temperature = 1.25; }
+  CalmSampler() { model_.max_temperature = 1.25; }
 };
 
 TEST(DanceWarnings, TemperatureBeyondTheModelsIsTold) {
   for (const float asked : {1.25F, 1.5F}) {
-    std::vector<std::unique_ptr<StepEngine>> engines;
-    engines.push_back(std::make_unique<CalmEngine>());
-    Scheduler scheduler(std::move(engines), {});
+    const auto queue = QueueOf<CalmSampler>();
     Dance dance = RandomDance(3);
     dance.config.temperature = asked;
-    const Recording told = Perform(scheduler, dance);
+    const Recording told = Perform(*queue, dance);
     const auto is_it = [](const DanceWarning& warning) {
       return warning.kind == DanceWarning::Kind::kTemperatureTooHigh;
     };

@@ -11,11 +11,11 @@
 namespace choreo::dance_determinism_test {
 
 TEST(DanceStream, SameSeedSameBitsWhateverElseRuns) {
-  const auto alone = FakeScheduler();
+  const auto alone = FakeQueue();
   Dance dance = RandomDance(13, /*music_seconds=*/4);
   const Recording expected = Perform(*alone, dance);
   ASSERT_TRUE(expected.summary);
-  const auto crowded = FakeScheduler(8, 2);
+  const auto crowded = FakeQueue(2);
   std::vector<std::thread> threads;
   std::vector<Recording> recordings(16);
   for (size_t i = 0; i < recordings.size(); ++i) {
@@ -35,22 +35,22 @@ TEST(DanceStream, SameSeedSameBitsWhateverElseRuns) {
 }
 
 TEST(DanceStream, TheModelIsToldOfTheBeats) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(13, 4);
-  const Recording timed = Perform(*scheduler, dance);
+  const Recording timed = Perform(*queue, dance);
   dance.config.music_beats.clear();
-  EXPECT_FALSE(SameDance(timed, Perform(*scheduler, dance)));
+  EXPECT_FALSE(SameDance(timed, Perform(*queue, dance)));
 }
 
 TEST(DanceStream, ChunksAndInterleavingOfAudioDoNotMatter) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   const Dance dance = RandomDance(14, 4);
-  const Recording expected = Perform(*scheduler, dance);
+  const Recording expected = Perform(*queue, dance);
   ASSERT_TRUE(expected.summary);
   std::mt19937 random(5);
   for (int round = 0; round < 12; ++round) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*scheduler, dance.config, sink);
+    DanceStream stream(*queue, dance.config, sink);
     size_t key = 0;
     int64_t sample = 0;
     const int64_t samples = static_cast<int64_t>(dance.samples.size());
@@ -83,15 +83,15 @@ TEST(DanceStream, ChunksAndInterleavingOfAudioDoNotMatter) {
 }
 
 TEST(DanceStream, OrderOfKeysDoesNotMatterBehindTheFrontier) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(15);
-  const Recording expected = Perform(*scheduler, dance);
+  const Recording expected = Perform(*queue, dance);
   std::mt19937 random(6);
   for (int round = 0; round < 10; ++round) {
     std::vector<Key> shuffled = dance.keys;
     std::shuffle(shuffled.begin(), shuffled.end(), random);
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*scheduler, dance.config, sink);
+    DanceStream stream(*queue, dance.config, sink);
     stream.GenerateUntil(0);
     for (Key key : shuffled) {
       if (round % 2 == 0) {  // first somewhere else, with another pose, then moved
@@ -112,15 +112,15 @@ TEST(DanceStream, OrderOfKeysDoesNotMatterBehindTheFrontier) {
 }
 
 TEST(DanceStream, EndsTheSameWhicheverEndIsKnownFirst) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(16, 3.3);
   dance.keys.resize(1);
-  const Recording expected = Perform(*scheduler, dance);
+  const Recording expected = Perform(*queue, dance);
   ASSERT_TRUE(expected.summary);
   EXPECT_EQ(expected.poses.size(), 99u);
   for (int order = 0; order < 3; ++order) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*scheduler, dance.config, sink);
+    DanceStream stream(*queue, dance.config, sink);
     if (order == 0) {
       // Far more is granted than there is music; whether the dance goes on past it is open until
       // the keys are complete.
@@ -144,15 +144,15 @@ TEST(DanceStream, EndsTheSameWhicheverEndIsKnownFirst) {
 }
 
 TEST(DanceStream, PausingHoldsFramesBackAndChangesNone) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   const Dance dance = RandomDance(18);
-  const Recording expected = Perform(*scheduler, dance);
+  const Recording expected = Perform(*queue, dance);
   auto sink = std::make_shared<Recorder>();
   std::atomic<DanceStream*> handle = nullptr;
   sink->on_frames = [&handle](size_t count) {
     if (count % 10 == 0) handle.load()->SetPaused(true);
   };
-  DanceStream stream(*scheduler, dance.config, sink);
+  DanceStream stream(*queue, dance.config, sink);
   handle = &stream;
   for (const Key& key : dance.keys) SendKey(stream, key);
   stream.KeysComplete();
@@ -165,16 +165,16 @@ TEST(DanceStream, PausingHoldsFramesBackAndChangesNone) {
 }
 
 TEST(DanceStream, MovingAndTurningTheSceneMovesTheDance) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   std::mt19937 random(8);
   Dance dance = RandomDance(22);
   dance.config.history = MotionTo(RandomPose(random), 10, random);
-  const Recording here = Perform(*scheduler, dance);
+  const Recording here = Perform(*queue, dance);
   const double heading = 2.1;
   const Eigen::Vector3d shift(12, 0, -7);
   for (Pose& pose : dance.config.history) pose = Placed(pose, heading, shift);
   for (Key& key : dance.keys) key.pose = Placed(key.pose, heading, shift);
-  const Recording there = Perform(*scheduler, dance);
+  const Recording there = Perform(*queue, dance);
   ASSERT_EQ(here.poses.size(), there.poses.size());
   for (size_t i = 0; i < here.poses.size(); ++i) {
     const PoseError error =

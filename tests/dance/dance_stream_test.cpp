@@ -11,9 +11,9 @@
 namespace choreo::dance_stream_test {
 
 TEST(DanceStream, HitsEveryKeyAndReportsIt) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(11);
-  const Recording recording = Perform(*scheduler, dance);
+  const Recording recording = Perform(*queue, dance);
   ASSERT_TRUE(recording.summary) << recording.error->what();
   EXPECT_TRUE(recording.in_order);
   EXPECT_EQ(recording.calls_after_end, 0);
@@ -40,11 +40,11 @@ TEST(DanceStream, HitsEveryKeyAndReportsIt) {
 }
 
 TEST(DanceStream, AKeyOnFrameZeroIsTheFirstFrame) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   std::mt19937 random(3);
   Dance dance;
   dance.keys = {{"start", 0, RandomPose(random), {}}, {"end", 40, RandomPose(random), {}}};
-  const Recording recording = Perform(*scheduler, dance);
+  const Recording recording = Perform(*queue, dance);
   ASSERT_EQ(recording.poses.size(), 41u);
   EXPECT_LT(ComparePoses(Skeleton::Smpl24(), recording.poses[0], dance.keys[0].pose).position_m,
             1e-6);
@@ -52,11 +52,11 @@ TEST(DanceStream, AKeyOnFrameZeroIsTheFirstFrame) {
 }
 
 TEST(DanceStream, FramesFlowWhileTheMusicStillArrives) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = QueueOf<FakeSampler>();
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*scheduler, config, sink);
+  DanceStream stream(*queue, config, sink);
   stream.KeysComplete();
   const std::vector<float> samples = Song(22050, 5);
   // Frame r needs samples up to 735 r + 1024, and no more.
@@ -73,33 +73,50 @@ TEST(DanceStream, FramesFlowWhileTheMusicStillArrives) {
   }
 }
 
+// It is sampled whole, so all of its music must be there; the sixtieth frame's needs no more.
+TEST(DanceStream, AModelThatHearsMusicWaitsForThatOfATransition) {
+  const auto queue = FakeQueue();
+  DanceConfig config;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*queue, config, sink);
+  stream.KeysComplete();
+  const std::vector<float> samples = Song(22050, 3);
+  const size_t enough = 735 * (kUsualFrames - 1) + 1024;
+  stream.PushAudio(std::span(samples).first(enough - 1), 0);
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_EQ(sink->Snapshot().poses.size(), 0U);
+  stream.PushAudio(std::span(samples).subspan(enough - 1, 1), enough - 1);
+  EXPECT_EQ(sink->WaitForFrames(kUsualFrames).poses.size(), static_cast<size_t>(kUsualFrames));
+}
+
 TEST(DanceStream, EndsWithTheMusic) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   for (double seconds : {0.01, 1.0, 2.345}) {
     Dance dance;
     dance.config.audio = DanceConfig::Audio{44100, 2, 0};
     dance.samples = Song(44100, seconds, 2);
-    const Recording recording = Perform(*scheduler, dance);
+    const Recording recording = Perform(*queue, dance);
     ASSERT_TRUE(recording.summary);
     EXPECT_EQ(recording.poses.size(), static_cast<size_t>(std::ceil(seconds * 30 - 1e-9)));
   }
 }
 
 TEST(DanceStream, KeysBehindTheMusicAreReachedInSilence) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(17, 1.0);
-  const Recording recording = Perform(*scheduler, dance);
+  const Recording recording = Perform(*queue, dance);
   ASSERT_TRUE(recording.summary);
   EXPECT_EQ(recording.reached.size(), dance.keys.size());
 }
 
 TEST(DanceStream, ALongDanceWithoutKeysStaysFinite) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   DanceConfig config;
   config.end_frame = 18'000;  // ten minutes
   config.temperature = 1.0F;
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*scheduler, config, sink);
+  DanceStream stream(*queue, config, sink);
   stream.KeysComplete();
   const Recording recording = sink->WaitForEnd();
   ASSERT_TRUE(recording.summary) << recording.error->what();
@@ -114,7 +131,7 @@ TEST(DanceStream, ALongDanceWithoutKeysStaysFinite) {
 
 // It may be led away by keys; then it keeps to where they left it.
 TEST(DanceStream, KeepsToWhereItBeganOrWasLastPlaced) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance;
   dance.config.temperature = 0;
   Pose start = RestPose(Skeleton::Smpl24()), away = start, armed = start;
@@ -124,23 +141,23 @@ TEST(DanceStream, KeepsToWhereItBeganOrWasLastPlaced) {
   PoseMask arms{.root_position = false, .joints = std::vector<bool>(24, false)};
   arms.joints[16] = true;
   dance.keys = {{"arms", 60, armed, arms}, {"away", 120, away, {}}, {"end", 240, armed, arms}};
-  const std::vector<Pose> poses = Perform(*scheduler, dance).poses;
+  const std::vector<Pose> poses = Perform(*queue, dance).poses;
   ASSERT_EQ(poses.size(), 241U);
   EXPECT_NEAR(poses[60].root_position.x(), 3, 0.05);
   EXPECT_NEAR(poses[240].root_position.x(), 0, 0.05);
   EXPECT_NEAR(poses[240].root_position.z(), -4, 0.05);
 }
 
-TEST(DanceStream, CancellationFreesTheSlot) {
-  const auto scheduler = FakeScheduler(1, 1, 0);
-  const auto idle = [&] { return scheduler->WaitUntilIdle(std::chrono::seconds(30)); };
+TEST(DanceStream, CancellationEndsItOnce) {
+  const auto queue = QueueOf<FakeSampler>();
+  const auto idle = [&] { return queue->WaitUntilIdle(std::chrono::seconds(30)); };
   for (int how = 0; how < 3; ++how) {
     auto sink = std::make_shared<Recorder>();
     DanceConfig config;
     config.audio = DanceConfig::Audio{22050, 1, 0};
-    auto stream = std::make_unique<DanceStream>(*scheduler, config, sink);
+    auto stream = std::make_unique<DanceStream>(*queue, config, sink);
     stream->KeysComplete();
-    stream->PushAudio(Song(22050, 0.5), 0);  // then it waits for more, in its slot
+    stream->PushAudio(Song(22050, 0.5), 0);  // then it waits for more
     if (how > 0) sink->WaitForFrames(5);
     if (how < 2) stream->Cancel();
     stream.reset();  // cancels too
@@ -150,33 +167,73 @@ TEST(DanceStream, CancellationFreesTheSlot) {
     EXPECT_EQ(recording.calls_after_end, 0);
     EXPECT_TRUE(idle());
   }
-  // The one slot serves the next dance.
-  EXPECT_TRUE(Perform(*scheduler, RandomDance(19)).summary);
+  EXPECT_TRUE(Perform(*queue, RandomDance(19)).summary);
 }
 
-// The only slot goes to who can dance, and the first is the same as alone.
+// The only worker makes what can be danced, and the first is the same as alone.
 TEST(DanceStream, WhoWaitsForMusicHoldsUpNobody) {
-  const auto scheduler = FakeScheduler(1, 1, 0);
+  const auto queue = QueueOf<FakeSampler>();
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
   auto first_sink = std::make_shared<Recorder>();
-  DanceStream first(*scheduler, config, first_sink);
+  DanceStream first(*queue, config, first_sink);
   first.KeysComplete();
   first.PushAudio(Song(22050, 0.5), 0);
   first_sink->WaitForFrames(1);
-  EXPECT_TRUE(Perform(*scheduler, RandomDance(20)).summary);
+  EXPECT_TRUE(Perform(*queue, RandomDance(20)).summary);
   first.PushAudio(Song(22050, 1.5), 11025);
   first.EndOfAudio();
   const Recording interrupted = first_sink->WaitForEnd();
   ASSERT_TRUE(interrupted.summary);
 
   auto sink = std::make_shared<Recorder>();
-  DanceStream alone(*scheduler, config, sink);
+  DanceStream alone(*queue, config, sink);
   alone.KeysComplete();
   alone.PushAudio(Song(22050, 0.5), 0);
   alone.PushAudio(Song(22050, 1.5), 11025);
   alone.EndOfAudio();
   EXPECT_TRUE(SameDance(sink->WaitForEnd(), interrupted));
+}
+
+// One transition ahead, so that it is there when it is due; not more, which could be asked for and
+// never danced.
+TEST(DanceStream, TheNextTransitionIsSampledWhileOneIsHandedOut) {
+  const auto queue = FakeQueue();
+  const Dance dance = RandomDance(24);
+  auto sink = std::make_shared<Recorder>();
+  DanceStream stream(*queue, dance.config, sink);
+  sink->on_frames = [&](size_t count) {
+    if (count == 1) stream.SetPaused(true);
+  };
+  for (const Key& key : dance.keys) SendKey(stream, key);
+  stream.KeysComplete();
+  sink->WaitForFrames(1);
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_EQ(queue->stats().transitions, 2U);
+  EXPECT_EQ(sink->Snapshot().poses.size(), 1U);
+  stream.SetPaused(false);
+  EXPECT_TRUE(sink->WaitForEnd().summary);
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_EQ(queue->stats().transitions, dance.keys.size());
+}
+
+// Whatever becomes of it, its listener is let go.
+TEST(DanceStream, NothingOfADanceIsLeftBehind) {
+  const auto queue = FakeQueue();
+  for (const bool whole : {true, false}) {
+    const auto sink = std::make_shared<Recorder>();
+    {
+      DanceStream stream(*queue, {}, sink);
+      stream.GenerateUntil(10);
+      sink->WaitForFrames(10);
+      stream.SetKey("a", AtFrame{20}, RestPose(Skeleton::Smpl24()));
+      if (whole) stream.HalfClose();
+      if (whole) sink->WaitForEnd();
+    }
+    EXPECT_TRUE(sink->WaitForEnd().ended());
+    EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+    EXPECT_EQ(sink.use_count(), 1) << (whole ? "whole" : "cancelled");
+  }
 }
 
 /// Has no memory when it is told where it could go on.
@@ -186,43 +243,44 @@ class ForgetfulRecorder final : public Recorder {
 };
 
 TEST(DanceStream, EndsInAnErrorWhereMemoryIsOut) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   auto sink = std::make_shared<ForgetfulRecorder>();
-  DanceStream stream(*scheduler, {}, sink);
+  DanceStream stream(*queue, {}, sink);
   stream.SetKey("a", AtFrame{20}, RestPose(Skeleton::Smpl24()));
   const Recording recording = sink->WaitForEnd();
   ASSERT_TRUE(recording.error);
   EXPECT_EQ(recording.error->code(), ErrorCode::kInternal);
-  EXPECT_TRUE(scheduler->WaitUntilIdle(std::chrono::seconds(30)));
-  EXPECT_TRUE(Perform(*scheduler, RandomDance(20)).summary);
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_TRUE(Perform(*queue, RandomDance(20)).summary);
 }
 
 /// Gives a pose that is not a number at one frame.
-class BrokenEngine : public FakeEngine {
+class BrokenSampler : public FakeSampler {
  public:
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
-    FakeEngine::Step(in, out);
-    if (++steps_ == 20) out[0].pose.rotations(1, 5) = std::nan("");
+  void OnFrame(const TransitionSpec&, Plan* plan) override {
+    if (++frames_ == 70) plan->poses.back().rotations(1, 5) = std::nan("");
   }
 
  private:
-  int steps_ = 0;
+  int frames_ = 0;
 };
 
+// The transitions before are handed out.
 TEST(DanceStream, AModelThatBreaksEndsTheDanceAlone) {
-  std::vector<std::unique_ptr<StepEngine>> engines;
-  engines.push_back(std::make_unique<BrokenEngine>());
-  Scheduler scheduler(std::move(engines), {});
-  const Recording broken = Perform(scheduler, RandomDance(21));
+  const auto queue = QueueOf<BrokenSampler>();
+  Dance dance = RandomDance(21);
+  dance.keys = {{"a", 39, dance.keys[0].pose, {}}, {"b", 99, dance.keys[1].pose, {}}};
+  const Recording broken = Perform(*queue, dance);
   ASSERT_TRUE(broken.error);
   EXPECT_EQ(broken.error->code(), ErrorCode::kInternal);
-  EXPECT_THAT(broken.error->what(), ::testing::HasSubstr("frame 19"));
-  EXPECT_EQ(broken.poses.size(), 19u);
-  EXPECT_TRUE(Perform(scheduler, RandomDance(21)).summary);
+  EXPECT_THAT(broken.error->what(), ::testing::HasSubstr("frame 69"));
+  EXPECT_EQ(broken.poses.size(), 40u);
+  EXPECT_EQ(broken.reached.size(), 1u);
+  EXPECT_TRUE(Perform(*queue, dance).summary);
 }
 
 TEST(DanceStream, WarnsOfIntervalsTooShortForTheChange) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance;
   Pose far = RestPose(Skeleton::Smpl24());
   dance.keys.push_back({"start", 0, far, {}});
@@ -230,7 +288,7 @@ TEST(DanceStream, WarnsOfIntervalsTooShortForTheChange) {
   dance.keys.push_back({"far", 10, far, {}});
   far.rotations.col(17) = Eigen::Vector3d(0, 0, 3);
   dance.keys.push_back({"twist", 14, far, {}});
-  const Recording recording = Perform(*scheduler, dance);
+  const Recording recording = Perform(*queue, dance);
   ASSERT_TRUE(recording.summary);
   ASSERT_EQ(recording.warnings.size(), 2u);
   EXPECT_EQ(recording.warnings[0].kind, DanceWarning::Kind::kIntervalTooShort);
@@ -240,11 +298,11 @@ TEST(DanceStream, WarnsOfIntervalsTooShortForTheChange) {
 }
 
 TEST(DanceStream, RefusedMessagesChangeNothing) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   const Dance dance = RandomDance(23, 3);
-  const Recording expected = Perform(*scheduler, dance);
+  const Recording expected = Perform(*queue, dance);
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*scheduler, dance.config, sink);
+  DanceStream stream(*queue, dance.config, sink);
   Pose bad = dance.keys[0].pose;
   bad.rotations(0, 16) = 7.9;
   const std::vector<float> nan(10, std::nanf(""));

@@ -11,6 +11,13 @@
 
 namespace choreo::music_beats_test {
 
+// A transition begins.
+std::vector<double> Begin(MusicBeats* music, int64_t from, int64_t to) {
+  const std::vector<MusicBeat> beats = music->For(from, to);
+  music->Begin(beats, from);
+  return music->Around(beats, from, to);
+}
+
 // Of a song that beats every half second.
 double Off(double seconds) { return std::abs(seconds - 0.5 * std::round(2 * seconds)); }
 
@@ -28,14 +35,14 @@ std::vector<float> Drum(double seconds, double period) {
 }
 
 TEST(MusicBeats, ALiveDanceHearsThem) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   for (const bool keyed : {true, false}) {
     Dance dance = LiveDance(41, 20);
     if (!keyed) {  // then each fourth beat is on a boundary
       dance.keys.clear();
       dance.samples = Drum(20, 0.5);
     }
-    const Recording recording = Perform(*scheduler, dance);
+    const Recording recording = Perform(*queue, dance);
     ASSERT_TRUE(recording.summary);
     ASSERT_FALSE(recording.beats.empty());
     EXPECT_LT(recording.beats.front().seconds, keyed ? 6 : 7);  // with a transition, at 6 s
@@ -58,35 +65,35 @@ TEST(MusicBeats, ALiveDanceHearsThem) {
 
 // What is told is what is danced to.
 TEST(MusicBeats, TheDanceIsTimedToThem) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = LiveDance(42, 12);
-  const Recording heard = Perform(*scheduler, dance);
+  const Recording heard = Perform(*queue, dance);
   for (double beat = 0.5; beat < 12; beat += 0.5) dance.config.music_beats.push_back(beat);
-  const Recording given = Perform(*scheduler, dance);
+  const Recording given = Perform(*queue, dance);
   EXPECT_FALSE(SameDance(heard, given));
   ASSERT_EQ(given.beats.size(), 23U);
   EXPECT_EQ(given.beats.front().source, MusicBeat::Source::kGiven);
 }
 
 TEST(MusicBeats, NoiseAndSilenceHaveNone) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = LiveDance(43, 15);
   std::mt19937 random(5);
   for (const float loudness : {0.3F, 0.0F}) {
     std::uniform_real_distribution<float> noise(-1, 1);
     for (float& sample : dance.samples) sample = loudness * noise(random);
-    EXPECT_TRUE(Perform(*scheduler, dance).beats.empty()) << loudness;
+    EXPECT_TRUE(Perform(*queue, dance).beats.empty()) << loudness;
   }
 }
 
 // Neither how the music is cut nor when it comes changes what is heard.
 TEST(MusicBeats, ArePureInTheSamples) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = QueueOf<FakeSampler>();
   Dance dance = LiveDance(44, 16);
-  const Recording expected = Perform(*scheduler, dance);
+  const Recording expected = Perform(*queue, dance);
   for (const int64_t chunk : {735, 10'007, 1'000'000}) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*scheduler, dance.config, sink);
+    DanceStream stream(*queue, dance.config, sink);
     for (const Key& key : dance.keys) SendKey(stream, key);
     stream.KeysComplete();
     const auto samples = static_cast<int64_t>(dance.samples.size());
@@ -110,12 +117,12 @@ TEST(MusicBeats, ArePureInTheSamples) {
 
 // A DJ's program knows better.
 TEST(MusicBeats, AreGivenWhileTheDanceGoesOn) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = QueueOf<FakeSampler>();
   Dance dance = LiveDance(45, 16);
   dance.config.generate_until = 0;
   const auto play = [&](const DanceConfig& config, bool patient) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*scheduler, config, sink);
+    DanceStream stream(*queue, config, sink);
     SendSong(stream, dance, config.audio->first_sample);
     for (int64_t frame = 30; frame <= 450; frame += 30) {
       stream.GenerateUntil(frame);
@@ -153,8 +160,8 @@ TEST(MusicBeats, AreGivenWhileTheDanceGoesOn) {
 }
 
 TEST(MusicBeats, AreBoundedAndComeBeforeTheKeysAreComplete) {
-  const auto scheduler = FakeScheduler();
-  DanceStream stream(*scheduler, LiveDance(46, 1).config, std::make_shared<Recorder>());
+  const auto queue = FakeQueue();
+  DanceStream stream(*queue, LiveDance(46, 1).config, std::make_shared<Recorder>());
   std::vector<double> many;
   for (size_t i = 0; i < kMostBeats; ++i) many.push_back(0.05 * static_cast<double>(i));
   stream.GiveBeats(many);
@@ -179,7 +186,7 @@ TEST(MusicBeats, AreToldOnceEach) {
       for (int64_t from = 0, to = 0; from < 900; from = to) {
         const int64_t frames = cut ? 1 + static_cast<int64_t>(random() % 100) : 60;
         to = from + (cut ? 1 + static_cast<int64_t>(random()) % frames : frames);
-        music.Around(from, from + frames);
+        Begin(&music, from, from + frames);
         for (int64_t frame = from; frame < to; ++frame) music.Of(frame);
       }
       std::vector<double> told = music.told();
@@ -207,7 +214,7 @@ TEST(MusicBeats, AGridThatIsSaidAgainIsToldOnce) {
         if (0.5 * beat > static_cast<double>(from) / 30) grid.push_back(0.5 * beat + off);
       }
       if (!grid.empty()) beats.Give(grid, from + lead, "music_beats");
-      beats.Around(from, from + 9);
+      Begin(&beats, from, from + 9);
       for (int64_t frame = from; frame < from + 9; ++frame) {
         for (const MusicBeat& beat : beats.Of(frame)) {
           told.push_back(beat);
@@ -231,7 +238,7 @@ TEST(MusicBeats, AreHeardBesideThoseGiven) {
   EXPECT_EQ(music.Give(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
   std::vector<MusicBeat> beats;
   for (int64_t from = 224; from < 524; from += 60) {
-    music.Around(from, from + 60);
+    Begin(&music, from, from + 60);
     for (int64_t frame = from; frame < from + 60; ++frame)
       for (const MusicBeat& beat : music.Of(frame)) beats.push_back(beat);
   }
@@ -257,7 +264,8 @@ TEST(MusicBeats, WhatFollowsChangesNothing) {
     AudioFeed feed(22050, 1, 0);
     feed.Push(song, 0, [] {});
     feed.Finish();
-    return MusicBeats(30, {}, std::nullopt, &feed).Around(300, 360);
+    MusicBeats music(30, {}, std::nullopt, &feed);
+    return Begin(&music, 300, 360);
   };
   const std::vector<double> heard = around();
   ASSERT_FALSE(heard.empty());

@@ -65,10 +65,10 @@ std::vector<Message> RandomMessages(std::mt19937& random) {
   return messages;
 }
 
-Recording Play(Scheduler& scheduler, const Dance& dance, const DanceConfig& config,
+Recording Play(SampleQueue& queue, const Dance& dance, const DanceConfig& config,
                const std::vector<Message>& messages) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(scheduler, config, sink);
+  DanceStream stream(queue, config, sink);
   for (const Message& message : messages) message(stream);
   SendSong(stream, dance, config.audio->first_sample);
   stream.HalfClose();
@@ -95,9 +95,8 @@ void ExpectTheRestOf(const Recording& whole, size_t place, const Recording& rest
 }
 
 TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
-  std::vector<std::unique_ptr<StepEngine>> engines;
-  engines.push_back(std::make_unique<ControlledEngine>());
-  Scheduler scheduler(std::move(engines), Scheduler::Options{64, 64});
+  const auto samplers = QueueOf<ControlledSampler>();
+  SampleQueue& queue = *samplers;
   size_t resumes = 0, heard = 0, given = 0;
   for (uint32_t seed = 1; seed <= 30; ++seed) {
     std::mt19937 random(seed);
@@ -105,7 +104,7 @@ TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
     dance.config.generate_until = 0;
     dance.config.end_frame = kFrames;
     const std::vector<Message> messages = RandomMessages(random);
-    const Recording whole = Play(scheduler, dance, dance.config, messages);
+    const Recording whole = Play(queue, dance, dance.config, messages);
     ASSERT_TRUE(whole.summary) << whole.error->what();
     EXPECT_EQ(std::ranges::adjacent_find(whole.beats, std::greater_equal(), &MusicBeat::seconds),
               whole.beats.end())
@@ -118,7 +117,7 @@ TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
       DanceConfig config = dance.config;
       config.continuation = continuation;
       config.audio->first_sample = *continuation.audio_from_sample;
-      ExpectTheRestOf(whole, place, Play(scheduler, dance, config, messages));
+      ExpectTheRestOf(whole, place, Play(queue, dance, config, messages));
       ++resumes;
     }
   }

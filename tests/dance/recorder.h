@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "model/dance/dance_stream.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo {
 
@@ -124,12 +124,14 @@ inline bool SameDance(const Recording& a, const Recording& b) {
   return !b.poses.empty();
 }
 
-/// A scheduler over one fake engine, or several.
-inline std::unique_ptr<Scheduler> FakeScheduler(int slots = 16, int engines = 1,
-                                                int max_waiting = 64) {
-  std::vector<std::unique_ptr<StepEngine>> list;
-  for (int i = 0; i < engines; ++i) list.push_back(std::make_unique<FakeEngine>(slots));
-  return std::make_unique<Scheduler>(std::move(list), Scheduler::Options{max_waiting, 64});
+/// A queue over workers of one model.
+template <typename Model = FakeSampler>
+std::unique_ptr<SampleQueue> QueueOf(int workers = 1, int max_bulk = 128) {
+  return std::make_unique<SampleQueue>(FakeSamplers<Model>(workers),
+                                       SampleQueue::Options{.max_bulk = max_bulk});
+}
+inline std::unique_ptr<SampleQueue> FakeQueue(int workers = 1, int max_bulk = 128) {
+  return QueueOf<HearingSampler>(workers, max_bulk);
 }
 
 }  // namespace choreo

@@ -7,7 +7,7 @@ namespace choreo::resume_test {
 
 /// What a client sends again after the server broke: the same config with the continuation, the
 /// same messages.
-Recording Resume(Scheduler& scheduler, const Dance& dance, const Continuation& continuation,
+Recording Resume(SampleQueue& queue, const Dance& dance, const Continuation& continuation,
                  const std::function<void(DanceStream&)>& messages) {
   DanceConfig config = dance.config;
   config.history.clear();
@@ -19,7 +19,7 @@ Recording Resume(Scheduler& scheduler, const Dance& dance, const Continuation& c
     config.audio->first_sample = from;
   }
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(scheduler, config, sink);
+  DanceStream stream(queue, config, sink);
   messages(stream);
   if (config.audio) SendSong(stream, dance, from);
   stream.HalfClose();
@@ -37,10 +37,10 @@ void ExpectSameBeats(const Recording& whole, const Recording& rest, size_t told)
   }
 }
 
-void ExpectResumesEverywhere(Scheduler& scheduler, const Dance& dance,
+void ExpectResumesEverywhere(SampleQueue& queue, const Dance& dance,
                              const std::function<void(DanceStream&)>& messages) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(scheduler, dance.config, sink);
+  DanceStream stream(queue, dance.config, sink);
   messages(stream);
   if (dance.config.audio) SendSong(stream, dance);
   stream.HalfClose();
@@ -49,7 +49,7 @@ void ExpectResumesEverywhere(Scheduler& scheduler, const Dance& dance,
   ASSERT_GE(whole.continuations.size(), 3u);
   for (size_t place = 0; place < whole.continuations.size(); ++place) {
     const Continuation& continuation = whole.continuations[place];
-    const Recording rest = Resume(scheduler, dance, continuation, messages);
+    const Recording rest = Resume(queue, dance, continuation, messages);
     ASSERT_TRUE(rest.summary) << rest.error->what();
     if (&continuation == &whole.continuations.back()) {
       EXPECT_TRUE(rest.poses.empty());  // nothing is left to dance
@@ -65,7 +65,7 @@ void ExpectResumesEverywhere(Scheduler& scheduler, const Dance& dance,
 }
 
 TEST(Resume, GoesOnBitForBitWithKeysAndMusic) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   for (uint32_t seed = 1; seed <= 4; ++seed) {
     Dance dance = RandomDance(seed, 5);
     if (seed == 2) {
@@ -74,39 +74,39 @@ TEST(Resume, GoesOnBitForBitWithKeysAndMusic) {
     }
     if (seed == 3) dance.config.output_fps = 60;
     if (seed == 4) dance.config.output_fps = 23.976;
-    ExpectResumesEverywhere(*scheduler, dance, [&dance](DanceStream& stream) {
+    ExpectResumesEverywhere(*queue, dance, [&dance](DanceStream& stream) {
       for (const Key& key : dance.keys) SendKey(stream, key);
     });
   }
 }
 
 TEST(Resume, GoesOnBitForBitWithMusicAlone) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(5, 7.7);
   std::mt19937 random(5);
   dance.config.history = MotionTo(RandomPose(random), 4, random);  // fewer than tau
-  ExpectResumesEverywhere(*scheduler, dance, [](DanceStream&) {});
+  ExpectResumesEverywhere(*queue, dance, [](DanceStream&) {});
 }
 
 // Of the music only what beats are heard in is sent again.
 TEST(Resume, GoesOnBitForBitListeningForBeats) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   for (const bool keyed : {false, true}) {
     Dance dance = LiveDance(31, 23);
     if (!keyed) dance.keys.clear();
-    const Recording whole = Perform(*scheduler, dance);
+    const Recording whole = Perform(*queue, dance);
     EXPECT_GT(whole.beats.size(), 20U);
     EXPECT_GT(*whole.continuations.back().audio_from_sample, 22050);
-    ExpectResumesEverywhere(*scheduler, dance, [&dance](DanceStream& stream) {
+    ExpectResumesEverywhere(*queue, dance, [&dance](DanceStream& stream) {
       for (const Key& key : dance.keys) SendKey(stream, key);
     });
   }
 }
 
 TEST(Resume, GoesOnBitForBitWithoutMusic) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   const Dance dance = RandomDance(6);
-  ExpectResumesEverywhere(*scheduler, dance, [&dance](DanceStream& stream) {
+  ExpectResumesEverywhere(*queue, dance, [&dance](DanceStream& stream) {
     for (const Key& key : dance.keys) SendKey(stream, key);
   });
 }
@@ -114,12 +114,12 @@ TEST(Resume, GoesOnBitForBitWithoutMusic) {
 // Keys were edited while the dance went on: the log of messages decides, not what the keys came to
 // be in the end.
 TEST(Resume, GoesOnBitForBitAfterEdits) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   const Dance dance = RandomDance(7, 12);
   std::mt19937 random(7);
   std::vector<Pose> poses;
   for (int i = 0; i < 5; ++i) poses.push_back(RandomPose(random));
-  ExpectResumesEverywhere(*scheduler, dance, [&poses](DanceStream& stream) {
+  ExpectResumesEverywhere(*queue, dance, [&poses](DanceStream& stream) {
     stream.GenerateUntil(0);
     stream.SetKey("a", AtFrame{250}, poses[0]);
     stream.GenerateUntil(70);
@@ -135,36 +135,36 @@ TEST(Resume, GoesOnBitForBitAfterEdits) {
 
 // A server that is lost behind the last frame of all hands on a dance that only wants its summary.
 TEST(Resume, GoesOnBehindAKeyInTheLastFrameOfAll) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(10);
   dance.config.continuation = Continuation{.frame = kMaxDanceFrames - 20,
-                                           .poses = FillHistory(scheduler->model(), {}),
-                                           .fingerprint = scheduler->model().fingerprint};
+                                           .poses = FillHistory(queue->model(), {}),
+                                           .fingerprint = queue->model().fingerprint};
   dance.keys.erase(dance.keys.begin() + 1, dance.keys.end());
   dance.keys.front().frame = kMaxDanceFrames;
-  const Recording whole = Perform(*scheduler, dance);
+  const Recording whole = Perform(*queue, dance);
   ASSERT_TRUE(whole.summary) << whole.error->what();
   EXPECT_EQ(whole.poses.size(), 21U);
   ASSERT_EQ(whole.continuations.size(), 1U);
   EXPECT_EQ(whole.continuations.front().frame, kMaxDanceFrames + 1);
   const Recording rest =
-      Resume(*scheduler, dance, whole.continuations.front(),
+      Resume(*queue, dance, whole.continuations.front(),
              [&dance](DanceStream& stream) { SendKey(stream, dance.keys.front()); });
   ASSERT_TRUE(rest.summary) << rest.error->what();
   EXPECT_TRUE(rest.poses.empty());
 }
 
 TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   const Dance dance = RandomDance(8);
-  const Recording whole = Perform(*scheduler, dance);
+  const Recording whole = Perform(*queue, dance);
   Continuation foreign = whole.continuations[1];
   foreign.fingerprint = "other";
   const auto keys = [&dance](DanceStream& stream) {
     for (const Key& key : dance.keys) SendKey(stream, key);
   };
   try {
-    Resume(*scheduler, dance, foreign, keys);
+    Resume(*queue, dance, foreign, keys);
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kFailedPrecondition);
@@ -172,7 +172,7 @@ TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
   }
   Dance allowed = dance;
   allowed.config.allow_inexact_resume = true;
-  const Recording rest = Resume(*scheduler, allowed, foreign, keys);
+  const Recording rest = Resume(*queue, allowed, foreign, keys);
   ASSERT_TRUE(rest.summary);
   ASSERT_FALSE(rest.warnings.empty());
   EXPECT_EQ(rest.warnings[0].kind, DanceWarning::Kind::kInexactResume);
@@ -181,19 +181,19 @@ TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
 }
 
 TEST(Resume, AudioMustBeginEarlyEnough) {
-  const auto scheduler = FakeScheduler();
+  const auto queue = FakeQueue();
   Dance dance = RandomDance(9, 5);
-  const Recording whole = Perform(*scheduler, dance);
+  const Recording whole = Perform(*queue, dance);
   DanceConfig config = dance.config;
   config.continuation = whole.continuations.back();
-  const int64_t latest = LatestFirstSample(config.continuation->frame, 22050, scheduler->model());
+  const int64_t latest = LatestFirstSample(config.continuation->frame, 22050, queue->model());
   EXPECT_EQ(*config.continuation->audio_from_sample, latest);
   EXPECT_GT(latest, 0);
   config.audio->first_sample = latest;
-  EXPECT_NO_THROW(config.Validate(scheduler->model()));
+  EXPECT_NO_THROW(config.Validate(queue->model()));
   config.audio->first_sample = latest + 1;
   try {
-    config.Validate(scheduler->model());
+    config.Validate(queue->model());
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kOutOfRange);
@@ -202,7 +202,7 @@ TEST(Resume, AudioMustBeginEarlyEnough) {
   // Who listens for beats needs more of it.
   config.audio->first_sample = latest;
   config.continuation->audio_from_sample = latest - 1;
-  EXPECT_THROW(config.Validate(scheduler->model()), Error);
+  EXPECT_THROW(config.Validate(queue->model()), Error);
 }
 
 }  // namespace choreo::resume_test

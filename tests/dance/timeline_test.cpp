@@ -32,7 +32,7 @@ std::ostream& operator<<(std::ostream& out, const Span& span) {
 std::vector<Span> Drain(Timeline& timeline, size_t limit = 1000) {
   std::vector<Span> spans;
   while (spans.size() < limit) {
-    const Segment* segment = timeline.Current();
+    const Segment* segment = timeline.Planned();
     if (segment == nullptr) break;
     const int64_t last = std::min(segment->stop, timeline.End().value_or(segment->stop)) - 1;
     if (last >= segment->from && !timeline.Certain(last)) break;
@@ -262,10 +262,10 @@ TEST(Timeline, AChangeAheadStopsTheTransitionAtTheFrontier) {
   timeline.GenerateUntil(40);
   Set(timeline, "a", AtFrame{79});
   Set(timeline, "c", AtFrame{60});
-  EXPECT_EQ(timeline.Current()->stop, 100) << "until more is granted, it may be moved back";
+  EXPECT_EQ(timeline.Planned()->stop, 100) << "until more is granted, it may be moved back";
   timeline.GenerateUntil(50);
-  EXPECT_EQ(timeline.Current()->stop, 40);
-  EXPECT_EQ(timeline.Current()->to, 100);
+  EXPECT_EQ(timeline.Planned()->stop, 40);
+  EXPECT_EQ(timeline.Planned()->to, 100);
   timeline.Remove("c", "remove");
   timeline.GenerateUntil(80);
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 40, "a"}, {40, 50, "c"}, {50, 80, "a"}}));

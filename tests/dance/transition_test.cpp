@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
-#include "model/dance/transition_batch.h"
 #include "tests/dance/poses.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo::transition_test {
 
@@ -20,28 +19,28 @@ TransitionRequest RandomRequest(uint32_t seed) {
 }
 
 TEST(Transition, FewerHistoryPosesHoldTheEarliest) {
-  const FakeEngine engine;
+  const FakeSampler sampler;
   std::mt19937 random(1);
   const std::vector<Pose> poses = MotionTo(RandomPose(random), 12, random);
-  const std::vector<Pose> none = FillHistory(engine.model(), {});
+  const std::vector<Pose> none = FillHistory(sampler.model(), {});
   ASSERT_EQ(none.size(), 10u);
   EXPECT_TRUE(SameBits(none[0], RoundToFloat(RestPose(Skeleton::Smpl24()))));
-  const std::vector<Pose> three = FillHistory(engine.model(), std::span(poses).first(3));
+  const std::vector<Pose> three = FillHistory(sampler.model(), std::span(poses).first(3));
   for (size_t i = 0; i < 8; ++i) EXPECT_TRUE(SameBits(three[i], RoundToFloat(poses[0])));
   EXPECT_TRUE(SameBits(three[9], RoundToFloat(poses[2])));
-  const std::vector<Pose> last = FillHistory(engine.model(), poses);
+  const std::vector<Pose> last = FillHistory(sampler.model(), poses);
   for (size_t i = 0; i < 10; ++i) EXPECT_TRUE(SameBits(last[i], RoundToFloat(poses[i + 2])));
 }
 
 TEST(Transition, TheSpecStandsInTheCanonicalFrame) {
-  const FakeEngine engine;
+  const FakeSampler sampler;
   TransitionRequest request = RandomRequest(2);
   // Some joints wound up by whole turns, as after many pirouettes.
   for (Pose& pose : request.history) {
     const Eigen::Vector3d w = pose.rotations.col(5);
     pose.rotations.col(5) = w * (1 + 4 * 3.14159265358979 / w.norm());
   }
-  const TransitionRun run(engine.model(), request);
+  const TransitionRun run(sampler.model(), request);
   const std::vector<Pose>& history = run.spec().history;
   ASSERT_EQ(history.size(), 10u);
   EXPECT_NEAR(history.back().root_position.x(), 0, 1e-9);
@@ -63,12 +62,12 @@ TEST(Transition, TheSpecStandsInTheCanonicalFrame) {
 }
 
 TEST(Transition, FramesAreFloatsAndHitTheKey) {
-  FakeEngine engine;
+  FakeSampler sampler;
   const TransitionRequest request = RandomRequest(3);
-  const TransitionInput input{request, {}};
-  const auto [frames, arrival, stage] = DanceTransitions(engine, {&input, 1}).front();
+  const TransitionRun run = DanceTransition(sampler, request);
+  const std::vector<DanceFrame>& frames = run.frames();
+  const auto& arrival = run.arrival();
   ASSERT_EQ(frames.size(), 30u);
-  EXPECT_EQ(engine.free_slots(), engine.slots());
   for (const DanceFrame& frame : frames) {
     EXPECT_TRUE(SameBits(frame.pose, RoundToFloat(frame.pose)));
   }
@@ -79,12 +78,14 @@ TEST(Transition, FramesAreFloatsAndHitTheKey) {
 }
 
 TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
-  FakeEngine engine;
+  FakeSampler sampler;
   TransitionRequest request = RandomRequest(4);
   request.arrival_frames = 0;
+  request.footwork = false;
   request.temperature = 1;
-  const TransitionInput input{request, {}};
-  const auto [frames, arrival, stage] = DanceTransitions(engine, {&input, 1}).front();
+  const TransitionRun run = DanceTransition(sampler, request);
+  const std::vector<DanceFrame>& frames = run.frames();
+  const auto& arrival = run.arrival();
   ASSERT_TRUE(arrival);
   const PoseError error =
       ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.target->pose);
@@ -95,34 +96,34 @@ TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
 }
 
 TEST(Transition, SpeedsThatTheWayAsksFor) {
-  const FakeEngine engine;
+  const FakeSampler sampler;
   TransitionRequest request;
   request.frames = 15;
   Pose pose = RestPose(Skeleton::Smpl24());
   pose.root_position.z() += 3;
   pose.rotations.col(18) = Eigen::Vector3d(0, 2, 0);
   request.target = Target{pose, {}};
-  RequiredSpeed speed = *TransitionRun(engine.model(), request).required_speed();
+  RequiredSpeed speed = *TransitionRun(sampler.model(), request).required_speed();
   EXPECT_NEAR(speed.root_m_per_s, 6, 1e-5);
   EXPECT_NEAR(speed.joint_rad_per_s, 4, 1e-5);
   EXPECT_EQ(speed.joint, 18);
   EXPECT_TRUE(speed.TooFast());
   request.target->mask.root_position = false;
-  speed = *TransitionRun(engine.model(), request).required_speed();
+  speed = *TransitionRun(sampler.model(), request).required_speed();
   EXPECT_EQ(speed.root_m_per_s, 0);
   EXPECT_FALSE(speed.TooFast());
   request.target.reset();
-  EXPECT_FALSE(TransitionRun(engine.model(), request).required_speed());
+  EXPECT_FALSE(TransitionRun(sampler.model(), request).required_speed());
 }
 
 TEST(Transition, RefusesRequestsOfTheWrongShape) {
-  const FakeEngine engine;
+  const FakeSampler sampler;
   const auto field =
-      [&engine](const std::function<void(TransitionRequest&)>& spoil) -> std::string {
+      [&sampler](const std::function<void(TransitionRequest&)>& spoil) -> std::string {
     TransitionRequest request = RandomRequest(5);
     spoil(request);
     try {
-      TransitionRun run(engine.model(), request);
+      TransitionRun run(sampler.model(), request);
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
       return error.field();

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "tests/dance/dances.h"
-#include "tests/support/turning_engine.h"
+#include "tests/support/turning_sampler.h"
 
 /// Rotations of a dancer who turns and turns.
 namespace choreo::turning_test {
@@ -12,14 +12,14 @@ constexpr double kStep = 0.2;  // radians a frame
 constexpr int64_t kFrames = 300;
 
 Recording Turn(double tilt, double fps, std::optional<Continuation> continuation = {}) {
-  std::vector<std::unique_ptr<StepEngine>> engines;
-  engines.push_back(std::make_unique<TurningEngine>(kStep, tilt));
-  Scheduler scheduler(std::move(engines), Scheduler::Options{});
+  std::vector<std::unique_ptr<Sampler>> samplers;
+  samplers.push_back(std::make_unique<TurningSampler>(kStep, tilt));
+  SampleQueue queue(std::move(samplers), {});
   Dance dance;
   dance.config.output_fps = fps;
   dance.config.end_frame = kFrames;
   dance.config.continuation = std::move(continuation);
-  return Perform(scheduler, dance);
+  return Perform(queue, dance);
 }
 
 class TurningTest : public testing::TestWithParam<double> {};

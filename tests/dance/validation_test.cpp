@@ -64,12 +64,12 @@ TEST(Validation, MasksFitTheSkeletonAndAskForSomething) {
 }
 
 TEST(Validation, ConfigsNameFieldValueAndLimit) {
-  const FakeEngine engine;
-  const auto refusal = [&engine](const std::function<void(DanceConfig&)>& spoil,
+  const FakeSampler sampler;
+  const auto refusal = [&sampler](const std::function<void(DanceConfig&)>& spoil,
                                  ErrorCode code = ErrorCode::kInvalidArgument) {
     DanceConfig config;
     spoil(config);
-    return Refusal([&] { config.Validate(engine.model()); }, code);
+    return Refusal([&] { config.Validate(sampler.model()); }, code);
   };
   const Pose rest = RestPose(Skeleton::Smpl24());
   const Continuation good{60, std::vector<Pose>(10, rest), "fake-1"};

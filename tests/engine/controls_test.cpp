@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "model/engine/step_engine.h"
+#include "model/engine/transition_spec.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
 

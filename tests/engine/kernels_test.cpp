@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
-#include "model/engine/engines.h"
+#include "model/engine/samplers.h"
 #include "model/engine/packed/kernels.h"
-#include "tests/engine/engine_dances.h"
+#include "tests/engine/sampled.h"
 
 /// Which instructions the packed engine is told to use.
 namespace choreo::kernels_test {
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 std::string Fingerprint(const SmallCheckpoint& checkpoint, const std::string& kernels,
                         EngineKind kind = EngineKind::kAuto) {
   const Device cpu;
-  return MakeEngines(checkpoint.path(), {&cpu, 1}, 1, kind, kernels).front()->model().fingerprint;
+  return MakeSamplers(checkpoint.path(), {&cpu, 1}, kind, kernels).front()->model().fingerprint;
 }
 
 TEST(KernelsTest, AreThoseThatAreNamed) {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "model/engine/engines.h"
-#include "tests/engine/engine_dances.h"
+#include "model/engine/samplers.h"
+#include "tests/engine/sampled.h"
 #include "tests/support/load_checkpoint.h"
 
 // What every checkpoint in model/checkpoints is, whatever network is in it.
@@ -31,14 +31,13 @@ TEST(ShippedCheckpoints, AreSmallBearTheirNamesAndCardsAndDance) {
   for (const auto& [name, path] : files) {
     SCOPED_TRACE(name);
     EXPECT_LE(std::filesystem::file_size(path), kLargest);
-    const auto engine = MakeEngine(path, {}, 1);
-    EXPECT_EQ(engine->model().name, name);
-    const auto card = nlohmann::json::parse(engine->model().card);
+    const auto sampler = MakeSampler(path, {});
+    EXPECT_EQ(sampler->model().name, name);
+    const auto card = nlohmann::json::parse(sampler->model().card);
     EXPECT_THAT(card.at("command").get<std::string>(), testing::HasSubstr("--seed"));
     EXPECT_NE(card.at("data").at("hash"), "");
-    for (const StepOutput& frame : DanceAlone(engine.get(), RandomSpec(engine->model(), 3, 30))) {
-      EXPECT_TRUE(frame.pose.rotations.allFinite() && frame.pose.root_position.allFinite());
-    }
+    for (const Pose& pose : sampler->Sample(RandomSpec(sampler->model(), 3, 30)).poses)
+      EXPECT_TRUE(pose.rotations.allFinite() && pose.root_position.allFinite());
   }
 }
 
@@ -69,8 +68,8 @@ TEST(ShippedCheckpoints, PaperFsFlowIsInvertible) {
 }
 
 TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {
-  const auto engine = MakeEngine(Shipped().at("free"), {}, 1);
-  nlohmann::json card = nlohmann::json::parse(engine->model().card);
+  const auto sampler = MakeSampler(Shipped().at("free"), {});
+  nlohmann::json card = nlohmann::json::parse(sampler->model().card);
   for (; true; card = nlohmann::json(card["from"]["card"])) {  // and all that it went on from
     const auto& terms = card.at("data").at("clips_by_terms");
     EXPECT_FALSE(terms.empty());
@@ -81,12 +80,12 @@ TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {
 }
 
 TEST(ShippedCheckpoints, TheLicenceNamesTheTermsOfAllThatAModelWentOnFrom) {
-  const auto engine = MakeEngine(Shipped().at("default"), {}, 1);
-  nlohmann::json card = nlohmann::json::parse(engine->model().card);
+  const auto sampler = MakeSampler(Shipped().at("default"), {});
+  nlohmann::json card = nlohmann::json::parse(sampler->model().card);
   int runs = 0;
   for (; true; ++runs) {
     for (const auto& [of, clips] : card.at("data").at("clips_by_terms").items())
-      EXPECT_THAT(engine->model().licence, testing::HasSubstr(of));
+      EXPECT_THAT(sampler->model().licence, testing::HasSubstr(of));
     if (!card.contains("from")) break;
     card = nlohmann::json(card.at("from").at("card"));
   }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/interpolation_sampler.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo::control_tables_test {
@@ -16,12 +15,11 @@ namespace choreo::control_tables_test {
 using testing_support::SyntheticClip;
 
 /// Dances as the fake model does, beside its path.
-class BesideEngine : public ControlledEngine {
+class BesideSampler : public ControlledSampler {
  public:
-  explicit BesideEngine(double metres) : metres_(metres) {}
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
-    ControlledEngine::Step(in, out);
-    for (StepOutput& output : out) output.pose.root_position.x() += metres_;
+  explicit BesideSampler(double metres) : metres_(metres) {}
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* plan) override {
+    plan->poses.back().root_position.x() += metres_;
   }
 
  private:
@@ -30,29 +28,21 @@ class BesideEngine : public ControlledEngine {
 
 /// Keeps its posture and swings the left shoulder to and fro, as fast as it is asked: the mean
 /// speed of the arm's joints is the factor, to the letter.
-class SwingingEngine : public ControlledEngine {
+class SwingingSampler : public ControlledSampler {
  public:
-  int BeginAdmission(const TransitionSpec& spec) override {
-    const int slot = ControlledEngine::BeginAdmission(spec);
-    last_[slot] = spec.history.back();
-    side_[slot] = 1;
-    return slot;
-  }
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
-    ControlledEngine::Step(in, out);
-    for (size_t i = 0; i < in.size(); ++i) {
-      Pose& pose = last_[in[i].slot];
-      const double asked = out[i].pose.rotations(0, model_.skeleton.Find(kTellingJoints[1]));
-      const double turn = 2 * std::asin(asked / (2 * MeanRadius(pose)));
-      side_[in[i].slot] *= -1;
-      const int shoulder = model_.skeleton.left_shoulder;
-      // About an axis of its own, which the turn does not move.
-      pose.rotations.col(shoulder) =
-          LogMap(ExpMap(side_[in[i].slot] * turn * Eigen::Vector3d::UnitZ()) *
-                 ExpMap(pose.rotations.col(shoulder)));
-      pose.root_position = out[i].pose.root_position;
-      out[i].pose = pose;
-    }
+  void OnFrame(const TransitionSpec& spec, Plan* plan) override {
+    Pose& drawn = plan->poses.back();
+    const auto frame = plan->poses.size() - 1;
+    Pose pose = frame == 0 ? spec.history.back() : plan->poses[frame - 1];
+    const double asked = drawn.rotations(0, model_.skeleton.Find(kTellingJoints[1]));
+    const double turn = 2 * std::asin(asked / (2 * MeanRadius(pose)));
+    const double side = frame % 2 == 0 ? -1 : 1;
+    const int shoulder = model_.skeleton.left_shoulder;
+    // About an axis of its own, which the turn does not move.
+    pose.rotations.col(shoulder) = LogMap(ExpMap(side * turn * Eigen::Vector3d::UnitZ()) *
+                                          ExpMap(pose.rotations.col(shoulder)));
+    pose.root_position = drawn.root_position;
+    drawn = pose;
   }
 
  private:
@@ -77,9 +67,6 @@ class SwingingEngine : public ControlledEngine {
     }
     return radius;
   }
-
-  std::map<int, Pose> last_;
-  std::map<int, double> side_;
 };
 
 std::vector<Table> Evaluate(const ClipSet& set, const std::vector<Method>& methods,
@@ -106,17 +93,17 @@ class ControlTablesTest : public testing::Test {
 
   const ClipSet set_ = {
       "set", {SyntheticClip("walk_a", 300, 0.1, false), SyntheticClip("turn_b", 300, 0.9, false)}};
-  InterpolationEngine line_{ControlledEngine().model()};
-  BesideEngine near_{0.05}, beside_{0.09};
-  SwingingEngine swinging_;
-  FakeEngine plain_;
+  InterpolationSampler line_{ControlledSampler().model()};
+  BesideSampler near_{0.05}, beside_{0.09};
+  SwingingSampler swinging_;
+  FakeSampler plain_;
   const std::vector<Method> methods_ = {{"real", Method::Kind::kReal},
-                                        {"still", Method::Kind::kEngine, &line_, false},
-                                        {"near", Method::Kind::kEngine, &near_},
-                                        {"beside", Method::Kind::kEngine, &beside_},
-                                        {"swinging", Method::Kind::kEngine, &swinging_},
-                                        {"plain", Method::Kind::kEngine, &plain_},
-                                        {"model", Method::Kind::kEngine, &line_}};
+                                        {"still", Method::Kind::kModel, &line_, false},
+                                        {"near", Method::Kind::kModel, &near_},
+                                        {"beside", Method::Kind::kModel, &beside_},
+                                        {"swinging", Method::Kind::kModel, &swinging_},
+                                        {"plain", Method::Kind::kModel, &plain_},
+                                        {"model", Method::Kind::kModel, &line_, true, true, false}};
   const EvalOptions options_{.windows_per_clip = 1};
   const std::vector<Table> tables_ = Evaluate(set_, methods_, options_);
 };
@@ -210,12 +197,12 @@ TEST_F(ControlTablesTest, DrawnPathsAreKeptToAndEndAtTheKey) {
 }
 
 TEST_F(ControlTablesTest, WhoCanNotDanceAsLongHasNoFigure) {
-  class Brief : public ControlledEngine {
+  class Brief : public ControlledSampler {
    public:
     Brief() { model_.max_transition_frames = 150; }
   } brief;
-  const std::vector<Method> methods = {{"brief", Method::Kind::kEngine, &brief},
-                                       {"model", Method::Kind::kEngine, &line_}};
+  const std::vector<Method> methods = {{"brief", Method::Kind::kModel, &brief},
+                                       {"model", Method::Kind::kModel, &line_}};
   const auto tables = Evaluate(set_, methods, options_);
   const Table& table = *std::ranges::find(tables, "repetition_set", &Table::name);
   const auto row =
@@ -227,7 +214,7 @@ TEST_F(ControlTablesTest, WhoCanNotDanceAsLongHasNoFigure) {
 }
 
 TEST_F(ControlTablesTest, OfAModelThatTakesNoneThereAreNone) {
-  EXPECT_TRUE(Evaluate(set_, {{"model", Method::Kind::kEngine, &plain_}}, options_).empty());
+  EXPECT_TRUE(Evaluate(set_, {{"model", Method::Kind::kModel, &plain_}}, options_).empty());
 }
 
 }  // namespace choreo::control_tables_test

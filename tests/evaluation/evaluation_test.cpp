@@ -7,11 +7,11 @@
 
 #include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
-#include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/interpolation_sampler.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "tests/support/expect_error.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,49 +24,39 @@ ClipSet TwoClips() {
           {SyntheticClip("walk_a", 150, 0.1, true), SyntheticClip("turn_b", 150, 0.9, false)}};
 }
 
-TEST(DanceTransitions, GivesTheBitsOfOneAfterTheOther) {
+TEST(Runner, DancesEachAsIfAlone) {
   const ClipSet set = TwoClips();
-  FakeEngine engine(3);  // fewer slots than inputs
-  std::vector<TransitionInput> inputs;
+  HearingSampler sampler;
+  std::vector<TransitionRequest> requests;
   for (const int frames : {30, 12}) {
     for (const EvalWindow& window : ChooseWindows(set, 10, frames, 3))
-      inputs.push_back(InputOf(engine.model(), set, window, frames, 0.5F, inputs.size()));
+      requests.push_back(RequestOf(sampler.model(), set, window, frames, 0.5F, requests.size()));
   }
   int64_t counted = 0;
-  const auto results = DanceTransitions(engine, inputs, [&](int frames) { counted += frames; });
-  ASSERT_EQ(results.size(), inputs.size());
-  EXPECT_EQ(engine.free_slots(), 3);
+  const Runner runner([&](int frames) { counted += frames; });
+  const Dances dances = runner.Dance(sampler, requests);
+  ASSERT_EQ(dances.size(), requests.size());
   EXPECT_EQ(counted, 6 * 30 + 6 * 12);
-  for (size_t i = 0; i < inputs.size(); ++i) {
-    const TransitionResult alone = DanceTransitions(engine, {&inputs[i], 1}).front();
-    ASSERT_EQ(results[i].frames.size(), alone.frames.size());
-    EXPECT_EQ(results[i].arrival->raw_error_m, alone.arrival->raw_error_m);
-    for (size_t t = 0; t < alone.frames.size(); ++t)
-      ASSERT_EQ(results[i].frames[t].pose.rotations, alone.frames[t].pose.rotations);
+  for (size_t i = 0; i < requests.size(); ++i) {
+    const TransitionRun alone = DanceTransition(sampler, requests[i]);
+    ASSERT_EQ(dances[i].size(), alone.frames().size());
+    for (size_t t = 0; t < dances[i].size(); ++t)
+      ASSERT_EQ(dances[i][t].rotations, alone.frames()[t].pose.rotations);
   }
+  requests[1].audio_rows.conservativeResize(Eigen::NoChange, 5);
+  ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { runner.Dance(sampler, requests); });
 }
 
-TEST(DanceTransitions, FreesItsSlotsWhenAJobIsWrong) {
+TEST(InterpolationSampler, WalksTheLineOntoTheKey) {
   const ClipSet set = TwoClips();
-  FakeEngine engine(4);
-  std::vector<TransitionInput> inputs;
-  for (const EvalWindow& window : ChooseWindows(set, 10, 20, 2))
-    inputs.push_back(InputOf(engine.model(), set, window, 20, 0.5F, 0));
-  inputs[1].audio_rows.conservativeResize(Eigen::NoChange, 5);
-  ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { DanceTransitions(engine, inputs); });
-  EXPECT_EQ(engine.free_slots(), 4);
-}
-
-TEST(InterpolationEngine, WalksTheLineOntoTheKey) {
-  const ClipSet set = TwoClips();
-  InterpolationEngine engine(FakeEngine(1).model(), 2);
-  TransitionInput input = InputOf(engine.model(), set, {0, 40}, 20, 0.5F, 0);
-  input.request.arrival_frames = 0;
-  input.request.footwork = false;
-  const auto result = DanceTransitions(engine, {&input, 1}).front();
-  const Pose half = InterpolatePoses(input.request.history.back(), input.request.target->pose, 0.5);
-  EXPECT_LT(ComparePoses(engine.model().skeleton, result.frames[9].pose, half).position_m, 1e-5);
-  EXPECT_LT(result.arrival->raw_error_m, 1e-5);
+  InterpolationSampler sampler(FakeSampler().model());
+  TransitionRequest request = RequestOf(sampler.model(), set, {0, 40}, 20, 0.5F, 0);
+  request.arrival_frames = 0;
+  request.footwork = false;
+  const TransitionRun run = DanceTransition(sampler, request);
+  const Pose half = InterpolatePoses(request.history.back(), request.target->pose, 0.5);
+  EXPECT_LT(ComparePoses(sampler.model().skeleton, run.frames()[9].pose, half).position_m, 1e-5);
+  EXPECT_LT(run.arrival()->raw_error_m, 1e-5);
 }
 
 TEST(ChooseWindows, StandInTheMiddlesOfEqualPartsAndLeaveRoomForTheHistory) {
@@ -93,11 +83,11 @@ class Tables : public testing::Test {
   }
 
   ClipSet set_ = TwoClips();
-  FakeEngine engine_{8};
+  FakeSampler sampler_;
   std::vector<Method> methods_ = {{"real", Method::Kind::kReal},
                                   {"interpolation", Method::Kind::kInterpolation},
-                                  {"music", Method::Kind::kEngine, &engine_, false},
-                                  {"model", Method::Kind::kEngine, &engine_}};
+                                  {"music", Method::Kind::kModel, &sampler_, false},
+                                  {"model", Method::Kind::kModel, &sampler_}};
   EvalOptions options_{.lengths = {12, 30}, .windows_per_clip = 3, .temperature = 0.3F};
   Runner runner_;
   Evaluation evaluation_{set_, methods_, options_, runner_};

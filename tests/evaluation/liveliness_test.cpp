@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "model/dance/quality_report.h"
-#include "model/evaluation/interpolation_engine.h"
+#include "model/evaluation/interpolation_sampler.h"
 #include "model/evaluation/lively_figures.h"
 #include "model/evaluation/long_plans.h"
 #include "model/motion/kinematics.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo::liveliness_test {
@@ -37,7 +37,7 @@ EvalOptions Short() {
 }
 
 TEST(KeyedDances, TakeTheWholeClipUpToAMinuteFromItsMiddle) {
-  const ModelInfo model = FakeEngine(1).model();
+  const ModelInfo model = FakeSampler().model();
   const ClipSet set = Clips(780);
   const auto plans = PlanKeyedDances(model, set, 0.5F);
   ASSERT_EQ(plans.size(), 2U);  // ten seconds are too few
@@ -72,8 +72,8 @@ TEST(KeyedDances, BeatsAreRegularOrAsManyShuffled) {
   }
 }
 
-TEST(KeyedDances, RealMotionThroughTheFootLockKeepsItsKeysAndSkatesLess) {
-  const ModelInfo model = FakeEngine(1).model();
+TEST(KeyedDances, RealMotionThroughFootworkKeepsItsKeysAndSkatesLess) {
+  const ModelInfo model = FakeSampler().model();
   // One who stands, and is drawn over the floor.
   ClipSet set = Clips(780);
   for (int t = 0; t < 780; ++t) {
@@ -82,11 +82,11 @@ TEST(KeyedDances, RealMotionThroughTheFootLockKeepsItsKeysAndSkatesLess) {
     pose.root_position.z() += 0.4 * t / 30;
   }
   const LongPlan plan = PlanKeyedDances(model, set, 0)[0];
-  const std::vector<Pose> locked = RealThroughFootLock(model, plan, set);
-  ASSERT_EQ(locked.size(), 720U);
+  const std::vector<Pose> standing = RealThroughFootwork(model, plan, set);
+  ASSERT_EQ(standing.size(), 720U);
   for (const auto& [frame, pose] : plan.keys)
-    EXPECT_LT(ComparePoses(Body(), locked[static_cast<size_t>(frame)], pose).position_m, 1e-3);
-  EXPECT_LT(MeasureLiveliness(model, plan, locked).skate_ratio,
+    EXPECT_LT(ComparePoses(Body(), standing[static_cast<size_t>(frame)], pose).position_m, 1e-3);
+  EXPECT_LT(MeasureLiveliness(model, plan, standing).skate_ratio,
             0.5 * MeasureLiveliness(model, plan, RealMotionBeside(plan, set)).skate_ratio);
 }
 
@@ -128,8 +128,10 @@ double Value(const Table& table, const std::string& figure, const std::string& c
 }
 
 TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
-  InterpolationEngine line(FakeEngine(1).model());
-  const auto tables = Evaluate(Clips(780), {{"model", Method::Kind::kEngine, &line}});
+  InterpolationSampler line(FakeSampler().model());
+  Method method{"model", Method::Kind::kModel, &line};
+  method.finished = false;  // feet that step are no straight line
+  const auto tables = Evaluate(Clips(780), {method});
   const auto figure = [&](const std::string& name, const std::string& column) {
     const double value = Value(tables[0], name, column);
     EXPECT_TRUE(std::isfinite(value)) << name << ", " << column;
@@ -145,7 +147,6 @@ TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
   EXPECT_EQ(figure("free: frozen %", "danced"), 100);
   EXPECT_EQ(figure("free: exploded %", "danced"), 0);
   for (const TableRow& row : tables.back().rows) {
-    // But for the foot lock, which plain interpolation does not pass.
     EXPECT_GE(row.cells[1].value, 0.99) << row.labels[0];
     EXPECT_LE(row.cells[1].value, 1.7) << row.labels[0];
     EXPECT_DOUBLE_EQ(row.cells[3].value, row.cells[2].value);  // all samples are one
@@ -153,13 +154,13 @@ TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
 }
 
 TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
-  FakeEngine engine(4);
+  FakeSampler sampler;
   const ClipSet set = Clips(700);
-  InterpolationEngine line(engine.model());
+  InterpolationSampler line(sampler.model());
   // Who is not the judged one has a name in its tables; who is no network has none.
-  const std::vector<Method> methods = {{"other", Method::Kind::kEngine, &engine},
-                                       {"line", Method::Kind::kEngine, &line, true, false},
-                                       {"model", Method::Kind::kEngine, &engine}};
+  const std::vector<Method> methods = {{"other", Method::Kind::kModel, &sampler},
+                                       {"line", Method::Kind::kModel, &line, true, false},
+                                       {"model", Method::Kind::kModel, &sampler}};
   const auto tables = Evaluate(set, methods);
   const auto again = Evaluate(set, methods);
   ASSERT_EQ(tables.size(), 8U);
@@ -180,8 +181,8 @@ TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
 }
 
 TEST(Liveliness, ClipsThatAreTooShortLeaveRowsOut) {
-  FakeEngine engine(4);
-  const auto tables = Evaluate(Clips(400), {{"model", Method::Kind::kEngine, &engine}});
+  FakeSampler sampler;
+  const auto tables = Evaluate(Clips(400), {{"model", Method::Kind::kModel, &sampler}});
   EXPECT_TRUE(std::isnan(Value(tables[0], "median speed cm/s", "danced")));
   EXPECT_TRUE(std::isfinite(Value(tables[0], "free: frozen %", "danced")));
 }

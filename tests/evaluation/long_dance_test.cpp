@@ -10,7 +10,7 @@
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/long_plans.h"
 #include "model/motion/kinematics.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo::long_dance_test {
@@ -34,10 +34,10 @@ EvalOptions Short() {
 
 TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
   const ClipSet set = Clips(false);
-  FakeEngine engine(3);
-  const auto plans = PlanLongDances(engine.model(), set, KeyTimes::kEachTwoSeconds, 4, Short());
+  FakeSampler sampler;
+  const auto plans = PlanLongDances(sampler.model(), set, KeyTimes::kEachTwoSeconds, 4, Short());
   ASSERT_EQ(plans.size(), 4U);
-  const auto danced = Runner().DanceLong(engine, plans);
+  const auto danced = Runner().DanceLong(sampler, plans);
   for (size_t i = 0; i < plans.size(); ++i) {
     ASSERT_EQ(danced[i].poses.size(), 300U);
     EXPECT_EQ(danced[i].keys.size(), 5U);
@@ -48,7 +48,7 @@ TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
               .position_m,
           1e-3);
     }
-    const LongDance alone = Runner().DanceLong(engine, {&plans[i], 1}).front();
+    const LongDance alone = Runner().DanceLong(sampler, {&plans[i], 1}).front();
     for (size_t t = 0; t < 300; ++t)
       ASSERT_EQ(alone.poses[t].rotations, danced[i].poses[t].rotations);
   }
@@ -57,11 +57,11 @@ TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
 // As a stream's does, whose last transition is cut, not shortened.
 TEST(DanceLong, OneThatEndsEarlierIsTheBeginning) {
   const ClipSet set = Clips(false);
-  FakeEngine engine(1);
-  LongPlan plan = PlanLongDances(engine.model(), set, KeyTimes::kNone, 1, Short()).front();
-  const LongDance whole = Runner().DanceLong(engine, {&plan, 1}).front();
+  FakeSampler sampler;
+  LongPlan plan = PlanLongDances(sampler.model(), set, KeyTimes::kNone, 1, Short()).front();
+  const LongDance whole = Runner().DanceLong(sampler, {&plan, 1}).front();
   plan.frames = 200;  // in the middle of a transition
-  const LongDance part = Runner().DanceLong(engine, {&plan, 1}).front();
+  const LongDance part = Runner().DanceLong(sampler, {&plan, 1}).front();
   ASSERT_EQ(part.poses.size(), 200U);
   for (size_t t = 0; t < 200; ++t)
     ASSERT_EQ(part.poses[t].rotations, whole.poses[t].rotations) << t;
@@ -70,7 +70,7 @@ TEST(DanceLong, OneThatEndsEarlierIsTheBeginning) {
 TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
   const ClipSet set = Clips(true);
   for (const LongPlan& plan :
-       PlanLongDances(FakeEngine(1).model(), set, KeyTimes::kNone, 2, Short())) {
+       PlanLongDances(FakeSampler().model(), set, KeyTimes::kNone, 2, Short())) {
     EXPECT_EQ(plan.start, 10);
     EXPECT_EQ(plan.frames, static_cast<int>(set.clips[plan.clip].motion.frames.size()) - 10);
     EXPECT_EQ(plan.audio.cols(), plan.frames + 10);
@@ -80,7 +80,7 @@ TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
 TEST(PlanLongDances, KeysAreOfTheRealMotionBesideADance) {
   const ClipSet set = Clips(false);
   for (const LongPlan& plan :
-       PlanLongDances(FakeEngine(1).model(), set, KeyTimes::kEachTwoSeconds, 4, Short())) {
+       PlanLongDances(FakeSampler().model(), set, KeyTimes::kEachTwoSeconds, 4, Short())) {
     const std::vector<Pose> beside = RealMotionBeside(plan, set);
     ASSERT_EQ(beside.size(), 300U);
     for (const auto& [frame, pose] : plan.keys)
@@ -96,7 +96,7 @@ TEST(PlanLongDances, KeysOnBeatsStandOnTheBeatNearestToTheEqualOnes) {
   std::vector<double> beats;
   for (double at = 0; at < 230; at += 24) beats.push_back(at);  // of the clip
   set.beats = {beats, beats};
-  const ModelInfo model = FakeEngine(1).model();
+  const ModelInfo model = FakeSampler().model();
   const auto equal = PlanLongDances(model, set, KeyTimes::kEqual, 2, Short());
   const auto on = PlanLongDances(model, set, KeyTimes::kOnBeats, 2, Short());
   ASSERT_EQ(equal[1].keys.size(), 2U);
@@ -179,7 +179,7 @@ TEST(LongFigures, StillestIsTheSlowestFifthWhereverItIs) {
 
 TEST(MeasureReal, IsOfTheClipsWithKeysEachTwoSeconds) {
   const ClipSet set = Clips(false);
-  const RealDances real = MeasureReal(set, FakeEngine(1).model());
+  const RealDances real = MeasureReal(set, FakeSampler().model());
   ASSERT_EQ(real.clips.size(), 2U);
   EXPECT_EQ(real.clips[0].key_accelerations.size(), 3U);  // of 200 frames
   EXPECT_EQ(real.range.top_speed, std::max(real.clips[0].top_speed, real.clips[1].top_speed));
@@ -241,19 +241,19 @@ TEST(LongFigures, DriftIsWalkingAwaySinkingOrAnotherPace) {
 }
 
 std::vector<Table> Evaluate(const std::function<std::vector<Table>(const Evaluation&)>& evaluate,
-                            const ClipSet& set, StepEngine& engine) {
+                            const ClipSet& set, Sampler& sampler) {
   const EvalOptions options = Short();
-  const std::vector<Method> methods = {{"model", Method::Kind::kEngine, &engine}};
+  const std::vector<Method> methods = {{"model", Method::Kind::kModel, &sampler}};
   const Runner runner;
   return evaluate({set, methods, options, runner});
 }
 
 TEST(EvaluateLongDances, TellsTheSameStoryTwice) {
-  FakeEngine engine(4);
+  FakeSampler sampler;
   for (const bool music : {false, true}) {
     const ClipSet set = Clips(music);
-    const auto tables = Evaluate(EvaluateLongDances, set, engine);
-    const auto again = Evaluate(EvaluateLongDances, set, engine);
+    const auto tables = Evaluate(EvaluateLongDances, set, sampler);
+    const auto again = Evaluate(EvaluateLongDances, set, sampler);
     EXPECT_EQ(tables.size(), music ? 2U : 1U);
     ASSERT_EQ(tables.size(), again.size());
     for (size_t i = 0; i < tables.size(); ++i) EXPECT_EQ(ToJson(tables[i]), ToJson(again[i]));
@@ -269,8 +269,8 @@ TEST(EvaluateLongDances, TellsTheSameStoryTwice) {
 }
 
 TEST(EvaluateStress, WarnsOfWhatNobodyCanDoAndMeetsItsKeys) {
-  FakeEngine engine(4);
-  const Table table = Evaluate(EvaluateStress, Clips(false), engine).front();
+  FakeSampler sampler;
+  const Table table = Evaluate(EvaluateStress, Clips(false), sampler).front();
   const auto row = [&](const std::vector<std::string>& labels) {
     return std::ranges::find(table.rows, labels, &TableRow::labels)->cells;
   };

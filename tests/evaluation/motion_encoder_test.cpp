@@ -9,7 +9,7 @@
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/expect_error.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 #include "tests/support/synthetic_clips.h"
 
 namespace choreo::motion_encoder_test {
@@ -76,10 +76,10 @@ TEST(MeanApart, OfDancesThatAreKnown) {
 TEST(EvaluateEncoded, RealMotionIsNearestAndSeedsVaryOnlyWithNoise) {
   const ClipSet set = Clips(600);
   const MotionEncoder encoder({set});
-  FakeEngine engine(16);
+  FakeSampler sampler;
   const std::vector<Method> methods = {{"real", Method::Kind::kReal},
-                                       {"free", Method::Kind::kEngine, &engine, false},
-                                       {"model", Method::Kind::kEngine, &engine}};
+                                       {"free", Method::Kind::kModel, &sampler, false},
+                                       {"model", Method::Kind::kModel, &sampler}};
   EvalOptions options{.temperature = 0.5F, .long_frames = 120};
   const Runner runner;
   const Evaluation evaluation{set, methods, options, runner, &encoder};

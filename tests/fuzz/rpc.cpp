@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo::fuzz {
 namespace {
@@ -44,8 +44,8 @@ RpcServer::RpcServer() {
   ServerConfig config;
   config.listen = "127.0.0.1:0";
   config.max_load = 2;  // however slow the machine is
-  std::vector<Server::Engines> models;
-  models.emplace_back().push_back(std::make_unique<ControlledEngine>(2));
+  std::vector<Server::Samplers> models;
+  models.emplace_back().push_back(std::make_unique<ControlledSampler>());
   server_ = std::make_unique<Server>(config, std::move(models));
   channel_ = grpc::CreateChannel("127.0.0.1:" + std::to_string(server_->port()),
                                  grpc::InsecureChannelCredentials());

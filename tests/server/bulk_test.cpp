@@ -4,7 +4,7 @@
 #include <mutex>
 #include <thread>
 
-#include "model/engine/engines.h"
+#include "model/engine/samplers.h"
 #include "tests/server/fixture.h"
 
 /// A real server, real clients, and the kernels and checkpoint that are served: what long calls do
@@ -13,11 +13,11 @@ namespace choreo::bulk_test {
 
 constexpr int kBulkFrames = 1'800;
 constexpr int kCandidates = 32;
-constexpr int kDanceFrames = 24;  // two transitions, within Scheduler::Options::bulk_yields
+constexpr int kDanceFrames = 24;  // two transitions, within SampleQueue::Options::bulk_yields
 
-/// In which order an engine is asked for what.
+/// In which order a sampler is asked for what.
 struct Log {
-  enum class Did { kBulkSlice, kDanceSlice, kDanceFrame };
+  enum class Did { kBulkSlice, kDanceSlice, kDanceEnds };
 
   void Add(Did did) {
     const std::lock_guard lock(mutex);
@@ -33,39 +33,42 @@ struct Log {
   std::vector<Did> all;
 };
 
-/// The engine of a checkpoint, watched.
-class LoggedEngine final : public StepEngine {
+/// A transition of a checkpoint's sampler, watched.
+class LoggedSampling final : public Sampling {
  public:
-  LoggedEngine(std::unique_ptr<StepEngine> engine, std::shared_ptr<Log> log)
-      : engine_(std::move(engine)),
-        log_(std::move(log)),
-        is_bulk_(static_cast<size_t>(engine_->slots())) {}
+  LoggedSampling(std::unique_ptr<Sampling> sampling, bool is_bulk, std::shared_ptr<Log> log)
+      : sampling_(std::move(sampling)), is_bulk_(is_bulk), log_(std::move(log)) {}
 
-  const ModelInfo& model() const override { return engine_->model(); }
-  std::string device() const override { return engine_->device(); }
-  int slots() const override { return engine_->slots(); }
-  int free_slots() const override { return engine_->free_slots(); }
-  int batch() const override { return engine_->batch(); }
-  int BeginAdmission(const TransitionSpec& spec) override {
-    const int slot = engine_->BeginAdmission(spec);
-    is_bulk_[static_cast<size_t>(slot)] = spec.frames == kBulkFrames;
-    return slot;
+  bool Continue() override {
+    log_->Add(is_bulk_ ? Log::Did::kBulkSlice : Log::Did::kDanceSlice);
+    if (sampling_->Continue()) return true;
+    if (!is_bulk_) log_->Add(Log::Did::kDanceEnds);
+    plan_ = sampling_->TakePlan();
+    return false;
   }
-  bool ContinueAdmission(int slot) override {
-    log_->Add(is_bulk_[static_cast<size_t>(slot)] ? Log::Did::kBulkSlice : Log::Did::kDanceSlice);
-    return engine_->ContinueAdmission(slot);
-  }
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
-    for (const StepInput& input : in)
-      if (!is_bulk_[static_cast<size_t>(input.slot)]) log_->Add(Log::Did::kDanceFrame);
-    engine_->Step(in, out);
-  }
-  void Release(int slot) noexcept override { engine_->Release(slot); }
 
  private:
-  const std::unique_ptr<StepEngine> engine_;
+  const std::unique_ptr<Sampling> sampling_;
+  const bool is_bulk_;
   const std::shared_ptr<Log> log_;
-  std::vector<bool> is_bulk_;
+};
+
+class LoggedSampler final : public Sampler {
+ public:
+  LoggedSampler(std::unique_ptr<Sampler> sampler, std::shared_ptr<Log> log)
+      : Sampler(sampler->model(), sampler->device()),
+        sampler_(std::move(sampler)),
+        log_(std::move(log)) {}
+
+ protected:
+  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override {
+    return std::make_unique<LoggedSampling>(sampler_->Begin(spec), spec.frames == kBulkFrames,
+                                            log_);
+  }
+
+ private:
+  const std::unique_ptr<Sampler> sampler_;
+  const std::shared_ptr<Log> log_;
 };
 
 /// A GenerateTransition that reads its answers as they come, until it is cancelled.
@@ -104,9 +107,9 @@ class BulkTest : public ServerTest {
  protected:
   BulkTest() {
     SetTorchThreads(1);
-    std::vector<Server::Engines> models(1);
+    std::vector<Server::Samplers> models(1);
     models[0].push_back(
-        std::make_unique<LoggedEngine>(MakeEngine(SHIPPED_CHECKPOINT, {}, 2 * kCandidates), log));
+        std::make_unique<LoggedSampler>(MakeSampler(SHIPPED_CHECKPOINT, Device{}), log));
     ServerConfig config;
     config.listen = "127.0.0.1:0";
     Connect(std::make_unique<Server>(config, std::move(models)));
@@ -120,7 +123,7 @@ class BulkTest : public ServerTest {
     return request;
   }
   // All that it says is there before its frames are granted in one message: from its first slice on
-  // it waits for nobody but the engine.
+  // it waits for nobody but the worker.
   Answer Dance() {
     DanceClient client(stub());
     client.Send(Config());
@@ -148,14 +151,14 @@ TEST_F(BulkTest, ADanceIsDancedBeforeALongCallOfManyCandidatesGoesOn) {
   EXPECT_FALSE(bulk.over());
   EXPECT_LE(delivered, int64_t{kBulkFrames} * kCandidates / 4);
 
-  // Of the call, no slice is made between the dance's first and its last frame.
+  // Of the call, no slice is made between the dance's first and its last.
   const std::vector<Log::Did> all = log->Copy();
   const auto of_dance = [](Log::Did did) { return did != Log::Did::kBulkSlice; };
   const auto first =
       std::find_if(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(), of_dance);
   const auto last = std::find_if(all.rbegin(), all.rend(), of_dance).base();
   ASSERT_LT(first, last);
-  EXPECT_EQ(std::count(first, last, Log::Did::kDanceFrame), kDanceFrames);
+  EXPECT_EQ(std::count(first, last, Log::Did::kDanceEnds), 2);
   EXPECT_EQ(std::count(first, last, Log::Did::kBulkSlice), 0);
   // Then it goes on.
   const int64_t then = log->Count(Log::Did::kBulkSlice);

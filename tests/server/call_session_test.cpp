@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo::call_session_test {
 
@@ -35,11 +35,9 @@ class CallSessionTest : public testing::Test {
  protected:
   static constexpr size_t kOutboxBytes = 100;
 
-  static std::vector<std::unique_ptr<Scheduler>> OneModel() {
-    std::vector<std::unique_ptr<StepEngine>> engines;
-    engines.push_back(std::make_unique<FakeEngine>(1));
-    std::vector<std::unique_ptr<Scheduler>> models;
-    models.push_back(std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{}));
+  static std::vector<std::unique_ptr<SampleQueue>> OneModel() {
+    std::vector<std::unique_ptr<SampleQueue>> models;
+    models.push_back(std::make_unique<SampleQueue>(FakeSamplers(), SampleQueue::Options{}));
     return models;
   }
   void SendMuch() {

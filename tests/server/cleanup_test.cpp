@@ -9,7 +9,7 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
-/// However a call ends, all that it had comes back: its place, its slots, threads and descriptors.
+/// However a call ends, all that it had comes back: its place, its transitions, threads and descriptors.
 namespace choreo::cleanup_test {
 
 using std::chrono::milliseconds;
@@ -50,8 +50,8 @@ class CleanupTest : public ServerTest, public testing::WithParamInterface<std::t
     ServerConfig config;
     config.listen = "127.0.0.1:0";
     config.max_load = 2;
-    std::vector<Server::Engines> models(1);
-    models[0].push_back(std::make_unique<ControlledEngine>());
+    std::vector<Server::Samplers> models(1);
+    models[0].push_back(std::make_unique<ControlledSampler>());
     Connect(std::make_unique<Server>(config, std::move(models)));
   }
 

@@ -21,7 +21,7 @@ TEST(ServerConfigTest, DefaultsAreValid) {
   const CommandLine line = Parse({});
   ASSERT_TRUE(line.config);
   EXPECT_EQ(line.config->listen, "127.0.0.1:50051");
-  EXPECT_EQ(line.config->Slots(), 128);
+  EXPECT_EQ(line.config->max_waiting, 128);
   EXPECT_EQ(line.config->MaxStreamsOfPeer(), 56);
 }
 
@@ -38,23 +38,23 @@ TEST(ServerConfigTest, AFolderOfModelsExcludesCheckpoints) {
 
 TEST(ServerConfigTest, FlagsGoBeforeFileBeforeEnvironment) {
   const std::string path = testing::TempDir() + "choreod_config_test.toml";
-  std::ofstream(path) << "slots = 3\nmax-streams = 4\nio-threads = 5\n";
-  ::setenv("CHOREO_SLOTS", "30", 1);
+  std::ofstream(path) << "workers = 3\nmax-streams = 4\nio-threads = 5\n";
+  ::setenv("CHOREO_WORKERS", "30", 1);
   ::setenv("CHOREO_MAX_STREAMS", "40", 1);
   ::setenv("CHOREO_MAX_WAITING", "50", 1);
-  const CommandLine line = Parse({"--config", path.c_str(), "--slots", "300"});
-  ::unsetenv("CHOREO_SLOTS");
+  const CommandLine line = Parse({"--config", path.c_str(), "--workers", "300"});
+  ::unsetenv("CHOREO_WORKERS");
   ::unsetenv("CHOREO_MAX_STREAMS");
   ::unsetenv("CHOREO_MAX_WAITING");
   ASSERT_TRUE(line.config);
-  EXPECT_EQ(line.config->slots, 300);
+  EXPECT_EQ(line.config->workers, 300);
   EXPECT_EQ(line.config->max_streams, 4);
   EXPECT_EQ(line.config->max_waiting, 50);
   EXPECT_EQ(line.config->io_threads, 5);
 }
 
 TEST(ServerConfigTest, AFileWithASettingThatIsNoneIsRefused) {
-  for (const std::string text : {"slots = 3\nslotz = 4\n", "[slotz]\nslots = 4\n"}) {
+  for (const std::string text : {"workers = 3\nworkerz = 4\n", "[workerz]\nworkers = 4\n"}) {
     const std::string path = testing::TempDir() + "choreod_config_extra_test.toml";
     std::ofstream(path) << text;
     testing::internal::CaptureStderr();
@@ -63,7 +63,7 @@ TEST(ServerConfigTest, AFileWithASettingThatIsNoneIsRefused) {
     EXPECT_FALSE(line.config);
     EXPECT_EQ(line.exit_code, 2);
     EXPECT_NE(message.find(path), std::string::npos) << message;
-    EXPECT_NE(message.find("slotz"), std::string::npos) << message;
+    EXPECT_NE(message.find("workerz"), std::string::npos) << message;
   }
 }
 
@@ -89,7 +89,7 @@ TEST(ServerConfigTest, HelpExplainsAndLeaves) {
   EXPECT_FALSE(line.config);
   EXPECT_EQ(line.exit_code, 0);
   for (const char* word : {"--listen", "--checkpoint", "--device", "--drain-seconds", "--tls-cert",
-                           "CHOREO_SLOTS", "--config"}) {
+                           "CHOREO_WORKERS", "--config"}) {
     EXPECT_NE(help.find(word), std::string::npos) << word;
   }
 }
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetting{"--metrics", "65536"}, BadSetting{"--metrics", "here:"},
         BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
         BadSetting{"--max-file-music-mib", "127"}, BadSetting{"--max-network-mib", "63"},
-        BadSetting{"--slots", "-1"}, BadSetting{"--slots", "many"},
+        BadSetting{"--workers", "-1"}, BadSetting{"--workers", "many"},
         BadSetting{"--max-streams", "-1"}, BadSetting{"--engine", "fast"},
         BadSetting{"--kernels", "avx9"}, BadSetting{"--tokens", ""}, BadSetting{"--tls-cert", ""},
         BadSetting{"--tls-client-ca", ""}, BadSetting{"--tokens", "/tmp"},

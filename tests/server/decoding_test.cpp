@@ -56,7 +56,7 @@ class DecodingTest : public ServerTest {
 
 // Two of them for the two threads that decode.
 TEST_F(DecodingTest, HoldsUpNobodyElseAndEndsWithItsCall) {
-  Start(16, [](ServerConfig& config) { config.io_threads = 2; });
+  Start(1, [](ServerConfig& config) { config.io_threads = 2; });
   const auto slowest = [this] {
     double slowest_s = 0;
     for (int i = 0; i < 20; ++i) {

@@ -79,16 +79,16 @@ TEST_F(DeterminismTest, TimingDoesNotMatter) {
   EXPECT_TRUE(client.Finish().Join() == at_once.Join());
 }
 
-// Streams and transitions step together, with others of other seeds and chunks.
+// Streams and transitions take turns with others of other seeds and chunks.
 TEST_F(DeterminismTest, SameBitsAloneAndAmong31Others) {
   constexpr int kCalls = 32;
-  Start(kCalls);
+  Start(/*workers=*/2);
   const Answer stream = Stream(11, 8192);
   const Answer transition = Transition(11);
   ASSERT_TRUE(stream.status.ok()) << stream.status.error_message();
   ASSERT_TRUE(transition.status.ok()) << transition.status.error_message();
 
-  probe->closed = true;  // until all are in their slots
+  probe->closed = true;  // until all are there
   std::vector<Answer> answers(kCalls);
   std::vector<std::thread> threads;
   for (int i = 0; i < kCalls; ++i) {
@@ -106,8 +106,6 @@ TEST_F(DeterminismTest, SameBitsAloneAndAmong31Others) {
     ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
     EXPECT_EQ(answer.Join() == (i % 2 == 0 ? stream : transition).Join(), i / 2 == 5) << i;
   }
-  // Transitions have all their music; a stream's may still come in on a busy machine.
-  EXPECT_GE(probe->largest_batch, 3 * kCalls / 4) << "calls are not stepped together";
   ExpectIdle();
 }
 

@@ -162,7 +162,7 @@ class DisorderTest : public ServerTest {
 // Nothing of the music has come, so nobody knows where the dance ends.
 TEST_F(DisorderTest, PacingOnBehindTheLastKeyIsHarmless) {
   const Watchdog watchdog(seconds(60));
-  Start(/*slots=*/2);
+  Start(/*workers=*/2);
   DanceClient client(stub());
   v1::DanceConfig config = Config();
   *config.mutable_audio_format() = MusicFormat();
@@ -178,10 +178,10 @@ TEST_F(DisorderTest, PacingOnBehindTheLastKeyIsHarmless) {
   ExpectIdle();
 }
 
-// Four at once on two slots: also what a stream answers must not depend on the others.
+// Four at once on two workers: also what a stream answers must not depend on the others.
 TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
   const Watchdog watchdog(seconds(240));
-  Start(/*slots=*/2);
+  Start(/*workers=*/2);
   constexpr uint32_t kClients = 4;
   constexpr uint32_t kScripts = 100;
   std::atomic<int> danced = 0, twice = 0;

@@ -14,18 +14,14 @@ namespace choreo {
 
 using std::chrono::milliseconds;
 
-ProbedEngine::ProbedEngine(int slots, std::string name, std::shared_ptr<EngineProbe> probe)
-    : FakeEngine(slots), probe_(std::move(probe)) {
+ProbedSampler::ProbedSampler(std::string name, std::shared_ptr<EngineProbe> probe)
+    : probe_(std::move(probe)) {
   model_.name = std::move(name);
 }
 
-ProbedEngine::~ProbedEngine() = default;
-
-void ProbedEngine::Step(std::span<const StepInput> in, std::span<StepOutput> out) {
+void ProbedSampler::OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {
   while (probe_->closed) std::this_thread::sleep_for(milliseconds(1));
-  probe_->largest_batch = std::max(probe_->largest_batch.load(), static_cast<int>(in.size()));
-  probe_->frames += static_cast<int64_t>(in.size());
-  FakeEngine::Step(in, out);
+  ++probe_->frames;
 }
 
 Answer::Joined Answer::Join(uint32_t candidate) const {
@@ -168,15 +164,17 @@ const Answer& DanceClient::Finish() {
 
 ServerTest::~ServerTest() { probe->closed = false; }
 
-void ServerTest::Start(int slots, std::function<void(ServerConfig&)> change,
+void ServerTest::Start(int workers, std::function<void(ServerConfig&)> change,
                        const std::vector<std::string>& names) {
   ServerConfig config;
   config.listen = "127.0.0.1:0";
   config.max_load = 2;  // however slow the machine is
   if (change) change(config);
-  std::vector<Server::Engines> models;
+  std::vector<Server::Samplers> models;
   for (const std::string& name : names) {
-    models.emplace_back().push_back(std::make_unique<ProbedEngine>(slots, name, probe));
+    Server::Samplers& samplers = models.emplace_back();
+    for (int i = 0; i < workers; ++i)
+      samplers.push_back(std::make_unique<ProbedSampler>(name, probe));
   }
   Connect(std::make_unique<Server>(config, std::move(models)));
 }
@@ -277,7 +275,7 @@ v1::AudioFormat ServerTest::MusicFormat() {
 
 void ServerTest::ExpectIdle() {
   ExpectEventually([this] { return server->calls() == 0 && server->transitions() == 0; },
-                   "calls and slots return");
+                   "calls and transitions return");
 }
 
 void ExpectEventually(const std::function<bool()>& condition, const std::string& what,

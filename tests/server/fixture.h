@@ -15,23 +15,21 @@
 #include "choreo/v1/choreography.grpc.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "server/server.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo {
 
-/// What a test sees and does of an engine that the server owns.
+/// What a test sees and does of a model that the server owns.
 struct EngineProbe {
-  std::atomic<int> largest_batch = 0;
   std::atomic<int64_t> frames = 0;
-  std::atomic<bool> closed = false;  ///< while true, no step is made
+  std::atomic<bool> closed = false;  ///< while true, no frame is made
 };
 
-/// A FakeEngine that tells, and can be held up.
-class ProbedEngine final : public FakeEngine {
+/// A FakeSampler that tells, and can be held up.
+class ProbedSampler final : public FakeSampler {
  public:
-  ProbedEngine(int slots, std::string name, std::shared_ptr<EngineProbe> probe);
-  ~ProbedEngine() override;
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override;
+  ProbedSampler(std::string name, std::shared_ptr<EngineProbe> probe);
+  void OnFrame(const TransitionSpec& spec, Plan* plan) override;
 
  private:
   const std::shared_ptr<EngineProbe> probe_;
@@ -105,8 +103,8 @@ class ServerTest : public ::testing::Test {
  protected:
   ~ServerTest() override;
 
-  /// Starts the server with models of these names, and connects to it.
-  void Start(int slots = 16, std::function<void(ServerConfig&)> change = {},
+  /// Starts the server with models of these names, each with so many workers, and connects to it.
+  void Start(int workers = 1, std::function<void(ServerConfig&)> change = {},
              const std::vector<std::string>& names = {"fake"});
   /// Takes over a server that a test has started itself.
   void Connect(std::unique_ptr<Server> started);

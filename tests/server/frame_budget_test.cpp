@@ -4,24 +4,24 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/expect_error.h"
-#include "tests/support/fake_engine.h"
+#include "tests/support/fake_sampler.h"
 
 namespace choreo::frame_budget_test {
 
-/// Two models on one engine each, of which each has time for 20 dances: 10 of both.
+/// Two models with one worker each, of which each has time for 20 dances: 10 of both.
 class FrameBudgetTest : public ::testing::Test {
  protected:
   FrameBudgetTest() {
     for (int i = 0; i < 2; ++i) {
-      std::vector<std::unique_ptr<StepEngine>> engines;
-      engines.push_back(std::make_unique<FakeEngine>());
-      engines.back()->set_cost({.alone = 1.0 / 600, .together = 2.0 / 600, .slots = 2});
-      models.push_back(std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{}));
+      std::vector<std::unique_ptr<Sampler>> samplers;
+      samplers.push_back(std::make_unique<FakeSampler>());
+      samplers.back()->set_seconds_a_frame(1.0 / 600);
+      models.push_back(std::make_unique<SampleQueue>(std::move(samplers), SampleQueue::Options{}));
     }
   }
 
   // How many dances are taken one after the other, from one address.
-  static int TakeDances(FrameBudget& budget, const Scheduler& model, const std::string& address,
+  static int TakeDances(FrameBudget& budget, const SampleQueue& model, const std::string& address,
                         const char* calls) {
     for (int taken = 0;; ++taken) {
       try {
@@ -33,7 +33,7 @@ class FrameBudgetTest : public ::testing::Test {
     }
   }
 
-  std::vector<std::unique_ptr<Scheduler>> models;
+  std::vector<std::unique_ptr<SampleQueue>> models;
   const char calls[200] = {};  // whose addresses name calls
 };
 
@@ -73,10 +73,10 @@ TEST_F(FrameBudgetTest, TransitionsAreChargedWithTheirFramesAndWithHalfAtMost) {
 }
 
 TEST_F(FrameBudgetTest, WhoIsAloneIsTakenHoweverSlowTheEnginesAre) {
-  std::vector<std::unique_ptr<StepEngine>> engines;
-  engines.push_back(std::make_unique<FakeEngine>());
-  engines.back()->set_cost({.alone = 1, .together = 1, .slots = 1});
-  models.push_back(std::make_unique<Scheduler>(std::move(engines), Scheduler::Options{}));
+  std::vector<std::unique_ptr<Sampler>> samplers;
+  samplers.push_back(std::make_unique<FakeSampler>());
+  samplers.back()->set_seconds_a_frame(1);
+  models.push_back(std::make_unique<SampleQueue>(std::move(samplers), SampleQueue::Options{}));
   FrameBudget budget({.of_all = 0.9, .of_peer = 0.8});
   EXPECT_EQ(TakeDances(budget, *models[2], "a", calls), 1);
   EXPECT_THROW(budget.TakeDance(&calls[99], *models[0], "b"), Error);

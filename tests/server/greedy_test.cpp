@@ -127,7 +127,7 @@ void TakeConnections(const Victim& victim) {
 class GreedyTest : public ServerTest, public testing::WithParamInterface<Greed> {};
 
 TEST_P(GreedyTest, NineDanceOn) {
-  Start(/*slots=*/128);
+  Start();
   const int seconds = Setting("CHOREO_FAULT_SECONDS", 2);
   std::mutex mutex;
   std::vector<double> lateness;  // lock: mutex

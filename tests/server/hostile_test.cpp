@@ -51,7 +51,7 @@ class HostileTest : public ServerTest {
 // A length of 4 GiB is announced, and a little comes: nothing is set aside for the rest, and the
 // call ends as one whose first message does not come.
 TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
-  Start(16, [](ServerConfig& config) { config.first_message_seconds = 1; });
+  Start(1, [](ServerConfig& config) { config.first_message_seconds = 1; });
   const int64_t before = ResidentBytes("self");
   Http2 client(server->port());
   const std::string begun = std::string("\0\xff\xff\xff\xff", 5) + std::string(1000, 'x');
@@ -125,7 +125,7 @@ TEST_F(HostileTest, AnswersThatNobodyReadsAreBounded) {
 // Calls that are reset as soon as they are begun, as fast as they can be sent.
 TEST_F(HostileTest, OthersAreServedBesideRapidResets) {
   // They come from the address of the others here, who would share its places.
-  Start(16, [](ServerConfig& config) { config.max_streams_of_peer = 65'536; });
+  Start(1, [](ServerConfig& config) { config.max_streams_of_peer = 65'536; });
   constexpr int kCalls = 20'000;
   const int64_t before = ResidentBytes("self");
   int begun = 0;

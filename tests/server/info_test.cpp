@@ -51,7 +51,7 @@ std::string CallRaw(const std::shared_ptr<grpc::Channel>& channel, const std::st
 class InfoTest : public ServerTest {};
 
 TEST_F(InfoTest, TellsModelLimitsAndDevices) {
-  Start(5);
+  Start(3);
   grpc::ClientContext context;
   v1::GetServerInfoResponse info;
   ASSERT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
@@ -77,16 +77,15 @@ TEST_F(InfoTest, TellsModelLimitsAndDevices) {
   EXPECT_EQ(info.limits().first_message_s(), 10);
   EXPECT_EQ(info.limits().idle_s(), 120);
   EXPECT_EQ(info.limits().unread_s(), 60);
-  EXPECT_EQ(info.limits().max_sleep_s(), 0.5);
   ASSERT_EQ(info.devices_size(), 1);
   EXPECT_EQ(info.devices(0), "fake:0");
-  EXPECT_EQ(info.slots(), 5);
+  EXPECT_EQ(info.slots(), 3);
   EXPECT_EQ(info.version(), "0.2.0");
 }
 
-class BriefEngine : public FakeEngine {
+class BriefSampler : public FakeSampler {
  public:
-  explicit BriefEngine(int longest) { model_.max_transition_frames = longest; }
+  explicit BriefSampler(int longest) { model_.max_transition_frames = longest; }
 };
 
 // The server's limit is one thing, what its model can do another.
@@ -94,8 +93,8 @@ TEST_F(InfoTest, EachModelTellsItsLongestTransition) {
   for (const auto& [of_model, told] : {std::pair{150, 150}, {5'000, 1'800}}) {
     ServerConfig config;
     config.listen = "127.0.0.1:0";
-    std::vector<Server::Engines> models(1);
-    models[0].push_back(std::make_unique<BriefEngine>(of_model));
+    std::vector<Server::Samplers> models(1);
+    models[0].push_back(std::make_unique<BriefSampler>(of_model));
     Connect(std::make_unique<Server>(config, std::move(models)));
     grpc::ClientContext context;
     v1::GetServerInfoResponse info;
@@ -132,8 +131,8 @@ TEST_F(InfoTest, APortThatIsTakenIsNamed) {
   Start();
   ServerConfig config;
   config.listen = "127.0.0.1:" + std::to_string(server->port());
-  std::vector<Server::Engines> models(1);
-  models[0].push_back(std::make_unique<FakeEngine>(1));
+  std::vector<Server::Samplers> models(1);
+  models[0].push_back(std::make_unique<FakeSampler>());
   try {
     const Server second(config, std::move(models));
     FAIL() << "two servers listen on one port";
@@ -153,12 +152,11 @@ TEST_F(InfoTest, HealthServes) {
 }
 
 /// Fails while it is told to, as a device that is gone.
-class FailingEngine final : public FakeEngine {
+class FailingSampler final : public FakeSampler {
  public:
-  explicit FailingEngine(const std::atomic<bool>* fails) : fails_(fails) {}
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+  explicit FailingSampler(const std::atomic<bool>* fails) : fails_(fails) {}
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
     if (*fails_) throw std::runtime_error("the device is gone");
-    FakeEngine::Step(in, out);
   }
 
  private:
@@ -173,8 +171,8 @@ TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
   std::atomic<bool> fails = true;
   ServerConfig config;
   config.listen = "127.0.0.1:0";
-  std::vector<Server::Engines> models(1);
-  models[0].push_back(std::make_unique<FailingEngine>(&fails));
+  std::vector<Server::Samplers> models(1);
+  models[0].push_back(std::make_unique<FailingSampler>(&fails));
   Connect(std::make_unique<Server>(config, std::move(models)));
   const auto health = [this] {
     return CallRaw(channel, "/grpc.health.v1.Health/Check", "", false);
@@ -204,9 +202,9 @@ TEST_F(InfoTest, HealthTellsOfEachModel) {
   std::atomic<bool> fails = true;
   ServerConfig config;
   config.listen = "127.0.0.1:0";
-  std::vector<Server::Engines> models(2);
-  models[0].push_back(std::make_unique<ProbedEngine>(1, "sound", probe));
-  models[1].push_back(std::make_unique<FailingEngine>(&fails));
+  std::vector<Server::Samplers> models(2);
+  models[0].push_back(std::make_unique<ProbedSampler>("sound", probe));
+  models[1].push_back(std::make_unique<FailingSampler>(&fails));
   Connect(std::make_unique<Server>(config, std::move(models)));
   const auto health = [this](const std::string& model) {
     const std::string name = v1::Choreography::service_full_name() + ("/" + model);
@@ -232,8 +230,8 @@ TEST_F(InfoTest, HealthTellsOfModelsThatComeAndGo) {
   };
   const std::string serving("\x08\x01", 2), not_serving("\x08\x02", 2);
   EXPECT_EQ(health("first"), serving);
-  std::vector<Server::Engines> fresh(1);
-  fresh[0].push_back(std::make_unique<ProbedEngine>(1, "second", probe));
+  std::vector<Server::Samplers> fresh(1);
+  fresh[0].push_back(std::make_unique<ProbedSampler>("second", probe));
   server->SetModels({"first", "second"}, std::move(fresh));
   EXPECT_EQ(health("second"), serving);
   server->SetModels({"second"}, {});

@@ -46,33 +46,33 @@ class LifecycleTest : public ServerTest {
   }
 };
 
-TEST_F(LifecycleTest, ACancelledDanceGivesItsSlotBack) {
-  Start(/*slots=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
+TEST_F(LifecycleTest, ACancelledDanceGivesItsPlaceBack) {
+  Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
   for (int round = 0; round < 3; ++round) {
     const auto client = OpenEndedDance();
     ASSERT_TRUE(client->ReadFrames(10));
-    EXPECT_EQ(server->transitions(), 1);
+    EXPECT_EQ(server->calls(), 1);
     EXPECT_EQ(client->Cancel().status.error_code(), grpc::StatusCode::CANCELLED);
     ExpectIdle();
   }
   ExpectServes();
 }
 
-TEST_F(LifecycleTest, ADeadlineGivesTheSlotBack) {
-  Start(/*slots=*/1);
+TEST_F(LifecycleTest, ADeadlineGivesItsPlaceBack) {
+  Start();
   const auto client = OpenEndedDance(milliseconds(300));
   EXPECT_FALSE(client->ReadFrames(1'000));  // waits for music that never comes
   EXPECT_EQ(client->Finish().status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
   ExpectIdle();
 }
 
-TEST_F(LifecycleTest, CancelledTransitionsGiveTheirSlotsBack) {
-  Start(/*slots=*/4);
+TEST_F(LifecycleTest, CancelledTransitionsGiveTheirRoomBack) {
+  Start(/*workers=*/2);
   probe->closed = true;
   v1::GenerateTransitionRequest request;
   *request.mutable_config() = Config();
   request.set_frames(1000);
-  request.set_candidates(8);  // more than slots
+  request.set_candidates(8);  // more than workers
   grpc::ClientContext context;
   const auto reader = stub().GenerateTransition(&context, request);
   ExpectEventually([this] { return server->transitions() == 8; }, "8 transitions");
@@ -84,7 +84,7 @@ TEST_F(LifecycleTest, CancelledTransitionsGiveTheirSlotsBack) {
 }
 
 TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
-  Start(16, [](ServerConfig& config) {
+  Start(1, [](ServerConfig& config) {
     config.max_streams = 2;
     config.max_streams_of_peer = 10;
   });
@@ -107,12 +107,12 @@ TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
   ExpectServes();
 }
 
-TEST_F(LifecycleTest, TransitionsBeyondTheSlotsAreRefused) {
-  Start(/*slots=*/4, [](ServerConfig& config) { config.max_waiting = 1; });
+TEST_F(LifecycleTest, TransitionsBeyondTheirRoomAreRefused) {
+  Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 3; });
   v1::GenerateTransitionRequest request;
   *request.mutable_config() = Config();
   request.set_frames(5);
-  request.set_candidates(4);  // two have a slot, one may wait
+  request.set_candidates(4);
   const grpc::Status refused = Generate(request).status;
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_TRUE(DetailsOf(refused).retry_info);
@@ -122,7 +122,7 @@ TEST_F(LifecycleTest, TransitionsBeyondTheSlotsAreRefused) {
 
 // Nothing is read: HTTP/2 fills, the outbox fills, the dance pauses. Then all of it comes.
 TEST_F(LifecycleTest, AClientThatDoesNotReadPausesItsDanceAlone) {
-  Start(4, [](ServerConfig& config) { config.outbox_kib = 16; });
+  Start(1, [](ServerConfig& config) { config.outbox_kib = 16; });
   DanceClient slow(stub());
   v1::DanceConfig config = Config();
   config.set_encoding(v1::ROTATION_ENCODING_MATRIX);  // 900 bytes a frame
@@ -149,7 +149,7 @@ TEST_F(LifecycleTest, AClientThatDoesNotReadPausesItsDanceAlone) {
 // What is sent is refused, message by message, and no refusal is read: soon no more is taken. Then
 // every message has its answer.
 TEST_F(LifecycleTest, AClientThatDoesNotReadIsNotReadEither) {
-  Start(4, [](ServerConfig& config) { config.outbox_kib = 1; });
+  Start(1, [](ServerConfig& config) { config.outbox_kib = 1; });
   grpc::ChannelArguments small_windows;
   small_windows.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
   const auto own = grpc::CreateCustomChannel("127.0.0.1:" + std::to_string(server->port()),
@@ -292,7 +292,7 @@ TEST_F(LifecycleTest, MemoryComesBackFromClientsThatAreGone) {
 }
 
 TEST_F(LifecycleTest, MusicFilesShareOneBudget) {
-  Start(4, [](ServerConfig& config) { config.max_file_music_mib = 9; });
+  Start(1, [](ServerConfig& config) { config.max_file_music_mib = 9; });
   v1::DanceConfig config = Config();
   config.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
   const std::string piece(8 << 20, 'x');

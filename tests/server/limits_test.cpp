@@ -133,7 +133,7 @@ TEST_F(LimitsTest, CompressedRequestsAreRefused) {
 
 // It is told to go (GOAWAY) and goes once its dance is over; the next call has another connection.
 TEST_F(LimitsTest, AnOldConnectionTakesNoNewCalls) {
-  Start(16, [](ServerConfig& config) { config.max_connection_seconds = 0.2; });
+  Start(1, [](ServerConfig& config) { config.max_connection_seconds = 0.2; });
   DanceClient dance(stub());
   v1::DanceConfig config = Config();
   config.set_frames(60);
@@ -151,7 +151,7 @@ TEST_F(LimitsTest, AnOldConnectionTakesNoNewCalls) {
 
 // As gRPC's SETTINGS say: HTTP/2, RFC 9113, 6.5.
 TEST_F(LimitsTest, AConnectionHasSoManyCalls) {
-  Start(16, [](ServerConfig& config) { config.max_streams = 7; });
+  Start(1, [](ServerConfig& config) { config.max_streams = 7; });
   const int connection = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;

@@ -64,7 +64,7 @@ class MetricsTest : public ServerTest {
 };
 
 TEST_F(MetricsTest, TellWhatWasDone) {
-  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  Start(2, [](ServerConfig& config) { config.metrics = "0"; });
   DanceClient client(stub());
   client.Send(Config());
   client.SendKeyframe(Key("a", 20));
@@ -82,39 +82,40 @@ TEST_F(MetricsTest, TellWhatWasDone) {
   EXPECT_EQ(Figure("choreo_key_error_metres_count"), 1);
   EXPECT_EQ(Figure("choreo_support_ratio_count"), 1);
   EXPECT_EQ(Figure("choreo_first_frame_seconds_count"), 1);
-  EXPECT_EQ(Figure("choreo_batch_frames_count" + of_fake), 21);
-  EXPECT_EQ(Figure("choreo_step_seconds_count" + of_fake), 21);
-  EXPECT_EQ(Figure("choreo_lateness_seconds_count" + of_fake), 21);
-  EXPECT_EQ(Figure("choreo_admission_seconds_count" + of_fake), 1);
-  EXPECT_EQ(Figure("choreo_slots" + of_fake), 16);
-  EXPECT_THAT(Metrics(), HasSubstr(R"(choreo_lateness_seconds_bucket{model="fake",le="+Inf"} 21)"));
+  EXPECT_EQ(Figure("choreo_transitions_total" + of_fake), 1);
+  EXPECT_EQ(Figure("choreo_transition_seconds_count" + of_fake), 1);
+  EXPECT_GT(Figure("choreo_slice_seconds_count" + of_fake), 21);
+  EXPECT_EQ(Figure("choreo_lateness_seconds_count" + of_fake), 1);
+  EXPECT_EQ(Figure("choreo_workers" + of_fake), 2);
+  EXPECT_THAT(Metrics(), HasSubstr(R"(choreo_lateness_seconds_bucket{model="fake",le="+Inf"} 1)"));
   EXPECT_THAT(Metrics(), HasSubstr(R"(device="fake:0")"));
 }
 
 TEST_F(MetricsTest, TellWhatGoesOn) {
-  Start(16, [](ServerConfig& config) {
+  Start(1, [](ServerConfig& config) {
     config.metrics = "0";
     config.max_streams = 4;
   });
-  DanceClient client(stub());
-  v1::DanceConfig config = Config();
-  *config.mutable_audio_format() = MusicFormat();
-  client.Send(config);
-  client.SendKeyframesComplete();
-  client.SendAudio(Music(1), 0);
-  ASSERT_TRUE(client.ReadFrames(10));
+  probe->closed = true;
+  DanceClient client(stub()), other(stub());
+  for (DanceClient* one : {&client, &other}) {
+    one->Send(Config());
+    one->SendKeyframe(Key("a", 20));
+  }
   const std::string of_fake = R"({model="fake"})";
-  ExpectEventually([&] { return Figure("choreo_slots_asleep" + of_fake) == 1; },
-                   "it waits for its music");
-  EXPECT_EQ(Figure("choreo_slots_used" + of_fake), 1);
-  EXPECT_EQ(Figure("choreo_streams"), 1);
+  ExpectEventually([&] { return Figure("choreo_transitions_waiting" + of_fake) == 1; },
+                   "the one waits for the other");
+  EXPECT_EQ(Figure("choreo_transitions_active" + of_fake), 1);
+  other.Cancel();
+  probe->closed = false;
+  ExpectEventually([&] { return Figure("choreo_streams") == 1; }, "the other has left");
   EXPECT_EQ(Figure("choreo_utilisation"), 0.25);
   client.Cancel();
 }
 
 // A counter that fell would be a jump for whoever asks its rate.
 TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
-  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const auto dance = [&] {
     DanceClient client(stub());
     client.Send(Config());
@@ -122,20 +123,20 @@ TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
     EXPECT_TRUE(client.Finish().status.ok());
   };
   dance();
-  std::vector<Server::Engines> fresh(1);
-  fresh[0].push_back(std::make_unique<ProbedEngine>(8, "fake", probe));
+  std::vector<Server::Samplers> fresh(1);
+  fresh[0].push_back(std::make_unique<ProbedSampler>("fake", probe));
   server->SetModels({"fake"}, std::move(fresh));
   dance();
   const std::string of_fake = R"({model="fake"})";
-  ExpectEventually([&] { return Figure("choreo_slots" + of_fake) == 8; }, "the former one is gone");
+  ExpectEventually([&] { return Figure("choreo_workers" + of_fake) == 1; }, "the former one is gone");
   EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 42);
-  EXPECT_EQ(Figure("choreo_step_seconds_count" + of_fake), 42);
+  EXPECT_EQ(Figure("choreo_transition_seconds_count" + of_fake), 2);
   EXPECT_EQ(Figure("choreo_load" + of_fake), 0);
 }
 
 // Who looks at them is not told for ever of what was served once, nor does the list grow.
 TEST_F(MetricsTest, OfAModelThatHasGoneEndWithItsLastDance) {
-  Start(16, [](ServerConfig& config) { config.metrics = "0"; }, {"fake", "other"});
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; }, {"fake", "other"});
   DanceClient client(stub());
   v1::DanceConfig config = Config();
   config.set_model("other");
@@ -154,7 +155,7 @@ TEST_F(MetricsTest, OfAModelThatHasGoneEndWithItsLastDance) {
 
 // Each series of a query, with the labels that it is summed by.
 TEST_F(MetricsTest, TheDashboardAsksForWhatThereIs) {
-  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const std::string all = Metrics();
   std::ifstream file(std::filesystem::path(SOURCE_FOLDER) / "docker/grafana.json");
   const nlohmann::json dashboard = nlohmann::json::parse(file);
@@ -185,12 +186,12 @@ TEST_F(MetricsTest, TheDashboardAsksForWhatThereIs) {
       }
     }
   }
-  EXPECT_GT(asked, 20);
+  EXPECT_GT(asked, 15);
 }
 
 // An alert on a rate sees the first failure only where the series was there before.
 TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
-  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   for (const std::string method : {"StreamDance", "GenerateTransition", "GetServerInfo"}) {
     for (const std::string status : {"OK", "INTERNAL", "UNAUTHENTICATED", "RESOURCE_EXHAUSTED"}) {
       EXPECT_EQ(Figure("choreo_calls_total{method=\"" + method + "\",status=\"" + status + "\"}"),
@@ -200,7 +201,7 @@ TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
 }
 
 TEST_F(MetricsTest, AreAskedForAsHttpSays) {
-  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const auto answer = [&](const std::string& line) {
     return AnswerTo(server->metrics_port(), line);
   };
@@ -216,7 +217,7 @@ TEST_F(MetricsTest, AreAskedForAsHttpSays) {
 }
 
 TEST_F(MetricsTest, WhoSendsAByteNowAndThenIsLeft) {
-  Start(16, [](ServerConfig& config) { config.metrics = "0"; });
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const int fd = ConnectTo(server->metrics_port());
   bool left = false;
   for (int i = 0; i < 40 && !left; ++i) {
@@ -227,7 +228,7 @@ TEST_F(MetricsTest, WhoSendsAByteNowAndThenIsLeft) {
   }
   close(fd);
   EXPECT_TRUE(left) << "ten seconds, and a stop would wait for it";
-  EXPECT_THAT(Metrics(), HasSubstr("choreo_slots"));
+  EXPECT_THAT(Metrics(), HasSubstr("choreo_workers"));
 }
 
 TEST_F(MetricsTest, AnAddressThatIsTakenIsNamed) {
@@ -249,7 +250,7 @@ TEST_F(MetricsTest, ComeFromTheProgramToo) {
   ::setenv("CHOREO_METRICS", std::to_string(port).c_str(), 1);
   const cli::LocalServer program(CHOREOD_PROGRAM);
   ::unsetenv("CHOREO_METRICS");
-  EXPECT_THAT(MetricsAt(port), HasSubstr("choreo_slots{model=\"default\"}"));
+  EXPECT_THAT(MetricsAt(port), HasSubstr("choreo_workers{model=\"default\"}"));
 }
 
 class LogTest : public ServerTest {

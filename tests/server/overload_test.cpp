@@ -2,7 +2,7 @@
 #include <mutex>
 #include <thread>
 
-#include "model/engine/engine_cost.h"
+#include "model/engine/sampling_cost.h"
 #include "tests/server/fixture.h"
 #include "tests/server/real_time.h"
 #include "tests/support/setting.h"
@@ -18,12 +18,10 @@ constexpr int kHolds = 16;             // real-time dances that it has time for:
 constexpr int kGrantsOfDance = 40;
 
 /// Takes so long for each frame, whatever the machine is.
-class CostlyEngine final : public FakeEngine {
+class CostlySampler final : public FakeSampler {
  public:
-  CostlyEngine() : FakeEngine(256) {}
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
-    std::this_thread::sleep_for(kFrameTime * in.size());
-    FakeEngine::Step(in, out);
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
+    std::this_thread::sleep_for(kFrameTime);
   }
 };
 
@@ -38,8 +36,8 @@ class OverloadTest : public ServerTest {
   void StartCostly() {
     ServerConfig config;
     config.listen = "127.0.0.1:0";
-    std::vector<Server::Engines> models(1);
-    models[0].push_back(std::make_unique<CostlyEngine>());
+    std::vector<Server::Samplers> models(1);
+    models[0].push_back(std::make_unique<CostlySampler>());
     WarmUp(*models[0].front());
     Connect(std::make_unique<Server>(config, std::move(models)));
   }

@@ -15,18 +15,17 @@
 namespace choreo {
 
 /// A model of the name and version that a file has; versions dance differently.
-class VersionedEngine final : public FakeEngine {
+class VersionedSampler final : public FakeSampler {
  public:
-  VersionedEngine(const std::string& name, int version, std::shared_ptr<std::atomic<int>> alive)
+  VersionedSampler(const std::string& name, int version, std::shared_ptr<std::atomic<int>> alive)
       : version_(version), alive_(std::move(alive)) {
     model_.name = name;
     model_.fingerprint = name + "-" + std::to_string(version);
     ++*alive_;
   }
-  ~VersionedEngine() override { --*alive_; }
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
-    FakeEngine::Step(in, out);
-    for (StepOutput& one : out) one.pose.rotations(2, 20) += 0.01 * version_;
+  ~VersionedSampler() override { --*alive_; }
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* plan) override {
+    plan->poses.back().rotations(2, 20) += 0.01 * version_;
   }
 
  private:
@@ -57,14 +56,14 @@ class ReloadTest : public ServerTest {
     folder.Reload(*server, [] { return false; });
   }
 
-  Server::Engines Load(const std::filesystem::path& file) {
+  Server::Samplers Load(const std::filesystem::path& file) {
     ++loaded;
     std::string name;
     int version = 0;
     if (!(std::ifstream(file) >> name >> version)) throw InvalidArgument(file, "no model");
-    Server::Engines engines;
-    engines.push_back(std::make_unique<VersionedEngine>(name, version, alive));
-    return engines;
+    Server::Samplers samplers;
+    samplers.push_back(std::make_unique<VersionedSampler>(name, version, alive));
+    return samplers;
   }
 
   static v1::DanceConfig ConfigOf(const std::string& model, int frames = 90) {

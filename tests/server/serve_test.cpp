@@ -143,7 +143,7 @@ TEST_F(ServeTest, FindsAnAddressTakenBeforeItLoadsItsModels) {
 }
 
 TEST_F(ServeTest, CountsWhomItRefusedWhoeverRefusesThem) {
-  Start("--max-waiting 0");
+  Start("--max-waiting 1");
   AwaitListening();
   const client::Client client({.addresses = {address()}, .retry_s = 0});
   client.GetServerInfo();

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <thread>
 
-#include "model/engine/engine_cost.h"
+#include "model/engine/sampling_cost.h"
 #include "server/call_registry.h"
 #include "tests/server/fixture.h"
 
@@ -50,6 +50,14 @@ class StarvationTest : public ServerTest {
     return client;
   }
 
+  void StartWith(std::unique_ptr<Sampler> sampler) {
+    ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    std::vector<Server::Samplers> models(1);
+    models[0].push_back(std::move(sampler));
+    Connect(std::make_unique<Server>(config, std::move(models)));
+  }
+
   Answer DanceToAKey() {
     DanceClient client(stub());
     client.Send(Config());
@@ -69,7 +77,7 @@ class StarvationTest : public ServerTest {
 };
 
 TEST_F(StarvationTest, SilentCallsTakeNobodysPlaceAndEnd) {
-  Start(4, [](ServerConfig& config) {
+  Start(1, [](ServerConfig& config) {
     config.max_streams = 2;
     config.max_streams_of_peer = 20;
     config.first_message_seconds = 0.3;
@@ -87,7 +95,7 @@ TEST_F(StarvationTest, SilentCallsTakeNobodysPlaceAndEnd) {
 }
 
 TEST_F(StarvationTest, ACallOfWhichNothingComesEnds) {
-  Start(4, [](ServerConfig& config) { config.idle_seconds = 0.5; });
+  Start(1, [](ServerConfig& config) { config.idle_seconds = 0.5; });
   const auto client = OpenEndedDance();
   while (client->ReadOne()) {
   }
@@ -98,7 +106,7 @@ TEST_F(StarvationTest, ACallOfWhichNothingComesEnds) {
 }
 
 TEST_F(StarvationTest, ACallWhoseAnswersNobodyTakesIsReset) {
-  Start(4, [](ServerConfig& config) {
+  Start(1, [](ServerConfig& config) {
     config.outbox_kib = 16;
     config.unread_seconds = 0.5;
   });
@@ -108,11 +116,8 @@ TEST_F(StarvationTest, ACallWhoseAnswersNobodyTakesIsReset) {
   EXPECT_EQ(client->Finish().status.error_code(), grpc::StatusCode::CANCELLED);
 }
 
-TEST_F(StarvationTest, WhoDoesNotReadHoldsUpItselfAloneWithOneSlot) {
-  Start(/*slots=*/1, [](ServerConfig& config) {
-    config.outbox_kib = 16;
-    config.max_sleep_seconds = 0.05;
-  });
+TEST_F(StarvationTest, WhoDoesNotReadHoldsUpItselfAloneWithOneWorker) {
+  Start(/*workers=*/1, [](ServerConfig& config) { config.outbox_kib = 16; });
   const Answer::Joined alone = UnreadDance()->Finish().Join();
   probe->frames = 0;
   const auto slow = UnreadDance();
@@ -124,9 +129,9 @@ TEST_F(StarvationTest, WhoDoesNotReadHoldsUpItselfAloneWithOneSlot) {
   EXPECT_TRUE(answer.Join() == alone);
 }
 
-// Two dances whose music comes bit by bit take turns in the only slot.
-TEST_F(StarvationTest, WhoWaitsForMusicHoldsUpNobodyWithOneSlot) {
-  Start(/*slots=*/1, [](ServerConfig& config) { config.max_sleep_seconds = 0.02; });
+// Two dances whose music comes bit by bit take turns with the only worker.
+TEST_F(StarvationTest, WhoWaitsForMusicHoldsUpNobodyWithOneWorker) {
+  StartWith(std::make_unique<FakeSampler>());
   const std::string music = Music(3);
   const auto play = [&](DanceClient& client, size_t from, size_t to) {
     client.SendAudio(music.substr(from, to - from), static_cast<int64_t>(from / 2));
@@ -154,10 +159,9 @@ TEST_F(StarvationTest, WhoWaitsForMusicHoldsUpNobodyWithOneSlot) {
   EXPECT_TRUE(second.Finish().Join() == expected.Join());
 }
 
-// It gives its slot back between two transitions. Then come more transitions than there is room
-// for.
+// More transitions come than there is room for, while nothing of it is in the queue.
 TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
-  Start(/*slots=*/2, [](ServerConfig& config) { config.max_waiting = 3; });
+  Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 4; });
   DanceClient live(stub());
   live.Send(Config());
   live.SendGenerateUntil(0);
@@ -165,7 +169,7 @@ TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
   live.SendKeyframe(Key("b", 60));
   live.SendGenerateUntil(31);
   ASSERT_TRUE(live.ReadFrames(31));
-  ExpectEventually([this] { return server->transitions() == 0; }, "the slot is free");
+  ExpectEventually([this] { return server->transitions() == 0; }, "it is made");
 
   probe->closed = true;
   std::vector<std::jthread> burst;
@@ -196,20 +200,15 @@ TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
 
 TEST_F(StarvationTest, WhoCannotBeServedInTimeIsToldAtOnce) {
   /// Takes longer for a frame than the frame lasts.
-  class SlowEngine final : public FakeEngine {
+  class SlowSampler final : public FakeSampler {
    public:
-    using FakeEngine::FakeEngine;
-    void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+    void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
       std::this_thread::sleep_for(milliseconds(50));
-      FakeEngine::Step(in, out);
     }
   };
-  ServerConfig config;
-  config.listen = "127.0.0.1:0";
-  std::vector<Server::Engines> models(1);
-  models[0].push_back(std::make_unique<SlowEngine>(4));
-  WarmUp(*models[0].front());
-  Connect(std::make_unique<Server>(config, std::move(models)));
+  auto slow = std::make_unique<SlowSampler>();
+  WarmUp(*slow);
+  StartWith(std::move(slow));
   DanceClient first(stub());
   v1::DanceConfig long_dance = Config();
   long_dance.set_frames(1'000);
@@ -224,7 +223,7 @@ TEST_F(StarvationTest, WhoCannotBeServedInTimeIsToldAtOnce) {
 }
 
 TEST_F(StarvationTest, OneAddressDoesNotTakeAllCalls) {
-  Start(16, [](ServerConfig& config) { config.max_streams = 8; });
+  Start(1, [](ServerConfig& config) { config.max_streams = 8; });
   std::vector<std::unique_ptr<DanceClient>> clients;
   for (int i = 0; i < 7; ++i) {
     clients.push_back(OpenEndedDance());

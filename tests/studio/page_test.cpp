@@ -14,13 +14,12 @@ namespace choreo::studio::page_test {
 
 using ::testing::HasSubstr;
 
-/// Makes no step while it is held.
-class HeldEngine final : public FakeEngine {
+/// Makes no frame while it is held.
+class HeldSampler final : public FakeSampler {
  public:
-  explicit HeldEngine(const std::atomic<bool>& held) : held_(held) {}
-  void Step(std::span<const StepInput> in, std::span<StepOutput> out) override {
+  explicit HeldSampler(const std::atomic<bool>& held) : held_(held) {}
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
     held_.wait(true);
-    FakeEngine::Step(in, out);
   }
 
  private:
@@ -59,7 +58,7 @@ TEST_F(StudioTest, WelcomesWithModelPosesAndBody) {
 // What it asked for last is still being made, and can't be stopped.
 TEST_F(StudioTest, APageThatIsClosedHoldsUpNoOther) {
   std::atomic<bool> held = true;
-  const TestServer slow(std::make_unique<HeldEngine>(held));
+  const TestServer slow(std::make_unique<HeldSampler>(held));
   const Opened studio(slow.address());
   std::optional<Page> page(std::in_place, studio.port());
   Request request;

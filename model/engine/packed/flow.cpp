@@ -140,14 +140,14 @@ Eigen::MatrixXf PackedFlow::WithAims(const Eigen::MatrixXf& encodings,
 PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
     : flow_(std::move(flow)), slots_(static_cast<size_t>(slots)) {
   const PackedFlow::Coupling& coupling = flow_->couplings.front();
-  live_.Resize(kRows, std::max<long>(flow_->live, flow_->encode.padded()));
-  encoding_.Resize(kRows, flow_->encode.padded());
-  input_.Resize(kRows, flow_->input_width());
-  wide_.Resize(kRows, coupling.first.padded());
-  hidden_.Resize(kRows, 2 * flow_->config.hidden);
-  ab_.Resize(kRows, coupling.last.padded());
-  z_.Resize(kRows, coupling.unmix.padded());
-  mixed_.Resize(kRows, coupling.unmix.padded());
+  live_.Resize(slots, std::max<long>(flow_->live, flow_->encode.padded()));
+  encoding_.Resize(slots, flow_->encode.padded());
+  input_.Resize(slots, flow_->input_width());
+  wide_.Resize(slots, coupling.first.padded());
+  hidden_.Resize(slots, 2 * flow_->config.hidden);
+  ab_.Resize(slots, coupling.last.padded());
+  z_.Resize(slots, coupling.unmix.padded());
+  mixed_.Resize(slots, coupling.unmix.padded());
 }
 
 void PackedTile::Begin(int slot_index, Eigen::MatrixXf conditions) {

@@ -82,12 +82,10 @@ class PackedTile : public FlowTile {
  public:
   PackedTile(std::shared_ptr<const PackedFlow> flow, int slots);
 
-  int rows() const override { return kRows; }
   void Begin(int slot, Eigen::MatrixXf conditions) override;
   void Run(std::span<FlowRow> rows) override;
 
  private:
-  static constexpr int kRows = 64;
   static constexpr long kAhead = 16;
 
   struct Slot {

@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/core/random.h"
-
 namespace choreo {
 
 using torch::Tensor;
 
-TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots)
+TorchTile::TorchTile(std::shared_ptr<TorchWeights> weights, int slots)
     : weights_(std::move(weights)),
-      rows_(rows),
-      padded_(rows + 1),
+      padded_(slots + 1),
       spare_(slots),
       static_conditions_(static_cast<size_t>(slots)),
       states_(torch::zeros({slots + 1, weights_->model->StateWidth()}, weights_->device)) {
@@ -94,47 +91,6 @@ void TorchTile::Compute() {
   states_.index_copy_(0, slots_, state);
   host_output_.copy_(torch::cat({result.features, result.log_likelihood.unsqueeze(1)}, 1),
                      /*non_blocking=*/true);
-}
-
-// Two probes visit every place, each time among other neighbours: the crowd moves on with them.
-bool TorchTile::RowsAreIndependent() {
-  const c10::InferenceMode inference;
-  Random random(1);
-  const auto normal = [&](int64_t rows, int64_t columns) {
-    Tensor tensor = torch::empty({rows, columns});
-    random.FillNormal({tensor.data_ptr<float>(), static_cast<size_t>(tensor.numel())});
-    return tensor;
-  };
-  host_slots_.narrow(0, 0, rows_).copy_(torch::arange(rows_));
-  for (int probe = 0; probe < 2; ++probe) {
-    const Tensor crowd = normal(padded_, begin_[kParts]), input = normal(1, begin_[kParts]);
-    const Tensor states = normal(rows_, states_.size(1)), state = normal(1, states_.size(1));
-    Tensor expected;
-    for (int place = 0; place < rows_; ++place) {
-      host_input_.copy_(crowd.roll(place + place / 2, 0));
-      host_input_[place].copy_(input[0]);
-      host_input_.narrow(1, begin_[kUnderWay], 1).fill_(1);
-      Tensor here = states.roll(place + place / 2, 0);
-      here[place].copy_(state[0]);
-      states_.narrow(0, 0, rows_).copy_(here);
-      Compute();
-      const Tensor result = torch::cat({host_output_[place], states_[place].cpu()});
-      if (!expected.defined()) expected = result.clone();
-      if (!torch::equal(result, expected)) return false;
-    }
-  }
-  return true;
-}
-
-int TorchTile::VerifiedRows(const std::shared_ptr<TorchWeights>& weights) {
-  // With the padding, sizes that libraries like. A GPU takes hardly longer for a hundred rows than
-  // for one; OpenBLAS's AVX2 kernels take some rows at once and the rest otherwise.
-  const std::vector<int> sizes =
-      weights->device.is_cuda() ? std::vector{127, 63, 31, 15, 7, 3} : std::vector{15, 11, 7, 3};
-  for (const int rows : sizes) {
-    if (TorchTile(weights, rows, rows).RowsAreIndependent()) return rows;
-  }
-  return 1;
 }
 
 }  // namespace choreo

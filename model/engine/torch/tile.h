@@ -17,17 +17,12 @@ struct TorchWeights {
   torch::Device device{torch::kCPU};
 };
 
-/// The flow, stepped by LibTorch: a fixed number of rows together, padded, with inputs and outputs
-/// in host memory. The reference that faster tiles are held to, and the one that runs on CUDA.
+/// The flow, stepped by LibTorch: a row for each slot, padded, with inputs and outputs in host
+/// memory. The reference that faster tiles are held to, and the one that runs on CUDA.
 class TorchTile : public FlowTile {
  public:
-  TorchTile(std::shared_ptr<TorchWeights> weights, int rows, int slots);
+  TorchTile(std::shared_ptr<TorchWeights> weights, int slots);
 
-  /// The largest of the usual tile sizes whose rows' bits depend neither on their place nor on
-  /// their neighbours; 1 at worst.
-  static int VerifiedRows(const std::shared_ptr<TorchWeights>& weights);
-
-  int rows() const override { return rows_; }
   void Begin(int slot, Eigen::MatrixXf conditions) override;
   void Run(std::span<FlowRow> rows) override;
 
@@ -38,10 +33,8 @@ class TorchTile : public FlowTile {
   torch::Tensor Input(Part part) const;
   /// Everything that the device does in a step.
   void Compute();
-  bool RowsAreIndependent();
 
   std::shared_ptr<TorchWeights> weights_;
-  int rows_;
   /// With one row more that nobody needs: LibTorch computes the last elements of a tensor one by
   /// one and the others as vectors, which now and then round otherwise.
   int padded_;

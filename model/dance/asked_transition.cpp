@@ -1,0 +1,49 @@
+#include "model/dance/asked_transition.h"
+
+#include <utility>
+
+namespace choreo {
+
+AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
+                              const ControlTrack& controls, const AudioFeed* audio,
+                              const Segment& segment, int64_t rows_end,
+                              std::span<const Pose> before) {
+  AskedTransition asked;
+  TransitionRequest& request = asked.request;
+  request.frames = static_cast<int>(segment.to - segment.from);
+  request.first_frame = segment.from;
+  if (segment.key) {
+    request.target = Target{segment.key->pose, segment.key->mask};
+    asked.key_id = segment.key->id;
+  }
+  Pose stance;
+  if (before.empty()) {
+    stance = controls.Stance(segment.from, request.frames == 1 ? request.target : std::nullopt);
+    before = {&stance, 1};
+  }
+  request.history = FillHistory(model, before);
+  if (audio != nullptr) {
+    request.has_audio = true;
+    if (model.hears_music) {
+      request.audio_history = audio->History(segment.from, model.history_frames);
+      const auto heard = static_cast<int>(rows_end - segment.from);
+      request.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, request.frames);
+      request.audio_rows.leftCols(heard) = audio->History(rows_end, heard);
+    }
+  }
+  request.seed = start.seed;
+  request.style = start.style;
+  request.temperature = start.temperature.value_or(static_cast<float>(model.default_temperature));
+  controls.Ask(asked.key_id, &request, &asked.warnings);
+  return asked;
+}
+
+void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, AskedTransition* asked) {
+  const std::optional<RequiredSpeed> speed = run.required_speed();
+  if (!speed || !speed->TooFast()) return;
+  asked->warnings.push_back(IntervalTooShort(model.skeleton, asked->key_id,
+                                             asked->request.first_frame, asked->request.frames,
+                                             *speed));
+}
+
+}  // namespace choreo

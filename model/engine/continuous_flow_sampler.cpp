@@ -1,0 +1,166 @@
+#include "model/engine/continuous_flow_sampler.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "model/plan/plan_stages.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kRounds = 3;       // in which energy is asked for
+constexpr double kAnswer = 0.6;  // of what is missing comes of as much more
+constexpr double kFarthest = 1;  // logarithm of what is asked for over what is wanted
+
+WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
+  WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
+  if (spec.target) {
+    request.key = spec.target->pose;
+    request.mask = spec.target->mask;
+    if (spec.target->height) {
+      request.height = true;
+      request.key->root_position.y() = *spec.target->height;
+    }
+  }
+  request.stage = spec.stage.value_or(Eigen::Vector3d::Zero());
+  request.path = spec.controls.root_path;
+  request.path_heights = spec.controls.path_heights;
+  request.beats = spec.beats;
+  request.energy = spec.controls.velocity_factors.cast<double>();
+  request.asked = spec.controls.parts_asked;
+  if (const auto style = std::ranges::find(styles, spec.style); style != styles.end())
+    request.style = static_cast<int>(style - styles.begin());
+  return request;
+}
+
+class PlanSampling : public Sampling {
+ public:
+  /// The spec is valid; model, parts and network must outlive it.
+  PlanSampling(const ModelInfo& model, const FlowModelParts& parts, const FlowNetwork& network,
+               const TransitionSpec& spec);
+
+  bool Continue() override;
+
+ private:
+  /// Takes what a round has come to; true while another one is to be sampled.
+  bool EndRound();
+  void Finish();
+
+  const ModelInfo* model_;
+  const FlowModelParts* parts_;
+  const FlowNetwork* network_;
+  // Of the spec:
+  std::vector<Pose> history_;
+  std::vector<double> beats_;
+  bool keyed_, has_path_, has_heights_;
+
+  WindowRequest request_;
+  FlowNoise noise_;
+  std::optional<TransitionSampler> sampler_;  // of this round; none: they are over
+
+  // The network answers energy that is asked for, but by less. So what came of it is measured and,
+  // as far as it missed, asked for again; the nearest is danced.
+  bool in_rounds_;
+  int round_ = 0;
+  Eigen::MatrixXd wanted_;                    // energy, as it was asked for
+  std::array<double, kBodyParts> more_ = {};  // logarithms of what is asked for over that
+  double least_;                              // by how much the nearest missed
+};
+
+PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
+                           const FlowNetwork& network, const TransitionSpec& spec)
+    : model_(&model),
+      parts_(&parts),
+      network_(&network),
+      history_(spec.history),
+      beats_(spec.beats),
+      keyed_(Keyed(spec)),
+      has_path_(spec.controls.root_path.cols() > 0),
+      has_heights_(spec.controls.path_heights),
+      request_(ToWindowRequest(spec, model.styles)),
+      noise_{.seed = spec.seed,
+             .candidate = spec.candidate,
+             .first_frame = spec.first_frame,
+             .temperature = spec.temperature},
+      sampler_(std::in_place, parts, network, request_, noise_),
+      // The mean way is as lively as it is.
+      in_rounds_(noise_.temperature > 0 && request_.energy.cols() > 0 &&
+                 std::ranges::count(request_.asked, true) > 0),
+      wanted_(request_.energy),
+      least_(std::numeric_limits<double>::infinity()) {}
+
+bool PlanSampling::Continue() {
+  if (!sampler_) {
+    Finish();
+    return false;
+  }
+  if (sampler_->Continue()) return true;
+  if (EndRound()) {
+    sampler_.emplace(*parts_, *network_, request_, noise_);
+  } else {
+    sampler_.reset();
+  }
+  return true;
+}
+
+bool PlanSampling::EndRound() {
+  std::vector<Pose> poses = sampler_->TakePoses();
+  if (!in_rounds_) {
+    plan_.poses = std::move(poses);
+    return false;
+  }
+  std::vector<Pose> seen = {history_.back()};
+  seen.insert(seen.end(), poses.begin(), poses.end());
+  const auto danced = MeanVelocityFactors(parts_->skeleton, seen);
+  const Eigen::VectorXd asked = wanted_.rowwise().mean();
+  double most = 0;
+  for (int part = 0; part < asked.size(); ++part) {
+    const auto at = static_cast<size_t>(part);
+    if (!request_.asked[at]) continue;
+    const double missing = EnergyLevel(asked[part], danced[at]);
+    most = std::max(most, std::abs(missing));
+    more_[at] = std::clamp(more_[at] + missing / kAnswer, -kFarthest, kFarthest);
+    request_.energy.row(part) = std::exp(more_[at]) * wanted_.row(part);
+  }
+  if (most < least_) {
+    least_ = most;
+    plan_.poses = std::move(poses);
+  }
+  return ++round_ < kRounds;
+}
+
+void PlanSampling::Finish() {
+  FinishPlan({.skeleton = model_->skeleton,
+              .history = history_,
+              .beats = beats_,
+              .keyed = keyed_,
+              .has_path = has_path_,
+              .has_heights = has_heights_,
+              .fps = model_->fps,
+              .options = parts_->config.plan},
+             &plan_.poses);
+  Motion motion{.fps = model_->fps, .frames = {history_.back()}};
+  motion.frames.insert(motion.frames.end(), plan_.poses.begin(), plan_.poses.end());
+  plan_.contacts = DetectContacts(model_->skeleton, motion);
+  plan_.contacts.erase(plan_.contacts.begin());  // the history's
+}
+
+}  // namespace
+
+ContinuousFlowSampler::ContinuousFlowSampler(ModelInfo info, std::string device,
+                                             std::shared_ptr<const FlowModelParts> parts,
+                                             std::shared_ptr<const FlowNetwork> network)
+    : Sampler(std::move(info), std::move(device)),
+      parts_(std::move(parts)),
+      network_(std::move(network)) {}
+
+std::unique_ptr<Sampling> ContinuousFlowSampler::BeginValid(const TransitionSpec& spec) {
+  return std::make_unique<PlanSampling>(model_, *parts_, *network_, spec);
+}
+
+}  // namespace choreo

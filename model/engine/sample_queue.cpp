@@ -1,0 +1,335 @@
+#include "model/engine/sample_queue.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "model/core/threads.h"
+#include "model/engine/sampling_cost.h"
+
+namespace choreo {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double Seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
+double Seconds(Clock::time_point time) { return Seconds(time.time_since_epoch()); }
+
+// What is being thrown, as an Error. Call inside a catch block.
+Error CurrentError() {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::exception& error) {
+    return Error(ErrorCode::kInternal, "", error.what());
+  } catch (...) {
+    return Error(ErrorCode::kInternal, "", "unknown exception");
+  }
+}
+
+// How much bulk there is; whoever reserves may outlive the queue.
+struct Bulk {
+  std::mutex mutex;
+  int reserved = 0;  ///< Lock: mutex
+};
+
+}  // namespace
+
+// One mutex guards who waits and how far the queue is. It is never held while a job is called, but
+// for Cancelled.
+struct SampleQueue::Impl {
+  /// A job from its submission until its OnDone.
+  struct Entry {
+    std::shared_ptr<SampleJob> job;
+    bool is_bulk;
+    uint64_t order;    ///< of submission; settles equal deadlines
+    double deadline;   ///< seconds
+    double submitted;  ///< seconds
+    double taken = 0;  ///< seconds, of its slices
+  };
+  using Entries = std::vector<std::unique_ptr<Entry>>;
+
+  /// One sampler and the thread that alone touches it.
+  struct Worker {
+    explicit Worker(std::unique_ptr<Sampler> one)
+        : sampler(std::move(one)), cost(sampler->seconds_a_frame()) {}
+
+    const std::unique_ptr<Sampler> sampler;
+    SamplingCost cost;
+    std::thread thread;
+    Entries begun;       ///< Lock: mutex
+    bool looks = false;  ///< for cancelled jobs. Lock: mutex
+    std::atomic<int> failures_in_a_row = 0;
+  };
+
+  Options options;
+  std::vector<std::unique_ptr<Worker>> workers;
+  const std::shared_ptr<Bulk> bulk = std::make_shared<Bulk>();
+
+  mutable std::mutex mutex;
+  std::condition_variable work;          ///< Run has something to see
+  mutable std::condition_variable idle;  ///< `live` became 0
+  Entries waiting;                       ///< Lock: mutex
+  size_t live = 0;                       ///< waiting, begun, and inside OnDone. Lock: mutex
+  uint64_t submitted = 0;                ///< Lock: mutex
+  bool stopped = false;                  ///< Lock: mutex
+  bool exit = false;                     ///< workers end, after `stopped`. Lock: mutex
+
+  std::atomic<uint64_t> frames = 0, transitions = 0;
+  Histogram slice_seconds{Histogram::Seconds()};
+  Histogram transition_seconds{Histogram::Seconds()};
+  Histogram lateness_seconds{Histogram::Seconds()};
+
+  void Accept(std::shared_ptr<SampleJob> job, bool is_bulk);
+
+  // The caller of these holds the lock; they let go of it while they call jobs.
+  using Lock = std::unique_lock<std::mutex>;
+  void Run(Worker* worker);
+  Entries TakeCancelled(Worker* worker);
+  Entry* Next(Worker* worker);
+  void MakeSlice(Worker* worker, Entry* entry, Lock& lock);
+  void End(std::unique_ptr<Entry> entry, const Error* failure, Lock& lock);
+  void EndAll(Entries entries, const Error& failure, Lock& lock);
+};
+
+// ---- What callers ask for -----------------------------------------------------------------------
+
+void SampleQueue::Impl::Accept(std::shared_ptr<SampleJob> job, bool is_bulk) {
+  if (job == nullptr) throw InvalidArgument("job", "is null");
+  auto entry = std::make_unique<Entry>();
+  const double deadline = job->Deadline();
+  *entry = {.job = std::move(job),
+            .is_bulk = is_bulk,
+            .order = 0,
+            .deadline = std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline,
+            .submitted = Seconds(Clock::now())};
+  const std::lock_guard lock(mutex);
+  if (stopped) throw Error(ErrorCode::kUnavailable, "", "the queue takes no new jobs");
+  entry->order = submitted++;
+  waiting.push_back(std::move(entry));
+  ++live;
+  work.notify_one();
+}
+
+// ---- One worker ---------------------------------------------------------------------------------
+
+void SampleQueue::Impl::Run(Worker* worker) {
+  FlushDenormals();
+  Lock lock(mutex);
+  for (;;) {
+    if (stopped) {
+      const Error stopping(ErrorCode::kUnavailable, "", "the queue is stopped");
+      EndAll(std::exchange(worker->begun, {}), stopping, lock);
+      EndAll(std::exchange(waiting, {}), stopping, lock);
+    }
+    if (std::exchange(worker->looks, false)) {
+      EndAll(TakeCancelled(worker), Error(ErrorCode::kCancelled, "", "cancelled"), lock);
+    } else if (Entry* next = Next(worker)) {
+      MakeSlice(worker, next, lock);
+    } else if (exit) {
+      return;
+    } else {
+      work.wait(lock);
+    }
+  }
+}
+
+SampleQueue::Impl::Entries SampleQueue::Impl::TakeCancelled(Worker* worker) {
+  Entries cancelled;
+  for (Entries* entries : {&worker->begun, &waiting}) {
+    for (std::unique_ptr<Entry>& entry : *entries) {
+      if (entry->job->Cancelled()) cancelled.push_back(std::move(entry));
+    }
+    std::erase(*entries, nullptr);
+  }
+  return cancelled;
+}
+
+// Of what it has begun and what waits, that which is due first; it has begun it then. Null: none.
+SampleQueue::Impl::Entry* SampleQueue::Impl::Next(Worker* worker) {
+  // Nobody listens to bulk: it is due when real time ends.
+  const double real_time_end = Seconds(Clock::now()) + Seconds(options.bulk_yields);
+  const auto due = [=](const std::unique_ptr<Entry>& entry) {
+    const double at = entry->is_bulk ? std::max(entry->deadline, real_time_end) : entry->deadline;
+    return std::pair(at, entry->order);
+  };
+  const auto mine = std::ranges::min_element(worker->begun, {}, due);
+  const auto fresh = std::ranges::min_element(waiting, {}, due);
+  if (fresh == waiting.end()) return mine == worker->begun.end() ? nullptr : mine->get();
+  if (mine != worker->begun.end() && due(*mine) < due(*fresh)) return mine->get();
+  worker->begun.push_back(std::move(*fresh));
+  waiting.erase(fresh);
+  return worker->begun.back().get();
+}
+
+void SampleQueue::Impl::MakeSlice(Worker* worker, Entry* entry, Lock& lock) {
+  lock.unlock();
+  std::optional<Error> failure;
+  bool more = false;
+  const Clock::time_point begin = Clock::now();
+  if (entry->job->Cancelled()) {
+    failure.emplace(ErrorCode::kCancelled, "", "cancelled");
+  } else {
+    try {
+      more = entry->job->Continue(*worker->sampler);
+    } catch (...) {
+      failure = CurrentError();
+      // A job that is refused is at fault itself; anything else that goes wrong is the sampler's.
+      if (failure->code() == ErrorCode::kInternal) worker->failures_in_a_row.fetch_add(1);
+    }
+    const double took = Seconds(Clock::now() - begin);
+    entry->taken += took;
+    slice_seconds.Add(took);
+  }
+  if (!more && !failure) {
+    const int made = entry->job->frames();
+    worker->failures_in_a_row = 0;
+    worker->cost.Add(entry->taken, made);
+    transition_seconds.Add(entry->taken);
+    frames += static_cast<uint64_t>(made);
+    ++transitions;
+    if (!entry->is_bulk) {
+      const double due = std::max(entry->deadline, entry->submitted);
+      lateness_seconds.Add(std::max(0.0, Seconds(Clock::now()) - due));
+    }
+  }
+  lock.lock();
+  if (more) return;
+  const auto at = std::ranges::find(worker->begun, entry, &std::unique_ptr<Entry>::get);
+  std::unique_ptr<Entry> own = std::move(*at);
+  worker->begun.erase(at);
+  End(std::move(own), failure ? &*failure : nullptr, lock);
+}
+
+void SampleQueue::Impl::End(std::unique_ptr<Entry> entry, const Error* failure, Lock& lock) {
+  lock.unlock();
+  entry->job->OnDone(failure);
+  entry.reset();
+  lock.lock();
+  if (--live == 0) idle.notify_all();
+}
+
+void SampleQueue::Impl::EndAll(Entries entries, const Error& failure, Lock& lock) {
+  for (std::unique_ptr<Entry>& entry : entries) End(std::move(entry), &failure, lock);
+}
+
+// ---- SampleQueue --------------------------------------------------------------------------------
+
+SampleQueue::SampleQueue(std::vector<std::unique_ptr<Sampler>> samplers, Options options)
+    : impl_(std::make_unique<Impl>()) {
+  if (samplers.empty()) throw InvalidArgument("samplers", "is empty; at least 1 is needed");
+  const auto check = [](const char* field, int64_t value) {
+    if (value < 0) throw InvalidArgument(field, std::to_string(value) + " is below 0");
+  };
+  check("max_bulk", options.max_bulk);
+  check("bulk_yields", options.bulk_yields.count());
+  impl_->options = options;
+  const std::string fingerprint = samplers[0]->model().fingerprint;
+  for (size_t i = 0; i < samplers.size(); ++i) {
+    const std::string& other = samplers[i]->model().fingerprint;
+    if (other != fingerprint) {
+      throw InvalidArgument("samplers[" + std::to_string(i) + "]",
+                            "its fingerprint " + other + " is not " + fingerprint);
+    }
+    impl_->workers.push_back(std::make_unique<Impl::Worker>(std::move(samplers[i])));
+  }
+  for (const auto& worker : impl_->workers)
+    worker->thread = std::thread([this, one = worker.get()] { impl_->Run(one); });
+}
+
+SampleQueue::~SampleQueue() {
+  Stop();
+  {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->exit = true;
+    impl_->work.notify_all();
+  }
+  for (const auto& worker : impl_->workers) worker->thread.join();
+}
+
+void SampleQueue::Submit(std::shared_ptr<SampleJob> job) { impl_->Accept(std::move(job), false); }
+
+void SampleQueue::SubmitBulk(std::shared_ptr<SampleJob> job) {
+  impl_->Accept(std::move(job), true);
+}
+
+SampleQueue::Reservation SampleQueue::ReserveBulk(int transitions) {
+  const std::shared_ptr<Bulk> bulk = impl_->bulk;
+  const int most = impl_->options.max_bulk;
+  const std::lock_guard lock(bulk->mutex);
+  if (bulk->reserved + transitions > most) {
+    throw Error(ErrorCode::kResourceExhausted, "",
+                std::to_string(bulk->reserved) +
+                    " transitions are in progress or wait already; with " +
+                    std::to_string(transitions) + " more there would be more than " +
+                    std::to_string(most));
+  }
+  Reservation reservation(nullptr, [bulk, transitions](void*) {
+    const std::lock_guard again(bulk->mutex);
+    bulk->reserved -= transitions;
+  });
+  bulk->reserved += transitions;
+  return reservation;
+}
+
+void SampleQueue::LookForCancelled() {
+  const std::lock_guard lock(impl_->mutex);
+  for (const auto& worker : impl_->workers) worker->looks = true;
+  impl_->work.notify_all();
+}
+
+void SampleQueue::Stop() noexcept {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->stopped = true;
+  impl_->work.notify_all();
+}
+
+bool SampleQueue::WaitUntilIdle(std::chrono::milliseconds limit) const {
+  std::unique_lock lock(impl_->mutex);
+  return impl_->idle.wait_for(lock, limit, [this] { return impl_->live == 0; });
+}
+
+const ModelInfo& SampleQueue::model() const { return impl_->workers.front()->sampler->model(); }
+
+std::vector<std::string> SampleQueue::devices() const {
+  std::vector<std::string> devices;
+  for (const auto& worker : impl_->workers) devices.push_back(worker->sampler->device());
+  return devices;
+}
+
+SampleQueue::Stats SampleQueue::stats() const {
+  Stats stats{.workers = static_cast<int>(impl_->workers.size()),
+              .frames = impl_->frames,
+              .transitions = impl_->transitions};
+  const std::lock_guard lock(impl_->mutex);
+  stats.waiting = static_cast<int>(impl_->waiting.size());
+  for (const auto& worker : impl_->workers) {
+    stats.active += static_cast<int>(worker->begun.size());
+    stats.failures = std::max(stats.failures, worker->failures_in_a_row.load());
+  }
+  return stats;
+}
+
+double SampleQueue::LoadOf(double frames_per_second) const {
+  const auto workers = static_cast<double>(impl_->workers.size());
+  double load = 0;
+  for (const auto& worker : impl_->workers)
+    load += worker->cost.LoadOf(frames_per_second / workers) / workers;
+  return load;
+}
+
+SampleQueue::Histograms SampleQueue::histograms() const {
+  return {.slice_s = impl_->slice_seconds.snapshot(),
+          .transition_s = impl_->transition_seconds.snapshot(),
+          .lateness_s = impl_->lateness_seconds.snapshot()};
+}
+
+}  // namespace choreo

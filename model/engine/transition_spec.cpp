@@ -1,0 +1,82 @@
+#include "model/engine/transition_spec.h"
+
+#include <algorithm>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+template <typename Matrix>
+void CheckControl(const Matrix& values, bool taken, int frames, const ModelInfo& model,
+                  const std::string& field) {
+  if (values.cols() == 0) return;
+  if (!taken) throw InvalidArgument(field, "the model '" + model.name + "' does not take it");
+  if (values.cols() != frames) {
+    throw InvalidArgument(
+        field, std::to_string(values.cols()) + " frames, must be " + std::to_string(frames));
+  }
+  if (!values.allFinite()) throw InvalidArgument(field, "not finite");
+}
+
+void CheckRows(const Eigen::MatrixXf& rows, int count, const ModelInfo& model,
+               const std::string& field) {
+  if (rows.rows() == model.audio_features && rows.cols() == count) return;
+  throw InvalidArgument(field, std::to_string(rows.rows()) + " x " + std::to_string(rows.cols()) +
+                                   ", must be " + std::to_string(model.audio_features) + " x " +
+                                   std::to_string(count));
+}
+
+}  // namespace
+
+void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
+  if (pose.rotations.cols() == skeleton.joints()) return;
+  throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
+                                                  " joints, the model has " +
+                                                  std::to_string(skeleton.joints()));
+}
+
+bool Keyed(const TransitionSpec& spec) {
+  if (!spec.target) return false;
+  const PoseMask& mask = spec.target->mask;
+  return mask.root_position || mask.joints.empty() ||
+         std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
+}
+
+void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
+  if (spec.frames < 1 || spec.frames > model.max_transition_frames) {
+    throw InvalidArgument("frames", std::to_string(spec.frames) + " is not in [1, " +
+                                        std::to_string(model.max_transition_frames) + "]");
+  }
+  const int history = model.history_frames;
+  if (static_cast<int>(spec.history.size()) != history) {
+    throw InvalidArgument("history", std::to_string(spec.history.size()) + " poses, must be " +
+                                         std::to_string(history));
+  }
+  for (size_t i = 0; i < spec.history.size(); ++i) {
+    CheckJoints(model.skeleton, spec.history[i], "history[" + std::to_string(i) + "]");
+  }
+  if (spec.target) {
+    CheckJoints(model.skeleton, spec.target->pose, "target");
+    const size_t masked = spec.target->mask.joints.size();
+    if (masked != 0 && static_cast<int>(masked) != model.skeleton.joints()) {
+      throw InvalidArgument("target.mask", std::to_string(masked) + " joints, must be 0 or " +
+                                               std::to_string(model.skeleton.joints()));
+    }
+  }
+  if (spec.has_audio && model.hears_music) {
+    CheckRows(spec.audio_history, history, model, "audio_history");
+    CheckRows(spec.audio_rows, spec.frames, model, "audio_rows");
+  }
+  const Controls& controls = spec.controls;
+  CheckControl(controls.root_path, model.root_path, spec.frames, model, "controls.root_path");
+  CheckControl(controls.velocity_factors, model.velocity_factors, spec.frames, model,
+               "controls.velocity_factors");
+  if (controls.velocity_factors.size() > 0 && controls.velocity_factors.minCoeff() < 0) {
+    throw InvalidArgument(
+        "controls.velocity_factors",
+        std::to_string(controls.velocity_factors.minCoeff()) + " m a frame, must be at least 0");
+  }
+}
+
+}  // namespace choreo

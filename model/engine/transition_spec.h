@@ -1,0 +1,106 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/core/grid.h"
+#include "model/core/limits.h"
+#include "model/flow/footwork_options.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+#include "model/motion/velocity_factors.h"
+#include "model/plan/arrival.h"
+
+/// What a model is, and what is asked of it.
+namespace choreo {
+
+/// How lively a model's dancers usually are: what multipliers of velocity factors refer to.
+struct VelocityReference {
+  std::string name;
+  std::array<float, kBodyParts> factors = {};  ///< by BodyPart, metres a frame at the model's rate
+};
+
+/// What a loaded model is. Fixed for the life of a sampler.
+struct ModelInfo {
+  std::string name;         ///< "default", "paper", ...
+  std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
+  std::string licence;      ///< terms of the weights
+  std::string card;         ///< the model card, JSON
+  Skeleton skeleton;
+  double fps = kModelFps;               ///< rate at which the model runs
+  int history_frames = kHistoryFrames;  ///< tau
+  int audio_features = kMfccCount;      ///< MFCC rows' width
+  int max_transition_frames = kMaxTransitionFrames;
+  double default_temperature = 0.3;
+  double max_temperature = kMaxTemperature;  ///< beyond it nothing changes any more
+  /// It reads the MFCC rows of a transition, so live it waits for the music of the whole of it.
+  /// False: rows change nothing.
+  bool hears_music = true;
+  bool deterministic = false;     ///< seed, candidate and temperature change nothing
+  bool root_path = false;         ///< takes Controls::root_path
+  bool velocity_factors = false;  ///< takes Controls::velocity_factors
+  /// The first one, "median", is the default. At least one where velocity factors are taken.
+  std::vector<VelocityReference> velocity_references = {};
+  std::vector<std::string> styles = {};  ///< that may be asked for
+  FootworkOptions footwork = {};
+};
+
+/// What is asked of a transition beside its key (paper C, Section 3.3). What is left empty, the
+/// model chooses.
+struct Controls {
+  /// [3, frames] or empty: where the root should be in each frame, metres; from the history's last
+  /// root to the target's (dance/path_lead.h bends it there).
+  Eigen::Matrix3Xd root_path;
+  bool path_heights = true;  ///< whether somebody asked for its heights; else they are a guess
+  /// [kBodyParts, frames] or empty: how lively each part should be in each frame
+  /// (motion/velocity_factors.h), metres a frame, at least 0.
+  Eigen::Matrix<float, kBodyParts, Eigen::Dynamic> velocity_factors;
+  /// By BodyPart: whether somebody asked for it; the others' factors are the model's reference.
+  std::array<bool, kBodyParts> parts_asked = {true, true, true, true, true};
+};
+
+/// Everything that a transition is a function of. All poses stand in the transition's canonical
+/// frame (motion/canonical.h).
+struct TransitionSpec {
+  int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
+  std::vector<Pose> history;  ///< tau poses, oldest first; the last one stands right before frame 0
+  std::optional<Target> target;  ///< none: music alone
+  /// The middle of the floor that the dance keeps to where nothing says its place, its height
+  /// unread. None: where the history ends.
+  std::optional<Eigen::Vector3d> stage = {};
+  bool has_audio = false;  ///< false: audio rows are ignored, the model dances without music
+  /// MFCC rows, of models that hear music: [audio_features, tau] of the history's frames and
+  /// [audio_features, frames] of its own, oldest first.
+  Eigen::MatrixXf audio_history, audio_rows;
+  /// Where the music beats, in frames from frame 0, ascending; a dance without a path is timed to
+  /// it (plan/plan_stages.h). Empty: unknown.
+  std::vector<double> beats;
+  Controls controls;
+  uint64_t seed = 0;
+  uint32_t candidate = 0;
+  int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,
+                            ///< absolute frame, dimension)
+  float temperature = 0.3F;
+  std::string style = {};  ///< one of the model's, or empty: any
+  /// Steers each frame of a model that makes one after another before it makes the next: such a
+  /// model goes on from where the dance is.
+  std::optional<Arrival> arrival = {};
+};
+
+/// Whether its target asks for the root's position or a joint.
+bool Keyed(const TransitionSpec& spec);
+
+/// Throws Error(kInvalidArgument, field) unless the pose has the skeleton's joints.
+void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field);
+
+/// Throws Error(kInvalidArgument) naming the field unless the spec has the model's shape: frames,
+/// history, joints, mask, music rows and controls; a control that the model does not take is
+/// refused too.
+void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model);
+
+}  // namespace choreo

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "model/engine/sampler.h"
+
+namespace choreo {
+
+/// The baseline of paper F's Table 2 as a model, so that it passes the same pipeline (arrival,
+/// footwork): linear for the root, spherical for the joints, from the last history pose to the key,
+/// or on the path that was asked for. Without a target its posture stands still.
+class InterpolationSampler : public Sampler {
+ public:
+  /// Looks like `model` in all that a request depends on.
+  explicit InterpolationSampler(ModelInfo model);
+
+ protected:
+  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+};
+
+}  // namespace choreo

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/core/random.h"
+#include "model/engine/sampler.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo {
+
+/// Joints by which the fake model tells of velocity factors, by BodyPart.
+inline const std::array<std::string, kBodyParts> kTellingJoints = {
+    "head", "left_hand", "right_hand", "left_foot", "right_foot"};
+
+/// A dance model without a network, for tests of what stands around one. Each degree of freedom
+/// walks towards the target (or towards its last history value, where there is none or it is
+/// masked), damped, shaken by the counter noise, and nods on the beats; of those that hear music its
+/// rows shake them, too.
+/// Whose place nobody says goes to the middle of the stage. Deterministic. Like a real model it
+/// misses its target by a little. Controls it obeys to the letter: its root stands on the path, and
+/// the first number of a telling joint's rotation is the velocity factor asked of the joint's part.
+class FakeSampler : public Sampler {
+ public:
+  explicit FakeSampler(std::string device = "fake:0",
+                       const Skeleton& skeleton = Skeleton::Smpl24())
+      : Sampler({}, std::move(device)) {
+    model_.name = "fake";
+    model_.fingerprint = "fake-1";
+    model_.licence = "none";
+    model_.card = R"({"name": "fake"})";
+    model_.skeleton = skeleton;
+    model_.styles = {"calm", "wild"};
+    model_.hears_music = false;
+  }
+
+  /// What a subclass makes of the frame that the plan has just got: others, nothing, or an error;
+  /// sooner or later.
+  virtual void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {}
+
+ protected:
+  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+};
+
+/// A transition of the fake model, a frame a slice.
+class FakeSampling : public Sampling {
+ public:
+  FakeSampling(FakeSampler& sampler, const TransitionSpec& spec)
+      : sampler_(sampler),
+        model_(sampler.model()),
+        spec_(spec),
+        pose_(spec.history.back()),
+        velocity_(Eigen::VectorXd::Zero(Width())),
+        noise_(static_cast<size_t>(Width())) {}
+
+  bool Continue() override {
+    const auto frame = static_cast<int>(plan_.poses.size());
+    FillNormal(spec_.seed, spec_.candidate, spec_.first_frame + frame, noise_);
+    double music = 0;
+    if (spec_.has_audio && model_.hears_music)
+      music = std::tanh(spec_.audio_rows.col(frame).cast<double>().sum() / 100.0);
+    const double left = spec_.frames - frame;  // the goal is reached in this many steps
+    const Eigen::VectorXd now = Flat(pose_);
+    velocity_ = 0.5 * velocity_ + 0.5 * (Goal() - now) / left;
+    double energy = 0;
+    for (int d = 0; d < Width(); ++d) {
+      const double z = noise_[static_cast<size_t>(d)];
+      energy += z * z;
+      velocity_[d] += 0.004 * spec_.temperature * z;
+    }
+    // Music sways the arms and the trunk, not the place of the feet.
+    Eigen::VectorXd next = now + velocity_;
+    for (int d = 3; d < Width(); ++d) next[d] += 0.003 * music * std::sin(0.7 * d + frame);
+    for (const double beat : spec_.beats)
+      next[Width() - 1] += 0.01 * std::max(0.0, 1 - std::abs(beat - frame));
+    if (spec_.style == "wild") next[Width() - 2] += 0.01;
+    Obey(frame, &next);
+
+    Pose pose;
+    pose.root_position = next.head<3>();
+    pose.rotations = next.tail(Width() - 3).reshaped(3, model_.skeleton.joints());
+    plan_.poses.push_back(std::move(pose));
+    const float left_down = (spec_.first_frame + frame) / 8 % 2 == 0 ? 1.0F : 0.0F;
+    plan_.contacts.push_back({left_down, left_down, 1 - left_down, 1 - left_down});
+    plan_.log_likelihoods.push_back(
+        static_cast<float>(-0.5 * energy - 0.9189385332046727 * Width()));
+    sampler_.OnFrame(spec_, &plan_);
+    const Pose& drawn = plan_.poses.back();
+    pose_ = spec_.arrival ? spec_.arrival->Apply(drawn) : drawn;
+    return left > 1;
+  }
+
+ private:
+  int Width() const { return 3 + 3 * model_.skeleton.joints(); }
+
+  Eigen::VectorXd Flat(const Pose& pose) const {
+    Eigen::VectorXd flat(Width());
+    flat << pose.root_position, pose.rotations.reshaped();
+    return flat;
+  }
+
+  // The history's last pose where the target does not ask for a degree of freedom, on the stage.
+  Eigen::VectorXd Goal() const {
+    Pose last = spec_.history.back();
+    const Eigen::Vector3d stage = spec_.stage.value_or(Eigen::Vector3d::Zero());
+    last.root_position.x() = stage.x();
+    last.root_position.z() = stage.z();
+    return Flat(spec_.target ? Masked(spec_.target->pose, spec_.target->mask, last) : last);
+  }
+
+  // So that a test can see in the dance what was asked of the model.
+  void Obey(int frame, Eigen::VectorXd* next) const {
+    const Controls& controls = spec_.controls;
+    if (controls.root_path.cols() > 0) next->head<3>() = controls.root_path.col(frame);
+    if (controls.velocity_factors.cols() == 0) return;
+    for (int part = 0; part < kBodyParts; ++part) {
+      const auto& joint = kTellingJoints[static_cast<size_t>(part)];
+      (*next)[3 + 3 * model_.skeleton.Find(joint)] = controls.velocity_factors(part, frame);
+    }
+  }
+
+  FakeSampler& sampler_;
+  const ModelInfo& model_;
+  TransitionSpec spec_;
+  Pose pose_;  // the frame before, as arrival has steered it
+  Eigen::VectorXd velocity_;
+  std::vector<float> noise_;
+};
+
+inline std::unique_ptr<Sampling> FakeSampler::BeginValid(const TransitionSpec& spec) {
+  return std::make_unique<FakeSampling>(*this, spec);
+}
+
+/// One that hears more of music than its beats, so it waits for that of a whole transition.
+class HearingSampler : public FakeSampler {
+ public:
+  HearingSampler() { model_.hears_music = true; }
+};
+
+/// One that takes controls.
+class ControlledSampler : public FakeSampler {
+ public:
+  explicit ControlledSampler(const std::string& name = "fake") {
+    model_.name = name;
+    model_.fingerprint = name + "-controlled";
+    model_.root_path = model_.velocity_factors = true;
+    model_.velocity_references = {{"median", {0.01F, 0.02F, 0.03F, 0.04F, 0.05F}},
+                                  {"calm", {0.001F, 0.002F, 0.003F, 0.004F, 0.005F}}};
+  }
+};
+
+/// Of one model, a worker each.
+template <typename Model = FakeSampler>
+std::vector<std::unique_ptr<Sampler>> FakeSamplers(int workers = 1) {
+  std::vector<std::unique_ptr<Sampler>> samplers;
+  for (int i = 0; i < workers; ++i) samplers.push_back(std::make_unique<Model>());
+  return samplers;
+}
+
+}  // namespace choreo
