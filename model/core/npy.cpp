@@ -1,5 +1,8 @@
 #include "model/core/npy.h"
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstring>
@@ -140,23 +143,66 @@ std::vector<T> FromFortranOrder(const std::vector<T>& values, const std::vector<
   return result;
 }
 
-template <typename T>
+/// A number as it lies in a file; `big` has the first byte first.
+template <typename Stored>
+Stored Load(const char* at, bool big) {
+  std::array<char, sizeof(Stored)> bytes{};
+  std::memcpy(bytes.data(), at, bytes.size());
+  if (big) std::ranges::reverse(bytes);
+  return std::bit_cast<Stored>(bytes);
+}
+
+/// Half a float, IEEE 754's binary16.
+struct Half {
+  uint16_t bits;
+  operator float() const { return Eigen::numext::bit_cast<Eigen::half>(bits); }
+};
+
+template <typename T, typename Stored = T>
 std::vector<T> ReadValues(const NpyParts& parts, const std::string& name) {
   const std::optional<int64_t> count = Product(parts.shape);
   if (!count || *count > std::numeric_limits<int64_t>::max() / int64_t{sizeof(T)}) {
     throw InvalidArgument(name, "shape " + ShapeText(parts.shape) + " is too large");
   }
-  const size_t held = parts.values.size(), expected = static_cast<size_t>(*count) * sizeof(T);
+  const size_t held = parts.values.size(), expected = static_cast<size_t>(*count) * sizeof(Stored);
   if (held != expected) {
     throw InvalidArgument(name, std::to_string(held) + " bytes of values, but shape " +
                                     ShapeText(parts.shape) + " of '" + parts.descr + "' takes " +
                                     std::to_string(expected) +
                                     (held < expected ? " (the file is truncated)" : ""));
   }
+  const bool big = parts.descr.starts_with('>');
   std::vector<T> values(static_cast<size_t>(*count));
-  if (expected > 0) std::memcpy(values.data(), parts.values.data(), expected);
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<T>(Load<Stored>(parts.values.data() + i * sizeof(Stored), big));
   return parts.fortran_order ? FromFortranOrder(values, parts.shape) : values;
 }
+
+/// The kinds that are read, without the order of their bytes, each as the next that NpyArray holds.
+struct NpyKind {
+  std::string_view name;
+  NpyArray::Values (*read)(const NpyParts& parts, const std::string& name);
+};
+template <typename T, typename Stored = T>
+constexpr NpyKind Kind(std::string_view kind) {
+  return {kind, [](const NpyParts& parts, const std::string& name) -> NpyArray::Values {
+            return ReadValues<T, Stored>(parts, name);
+          }};
+}
+constexpr NpyKind kNpyKinds[] = {
+    Kind<float>("f4"),
+    Kind<double>("f8"),
+    Kind<int32_t>("i4"),
+    Kind<int64_t>("i8"),
+    Kind<float, Half>("f2"),
+    Kind<int32_t, int8_t>("i1"),
+    Kind<int32_t, int16_t>("i2"),
+    Kind<int32_t, uint8_t>("u1"),
+    Kind<int32_t, uint16_t>("u2"),
+    Kind<int64_t, uint32_t>("u4"),
+    Kind<int64_t, uint64_t>("u8"),
+    Kind<int32_t, uint8_t>("b1"),
+};
 
 /// What NumPy calls T, as in "<f4": little-endian, its kind, its bytes.
 template <typename T>
@@ -209,20 +255,16 @@ NpyArray ReadNpyParts(const NpyParts& parts, const std::string& name) {
     throw InvalidArgument(name, std::to_string(parts.shape.size()) + " dimensions, at most " +
                                     std::to_string(kMaxDimensions) + " are read");
   }
-  NpyArray array{parts.shape, {}};
-  if (parts.descr == Descr<float>()) {
-    array.values = ReadValues<float>(parts, name);
-  } else if (parts.descr == Descr<double>()) {
-    array.values = ReadValues<double>(parts, name);
-  } else if (parts.descr == Descr<int32_t>()) {
-    array.values = ReadValues<int32_t>(parts, name);
-  } else if (parts.descr == Descr<int64_t>()) {
-    array.values = ReadValues<int64_t>(parts, name);
-  } else {
-    throw InvalidArgument(name,
-                          "values of type '" + parts.descr + "', not one of <f4, <f8, <i4, <i8");
+  // A kind of one byte has no order: "|u1".
+  const std::string_view order("<>|=");
+  const bool ordered = !parts.descr.empty() && order.find(parts.descr[0]) != order.npos;
+  const auto* kind = std::ranges::find(
+      kNpyKinds, std::string_view(parts.descr).substr(ordered ? 1 : 0), &NpyKind::name);
+  if (kind == std::end(kNpyKinds)) {
+    throw InvalidArgument(name, "values of type '" + parts.descr +
+                                    "', must be floats of 2 to 8 bytes, integers or booleans");
   }
-  return array;
+  return {parts.shape, kind->read(parts, name)};
 }
 
 NpyArray ParseNpy(std::string_view bytes, const std::string& name) {

@@ -10,9 +10,10 @@
 namespace choreo {
 
 /// NumPy's `.npy` arrays, in files and in memory (the members of an `.npz`). Reads format versions
-/// 1 to 3, little-endian float32, float64, int32 and int64, 0 to 4 dimensions, C or Fortran order;
-/// writes version 1.0 in C order. Values are held in C order (last index fastest), whatever the
-/// file's order was. Not shared between threads while it changes.
+/// 1 to 3, floats of 2, 4 and 8 bytes, integers and booleans, of either byte order, 0 to 4
+/// dimensions, C or Fortran order; holds them as the next larger of float32, float64, int32 and
+/// int64; writes version 1.0 in C order. Values are held in C order (last index fastest), whatever
+/// the file's order was. Not shared between threads while it changes.
 struct NpyArray {
   using Values = std::variant<std::vector<float>, std::vector<double>, std::vector<int32_t>,
                               std::vector<int64_t>>;
@@ -28,6 +29,9 @@ struct NpyArray {
                       values);
   }
 };
+
+/// The type of values that are a pickle of Python's objects.
+inline constexpr std::string_view kNpyObjects = "|O";
 
 /// An array of any kind, as it lies in a file.
 struct NpyParts {

@@ -94,6 +94,29 @@ TEST(NpyTest, FortranOrderIsTurnedIntoCOrder) {
   EXPECT_THAT(cube.As<int>(), ElementsAre(0, 1, 10, 11, 100, 101, 110, 111));
 }
 
+TEST(NpyTest, OtherKindsAndOrdersOfBytesAreRead) {
+  using namespace std::string_literals;
+  struct Row {
+    std::string descr, bytes;
+    std::vector<double> values;
+  };
+  for (const Row& row : std::vector<Row>{
+           {"<f2", "\x00\x3c\x00\xc1"s, {1, -2.5}},
+           {">f4", "\x3f\x80\x00\x00\xc0\x20\x00\x00"s, {1, -2.5}},
+           {">f8", "\x3f\xf0\x00\x00\x00\x00\x00\x00\xc0\x04\x00\x00\x00\x00\x00\x00"s, {1, -2.5}},
+           {"|u1", "\x1e\xff"s, {30, 255}},
+           {"|i1", "\x1e\xff"s, {30, -1}},
+           {"|b1", "\x01\x00"s, {1, 0}},
+           {"<u2", "\x1e\x00\xff\xff"s, {30, 65535}},
+           {">i2", "\x00\x1e\xff\xff"s, {30, -1}},
+           {"<u4", "\x1e\x00\x00\x00\xff\xff\xff\xff"s, {30, 4294967295.0}},
+       }) {
+    const NpyArray array = Parse(Bytes(
+        1, "{'descr': '" + row.descr + "', 'fortran_order': False, 'shape': (2,)}", row.bytes));
+    EXPECT_EQ(array.As<double>(), row.values) << row.descr;
+  }
+}
+
 TEST(NpyTest, ForeignAndDamagedBytesAreRefusedByName) {
   const std::string good = "{'descr': '<f4', 'fortran_order': False, 'shape': (2,), }";
   EXPECT_EQ(Refusal(Bytes(1, good, Raw<float>({1, 2}))), "accepted");
@@ -105,8 +128,8 @@ TEST(NpyTest, ForeignAndDamagedBytesAreRefusedByName) {
   EXPECT_THAT(Refusal(Bytes(1, good, Raw<float>({1, 2, 3}))), HasSubstr("12 bytes"));
   EXPECT_THAT(Refusal(Bytes(1, good, "").substr(0, 40)), HasSubstr("header is truncated"));
   EXPECT_THAT(Refusal(Bytes(2, good, "").substr(0, 11)), HasSubstr("header is truncated"));
-  EXPECT_THAT(Refusal(Bytes(1, "{'descr': '>f4', 'fortran_order': False, 'shape': (2,)}", "")),
-              HasSubstr("'>f4'"));
+  EXPECT_THAT(Refusal(Bytes(1, "{'descr': '<c8', 'fortran_order': False, 'shape': (2,)}", "")),
+              HasSubstr("'<c8'"));
   EXPECT_THAT(Refusal(Bytes(1, "{'descr': '|O', 'fortran_order': False, 'shape': (2,)}", "")),
               HasSubstr("'|O'"));
   EXPECT_THAT(Refusal(Bytes(1, "{'descr': '<f4', 'shape': (2,)}", "")), HasSubstr("absent"));
