@@ -100,28 +100,34 @@ class BodyBuilder {
     if (bones_.Find("head") >= 0) AddBone("head", neck, upright_);
   }
 
-  // What leads from the rest pose, turned by `turn`, to where the bone lies as SMPL's does.
-  Eigen::Matrix3d Along(const std::string& from, const std::string& to,
-                        const Eigen::Matrix3d& turn) const {
+  // What leads from the rest pose, turned by `turn`, to where the bone lies as SMPL's does: first
+  // to `straight`, which SMPL's bones lie near, so that no bone rolls on a long way to it.
+  Eigen::Matrix3d Along(const std::string& from, const std::string& to, const Eigen::Matrix3d& turn,
+                        const Eigen::Vector3d& straight) const {
     const Eigen::Vector3d bone = turn * (Place(to) - Place(from));
     if (!(bone.norm() > kShortestBone * leg_))
       throw InvalidArgument("bones", to + " stands where " + from + " does");
-    return Eigen::Quaterniond::FromTwoVectors(bone, Rest(to) - Rest(from)).matrix() * turn;
+    const auto turning = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return Eigen::Quaterniond::FromTwoVectors(a, b).toRotationMatrix();
+    };
+    return turning(straight, Rest(to) - Rest(from)) * turning(bone, straight) * turn;
   }
 
   void AddArm(const std::string& side) {
     int above = chest_;
     if (bones_.Find(side + "collar") >= 0) above = AddBone(side + "collar", above, upright_);
-    const Eigen::Matrix3d arm = Along(side + "shoulder", side + "elbow", upright_);
-    const Eigen::Matrix3d forearm = Along(side + "elbow", side + "wrist", arm);
+    const Eigen::Vector3d out = Eigen::Vector3d::UnitX() * (side == "left_" ? 1 : -1);
+    const Eigen::Matrix3d arm = Along(side + "shoulder", side + "elbow", upright_, out);
+    const Eigen::Matrix3d forearm = Along(side + "elbow", side + "wrist", arm, out);
     above = AddBone(side + "shoulder", above, arm);
     above = AddBone(side + "elbow", above, forearm);
     AddBone(side + "wrist", above, forearm);  // a hand goes on where the forearm points
   }
 
   void AddLeg(const std::string& side) {
-    const Eigen::Matrix3d thigh = Along(side + "hip", side + "knee", upright_);
-    const Eigen::Matrix3d shin = Along(side + "knee", side + "ankle", thigh);
+    const Eigen::Vector3d down = -Eigen::Vector3d::UnitY();
+    const Eigen::Matrix3d thigh = Along(side + "hip", side + "knee", upright_, down);
+    const Eigen::Matrix3d shin = Along(side + "knee", side + "ankle", thigh, down);
     int above = AddBone(side + "hip", 0, thigh);
     above = AddBone(side + "knee", above, shin);
     const Eigen::Vector3d ours = Rest(side + "foot") - Rest(side + "ankle");

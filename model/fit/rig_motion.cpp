@@ -47,6 +47,18 @@ Eigen::Vector3d NearestAxis(const Eigen::Vector3d& way) {
   return Eigen::Vector3d::Unit(axis) * (way[axis] < 0 ? -1 : 1);
 }
 
+// Left is right, and right is left.
+HumanBones Exchanged(const HumanBones& bones) {
+  HumanBones exchanged{.rig = bones.rig, .bones = {}};
+  for (const auto& [bone, index] : bones.bones) {
+    const bool left = bone.starts_with("left_"), right = bone.starts_with("right_");
+    exchanged.bones[left    ? "right_" + bone.substr(5)
+                    : right ? "left_" + bone.substr(6)
+                            : bone] = index;
+  }
+  return exchanged;
+}
+
 /// The bones whose ends say where they point: by SMPL's names, which are HumanBones', too.
 struct Segment {
   std::string from, to;
@@ -81,6 +93,13 @@ class RigFitter {
     scale_ = scale > 0 ? scale : Scale();
   }
 
+  // Whether one of its rest poses is a standing body's.
+  bool Stands() const {
+    return std::ranges::any_of(rig_.rests, [&](const RigPlacement& rest) {
+      return Agrees(rest) && RestBody(rig_.bones, rest.places).has_value();
+    });
+  }
+
   RigFit Fit() {
     RigFit fit;
     fit.missing = Missing();
@@ -97,7 +116,7 @@ class RigFitter {
       rest = RestBody(rig_.bones, stands->places);
     }
     fit.rest = rest.has_value();
-    if (rest && stands != &samples_[0]) fit.up = NearestAxis(rest->turns[0].row(1).transpose());
+    fit.up = Up();
     if (!fit.turns || !rest) {
       fit.motion = FitPositions();
       if (!fit.turns) return fit;
@@ -164,6 +183,7 @@ class RigFitter {
   // Whether the place of a bone's end turns with the bone, as it does unless somebody has moved
   // joints without turning anything.
   bool TurnsCarry() const {
+    if (!rig_.has_turns) return false;
     return Point(
         [&](const Segment& segment) {
           Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -190,6 +210,16 @@ class RigFitter {
     }
     return AngleBetween(Bone(placement, {"left_shoulder", "left_elbow"}),
                         Bone(placement, {"right_elbow", "right_shoulder"})) < 2 * kLooseBone;
+  }
+
+  // Along which axis of the file's a rest pose stands.
+  std::optional<Eigen::Vector3d> Up() const {
+    for (size_t i = rig_.rests_apart; i < rig_.rests.size(); ++i) {
+      if (!Agrees(rig_.rests[i])) continue;
+      if (const auto body = RestBody(rig_.bones, rig_.rests[i].places))
+        return NearestAxis(body->turns[0].row(1).transpose());
+    }
+    return std::nullopt;
   }
 
   // As before rotations were looked at.
@@ -358,6 +388,16 @@ std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matr
   return body;
 }
 
-RigFit FitRig(const RigMotion& rig, double scale) { return RigFitter(rig, scale).Fit(); }
+RigFit FitRig(const RigMotion& rig, double scale) {
+  RigFitter as_named(rig, scale);
+  if (as_named.Stands()) return as_named.Fit();
+  RigMotion mirrored = rig;
+  mirrored.bones = Exchanged(rig.bones);
+  RigFitter as_placed(mirrored, scale);
+  if (!as_placed.Stands()) return as_named.Fit();
+  RigFit fit = as_placed.Fit();
+  fit.exchanged = true;
+  return fit;
+}
 
 }  // namespace choreo

@@ -27,7 +27,10 @@ struct RigMotion {
   HumanBones bones = {};                 ///< which of the columns is which
   std::vector<std::string> names = {};   ///< [bones] as the file has them
   std::vector<RigPlacement> rests = {};  ///< what may be its rest pose, best first
-  int64_t count = 0;                     ///< frames
+  /// How many of these, the first, stand in axes of their own, as a skin's do.
+  size_t rests_apart = 0;
+  int64_t count = 0;      ///< frames
+  bool has_turns = true;  ///< false: how its bones are turned nobody knows
   std::function<RigPlacement(int64_t frame)> frame = {};
 };
 
@@ -39,6 +42,8 @@ struct RigFit {
   bool rest = true;   ///< false: its rest pose is no body's, what bones are at rest is a guess
   bool turns = true;  ///< false: its rotations do not carry its joints, positions alone were fitted
   std::vector<std::string> missing;  ///< "neck", "head", "collars", "toes": what it has not
+  /// Its left is on the right at rest, as in a mirror: bones were taken by where they stand.
+  bool exchanged = false;
 };
 
 /// The rig's rest pose as a body of ours, if that is a body's: standing, arms hanging or held out.

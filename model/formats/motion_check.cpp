@@ -26,11 +26,12 @@ constexpr double kMostly = 0.9;  // share of frames that make a rule
 constexpr size_t kFewFrames = 10;
 // Metres. No pelvis is so high: the unit is another.
 constexpr double kTooHigh = 20;
+constexpr double kOnFloor = 0.25;  // of a joint: bodies are thick, and others as ours
 constexpr double kLowPelvis = 0.3, kHighPelvis = 2;
 // Metres: less under the floor may be a shoe's, or a fit's.
 constexpr double kSunken = 0.05;
 // Nobody hangs so high above the floor for so long, metres and seconds.
-constexpr double kHangs = 0.4, kHangsFor = 2;
+constexpr double kHangs = 0.15, kHangsFor = 2;
 constexpr double kStill = 1e-4;      // metres and radians
 constexpr double kFloorShare = 0.1;  // quantile of the lowest points that is the floor
 constexpr double kSlack = 0.02;      // metres of another body's floor that are let be
@@ -68,6 +69,17 @@ double ShareStanding(const std::vector<Eigen::Vector3d>& trunks, const Eigen::Ve
   return static_cast<double>(standing) / static_cast<double>(std::max<size_t>(1, trunks.size()));
 }
 
+/// How far the lowest joint is along `up`, in the middle of all frames: 0 on the file's floor.
+double LowestAlong(const FileMotion& file, const Eigen::Vector3d& up) {
+  std::vector<double> lowest;
+  JointPlacement placement;
+  for (const Pose& pose : file.motion.frames) {
+    ForwardKinematics(file.skeleton, pose, placement);
+    lowest.push_back((up.transpose() * placement.positions).minCoeff() + up.dot(file.root_offset));
+  }
+  return Median(std::move(lowest));
+}
+
 /// The file's own up, or the axis along which the body stands in nearly all frames.
 Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (!reading.up.empty()) return ParseUp(reading.up);
@@ -85,7 +97,10 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
         Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)}) {
     const double share = ShareStanding(trunks, axis);
     if (share < kMostly) continue;
-    if (trunks.size() < kFewFrames || axis == -file.up) {
+    // Who lies on the file's floor, and would stand in the air, lies.
+    const bool lies = std::abs(LowestAlong(file, file.up)) < kOnFloor &&
+                      std::abs(LowestAlong(file, axis)) > kOnFloor;
+    if (lies || trunks.size() < kFewFrames || axis == -file.up) {
       reading.Note(std::string("its body ") + (axis == -file.up ? "stands on its head" : "lies") +
                    "; --up " + UpName(axis) + " stands it up, if it should stand");
       return file.up;
@@ -174,6 +189,10 @@ void FindFloor(const FileMotion& file, const MotionReading& reading, Motion* mot
 }
 
 }  // namespace
+
+void MotionReading::NoteRate(double taken) const {
+  Note("states no rate; taken as " + Rounded(taken) + " frames a second, --fps says another");
+}
 
 Eigen::Vector3d ParseUp(const std::string& up) {
   const bool negative = up.starts_with('-');

@@ -26,6 +26,8 @@ struct MotionReading {
   void Note(const std::string& text) const {
     if (notes != nullptr) notes->push_back(text);
   }
+  /// That a file states no rate, and is read at this one.
+  void NoteRate(double taken) const;
 };
 
 /// "y" → (0, 1, 0), "-z" → (0, 0, -1). Throws Error(kInvalidArgument) whose field is --up.

@@ -1,5 +1,6 @@
 #include "model/formats/node_motion.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "model/fit/guess_bones.h"
 #include "model/formats/motion_check.h"
 #include "model/motion/pose_limits.h"
+#include "model/motion/skeleton.h"
 
 namespace choreo {
 namespace {
@@ -22,6 +24,18 @@ RigPlacement Keep(const RigPlacement& all, const std::vector<int>& nodes) {
   return kept;
 }
 
+// Whose turn is the pelvis': what carries both legs, where something above it carries the trunk,
+// too, as MMD's lower body does.
+int TurningPelvis(const HumanBones& found, const std::vector<int>& parents) {
+  const int pelvis = found.Find("pelvis"), left = found.Find("left_hip");
+  int node = parents[static_cast<size_t>(left)];
+  while (node >= 0 && !IsBelow(found.Find("right_hip"), node, parents))
+    node = parents[static_cast<size_t>(node)];
+  const bool taken =
+      std::ranges::any_of(found.bones, [&](const auto& bone) { return bone.second == node; });
+  return node >= 0 && !taken && IsBelow(node, pelvis, parents) ? node : pelvis;
+}
+
 std::string Joined(const std::vector<std::string>& words) {
   std::string text;
   for (size_t i = 0; i < words.size(); ++i)
@@ -30,6 +44,11 @@ std::string Joined(const std::vector<std::string>& words) {
 }
 
 void Tell(const RigFit& fit, const MotionReading& reading) {
+  if (fit.exchanged) {
+    reading.Note(
+        "its left and right are exchanged, as in a mirror: limbs are taken by where they stand, "
+        "not by their names");
+  }
   if (!fit.turns) {
     reading.Note(
         "its joints move, its rotations do not say how: read by the joints' places alone, "
@@ -46,7 +65,7 @@ void Tell(const RigFit& fit, const MotionReading& reading) {
 }  // namespace
 
 Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading) {
-  const HumanBones found = FindBones(nodes, reading.bones);
+  HumanBones found = FindBones(nodes, reading.bones);
   if (const std::string missing = MissingBone(found); !missing.empty()) {
     // A rest pose that is no body tells less than the first frame.
     const bool guessable =
@@ -59,6 +78,7 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
                  nodes.names[static_cast<size_t>(found.Find("left_hip"))] +
                  "\" that stands first is read, --map chooses by the nodes' numbers");
   }
+  found.bones["pelvis"] = TurningPelvis(found, nodes.parents);
   RigMotion rig;
   rig.fps = motion.fps;
   rig.bones.rig = found.rig;
@@ -72,7 +92,9 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
     kept.push_back(node);
   }
   for (const RigPlacement& rest : motion.rests) rig.rests.push_back(Keep(rest, kept));
+  rig.rests_apart = motion.rests_apart;
   rig.count = motion.count;
+  rig.has_turns = motion.has_turns;
   rig.frame = [&](int64_t frame) { return Keep(motion.frame(frame), kept); };
   RigFit fit = FitRig(rig, reading.scale);
   CheckMotionLimits(fit.motion);
