@@ -28,8 +28,8 @@ struct HumanBones {
 /// out. Known are MotionBuilder's (HumanIK), Mixamo's, LAFAN1's and CMU's names, VRM's and VRoid's,
 /// Unity's, Unreal's mannequin, Rigify's, iClone's (CC_Base_), Daz's and Poser's, 3ds Max's Biped,
 /// ASF's, LeftHip-LeftKnee-LeftAnkle, Bandai Namco's, DeepMotion's, OptiTrack's, iPi's, Blender's
-/// metarig, MakeHuman's, MMD's (Japanese and English), Rokoko's, Xsens', ARKit's, Kinect's, and
-/// SMPL's. Where none of them is whole, the same without separators, capitals and the numbers that
+/// metarig, MakeHuman's, MMD's (Japanese and English), Rokoko's, Xsens', ARKit's, Kinect's, Cats',
+/// mocopi's, Maya's Advanced Skeleton, Second Life's, and SMPL's. Where none of them is whole, the same without separators, capitals and the numbers that
 /// exporters append ("Hips_012"). Pure.
 HumanBones FindHumanBones(const std::vector<std::string>& names);
 
