@@ -26,11 +26,15 @@ enum class BvhChannel : uint8_t {
   kXRotation,
   kYRotation,
   kZRotation,
+  kXScale,  ///< read and let be: bones keep their lengths
+  kYScale,
+  kZScale,
 };
 
 /// As files call them, in that order.
 inline constexpr std::string_view kBvhChannelNames[] = {"Xposition", "Yposition", "Zposition",
-                                                        "Xrotation", "Yrotation", "Zrotation"};
+                                                        "Xrotation", "Yrotation", "Zrotation",
+                                                        "Xscale",    "Yscale",    "Zscale"};
 
 struct BvhJoint {
   std::string name;  ///< an End Site is named after its parent + "_end"
@@ -41,8 +45,8 @@ struct BvhJoint {
   /// at the root and elsewhere).
   std::vector<BvhChannel> channels;
   bool end_site = false;
-  /// All its position channels are 0 in all frames: they say nothing, the offset counts.
-  bool stays = false;
+  /// Its position channels are 0, or nearly, in all frames: they are added to the offset.
+  bool adds = false;
 };
 
 struct BvhFile {
@@ -60,12 +64,12 @@ struct BvhFile {
 };
 
 /// As lenient as the tools around: UTF-8 or UTF-16, comments behind # and //, "Frames:30",
-/// "EndSite", decimal commas, a frame time of 0, which states no rate, and more rows than the
-/// header counts, which is noted. Throws Error(kInvalidArgument) whose field is "NAME:LINE" and
-/// whose message names the token that was found and what was expected. Refused are, besides other
-/// syntax errors: a second root, a hierarchy without channels, a channel given twice, numbers that
-/// are not finite, fewer values than the header states, half a row, a frame time outside 1e-5 to 10
-/// s, lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
+/// "EndSite", decimal commas, a frame time of 0, which states no rate, and more or fewer whole rows
+/// than the header counts, which is noted. Throws Error(kInvalidArgument) whose field is
+/// "NAME:LINE" and whose message names the token that was found and what was expected. Refused are,
+/// besides other syntax errors: a second root, a hierarchy without channels, a channel given twice,
+/// numbers that are not finite, half a row, rows of another length than the channels, a frame time
+/// outside 1e-5 to 10 s, lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
 BvhFile ParseBvh(std::string_view text, const std::string& name);
 /// As ParseBvh; Error(kNotFound) where the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);

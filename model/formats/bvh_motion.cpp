@@ -31,8 +31,8 @@ BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
     const double value = *values++;
     const int axis = static_cast<int>(channel) % 3;
     if (channel <= BvhChannel::kZPosition) {
-      if (!joint.stays) local.position[axis] = value;
-    } else {
+      local.position[axis] = joint.adds ? joint.offset[axis] + value : value;
+    } else if (channel <= BvhChannel::kZRotation) {
       local.rotation *= Eigen::AngleAxisd(value / kDegrees, Eigen::Vector3d::Unit(axis)).matrix();
     }
   }

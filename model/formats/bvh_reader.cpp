@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -119,6 +120,8 @@ class Tokens {
     return value;
   }
 
+  int64_t line() const { return line_; }
+
   int64_t Count(const char* expected, int64_t limit) {
     const std::string_view token = Next(expected);
     int64_t value = 0;
@@ -197,7 +200,7 @@ std::vector<BvhJoint> ReadHierarchy(Tokens& tokens) {
     } else if (Tokens::SameWord(word, "CHANNELS")) {
       std::vector<BvhChannel>& channels = joints[open.back()].channels;
       if (!channels.empty()) tokens.Fail("a joint or '}'", word);
-      const int64_t count = tokens.Count("a number of channels", 6);
+      const int64_t count = tokens.Count("a number of channels", 9);
       for (int64_t i = 0; i < count; ++i) channels.push_back(ReadChannel(tokens, channels));
     } else if (Tokens::SameWord(word, "JOINT")) {
       begin(std::string(tokens.RestOfLine("a joint name")), false);
@@ -212,27 +215,29 @@ std::vector<BvhJoint> ReadHierarchy(Tokens& tokens) {
   return joints;
 }
 
-// Joints with six channels of which three are 0 throughout would all stand in their parents'
-// places.
-void FindStaying(BvhFile& file) {
+// Joints with six channels of which three are 0 throughout, or tell of small changes, would all
+// stand in their parents' places.
+void FindAdding(BvhFile& file) {
+  constexpr double kNearly = 0.25;  // of the offset
   Eigen::Index row = 0;
-  int staying = 0;
+  int adding = 0;
   for (BvhJoint& joint : file.joints) {
-    bool says = joint.parent < 0 || joint.offset.isZero();
-    int positions = 0;
+    double farthest = 0;
+    bool has_positions = false;
     for (const BvhChannel channel : joint.channels) {
-      if (channel <= BvhChannel::kZPosition) {
-        ++positions;
-        says = says || !file.values.row(row).isZero();
+      if (channel <= BvhChannel::kZPosition && file.frames() > 0) {
+        has_positions = true;
+        farthest = std::max(farthest, file.values.row(row).cwiseAbs().maxCoeff());
       }
       ++row;
     }
-    joint.stays = positions > 0 && !says;
-    staying += joint.stays ? 1 : 0;
+    joint.adds = has_positions && joint.parent >= 0 && !joint.offset.isZero() &&
+                 farthest < kNearly * joint.offset.norm();
+    adding += joint.adds ? 1 : 0;
   }
-  if (staying > 0) {
-    file.notes.push_back("the places of " + std::to_string(staying) +
-                         " joints are 0 in all frames; their offsets are taken");
+  if (adding > 0) {
+    file.notes.push_back("the places of " + std::to_string(adding) +
+                         " joints are 0 or nearly so in all frames; their offsets are taken");
   }
 }
 
@@ -264,24 +269,29 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   }
   std::vector<double> values;  // grown as they come: the header's count may be anything
   // A row that is complete counts, whatever the header says.
+  int64_t lines = 0, line = -1;
   while (!tokens.AtEnd()) {
+    if (std::exchange(line, tokens.line()) != tokens.line()) ++lines;
     const size_t channel = values.size() % static_cast<size_t>(channels);
     values.push_back(is_position[channel] ? tokens.Number("a number", kMaxLength)
                                           : tokens.Number("a number of degrees", kMaxDegrees));
   }
   const int64_t frames = std::ssize(values) / channels;
-  if (std::ssize(values) % channels != 0 || frames < stated) {
+  // The last number of a file that was cut off may be cut off, too.
+  const bool cut = frames < stated && (frames == 0 || !utf8.ends_with('\n'));
+  const bool other_rows = frames != stated && lines == stated;
+  if (std::ssize(values) % channels != 0 || cut || other_rows) {
     tokens.Fail(std::to_string(std::max(frames, stated)) + " frames of " +
                     std::to_string(channels) + " values, as the header says; there are " +
                     std::to_string(values.size()) + " values",
                 "the end of the file");
   }
-  if (frames > stated) {
+  if (frames != stated) {
     file.notes.push_back("its header says " + std::to_string(stated) + " frames; all " +
                          std::to_string(frames) + " that are there are read");
   }
   file.values = Eigen::Map<const Eigen::MatrixXd>(values.data(), channels, frames);
-  FindStaying(file);
+  FindAdding(file);
   return file;
 }
 

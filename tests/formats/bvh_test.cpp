@@ -188,18 +188,20 @@ TEST(Bvh, NamesLineTokenAndExpectation) {
   broken("Zrotation Yrotation Xrotation", "Zrotation Wrotation Xrotation", "arm:5", "Wrotation");
   broken("Zrotation Yrotation Xrotation", "Zrotation Yrotation Zrotation", "arm:5",
          "does not have already");
-  broken("CHANNELS 6", "CHANNELS 7", "arm:5", "of 0 to 6");
-  broken("Frames: 2", "Frames: 3", "arm:", "the end of the file");
-  broken("Frames: 2", "Frames: 3",
-         "arm:", "3 frames of 10 values, as the header says; there are 20");
+  broken("CHANNELS 6", "CHANNELS 10", "arm:5", "of 0 to 9");
+  broken("20 10 30", "20 10", "arm:", "the end of the file");
+  broken("20 10 30", "20 10", "arm:", "2 frames of 10 values, as the header says; there are 19");
   broken("Frames: 2", "Frames: -2", "arm:17", "-2");
   broken("Frame Time: 0.0333333", "Frame Time: -1", "arm:18", "frame time");
   broken("20 10 30", "20 nan 30", "arm:20", "finite");
   broken("20 10 30", "20 1e999 30", "arm:20", "1e999");
   broken("}\r\nMOTION", "}\r\nROOT b\r\nMOTION", "arm:", "ROOT");
-  // Any prefix is refused, never read as something shorter.
-  for (size_t length = 0; length + 6 < good.size(); length += 7) {
-    EXPECT_THROW(ParseBvh(good.substr(0, length), "arm"), Error) << length;
+  // Any prefix is refused, or read as something shorter with a word.
+  for (size_t length = 0; length + 6 < good.size(); ++length) {
+    try {
+      EXPECT_EQ(ParseBvh(good.substr(0, length), "arm").notes.size(), 1U) << length;
+    } catch (const Error&) {
+    }
   }
   ExpectError(ErrorCode::kInvalidArgument, "without any", [] {
     ParseBvh("HIERARCHY ROOT a\n{ OFFSET 0 0 0 }\nMOTION Frames: 4000000000\nFrame Time: 0.1", "a");
