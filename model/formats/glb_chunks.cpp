@@ -1,10 +1,15 @@
 #include "model/formats/glb_chunks.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/json_limits.h"
+#include "model/core/printable.h"
 
 namespace choreo {
 namespace {
@@ -45,6 +50,37 @@ void AppendChunk(std::string_view chunk, uint32_t type, char padding, std::strin
   bytes.append(chunk).append(length - chunk.size(), padding);
 }
 
+// "my%20walk.bin"
+std::string Unescaped(const std::string& uri) {
+  std::string name;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    unsigned code = 0;
+    const char* digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() &&
+        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      name += static_cast<char>(code);
+      i += 2;
+    } else {
+      name += uri[i];
+    }
+  }
+  return name;
+}
+
+// The bytes of a file that another names.
+std::string ReadBeside(const std::filesystem::path& path, const std::string& uri) {
+  const std::filesystem::path name = Unescaped(uri);
+  const auto up = std::ranges::find(name, "..");
+  const std::filesystem::path beside = path.parent_path() / name;
+  std::error_code error;
+  if (name.is_absolute() || up != name.end() || !std::filesystem::is_regular_file(beside, error)) {
+    throw InvalidArgument("buffers[0].uri", '"' + Printable(uri) +
+                                                "\" is no file beside it: export it as .glb, "
+                                                "which is one file");
+  }
+  return ReadFile(beside);
+}
+
 }  // namespace
 
 std::string ReadGlbBytes(const std::filesystem::path& path) {
@@ -55,6 +91,29 @@ std::string ReadGlbBytes(const std::filesystem::path& path) {
   const uint64_t size = std::filesystem::file_size(path, error);
   if (error || size > UINT32_MAX) throw NoGlb("4 GiB or more");
   return ReadFile(path);
+}
+
+std::string ReadGltfBytes(const std::filesystem::path& path) {
+  std::string bytes = ReadGlbBytes(path);
+  const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  if (first == std::string::npos || bytes[first] != '{') return bytes;
+  CheckJsonDepth(bytes, "");
+  auto document = nlohmann::ordered_json::parse(bytes, nullptr, false);
+  std::string beside;
+  if (document.is_object() && document.contains("buffers") && document["buffers"].is_array()) {
+    auto& buffers = document["buffers"];
+    for (size_t i = 0; i < buffers.size(); ++i) {
+      if (!buffers[i].is_object() || !buffers[i].contains("uri") || !buffers[i]["uri"].is_string())
+        continue;
+      const std::string uri = buffers[i]["uri"].get<std::string>();
+      if (uri.starts_with("data:")) continue;
+      if (i > 0) throw InvalidArgument("buffers", "lie in several files: export them as one .glb");
+      beside = ReadBeside(path, uri);
+      buffers[i].erase("uri");
+    }
+  }
+  const std::string json = document.is_object() ? document.dump() : bytes;
+  return JoinGlb({.json = json, .binary = beside, .others = {}});
 }
 
 GlbChunks SplitGlb(std::string_view bytes) {

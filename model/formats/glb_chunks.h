@@ -18,6 +18,11 @@ struct GlbChunks {
 /// can have.
 std::string ReadGlbBytes(const std::filesystem::path& path);
 
+/// The same of a glTF that is text: as a binary one, the buffer of the file beside it, if it has
+/// one, as its binary chunk. Throws also Error(kInvalidArgument) naming that file where it cannot
+/// be read or does not lie beside or below `path`, and for several.
+std::string ReadGltfBytes(const std::filesystem::path& path);
+
 /// Points into `bytes`. Throws Error(kInvalidArgument) without a field.
 GlbChunks SplitGlb(std::string_view bytes);
 

@@ -41,13 +41,59 @@ tinygltf::Model ParseGlb(std::string_view bytes) {
   return model;
 }
 
-Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type) {
-  const tinygltf::Accessor& accessor = GltfAt(model.accessors, index, "accessors");
-  const std::string name = GltfItem("accessors", static_cast<size_t>(index));
-  if (accessor.sparse.isSparse) throw InvalidArgument(name, "is sparse, which is not read");
-  if (accessor.type != type) throw InvalidArgument(name, "has elements of another kind");
+namespace {
+
+/// A number of a buffer as it lies.
+double Component(const unsigned char* at, int type) {
+  const auto as = [at]<typename T>(T value) {
+    std::memcpy(&value, at, sizeof(T));
+    return static_cast<double>(value);
+  };
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return as(int8_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return as(uint8_t{});
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return as(int16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return as(uint16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return as(uint32_t{});
+    default:
+      return as(float{});
+  }
+}
+
+// What 1 is of a normalized kind; 0: of no such kind.
+double One(int type) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return 127;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 255;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return 32767;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 65535;
+    default:
+      return 0;
+  }
+}
+
+/// Elements of a buffer view: an accessor's, or what one says of some of its elements.
+struct Elements {
+  int view;
+  uint64_t offset;
+  int component;  ///< TINYGLTF_COMPONENT_TYPE
+  int rows;
+  uint64_t count;
+};
+
+Eigen::MatrixXd ReadElements(const tinygltf::Model& model, const Elements& elements,
+                             const std::string& name) {
   const tinygltf::BufferView& view =
-      GltfAt(model.bufferViews, accessor.bufferView, (name + ".bufferView").c_str());
+      GltfAt(model.bufferViews, elements.view, (name + ".bufferView").c_str());
   for (const char* packed : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
     if (view.extensions.contains(packed)) {
       throw InvalidArgument(name, std::string("is compressed by ") + packed +
@@ -55,45 +101,91 @@ Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int ty
     }
   }
   const tinygltf::Buffer& buffer = GltfAt(model.buffers, view.buffer, "buffers");
-  const int rows = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type));
-  const int size = tinygltf::GetComponentSizeInBytes(accessor.componentType);
-  const int stride = accessor.ByteStride(view);
-  const bool integer = accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
-  if (size < 1 || stride < rows * size || (integer && (!accessor.normalized || size > 2))) {
-    throw InvalidArgument(name, "has components that are neither floats nor normalized");
-  }
+  const auto size =
+      static_cast<uint64_t>(tinygltf::GetComponentSizeInBytes(uint32_t(elements.component)));
+  const uint64_t width = static_cast<uint64_t>(elements.rows) * size;
+  const uint64_t stride = view.byteStride == 0 ? width : view.byteStride;
   const uint64_t available = buffer.data.size();
-  const uint64_t first = uint64_t{view.byteOffset} + accessor.byteOffset;
-  if (accessor.count < 1 || accessor.count > available || first > available ||
-      first + (accessor.count - 1) * stride + rows * size > available) {
+  const uint64_t first = uint64_t{view.byteOffset} + elements.offset;
+  if (elements.count < 1 || elements.count > available || first > available || stride < width ||
+      stride > available || first + (elements.count - 1) * stride + width > available) {
     throw InvalidArgument(name,
                           "reaches beyond its buffer of " + std::to_string(available) + " bytes");
   }
-  const auto component = [&](const unsigned char* at) -> double {
-    const auto as = [at]<typename T>(T value) {
-      std::memcpy(&value, at, sizeof(T));
-      return static_cast<double>(value);
-    };
-    switch (accessor.componentType) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return std::max(as(int8_t{}) / 127, -1.0);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return as(uint8_t{}) / 255;
-      case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return std::max(as(int16_t{}) / 32767, -1.0);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return as(uint16_t{}) / 65535;
-      default:
-        return as(float{});
-    }
-  };
-  Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(accessor.count));
-  for (size_t i = 0; i < accessor.count; ++i) {
-    for (int row = 0; row < rows; ++row) {
-      const size_t offset = first + i * stride + row * size;
-      values(row, i) = component(buffer.data.data() + offset);
+  Eigen::MatrixXd values(elements.rows, static_cast<Eigen::Index>(elements.count));
+  for (Eigen::Index i = 0; i < values.cols(); ++i) {
+    for (Eigen::Index row = 0; row < values.rows(); ++row) {
+      values(row, i) = Component(buffer.data.data() + first + static_cast<uint64_t>(i) * stride +
+                                     static_cast<uint64_t>(row) * size,
+                                 elements.component);
     }
   }
+  return values;
+}
+
+// Some elements in place of those that are there.
+void ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
+                const std::string& name, Eigen::MatrixXd* values) {
+  const auto& sparse = accessor.sparse;
+  const int indexed = sparse.indices.componentType;
+  if (sparse.count < 1 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
+      (indexed != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+       indexed != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+       indexed != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
+    throw InvalidArgument(name + ".sparse", "has counts or kinds that there are not");
+  const auto count = static_cast<uint64_t>(sparse.count);
+  const Eigen::MatrixXd at =
+      ReadElements(model,
+                   {.view = sparse.indices.bufferView,
+                    .offset = static_cast<uint64_t>(sparse.indices.byteOffset),
+                    .component = indexed,
+                    .rows = 1,
+                    .count = count},
+                   name + ".sparse.indices");
+  const Eigen::MatrixXd given =
+      ReadElements(model,
+                   {.view = sparse.values.bufferView,
+                    .offset = static_cast<uint64_t>(sparse.values.byteOffset),
+                    .component = accessor.componentType,
+                    .rows = static_cast<int>(values->rows()),
+                    .count = count},
+                   name + ".sparse.values");
+  for (Eigen::Index i = 0; i < at.cols(); ++i) {
+    if (at(0, i) >= static_cast<double>(values->cols()))
+      throw InvalidArgument(name + ".sparse.indices", "name elements that there are not");
+    values->col(static_cast<Eigen::Index>(at(0, i))) = given.col(i);
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type) {
+  const tinygltf::Accessor& accessor = GltfAt(model.accessors, index, "accessors");
+  const std::string name = GltfItem("accessors", static_cast<size_t>(index));
+  if (accessor.type != type) throw InvalidArgument(name, "has elements of another kind");
+  const double one = One(accessor.componentType);
+  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && (one == 0 || !accessor.normalized))
+    throw InvalidArgument(name, "has components that are neither floats nor normalized");
+  const int rows = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type));
+  Eigen::MatrixXd values;
+  if (accessor.sparse.isSparse && accessor.bufferView < 0) {
+    // Zeros, of which a hostile file may claim any number: keys have times, of four bytes each.
+    uint64_t available = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers) available += buffer.data.size();
+    if (accessor.count < 1 || accessor.count > available)
+      throw InvalidArgument(name, "has more elements than the file has bytes");
+    values.setZero(rows, static_cast<Eigen::Index>(accessor.count));
+  } else {
+    values = ReadElements(model,
+                          {.view = accessor.bufferView,
+                           .offset = accessor.byteOffset,
+                           .component = accessor.componentType,
+                           .rows = rows,
+                           .count = accessor.count},
+                          name);
+  }
+  if (accessor.sparse.isSparse) ReadSparse(model, accessor, name, &values);
+  if (one > 0) values = (values / one).cwiseMax(-1.0);
   if (!values.allFinite()) throw InvalidArgument(name, "holds values that are not finite");
   return values;
 }

@@ -29,8 +29,8 @@ const T& GltfAt(const std::vector<T>& list, int index, const char* name) {
 /// Opens no file and decodes no pictures. Throws Error(kInvalidArgument) without a field.
 tinygltf::Model ParseGlb(std::string_view bytes);
 
-/// An accessor's elements, [components, count]; normalised integers become -1 to 1. `type` is a
-/// TINYGLTF_TYPE. Throws Error(kInvalidArgument) naming the accessor.
+/// An accessor's elements, [components, count], sparse or not; normalised integers become -1 to 1.
+/// `type` is a TINYGLTF_TYPE. Throws Error(kInvalidArgument) naming the accessor.
 Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type);
 
 }  // namespace choreo

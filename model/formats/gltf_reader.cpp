@@ -58,13 +58,19 @@ Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Ske
 
 RigPlacement PlacementOf(const std::vector<Eigen::Affine3d>& world) {
   RigPlacement placement{PlacesOf(world), {}};
-  for (const Eigen::Affine3d& node : world) placement.turns.emplace_back(node.rotation());
+  for (const Eigen::Affine3d& node : world) {
+    // A mirrored node turns as its image in its own x does: there is none in a rotation.
+    Eigen::Affine3d turned = node;
+    if (node.linear().determinant() < 0) turned.linear().col(0) *= -1;
+    placement.turns.emplace_back(turned.rotation());
+  }
   return placement;
 }
 
 Motion FitOthers(const GltfScene& scene, const MotionReading& reading) {
-  NodeMotion motion{.fps = scene.fps, .rests = {}, .count = scene.frames, .frame = {}};
+  NodeMotion motion{.fps = scene.fps, .count = scene.frames};
   if (scene.bound) motion.rests.push_back(PlacementOf(*scene.bound));
+  motion.rests_apart = motion.rests.size();
   motion.rests.push_back(PlacementOf(scene.nodes.PlaceAtRest()));
   motion.frame = [&](int64_t frame) { return PlacementOf(scene.Frame(frame)); };
   return FitNodes(scene.rig, motion, reading);

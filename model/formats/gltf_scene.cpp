@@ -287,7 +287,7 @@ std::vector<Eigen::Affine3d> GltfScene::Frame(int64_t frame) const {
 }
 
 GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& reading) {
-  const std::string bytes = ReadGlbBytes(path);
+  const std::string bytes = ReadGltfBytes(path);
   const nlohmann::ordered_json document = ParseGltfJson(bytes);
   const tinygltf::Model model = ParseGltfPart(document, bytes, GltfPart::kMotion);
   GltfScene scene;
