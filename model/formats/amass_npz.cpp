@@ -1,12 +1,14 @@
 #include "model/formats/amass_npz.h"
 
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "model/core/error.h"
 #include "model/core/grid.h"
-#include "model/core/rounded.h"
+#include "model/core/quantile.h"
+#include "model/formats/joint_arrays.h"
 #include "model/formats/motion_check.h"
 #include "model/formats/own_arrays.h"
 #include "model/formats/rotation_rows.h"
@@ -50,7 +52,7 @@ constexpr const char* kTransNames[] = {"trans", "transl", "smpl_trans", "transla
 constexpr const char* kRateNames[] = {"mocap_frame_rate", "mocap_framerate", "fps", "frame_rate",
                                       "framerate"};
 
-Layout FindLayout(const NpzArchive& npz) {
+std::optional<Layout> FindLayout(const NpzArchive& npz) {
   for (const Layout& layout : kLayouts) {
     if (!npz.Has(layout.body) || (layout.root != nullptr && !npz.Has(layout.root))) continue;
     Layout found = layout;
@@ -59,8 +61,7 @@ Layout FindLayout(const NpzArchive& npz) {
     }
     return found;
   }
-  npz.Array("poses");  // which is not there: names what is
-  return kLayouts[0];
+  return std::nullopt;
 }
 
 double ReadRate(const NpzArchive& npz, double otherwise, bool known, const MotionReading& reading) {
@@ -70,10 +71,7 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
     if (rate > 0 || !(reading.fps > 0)) return CheckRate(name, rate);
   }
   if (reading.fps > 0) return reading.fps;
-  if (!known) {
-    reading.Note("states no rate; taken as " + Rounded(otherwise) +
-                 " frames a second, --fps says another");
-  }
+  if (!known) reading.NoteRate(otherwise);
   return otherwise;
 }
 
@@ -126,6 +124,19 @@ Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout) {
   return all;
 }
 
+// Whether a joint of nearly every frame goes round twice, as in no body's rotation vectors.
+bool AreDegrees(const Eigen::MatrixXd& turns) {
+  constexpr double kTwiceRound = 4 * M_PI;
+  std::vector<double> most;
+  for (Eigen::Index frame = 0; frame < turns.cols(); ++frame) {
+    most.push_back(Eigen::Map<const Eigen::Matrix3Xd>(turns.col(frame).data(), 3, turns.rows() / 3)
+                       .colwise()
+                       .norm()
+                       .maxCoeff());
+  }
+  return !most.empty() && Median(std::move(most)) > kTwiceRound;
+}
+
 }  // namespace
 
 Eigen::Vector3d SmplRestPelvis() { return {-0.00179506, -0.22333382, 0.02821918}; }
@@ -151,10 +162,18 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
     CheckMotionLimits(motion);
     return motion;
   }
-  const Layout layout = FindLayout(npz);
+  const std::optional<Layout> found = FindLayout(npz);
+  if (const auto joints = found ? std::nullopt : FindJointArray(npz))
+    return ReadJointPlaces(*joints, ReadRate(npz, kModelFps, false, reading), reading);
+  if (!found) npz.Array("poses");  // which is not there: names what is
+  const Layout& layout = *found;
   const bool aist = npz.Has("smpl_scaling");
   const bool edge = std::string_view(layout.body) == "smpl_poses" && !aist;
-  const Eigen::MatrixXd turns = ReadTurns(npz, layout);
+  Eigen::MatrixXd turns = ReadTurns(npz, layout);
+  if (AreDegrees(turns)) {
+    turns /= kDegrees;
+    reading.Note(std::string("its ") + layout.body + " are taken as degrees, not radians");
+  }
   Eigen::MatrixXd trans = Eigen::MatrixXd::Zero(3, turns.cols());
   if (npz.Has(layout.trans)) {
     trans = NpzRows(npz, layout.trans, {3});

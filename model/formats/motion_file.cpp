@@ -8,11 +8,13 @@
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
-#include "model/core/rounded.h"
+#include "model/core/grid.h"
+#include "model/core/npy.h"
 #include "model/fit/retarget.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
 #include "model/formats/gltf.h"
+#include "model/formats/joint_arrays.h"
 #include "model/formats/node_motion.h"
 #include "model/formats/npz.h"
 #include "model/formats/pickle.h"
@@ -22,9 +24,16 @@
 namespace choreo {
 namespace {
 
+SkeletonMotion ReadPickled(std::string_view pickle, const std::filesystem::path& path,
+                           const MotionReading& reading) {
+  return {Skeleton::Smpl24(), ReadSmplMotion(ParsePickledArrays(pickle, path.string()), reading)};
+}
+
 SkeletonMotion ReadAnyNpz(const std::filesystem::path& path, const Skeleton*,
                           const MotionReading& reading) {
   const NpzArchive npz = NpzArchive::Read(path);
+  if (const std::string_view pickle = npz.OnlyPickle(); !pickle.empty())
+    return ReadPickled(pickle, path, reading);
   if (!npz.Has("skeleton")) return {Skeleton::Smpl24(), ReadSmplMotion(npz, reading)};
   const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));
   return {skeleton, ReadOwnArrays(skeleton, npz)};
@@ -32,8 +41,26 @@ SkeletonMotion ReadAnyNpz(const std::filesystem::path& path, const Skeleton*,
 
 SkeletonMotion ReadPickle(const std::filesystem::path& path, const Skeleton*,
                           const MotionReading& reading) {
-  const NpzArchive arrays = ParsePickledArrays(ReadFile(path), path.string());
-  return {Skeleton::Smpl24(), ReadSmplMotion(arrays, reading)};
+  return ReadPickled(ReadFile(path), path, reading);
+}
+
+// A dict that numpy.save wrote, or joints' places alone.
+SkeletonMotion ReadObjects(const std::filesystem::path& path, const Skeleton*,
+                           const MotionReading& reading) {
+  const std::string bytes = ReadFile(path);
+  const NpyParts parts = SplitNpy(bytes, path.string());
+  if (parts.descr != kNpyObjects) {
+    const NpyArray array = ReadNpyParts(parts, path.string());
+    if (AreJointPlaces(array)) {
+      const double fps = reading.fps > 0 ? reading.fps : kModelFps;
+      if (!(reading.fps > 0)) reading.NoteRate(fps);
+      return {Skeleton::Smpl24(), ReadJointPlaces(array, fps, reading)};
+    }
+    throw InvalidArgument(path.string(),
+                          "holds one array and does not say of what: write rotations and places "
+                          "by numpy.savez(\"FILE.npz\", poses=..., trans=..., fps=...)");
+  }
+  return ReadPickled(parts.values, path, reading);
 }
 
 void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
@@ -81,10 +108,7 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
   BvhFile file = ReadBvh(path);
   for (const std::string& note : file.notes) reading.Note(note);
   if (!file.states_rate && reading.fps > 0) file.frame_time = 1 / reading.fps;
-  if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) {
-    reading.Note("states no rate; taken as " + Rounded(file.fps()) +
-                 " frames a second, --fps says another");
-  }
+  if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) reading.NoteRate(file.fps());
   const Skeleton& smpl = Skeleton::Smpl24();
   if (file.frames() == 0) return {smpl, {}};
   const auto own = BvhSkeleton(file);
@@ -115,11 +139,29 @@ constexpr Format kFormats[] = {
      [](const auto& path, const auto& skeleton, const auto& motion, const auto*) {
        WriteGlb(path, skeleton, motion);
      }},
+    {".gltf", ReadGlb, nullptr},
     {".vrma", ReadGlb,
      [](const auto& path, const auto& skeleton, const auto& motion, const auto*) {
        WriteVrma(path, skeleton, motion);
      }},
     {".pkl", ReadPickle, nullptr},
+    {".npy", ReadObjects, nullptr},
+};
+
+// What people bring, too, and where it becomes one of these.
+constexpr std::pair<const char*, const char*> kOtherFormats[] = {
+    {".fbx", "Blender imports it, and exports .glb or .bvh"},
+    {".dae", "Blender imports it, and exports .glb or .bvh"},
+    {".blend", "Blender exports .glb or .bvh"},
+    {".usd", "Blender imports it, and exports .glb or .bvh"},
+    {".usdz", "Blender imports it, and exports .glb or .bvh"},
+    {".vrm", "it is a character (--character); its motions are .vrma"},
+    {".vmd", "Blender's MMD tools import it, and export .bvh"},
+    {".amc", "Blender imports it with its .asf, and exports .bvh"},
+    {".c3d", "markers alone do not say how a body turns: solve them to .bvh"},
+    {".pt", "write the arrays by numpy.savez"},
+    {".pth", "write the arrays by numpy.savez"},
+    {".pickle", "call it .pkl"},
 };
 
 const Format* FindFormat(const std::filesystem::path& path) {
@@ -141,18 +183,23 @@ std::string Extensions(bool written) {
 const Format& FormatOf(const std::filesystem::path& path, bool to_write) {
   const Format* format = FindFormat(path);
   if (format != nullptr && (!to_write || format->write != nullptr)) return *format;
+  std::string way_out;
+  for (const auto& [extension, way] : kOtherFormats) {
+    if (!to_write && SmallExtension(path) == extension) way_out = std::string("; ") + way;
+  }
   throw InvalidArgument(path.string(), "has the extension '" + path.extension().string() +
-                                           "', must be " + Extensions(to_write));
+                                           "', must be " + Extensions(to_write) + way_out);
 }
 
 SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted,
                     const MotionReading& reading) try {
   const std::string extension = SmallExtension(path);
-  const bool gltf = extension == ".glb" || extension == ".vrma";
+  const bool gltf = extension == ".glb" || extension == ".gltf" || extension == ".vrma";
   if (!reading.animation.empty() && !gltf)
-    throw InvalidArgument("--animation", "is for .glb and .vrma, not for " + path.string());
+    throw InvalidArgument("--animation", "is for .glb, .gltf and .vrma, not for " + path.string());
   if (!reading.bones.empty() && !gltf && extension != ".bvh")
-    throw InvalidArgument("--map", "is for rigs, .bvh, .glb and .vrma, not for " + path.string());
+    throw InvalidArgument("--map",
+                          "is for rigs, .bvh, .glb, .gltf and .vrma, not for " + path.string());
   SkeletonMotion read = FormatOf(path, false).read(path, wanted, reading);
   if (read.motion.frames.empty()) throw InvalidArgument("", "has no frames");
   CheckMotionLimits(read.motion);

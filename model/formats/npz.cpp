@@ -147,6 +147,18 @@ std::string NpzArchive::Text(const std::string& key) const {
   return text;
 }
 
+bool NpzArchive::IsText(const std::string& key) const {
+  const std::string descr = SplitNpy(Member(key), name_ + ":" + key).descr;
+  return descr.size() > 1 && (descr[1] == 'U' || descr[1] == 'S');
+}
+
+std::string_view NpzArchive::OnlyPickle() const {
+  if (members_.size() != 1) return {};
+  const auto& [key, bytes] = *members_.begin();
+  const NpyParts parts = SplitNpy(bytes, name_ + ":" + key);
+  return parts.descr == kNpyObjects ? parts.values : std::string_view();
+}
+
 void NpzArchive::SetArray(const std::string& key, const NpyArray& array) {
   members_[key] = SerializeNpy(array);
 }

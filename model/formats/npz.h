@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "model/core/npy.h"
 
@@ -25,6 +26,10 @@ class NpzArchive {
   /// an array of another kind.
   NpyArray Array(const std::string& key) const;
   std::string Text(const std::string& key) const;
+  /// Whether it is an array of characters.
+  bool IsText(const std::string& key) const;
+  /// Where nothing but one array of objects is there, their pickle (pickle.h); else empty.
+  std::string_view OnlyPickle() const;
 
   void SetArray(const std::string& key, const NpyArray& array);
   /// UTF-8 in, numpy's str out. Throws Error(kInvalidArgument) for text that is not UTF-8.

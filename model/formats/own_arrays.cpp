@@ -1,9 +1,11 @@
 #include "model/formats/own_arrays.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/printable.h"
 #include "model/core/rounded.h"
 
 namespace choreo {
@@ -86,6 +88,14 @@ Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
 }
 
 double NpzNumber(const NpzArchive& npz, const std::string& key) {
+  if (npz.IsText(key)) {
+    const std::string text = npz.Text(key);
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size())
+      throw InvalidArgument(key, '"' + Printable(text) + "\" is no number");
+    return number;
+  }
   const NpyArray array = npz.Array(key);
   if (array.size() != 1) throw InvalidArgument(key, "is not one number");
   return array.As<double>()[0];

@@ -36,6 +36,7 @@ Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 /// `columns`, and [1, F, a] or, of a single frame, [a].
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns);
+/// A number, or a text that is one.
 double NpzNumber(const NpzArchive& npz, const std::string& key);
 inline constexpr double kMinFileFps = 1, kMaxFileFps = 1000;
 /// Throws Error(kInvalidArgument, key) unless a rate lies within these, frames a second.

@@ -22,8 +22,11 @@ namespace {
 /// A dict of arrays takes some 40 an array. Bounds time, memory and the depth of what is built.
 constexpr int kMostOperations = 4096;
 
-enum Kind { kNone, kNumber, kText, kTuple, kDict, kGlobal, kDtype, kArray };
-constexpr const char* kKindNames[] = {"None", "number", "text",  "tuple",
+/// What NumPy calls values that are objects, without their order of bytes.
+constexpr const char* kObjects = "<O8";
+
+enum Kind { kNone, kNumber, kText, kTuple, kList, kDict, kGlobal, kDtype, kArray };
+constexpr const char* kKindNames[] = {"None", "number", "text",  "tuple", "list",
                                       "dict", "global", "dtype", "array"};
 
 struct Object;
@@ -32,7 +35,7 @@ using Ref = std::shared_ptr<Object>;
 struct Object {
   Kind kind;
   std::string text = {};        // texts and bytes alike; a global's name, a dtype as in "<f8"
-  std::vector<Ref> items = {};  // of a tuple
+  std::vector<Ref> items = {};  // of a tuple, a list, an array of objects
   NpzArchive dict = {};
   std::optional<NpyArray> array = {};  // of a number, too
 };
@@ -56,7 +59,7 @@ class Unpickler {
     for (int operation = 0; operation < kMostOperations; ++operation) {
       start_ = at_;
       opcode_ = Byte();
-      if (opcode_ == '.') return Pop(kDict)->dict;
+      if (opcode_ == '.') return Expect(TakeOnly(Pop()), kDict)->dict;
       const auto known = kOperations.find(opcode_);
       if (known == kOperations.end()) Refuse("is not read");
       known->second(*this);
@@ -70,7 +73,9 @@ class Unpickler {
   [[noreturn]] void Refuse(const std::string& why) const {
     char where[48];
     std::snprintf(where, sizeof where, "opcode 0x%02x at byte %zu: ", opcode_, start_);
-    throw InvalidArgument(name_, where + why + "; only dicts of arrays and numbers are read");
+    throw InvalidArgument(name_, where + why +
+                                     "; only dicts of arrays and numbers are read, numpy.savez "
+                                     "writes any arrays");
   }
 
   // What follows an opcode.
@@ -118,6 +123,11 @@ class Unpickler {
   Ref Expect(Ref object, Kind kind) const {
     if (object->kind != kind) Refuse(std::string("expected a ") + kKindNames[kind]);
     return object;
+  }
+  // What stands alone in a list, or in an array of objects, as numpy.save makes one of a dict.
+  static Ref TakeOnly(const Ref& object) {
+    const bool holds = object->kind == kList || (object->kind == kArray && !object->array);
+    return holds && object->items.size() == 1 ? object->items.front() : object;
   }
   Ref Item(const Ref& tuple, size_t index, Kind kind) const {
     if (index >= tuple->items.size()) Refuse("too short a tuple");
@@ -173,11 +183,17 @@ class Unpickler {
   void Build() {
     const Ref state = Pop(kTuple);
     const Ref object = Pop();
-    if (object->kind == kArray) {
+    if (object->kind == kArray && Item(state, 2, kDtype)->text == kObjects) {
+      object->items = Item(state, 4, kList)->items;
+    } else if (object->kind == kArray) {
       Fill(object, Item(state, 1, kTuple), Item(state, 2, kDtype),
            Integer(Item(state, 3, kNumber)) != 0, Item(state, 4, kText));
-    } else if (Expect(object, kDtype); Item(state, 1, kText)->text != "<") {
-      Refuse("values that are not little-endian");
+    } else {
+      const std::string& order = Item(state, 1, kText)->text;
+      Expect(object, kDtype);
+      if (order != "<" && order != ">" && order != "|")
+        Refuse("values of the order '" + order + "' of bytes");
+      if (order == ">") object->text.replace(0, 1, ">");
     }
     Push(object);
   }
@@ -213,10 +229,32 @@ class Unpickler {
     const Ref dict = Pop(kDict);
     for (size_t i = 0; i + 1 < items.size(); i += 2) {
       const std::string& key = Expect(items[i], kText)->text;
-      if (!items[i + 1]->array) Refuse("'" + key + "' is neither array nor number");
-      dict->dict.SetArray(key, *items[i + 1]->array);
+      const auto holds = [](const Ref& item) { return item->array.has_value(); };
+      if (items[i + 1]->kind == kList && std::ranges::count_if(items[i + 1]->items, holds) > 1)
+        Refuse("'" + key + "' is a list of several arrays, as of several bodies");
+      // What else stands there, such as a gender, says nothing of the motion.
+      const Ref value = TakeOnly(items[i + 1]);
+      if (value->array) dict->dict.SetArray(key, *value->array);
+      if (value->kind == kText) SetText(key, value->text, dict->dict);
     }
     Push(dict);
+  }
+  static void SetText(const std::string& key, const std::string& text, NpzArchive& dict) {
+    try {
+      dict.SetText(key, text);
+    } catch (const Error&) {
+      // Bytes that are no text.
+    }
+  }
+
+  void Append(const std::vector<Ref>& items) {
+    const Ref list = Pop(kList);
+    for (const Ref& item : items) {
+      // What holds others could hold this list.
+      const bool plain = item->array || item->kind == kText || item->kind == kDict;
+      list->items.push_back(plain ? item : std::make_shared<Object>(Object{.kind = kNone}));
+    }
+    Push(list);
   }
 
   std::string name_;
@@ -250,6 +288,9 @@ const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
     {0x86, [](Unpickler& u) { u.PushTuple(u.PopSome(2)); }},          // TUPLE2
     {0x87, [](Unpickler& u) { u.PushTuple(u.PopSome(3)); }},          // TUPLE3
     {'t', [](Unpickler& u) { u.PushTuple(u.PopToMark()); }},          // TUPLE
+    {']', [](Unpickler& u) { u.Push(Object{.kind = kList}); }},       // EMPTY_LIST
+    {'a', [](Unpickler& u) { u.Append(u.PopSome(1)); }},              // APPEND
+    {'e', [](Unpickler& u) { u.Append(u.PopToMark()); }},             // APPENDS
     {'}', [](Unpickler& u) { u.Push(Object{.kind = kDict}); }},       // EMPTY_DICT
     {'s', [](Unpickler& u) { u.SetItems(u.PopSome(2)); }},            // SETITEM
     {'u', [](Unpickler& u) { u.SetItems(u.PopToMark()); }},           // SETITEMS

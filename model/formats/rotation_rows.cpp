@@ -1,6 +1,8 @@
 #include "model/formats/rotation_rows.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "model/core/error.h"
@@ -55,7 +57,7 @@ Rows ReadRows(const NpzArchive& npz, const std::string& key, const auto& is_widt
   for (const int64_t count : joints)
     wanted += (wanted.empty() ? "" : " or ") + std::to_string(3 * count);
   throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted +
-                                 "], or matrices or 6D of as many joints");
+                                 "], or matrices, 6D or quaternions of as many joints");
 }
 
 Eigen::MatrixXd FromMatrices(const Rows& rows, const std::string& key) {
@@ -76,14 +78,33 @@ Eigen::MatrixXd FromMatrices(const Rows& rows, const std::string& key) {
   return turns;
 }
 
-// A matrix by its first two rows; by columns it would be the inverse.
+using SixD = Eigen::Matrix<double, 6, 1>;
+
+// How far six numbers are from two vectors of length 1 at right angles, `step` apart in each.
+double Skew(const SixD& six, Eigen::Index step) {
+  const Eigen::Index next = step == 1 ? 3 : 1;
+  const Eigen::Vector3d a = six(Eigen::seqN(0, 3, step)), b = six(Eigen::seqN(next, 3, step));
+  return std::abs(a.dot(b)) + std::abs(a.squaredNorm() - 1) + std::abs(b.squaredNorm() - 1);
+}
+
+// Vectors one after the other are rows or columns; number by number, as [.., 3, 2] lies, columns.
 Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
   Eigen::MatrixXd turns(rows.width / 2, rows.frames);
+  double in_turn = 0, mixed = 0;
+  for (Eigen::Index at = 0; at + 6 <= rows.values.size(); at += 6) {
+    const SixD six = Eigen::Map<const SixD>(rows.values.data() + at);
+    in_turn += Skew(six, 1);
+    mixed += Skew(six, 2);
+  }
+  const bool is_mixed = mixed < in_turn;
   for (Eigen::Index frame = 0; frame < rows.values.cols(); ++frame) {
     for (Eigen::Index joint = 0; joint < rows.width / 6; ++joint) {
       try {
-        const Eigen::Matrix<double, 6, 1> six = rows.values.col(frame).segment<6>(6 * joint);
-        turns.col(frame).segment<3>(3 * joint) = LogMap(MatrixFromSixD(six).transpose());
+        SixD six = rows.values.col(frame).segment<6>(6 * joint);
+        if (is_mixed) six = SixD{six[0], six[2], six[4], six[1], six[3], six[5]};
+        const Eigen::Matrix3d matrix = MatrixFromSixD(six);
+        turns.col(frame).segment<3>(3 * joint) =
+            LogMap(is_mixed ? matrix : Eigen::Matrix3d(matrix.transpose()));
       } catch (const Error&) {
         throw InvalidArgument(
             key + "[" + std::to_string(frame) + "][" + std::to_string(joint) + "]",
@@ -91,6 +112,7 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
       }
     }
   }
+  if (is_mixed) return turns;
   // By how much hinges bend, backwards below 0. `first` is that of the body's joints which the
   // array begins with.
   const Skeleton& smpl = Skeleton::Smpl24();
@@ -105,6 +127,30 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
   return bend < 0 ? Eigen::MatrixXd(-turns) : turns;
 }
 
+// The real part stands first or last: where most of it is, as joints turn by less than half a turn.
+Eigen::MatrixXd FromQuaternions(const Rows& rows, const std::string& key) {
+  double first = 0, last = 0;
+  for (Eigen::Index at = 0; at + 4 <= rows.values.size(); at += 4) {
+    first += std::abs(rows.values.data()[at]);
+    last += std::abs(rows.values.data()[at + 3]);
+  }
+  Eigen::MatrixXd turns(rows.width / 4 * 3, rows.frames);
+  for (Eigen::Index frame = 0; frame < rows.values.cols(); ++frame) {
+    for (Eigen::Index joint = 0; joint < rows.width / 4; ++joint) {
+      const Eigen::Vector4d q = rows.values.col(frame).segment<4>(4 * joint);
+      if (!(std::abs(q.norm() - 1) < kNoRotation)) {
+        throw InvalidArgument(
+            key + "[" + std::to_string(frame) + "][" + std::to_string(joint) + "]",
+            "is no quaternion of length 1");
+      }
+      const Eigen::Quaterniond turn = first > last ? Eigen::Quaterniond(q[0], q[1], q[2], q[3])
+                                                   : Eigen::Quaterniond(q[3], q[0], q[1], q[2]);
+      turns.col(frame).segment<3>(3 * joint) = LogMap(turn.normalized().toRotationMatrix());
+    }
+  }
+  return turns;
+}
+
 }  // namespace
 
 Eigen::MatrixXd ReadRotationRows(const NpzArchive& npz, const std::string& key,
@@ -112,14 +158,19 @@ Eigen::MatrixXd ReadRotationRows(const NpzArchive& npz, const std::string& key,
   const auto is_width_of = [&](int64_t width, int64_t values) {
     return width % values == 0 && std::ranges::find(joints, width / values) != joints.end();
   };
+  // The root alone does not say where a quaternion has its real part.
+  const auto is_quaternions = [&](int64_t width) { return width > 4 && is_width_of(width, 4); };
   const Rows rows = ReadRows(npz, key, [&](int64_t width) {
-    return is_width_of(width, 3) || is_width_of(width, 6) || is_width_of(width, 9);
+    return is_width_of(width, 3) || is_width_of(width, 6) || is_width_of(width, 9) ||
+           is_quaternions(width);
   });
   const bool says_matrices = rows.last == 9 || (rows.last == 3 && rows.last_but_one == 3);
   if (is_width_of(rows.width, 9) && (says_matrices || !is_width_of(rows.width, 3)))
     return FromMatrices(rows, key);
   if (is_width_of(rows.width, 6) && (rows.last == 6 || !is_width_of(rows.width, 3)))
     return FromSixD(rows, key);
+  if (is_quaternions(rows.width) && (rows.last == 4 || !is_width_of(rows.width, 3)))
+    return FromQuaternions(rows, key);
   if (!is_width_of(rows.width, 3)) RefuseShape(key, rows, joints);
   return rows.values;
 }

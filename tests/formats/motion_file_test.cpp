@@ -235,9 +235,11 @@ TEST(MotionFile, KeepsContactsInAnNpz) {
 TEST(MotionFile, RefusesWithThePathInFront) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 24, 2);
-  ExpectError(ErrorCode::kInvalidArgument,
-              "a.fbx: has the extension '.fbx', must be .npz, .bvh, .glb, .vrma or .pkl",
-              [&] { ReadMotion(folder / "a.fbx", kSmpl); });
+  ExpectError(
+      ErrorCode::kInvalidArgument,
+      "a.fbx: has the extension '.fbx', must be .npz, .bvh, .glb, .gltf, .vrma, .pkl or .npy; "
+      "Blender imports it",
+      [&] { ReadMotion(folder / "a.fbx", kSmpl); });
   ExpectError(ErrorCode::kInvalidArgument, "must be .npz, .bvh, .glb or .vrma",
               [&] { WriteMotion(folder / "a", kSmpl, motion); });
   for (const char* name : {"a.npz", "a.bvh", "a.glb"}) {
