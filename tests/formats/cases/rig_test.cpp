@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/fit/find_bones.h"
-#include "tests/formats/cases.h"
+#include "tests/formats/cases/cases.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::cases_test {
@@ -154,7 +154,7 @@ TEST_F(CasesTest, ThePageNamesEveryFormatAndRig) {
       choreo::ReadFile(std::filesystem::path(CHOREO_TEST_DATA) / "../../docs/files.md");
   for (const std::string_view rig : AllRigNames())
     EXPECT_NE(page.find(rig), std::string::npos) << rig;
-  for (const char* extension : {".npz", ".pkl", ".bvh", ".glb", ".vrma"}) {
+  for (const char* extension : {".npz", ".pkl", ".npy", ".bvh", ".glb", ".gltf", ".vrma"}) {
     EXPECT_TRUE(IsMotionFile(std::string("a") + extension));
     EXPECT_NE(page.find("| `" + std::string(extension) + "` |"), std::string::npos) << extension;
     EXPECT_NE(MotionFileExtensions().find(extension), std::string::npos);

@@ -1,7 +1,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/formats/cases.h"
+#include "tests/formats/cases/cases.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::cases_test {

@@ -5,7 +5,7 @@
 
 #include "model/formats/amass_npz.h"
 #include "model/motion/floor_clearance.h"
-#include "tests/formats/cases.h"
+#include "tests/formats/cases/cases.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/pickles.h"
 
