@@ -219,8 +219,8 @@ TEST_F(CharacterTest, KhronosAndThreeJsAgreeWithUs) {
   }
   std::ofstream(folder_ / "expected.json") << expected;
   const Outcome outcome =
-      Shell(std::string(CHOREO_TEST_DATA) + "/web/check_glb.sh '" + (folder_ / "out.glb").string() +
-            "' '" + (folder_ / "expected.json").string() + "'");
+      Shell(std::string(CHOREO_TEST_DATA) + "/web/check.sh check_glb.mjs '" +
+            (folder_ / "out.glb").string() + "' '" + (folder_ / "expected.json").string() + "'");
   if (outcome.code == 77) GTEST_SKIP() << outcome.said;
   EXPECT_EQ(outcome.code, 0) << outcome.said;
 }
