@@ -14,9 +14,10 @@ namespace {
 constexpr std::array kKeys = {"root_positions",  "rotations",   "fps",        "poses",
                               "trans",           "smpl_poses",  "smpl_trans", "smpl_scaling",
                               "mocap_framerate", "root_orient", "pose_body",  "global_orient",
-                              "body_pose",       "transl",      "betas",      "jaw_pose"};
-constexpr std::array<int64_t, 16> kExtents = {0,   1, 2, 3, 24, 25, 72,  156,
-                                              165, 4, 6, 9, 21, 63, 144, 216};
+                              "body_pose",       "transl",      "betas",      "jaw_pose",
+                              "joints"};
+constexpr std::array<int64_t, 19> kExtents = {0, 1, 2, 3,  24, 25,  72,  156, 165, 4,
+                                              6, 9, 21, 63, 144, 216, 22, 88, 96};
 
 NpyArray MakeArray(fuzz::Decisions& decisions) {
   NpyArray array;
