@@ -183,7 +183,6 @@ class RigFitter {
   // Whether the place of a bone's end turns with the bone, as it does unless somebody has moved
   // joints without turning anything.
   bool TurnsCarry() const {
-    if (!rig_.has_turns) return false;
     return Point(
         [&](const Segment& segment) {
           Eigen::Vector3d mean = Eigen::Vector3d::Zero();

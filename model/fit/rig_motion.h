@@ -29,8 +29,7 @@ struct RigMotion {
   std::vector<RigPlacement> rests = {};  ///< what may be its rest pose, best first
   /// How many of these, the first, stand in axes of their own, as a skin's do.
   size_t rests_apart = 0;
-  int64_t count = 0;      ///< frames
-  bool has_turns = true;  ///< false: how its bones are turned nobody knows
+  int64_t count = 0;  ///< frames
   std::function<RigPlacement(int64_t frame)> frame = {};
 };
 

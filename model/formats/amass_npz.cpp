@@ -124,7 +124,7 @@ Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout) {
   return all;
 }
 
-// Whether a joint of nearly every frame goes round twice, as in no body's rotation vectors.
+// Whether a joint of most frames goes round twice, which as degrees it would not.
 bool AreDegrees(const Eigen::MatrixXd& turns) {
   constexpr double kTwiceRound = 4 * M_PI;
   std::vector<double> most;
@@ -134,7 +134,8 @@ bool AreDegrees(const Eigen::MatrixXd& turns) {
                        .norm()
                        .maxCoeff());
   }
-  return !most.empty() && Median(std::move(most)) > kTwiceRound;
+  const double middle = most.empty() ? 0 : Median(std::move(most));
+  return middle > kTwiceRound && middle < kTwiceRound * kDegrees;
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "model/core/error.h"
-#include "model/formats/node_motion.h"
+#include "model/fit/fit_clip.h"
+#include "model/fit/sources.h"
+#include "model/formats/motion_check.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
@@ -16,6 +18,8 @@ constexpr const char* kPlacesNames[] = {"joints", "joints3d", "joint_positions",
 constexpr int64_t kPlacedBody = 22;
 // Of a limb's mean length: networks stretch bones a little.
 constexpr double kStretch = 0.1;
+// Hands that are not given go on where forearms point: of these, and how little they count.
+constexpr double kHand = 0.33, kHandWeight = 0.05;
 
 const Skeleton& PlacedBody() { return Skeleton::Smpl24(); }
 
@@ -73,22 +77,20 @@ Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& r
                           "are no places [frames, 22 or 24, 3] of SMPL's joints, whose "
                           "limbs keep their lengths, in several frames");
   }
-  const auto count = static_cast<size_t>(frames[0].cols());
-  const auto first = [count](const auto& all) {
-    return std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
-  };
-  RigNodes nodes{.names = first(PlacedBody().joint_names),
-                 .parents = first(PlacedBody().parents),
-                 .places = frames[0],
-                 .joints = std::vector<bool>(count, true),
-                 .moves = std::vector<bool>(count, true),
-                 .meshes = std::vector<bool>(count)};
-  NodeMotion motion{.fps = fps, .count = static_cast<int64_t>(frames.size()), .has_turns = false};
-  motion.frame = [&](int64_t frame) {
-    return RigPlacement{frames[static_cast<size_t>(frame)],
-                        std::vector<Eigen::Matrix3d>(count, Eigen::Matrix3d::Identity())};
-  };
-  return FitNodes(std::move(nodes), motion, reading);
+  const Skeleton& body = PlacedBody();
+  PositionClip clip{.fps = fps, .joint_names = body.joint_names, .frames = {}};
+  for (const Eigen::Matrix3Xd& places : frames) {
+    Eigen::Matrix3Xd& all = clip.frames.emplace_back(3, body.joints());
+    all.leftCols(places.cols()) = places;
+    for (Eigen::Index hand = places.cols(); hand < all.cols(); ++hand) {
+      const int wrist = body.parents[static_cast<size_t>(hand)];
+      const int elbow = body.parents[static_cast<size_t>(wrist)];
+      all.col(hand) = all.col(wrist) + kHand * (all.col(wrist) - all.col(elbow));
+    }
+  }
+  Motion motion = FitClip(clip, IdentitySource(body, kHandWeight), body, {.ground = false}).motion;
+  reading.Note("joints alone do not say how head, hands and feet are turned: that is a guess");
+  return Settle({.skeleton = body, .motion = std::move(motion), .has_floor = false}, reading);
 }
 
 }  // namespace choreo

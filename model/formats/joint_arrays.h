@@ -18,8 +18,8 @@ std::optional<NpyArray> FindJointArray(const NpzArchive& npz);
 /// lengths. Rotation vectors do not.
 bool AreJointPlaces(const NpyArray& array);
 
-/// SMPL's body with its joints there, by legs' length, on the floor (node_motion.h); how head,
-/// hands and feet are turned is a guess, which is noted. `fps` is the file's. Throws
+/// SMPL's body fitted to them (fit/fit_clip.h), in its size and on the floor; how head, hands and
+/// feet are turned is a guess, which is noted. `fps` is the file's. Throws
 /// Error(kInvalidArgument) where AreJointPlaces is false.
 Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& reading);
 

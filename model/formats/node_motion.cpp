@@ -94,7 +94,6 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
   for (const RigPlacement& rest : motion.rests) rig.rests.push_back(Keep(rest, kept));
   rig.rests_apart = motion.rests_apart;
   rig.count = motion.count;
-  rig.has_turns = motion.has_turns;
   rig.frame = [&](int64_t frame) { return Keep(motion.frame(frame), kept); };
   RigFit fit = FitRig(rig, reading.scale);
   CheckMotionLimits(fit.motion);

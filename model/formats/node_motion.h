@@ -17,7 +17,6 @@ struct NodeMotion {
   std::vector<RigPlacement> rests = {};  ///< of all nodes: what may be its rest pose, best first
   size_t rests_apart = 0;                ///< of these, as RigMotion has it
   int64_t count = 0;                     ///< frames
-  bool has_turns = true;                 ///< as RigMotion has it
   std::function<RigPlacement(int64_t frame)> frame = {};
 };
 

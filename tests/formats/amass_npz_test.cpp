@@ -216,9 +216,8 @@ TEST(AmassNpz, RefusesWhatItCannotUse) {
   const auto expect = [&](const std::string& part, const NpzArchive& npz) {
     ExpectError(ErrorCode::kInvalidArgument, part, [&] { ReadSmplMotion(npz); });
   };
-  expect(
-      "poses: has the shape [4, 70], expected [frames, 72 or 156 or 165 or 66], or matrices or 6D",
-      make({4, 70}, {4, 3}, 30));
+  expect("poses: has the shape [4, 70], expected [frames, 72 or 156 or 165 or 66], or matrices, 6D",
+         make({4, 70}, {4, 3}, 30));
   expect("trans: has the shape [4]", make({4, 72}, {4}, 30));
   expect("4 frames, but there are 5", make({4, 72}, {5, 3}, 30));
   expect("mocap_framerate", make({4, 72}, {4, 3}, 0));

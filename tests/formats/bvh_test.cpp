@@ -199,7 +199,7 @@ TEST(Bvh, NamesLineTokenAndExpectation) {
   // Any prefix is refused, or read as something shorter with a word.
   for (size_t length = 0; length + 6 < good.size(); ++length) {
     try {
-      EXPECT_EQ(ParseBvh(good.substr(0, length), "arm").notes.size(), 1U) << length;
+      EXPECT_FALSE(ParseBvh(good.substr(0, length), "arm").notes.empty()) << length;
     } catch (const Error&) {
     }
   }

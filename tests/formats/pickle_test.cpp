@@ -113,7 +113,10 @@ TEST(PickleTest, LeavesOutWhatIsNoArray) {
     EXPECT_EQ(arrays.Text("gender"), "f");
     EXPECT_FALSE(arrays.Has("betas") || arrays.Has("names") || arrays.Has("more"));
   }
-  Refused("\x80\x02}U\x01k](K\x01K\x02es."s, "'k' is a list of several arrays");
+  Refused(
+      "\x80\x02}U\x01k](K\x01K\x01"
+      "es."s,
+      "'k' is a list of several arrays");
 }
 
 TEST(PickleTest, OnlyDictsOfArraysAndNumbers) {

@@ -1,5 +1,6 @@
 // The log of files that were read wrong, or refused without need: of each how it is made, the
 // options of `choreo convert` that it takes, what is right and what is said.
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <sstream>
@@ -29,7 +30,9 @@ Eigen::Matrix3d Mirrored(const std::string& bone, int frame) {
 
 // Dances on its back: on the floor all the time.
 Eigen::Matrix3d Lying(const std::string& bone, int frame) {
-  return bone == "pelvis" ? About(1, 0, 0, -90) : Walk(bone, frame);
+  if (bone == "pelvis") return About(1, 0, 0, -90);
+  if (bone.ends_with("_hip")) return About(1, 0, 0, -25 + 15 * std::sin(frame * 0.3));
+  return bone.ends_with("_knee") ? About(1, 0, 0, 10) : Walk(bone, frame);
 }
 
 Eigen::Matrix3d HangingArms(const std::string& bone) {
@@ -345,11 +348,11 @@ TEST_F(CasesTest, JointsPlacesAlone) {
              bare = ReadBytes("a.npy", SerializeNpy(joints), {.fps = 20});
   for (const Read& read : {named, bare}) {
     EXPECT_EQ(read.motion.fps, 20);
-    EXPECT_TRUE(read.Says("by the joints' places alone")) << Said(read);
+    EXPECT_TRUE(read.Says("joints alone do not say")) << Said(read);
     ASSERT_EQ(read.motion.frames.size(), 20U);
     const Eigen::Matrix3Xd ours = JointPositions(kSmpl, read.motion.frames[10]),
                            theirs = JointPositions(kSmpl, smpl.motion.frames[10]);
-    EXPECT_LT((ours - theirs).colwise().norm().head(22).maxCoeff(), 0.06);
+    EXPECT_LT((ours - theirs).colwise().norm().head(22).maxCoeff(), 0.03);
   }
   EXPECT_TRUE(ReadBytes("a.npy", SerializeNpy(joints)).Says("states no rate; taken as 30"));
 }
