@@ -13,7 +13,7 @@ import { audio, hear, playSilence, songExtensions } from './songs';
 import { begin, filming, kept, live, message, moment, project, song, takes, tell, welcome, work } from './state';
 import { timeLeft } from './time_left';
 
-const motionExtensions = ['npz', 'bvh', 'glb'];
+const motionExtensions = ['npz', 'npy', 'pkl', 'bvh', 'glb', 'gltf', 'vrma'];
 /// What the file chooser offers.
 export const accepted = [...songExtensions, 'json', ...motionExtensions, ...photoExtensions].map((extension) => `.${extension}`).join();
 const mostBytes = 200 * 2 ** 20; // what a message to the program holds, and some room

@@ -7,7 +7,10 @@ import { wav } from './wav';
 
 export const audio = new Audio();
 
-const types: Record<string, string> = { mp3: 'audio/mpeg', ogg: 'audio/ogg', flac: 'audio/flac', wav: 'audio/wav' };
+const types: Record<string, string> = {
+  mp3: 'audio/mpeg', ogg: 'audio/ogg', oga: 'audio/ogg', opus: 'audio/ogg', flac: 'audio/flac', wav: 'audio/wav',
+  m4a: 'audio/mp4', mp4: 'audio/mp4', aac: 'audio/aac', webm: 'audio/webm',
+};
 export const songExtensions = Object.keys(types);
 
 /// Plays it from now on.
