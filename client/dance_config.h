@@ -79,6 +79,8 @@ struct DanceConfig {
   std::optional<uint64_t> seed = {};
   std::optional<double> temperature = {};  ///< 0 to 2
   std::string style = {};                  ///< one of the model's; empty: as it comes
+  /// 0 to 1: how much the music's energy is that of the dance; default: kUsualDynamics
+  std::optional<double> music_dynamics = {};
   /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
   /// rest, facing +Z, where a path from frame 0 on begins, or else at the origin.
   std::vector<Pose> history = {};

@@ -113,6 +113,7 @@ class Edit {
     request.config.seed = options_.seed;
     request.config.temperature = options_.temperature;
     request.config.style = options_.style;
+    request.config.music_dynamics = options_.music_dynamics;
     request.config.music_beats = options_.music_beats;
     request.config.controls = options_.controls;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
@@ -203,8 +204,12 @@ void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
   };
   const double start = static_cast<double>(first) / model.fps;
   const double end = start + static_cast<double>(request->frames) / model.fps + kMusicBeyond_s;
+  const double most_s =
+      kMostMusicBytes / static_cast<double>(channels * song.format.sample_rate * sizeof(float));
+  const double before_s =
+      std::clamp(most_s - (end - start), model.audio_lead_s, model.audio_lead_s + kMusicBefore_s);
   // Behind the song's end there is silence, which its last sample says as well as any.
-  const int64_t from = std::clamp<int64_t>(sample(start - model.audio_lead_s) - 1, 0, total - 1);
+  const int64_t from = std::clamp<int64_t>(sample(start - before_s) - 1, 0, total - 1);
   const int64_t to = std::clamp<int64_t>(sample(end), from + 1, total);
   request->audio.format = song.format;
   request->audio_first_sample = from;

@@ -16,6 +16,10 @@ namespace choreo::client {
 
 /// Seconds of music that the last frame hears beyond itself, or a little more.
 inline constexpr double kMusicBeyond_s = 0.5;
+/// Seconds of music before the first frame by which its energy is heard, as far as they fit into so
+/// many bytes.
+inline constexpr double kMusicBefore_s = 35;
+inline constexpr double kMostMusicBytes = 12 << 20;
 
 /// A dance, its first frame at the beginning of the music.
 struct FinishedDance {
@@ -25,13 +29,14 @@ struct FinishedDance {
 
 /// How the new frames are danced.
 struct EditOptions {
-  ModelDescription model = {};             ///< of the client's server
-  uint64_t seed = 0;                       ///< same seed, same edit
-  std::optional<double> temperature = {};  ///< 0 to kMaxTemperature
-  std::string style = {};                  ///< one of the model's; empty: as it comes
-  Audio audio = {};                        ///< the song from its start, kPcmFloat; or none
-  std::vector<double> music_beats = {};    ///< as DanceConfig::music_beats
-  Controls controls = {};                  ///< of the new frames
+  ModelDescription model = {};                ///< of the client's server
+  uint64_t seed = 0;                          ///< same seed, same edit
+  std::optional<double> temperature = {};     ///< 0 to kMaxTemperature
+  std::string style = {};                     ///< one of the model's; empty: as it comes
+  std::optional<double> music_dynamics = {};  ///< as DanceConfig has it
+  Audio audio = {};                           ///< the song from its start, kPcmFloat; or none
+  std::vector<double> music_beats = {};       ///< as DanceConfig::music_beats
+  Controls controls = {};                     ///< of the new frames
 };
 
 /// A key pose set into a dance: the frames between `from` and `to`, both exclusive, change.
@@ -54,9 +59,9 @@ struct EditedDance {
   std::vector<Warning> warnings = {};  ///< the server's, and of knees bent backwards
 };
 
-/// Gives a transition as much of a song as its frames hear, of which `first` is the first: a
-/// message has a limit, a song has none. A model that takes no music gets none. `song`: as
-/// EditOptions::audio. Throws Error(kInvalidArgument) whose field is "audio".
+/// Gives a transition as much of a song as its frames, of which `first` is the first, and its
+/// energy are heard in: a message has a limit, a song has none. A model that takes no music gets
+/// none. `song`: as EditOptions::audio. Throws Error(kInvalidArgument) whose field is "audio".
 void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
               TransitionRequest* request);
 

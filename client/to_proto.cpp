@@ -94,6 +94,7 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
   if (config.seed) out.set_seed(*config.seed);
   if (config.temperature) out.set_temperature(*config.temperature);
+  if (config.music_dynamics) out.set_music_dynamics(*config.music_dynamics);
   out.set_style(config.style);
   if (config.continuation) {
     if (!out.mutable_continuation()->ParseFromString(config.continuation->bytes)) {

@@ -95,6 +95,10 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
     out->temperature = static_cast<float>(config.temperature());
     ValidateTemperature(*out->temperature, "config.temperature");
   }
+  if (config.has_music_dynamics()) {
+    out->music_dynamics = config.music_dynamics();
+    ValidateMusicDynamics(out->music_dynamics, "config.music_dynamics");
+  }
   out->style = config.style();
   ValidateStyle(model, out->style, "config.style");
   out->seed = config.has_seed()           ? config.seed()

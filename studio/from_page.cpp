@@ -118,6 +118,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   if (config.has_generate_until()) out.generate_until = config.generate_until();
   if (config.has_seed()) out.seed = config.seed();
   if (config.has_temperature()) out.temperature = config.temperature();
+  if (config.has_music_dynamics()) out.music_dynamics = config.music_dynamics();
   out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();
   for (int i = 0; i < config.history().poses_size(); ++i) {

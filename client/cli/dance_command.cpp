@@ -40,6 +40,7 @@ struct DanceOptions {
   double song_start_s = 0;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  std::optional<double> music_dynamics;
   std::string style;
   std::string style_name = "--style";  // where it is said
   double fps = 0;
@@ -216,6 +217,7 @@ void Run(const DanceOptions& options) {
   config.fps = options.fps;
   config.seed = options.seed.value_or(0);
   config.temperature = options.temperature;
+  config.music_dynamics = options.music_dynamics;
   config.style = options.style;
   config.frames = length.frames;
   config.controls = controls;
@@ -276,6 +278,7 @@ void AddDanceCommand(CLI::App& program) {
   AddSeed(*command, options->seed,
           "Same seed, same dance; it also chooses among the library's key poses. Default: 0.");
   AddTemperature(*command, options->temperature);
+  AddMusicDynamics(*command, options->music_dynamics);
   AddStyle(*command, options->style);
   command
       ->add_option("--fps", options->fps, "Frames a second that are written; default: the model's.")

@@ -84,6 +84,7 @@ void AddEditCommand(CLI::App& program) {
                       "warnings of its edits and of frames that stay.");
   AddSeed(*command, options->seed, "Same seed, same edit. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
+  AddMusicDynamics(*command, options->music_dynamics);
   AddStyle(*command, options->style);
   options->controls.AddTo(*command);
   AddModel(*command, options->model);

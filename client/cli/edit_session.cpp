@@ -51,6 +51,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   edit_.model = connection.model(options.model);
   edit_.seed = options.seed.value_or(0);
   edit_.temperature = options.temperature;
+  edit_.music_dynamics = options.music_dynamics;
   edit_.style = options.style;
   edit_.controls = options.controls.Read(edit_.model, connection.server());
   NoteDeterministic(edit_.model, {{"--seed", options.seed.has_value()},

@@ -30,6 +30,7 @@ struct EditOptions {
   std::string new_report;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  std::optional<double> music_dynamics;
   std::string style;
   ControlOptions controls;
   std::string model;

@@ -38,6 +38,7 @@ struct LiveCommand {
   std::optional<double> seconds;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  std::optional<double> music_dynamics;
   double fps = 0;
   std::string model;
   std::string vmc;
@@ -118,6 +119,7 @@ void Run(const LiveCommand& options) {
   dance.config.fps = options.fps;
   dance.config.seed = options.seed.value_or(0);
   dance.config.temperature = options.temperature;
+  dance.config.music_dynamics = options.music_dynamics;
   dance.ahead_s = options.ahead_s;
   dance.look_ahead_s = options.look_ahead_s;
   dance.most_keys = connection.server().limits.max_keyframes;
@@ -208,6 +210,7 @@ void AddLiveCommand(CLI::App& program) {
   command->add_option("-s,--seconds", options->seconds, "Of music, at most.")->check(AboveZero());
   AddSeed(*command, options->seed, "Same seed, same music, same poses: same dance. Default: 0.");
   AddTemperature(*command, options->temperature);
+  AddMusicDynamics(*command, options->music_dynamics);
   command->add_option("--fps", options->fps, "Frames a second; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   AddModel(*command, options->model);

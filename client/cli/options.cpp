@@ -77,6 +77,14 @@ void AddVmc(CLI::App& command, std::string& address) {
                      "and game engines receive, often at port 39539.");
 }
 
+void AddMusicDynamics(CLI::App& command, std::optional<double>& share) {
+  command
+      .add_option("--music-dynamics", share,
+                  "How much the music's energy is that of the dance, 0 (none) to 1; default: " +
+                      Rounded(kUsualDynamics) + ".")
+      ->check(NumberFrom(0, 1));
+}
+
 void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
   command.add_option(
       "--temperature", temperature,
@@ -104,6 +112,7 @@ Error AsTyped(const Error& error) {
       {"ca_certificate", "--ca"},
       {"client_certificate", "--client-cert"},
       {"client_key", "--client-key"},
+      {"config.music_dynamics", "--music-dynamics"},
       {"config.style", "--style"},
       {"config.temperature", "--temperature"},
       {"token_file", "--token-file"},

@@ -34,6 +34,9 @@ void AddAllowBends(CLI::App& command, bool& allowed);
 /// `--vmc`, HOST:PORT.
 void AddVmc(CLI::App& command, std::string& address);
 
+/// `--music-dynamics`.
+void AddMusicDynamics(CLI::App& command, std::optional<double>& share);
+
 /// `--temperature`.
 void AddTemperature(CLI::App& command, std::optional<double>& temperature);
 /// `--model`, one of the server's.

@@ -33,6 +33,7 @@ struct TransitionOptions {
   int candidates = 1;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
+  std::optional<double> music_dynamics;
   std::string style;
   std::string model;
   ControlOptions controls;
@@ -83,6 +84,7 @@ void Run(const TransitionOptions& options) {
   request.config.model = options.model;
   request.config.seed = options.seed.value_or(0);
   request.config.temperature = options.temperature;
+  request.config.music_dynamics = options.music_dynamics;
   request.config.style = options.style;
   request.config.controls = options.controls.Read(model, connection.server());
   request.config.first_frame = std::llround(options.at_s * model.fps);
@@ -154,6 +156,7 @@ void AddTransitionCommand(CLI::App& program) {
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
+  AddMusicDynamics(*command, options->music_dynamics);
   AddStyle(*command, options->style);
   options->controls.AddTo(*command);
   AddModel(*command, options->model);

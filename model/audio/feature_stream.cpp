@@ -76,7 +76,9 @@ FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples, Ro
   const MelBandsDb db = spectrum.Decibels(samples);
   RowValues row{};
   MfccOfMelDb(db, row.mfcc);
-  if (onset != nullptr) row.onset = onset->Add(db);
+  if (onset == nullptr) return row;
+  row.sound = PowersOf(db);
+  row.sound.onset = onset->Add(db);
   return row;
 }
 
@@ -93,7 +95,7 @@ int64_t FeatureStream::audio_rows() const {
 }
 
 std::span<const float> FeatureStream::Row(int64_t row) const { return ValuesOf(row).mfcc; }
-float FeatureStream::Onset(int64_t row) const { return ValuesOf(row).onset; }
+const RowSound& FeatureStream::Sound(int64_t row) const { return ValuesOf(row).sound; }
 
 const FeatureStream::RowValues& FeatureStream::ValuesOf(int64_t row) const {
   if (row < first_row_ || row >= final_rows()) {

@@ -10,6 +10,7 @@
 #include "model/audio/mfcc.h"
 #include "model/audio/resample.h"
 #include "model/audio/row_onset.h"
+#include "model/audio/row_sound.h"
 
 namespace choreo {
 
@@ -41,9 +42,10 @@ class FeatureStream {
   /// kMfccCount values, valid until they are forgotten. Throws Error(kOutOfRange) for a row that is
   /// not final or before first_row().
   std::span<const float> Row(int64_t row) const;
-  /// RowOnset of a row, which must be final and not forgotten; 0 beyond the audio. In a stream that
-  /// starts later, that of the first RowOnset::kMemory rows is not what the whole music has.
-  float Onset(int64_t row) const;
+  /// Of a row, which must be final and not forgotten; beyond the audio no onset and no power. In a
+  /// stream that starts later, the onsets of the first RowOnset::kMemory rows are not what the
+  /// whole music has.
+  const RowSound& Sound(int64_t row) const;
   /// Rows before `row` are needed no more: first_row() moves up to it, or to the first row that is
   /// not final.
   void Forget(int64_t row);
@@ -62,7 +64,7 @@ class FeatureStream {
  private:
   struct RowValues {
     std::array<float, kMfccCount> mfcc{};
-    float onset = 0;
+    RowSound sound;
   };
 
   const RowValues& ValuesOf(int64_t row) const;

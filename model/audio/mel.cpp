@@ -32,16 +32,16 @@ struct Band {
   std::vector<double> weights;
 };
 
+constexpr double kNyquist = kModelSampleRate / 2.0;
+
+double CornerHz(size_t corner) {
+  return MelToHz(HzToMel(kNyquist) * static_cast<double>(corner) / (kMelBands + 1));
+}
+
 std::array<Band, kMelBands> MakeBands() {
-  constexpr double kNyquist = kModelSampleRate / 2.0;
-  std::array<double, kMelBands + 2> corner{};  // Hz
-  const double top = HzToMel(kNyquist);
-  for (size_t i = 0; i < corner.size(); ++i) {
-    corner[i] = MelToHz(top * static_cast<double>(i) / (kMelBands + 1));
-  }
   std::array<Band, kMelBands> bands;
   for (size_t b = 0; b < bands.size(); ++b) {
-    const double low = corner[b], centre = corner[b + 1], high = corner[b + 2];
+    const auto [low, centre, high] = MelBandAt(b);
     for (int bin = 0; bin < kBins; ++bin) {
       const double hz = kNyquist * bin / (kBins - 1);
       const double height = std::min((hz - low) / (centre - low), (high - hz) / (high - centre));
@@ -70,6 +70,8 @@ struct MelTables {
 };
 
 }  // namespace
+
+MelBand MelBandAt(size_t band) { return {CornerHz(band), CornerHz(band + 1), CornerHz(band + 2)}; }
 
 MelBandsDb MelSpectrum::Decibels(std::span<const float> samples) {
   const MelTables& tables = MelTables::Shared();

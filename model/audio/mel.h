@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,12 @@ inline constexpr int kMelBands = 128;
 
 /// By mel band: 10 log10(power), with powers below 1e-10 taken as 1e-10 (-100 dB).
 using MelBandsDb = std::array<double, kMelBands>;
+
+/// A band's triangle.
+struct MelBand {
+  double low_hz = 0, centre_hz = 0, high_hz = 0;
+};
+MelBand MelBandAt(size_t band);
 
 /// The mel spectrum of one window of samples: periodic Hann window, squared magnitude of the
 /// Fourier transform, triangular bands. Holds work space: one a thread.

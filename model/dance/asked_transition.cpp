@@ -3,6 +3,14 @@
 #include <utility>
 
 namespace choreo {
+namespace {
+
+// Of the music before a frame.
+double HearEnergyAt(const AudioFeed& audio, const DanceStart& start, int64_t frame) {
+  return start.music_dynamics * HearEnergy(audio.Sounds(frame, kDynamicsMemory));
+}
+
+}  // namespace
 
 AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
                               const ControlTrack& controls, const AudioFeed* audio,
@@ -30,6 +38,8 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
       request.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, request.frames);
       request.audio_rows.leftCols(heard) = audio->History(rows_end, heard);
     }
+    request.energy = {HearEnergyAt(*audio, start, segment.from - kUsualFrames),
+                      HearEnergyAt(*audio, start, segment.from)};
   }
   request.seed = start.seed;
   request.style = start.style;

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "model/audio/format.h"
-#include "model/audio/pulse.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -37,7 +36,7 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
       silence_(SilenceRow()),
       first_row_(features_.first_row()),
       ready_(features_.first_row()),
-      first_onset_(first_row_ > 0 ? first_row_ + RowOnset::kMemory : 0) {}
+      first_sound_(first_row_ > 0 ? first_row_ + RowOnset::kMemory : 0) {}
 
 void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                      const std::function<void()>& on_rows) {
@@ -87,7 +86,7 @@ void AudioFeed::Publish() {
   const int64_t end = std::min(computed, features_.audio_rows() + kTail);
   for (int64_t row = first_row_ + static_cast<int64_t>(rows_.size()); row < end; ++row) {
     std::ranges::copy(features_.Row(row), rows_.emplace_back().begin());
-    if (row >= first_onset_) onsets_.push_back(features_.Onset(row));
+    if (row >= first_sound_) sounds_.push_back(features_.Sound(row));
   }
   features_.Forget(end);
   ready_ = computed;
@@ -111,16 +110,16 @@ void AudioFeed::CopyRow(int64_t row, std::span<float> to) const {
 void AudioFeed::Forget(int64_t row) {
   std::lock_guard lock(mutex_);
   for (; first_row_ < row && !rows_.empty(); ++first_row_) rows_.pop_front();
-  for (; first_onset_ < row - kPulseMemory && !onsets_.empty(); ++first_onset_) onsets_.pop_front();
+  for (; first_sound_ < row - kSoundMemory && !sounds_.empty(); ++first_sound_) sounds_.pop_front();
 }
 
-std::vector<float> AudioFeed::Onsets(int64_t row) const {
+std::vector<RowSound> AudioFeed::Sounds(int64_t row, int count) const {
   std::lock_guard lock(mutex_);
-  const int64_t known = first_onset_ + static_cast<int64_t>(onsets_.size());
-  std::vector<float> strengths;
-  for (int64_t r = std::max(first_onset_, row - kPulseMemory); r < row; ++r)
-    strengths.push_back(r < known ? onsets_[static_cast<size_t>(r - first_onset_)] : 0);
-  return strengths;
+  const int64_t known = first_sound_ + static_cast<int64_t>(sounds_.size());
+  std::vector<RowSound> sounds;
+  for (int64_t r = std::max(first_sound_, row - count); r < row; ++r)
+    sounds.push_back(r < known ? sounds_[static_cast<size_t>(r - first_sound_)] : RowSound());
+  return sounds;
 }
 
 Eigen::MatrixXf AudioFeed::History(int64_t frame, int count) const {

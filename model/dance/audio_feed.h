@@ -11,12 +11,19 @@
 
 #include "model/audio/feature_stream.h"
 #include "model/audio/mfcc.h"
+#include "model/audio/music_dynamics.h"
+#include "model/audio/pulse.h"
+#include "model/core/grid.h"
 
 namespace choreo {
 
 /// Throws Error(kInvalidArgument, "audio.data") unless these are whole sample frames of finite
 /// numbers; the message counts from `first_sample`.
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
+
+/// Rows whose sound is known at any row: all that a dance listens to of its past.
+inline constexpr int kSoundMemory = kDynamicsMemory + kUsualFrames;
+static_assert(kSoundMemory >= kPulseMemory);
 
 /// Samples on one side, the model's audio rows on the other. One thread at a time pushes; any
 /// thread reads, and never waits for a transform: rows are computed apart and handed over in short
@@ -46,9 +53,9 @@ class AudioFeed {
   void CopyRow(int64_t row, std::span<float> to) const;
   /// The `count` rows before `frame`, oldest first, one a column; all must be ready.
   Eigen::MatrixXf History(int64_t frame, int count) const;
-  /// Onset strengths of the last kPulseMemory rows before `row`, or of as many as there are of the
-  /// music; all must be ready.
-  std::vector<float> Onsets(int64_t row) const;
+  /// What the last `count` rows before `row` sound like, at most kSoundMemory, or as many as there
+  /// are of the music; all must be ready.
+  std::vector<RowSound> Sounds(int64_t row, int count) const;
   /// Rows before this one are needed no more: a stream of an hour holds what a second's does.
   void Forget(int64_t row);
 
@@ -66,8 +73,8 @@ class AudioFeed {
   int64_t first_row_;
   int64_t ready_;
   std::deque<RowValues> rows_;  // from first_row_ on; those behind its end are silence's
-  int64_t first_onset_;
-  std::deque<float> onsets_;  // from first_onset_ on; behind its end there is none
+  int64_t first_sound_;
+  std::deque<RowSound> sounds_;  // from first_sound_ on; behind its end there is none
 };
 
 }  // namespace choreo

@@ -328,7 +328,10 @@ void DanceChain::Post(const DanceEvent& event) {
 
 void DanceChain::PostContinuation() {
   Continuation continuation{next_frame_, history_, model_.fingerprint};
-  if (audio_) continuation.audio_from_sample = ResumeSample(config_, next_frame_, model_);
+  if (audio_) {
+    continuation.audio_from_sample =
+        ResumeSample(config_, next_frame_, model_, config_.music_beats.empty());
+  }
   continuation.last_beat = beats_.last();
   continuation.stage = stage_;
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {

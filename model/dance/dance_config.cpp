@@ -34,6 +34,7 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
 
 void DanceStart::ValidateStart(const ModelInfo& model) const {
   if (temperature) ValidateTemperature(*temperature, "config.temperature");
+  ValidateMusicDynamics(music_dynamics, "config.music_dynamics");
   ValidateStyle(model, style, "config.style");
   ValidateOutputFps(output_fps, "config.output_fps");
   if (history.size() > static_cast<size_t>(model.history_frames)) {
@@ -103,13 +104,13 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
                                        sample_rate);
 }
 
-int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const ModelInfo& model) {
-  const double rate = config.audio->sample_rate;
-  if (!config.music_beats.empty()) return LatestFirstSample(first_frame, rate, model);
-  constexpr int64_t kHeard = kPulseMemory + RowOnset::kMemory;
-  // A dance whose music began in the middle has no more of it.
-  return std::max(config.audio->first_sample,
-                  FeatureStream::FirstSampleFor(std::max<int64_t>(0, first_frame - kHeard), rate));
+int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
+                     bool beats) {
+  const auto& [rate, channels, first_sample] = *start.audio;
+  const int heard = start.music_dynamics > 0 ? kSoundMemory : beats ? kPulseMemory : 0;
+  if (heard == 0) return LatestFirstSample(first_frame, rate, model);
+  const int64_t row = std::max<int64_t>(0, first_frame - heard - RowOnset::kMemory);
+  return std::max(first_sample, FeatureStream::FirstSampleFor(row, rate));
 }
 
 bool TakesMusic(const ModelInfo& model) {

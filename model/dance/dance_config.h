@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/core/grid.h"
+#include "model/core/limits.h"
 #include "model/dance/control_track.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
@@ -15,9 +16,10 @@ namespace choreo {
 /// What a dance and a single transition have in common: how they are danced, and from where.
 struct DanceStart {
   uint64_t seed = 0;
-  std::optional<float> temperature;  ///< 0..2; none: the model's default
-  std::string style;                 ///< one of the model's, or empty: any
-  double output_fps = kModelFps;     ///< 1..120; the model's own rate passes through untouched
+  std::optional<float> temperature;        ///< 0..2; none: the model's default
+  std::string style;                       ///< one of the model's, or empty: any
+  double music_dynamics = kUsualDynamics;  ///< 0..1: how far HearEnergy's is the dance's
+  double output_fps = kModelFps;  ///< 1..120; the model's own rate passes through untouched
   /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
   /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
   /// if that stands on it. Excludes `continuation`.
@@ -95,9 +97,10 @@ struct GroupRequest : DanceStart {
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model);
 
 /// Where the audio of a dance that goes on from `first_frame` has to begin for all to be as if it
-/// had not been interrupted: at LatestFirstSample, or, where the dance listens for beats, as far
-/// back as these are heard in.
-int64_t ResumeSample(const DanceConfig& config, int64_t first_frame, const ModelInfo& model);
+/// had not been interrupted: at LatestFirstSample, or as far back as energy, and `beats` where they
+/// are listened for, are heard in; at its own first sample where it has no more of the music.
+int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
+                     bool beats);
 
 /// Whether the model takes music.
 bool TakesMusic(const ModelInfo& model);

@@ -15,9 +15,16 @@ namespace {
 
 constexpr double kOnsetOverMedian = 2;  // an onset is so much above what the music mostly has
 
+// Of the rows before one, as far as a pulse is heard in them.
+std::vector<float> Onsets(const AudioFeed& audio, int64_t row) {
+  std::vector<float> onsets;
+  for (const RowSound& sound : audio.Sounds(row, kPulseMemory)) onsets.push_back(sound.onset);
+  return onsets;
+}
+
 // Whether the music rose in the frame of a beat or in the one before.
 bool HasOnset(const AudioFeed& audio, int64_t frame) {
-  const std::vector<float> onsets = audio.Onsets(frame + 1);
+  const std::vector<float> onsets = Onsets(audio, frame + 1);
   if (onsets.size() < 2) return false;
   const float here = std::max(onsets.back(), onsets[onsets.size() - 2]);
   return here > kOnsetOverMedian * Median(onsets);
@@ -111,7 +118,7 @@ void MusicBeats::Begin(std::span<const MusicBeat> beats, int64_t from) {
 }
 
 void MusicBeats::Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const {
-  const Pulse pulse = HearPulse(audio_->Onsets(from));
+  const Pulse pulse = HearPulse(Onsets(*audio_, from));
   if (!pulse.Certain()) return;
   const auto frames = static_cast<double>(to - from);
   const double slack = 0.5 * pulse.period / fps_;

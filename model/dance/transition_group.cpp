@@ -136,8 +136,9 @@ class TransitionGroup::Impl::Job : public SampleJob {
   Continuation GoesOn() const {
     Continuation end{request_.first_frame + frames(), history_, group_->model_.fingerprint};
     end.stage = run_->StageAfter(run_->frames().size());
-    if (const auto& audio = group_->request_.audio)
-      end.audio_from_sample = LatestFirstSample(end.frame, audio->sample_rate, group_->model_);
+    const GroupRequest& request = group_->request_;
+    if (request.audio)
+      end.audio_from_sample = ResumeSample(request, end.frame, group_->model_, /*beats=*/false);
     return end;
   }
 
@@ -166,7 +167,7 @@ TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
   // Of a long song only what the transition hears.
   const std::vector<float> samples = std::exchange(request_.samples, {});
   const auto& [rate, channel_count, first_sample] = *request_.audio;
-  const int64_t first = LatestFirstSample(first_frame_, rate, model_);
+  const int64_t first = ResumeSample(request_, first_frame_, model_, /*beats=*/false);
   const size_t channels = static_cast<size_t>(channel_count);
   const size_t skipped =
       std::min(static_cast<size_t>(first - first_sample) * channels, samples.size());

@@ -76,6 +76,10 @@ void ValidateTemperature(float temperature, const std::string& field) {
   }
 }
 
+void ValidateMusicDynamics(double share, const std::string& field) {
+  if (!(share >= 0 && share <= 1)) throw InvalidArgument(field, Show(share) + " is not in [0, 1]");
+}
+
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field) {
   if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
   std::string known;

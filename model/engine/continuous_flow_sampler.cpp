@@ -33,6 +33,7 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
   request.beats = spec.beats;
   request.energy = spec.controls.velocity_factors.cast<double>();
   request.asked = spec.controls.parts_asked;
+  request.energy_shift = spec.energy;
   if (const auto style = std::ranges::find(styles, spec.style); style != styles.end())
     request.style = static_cast<int>(style - styles.begin());
   return request;

@@ -81,6 +81,7 @@ struct TransitionSpec {
   /// it (plan/plan_stages.h). Empty: unknown.
   std::vector<double> beats;
   Controls controls;
+  EnergyShift energy = {};  ///< of models that say themselves how lively they are
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,

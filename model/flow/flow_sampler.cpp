@@ -38,8 +38,11 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   FillNormal(noise.seed, noise.candidate, noise.first_frame, normal);
   EnergyPrior::Levels levels;
   std::copy(normal.end() - kBodyParts, normal.end(), levels.begin());
-  levels = model.energy.Sample(KnownOfEnergy(model, *request, window),
-                               std::min(noise.temperature, 1.0) * levels);
+  // What is added now was added before, so that it is not added again and again.
+  EnergyPrior::Known known = KnownOfEnergy(model, *request, window);
+  known.history.array() -= request->energy_shift.before;
+  levels = model.energy.Sample(known, std::min(noise.temperature, 1.0) * levels);
+  levels.array() += request->energy_shift.now;
   for (size_t part = 0; part < request->asked.size(); ++part) {
     if (request->asked[part]) continue;
     const auto row = static_cast<Eigen::Index>(part);

@@ -38,7 +38,10 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
   for (const Pose& pose : poses) part.history.push_back(ground.ToLocal(pose));
   if (key) part.key = ground.ToLocal(*key);
   part.to_key = to_key - from;
-  if (from > 0) part.turning.reset();  // the history, by then, says it
+  if (from > 0) {  // what goes before it was made with it
+    part.turning.reset();
+    part.energy_shift.before = energy_shift.now;
+  }
   if (path.cols() > 0) part.path = path.middleCols(from, count);
   for (auto place : part.path.colwise()) place = ground.ToLocal(Eigen::Vector3d(place));
   for (double& beat : part.beats) beat -= from;

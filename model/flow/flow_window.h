@@ -35,7 +35,8 @@ struct WindowRequest {
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
   Eigen::MatrixXd energy = {};     ///< [kBodyParts, w] velocity factors, metres a frame, or empty
   std::array<bool, kBodyParts> asked = {true, true, true, true, true};  ///< rows of `energy` known
-  int style = -1;                                                       ///< index of a style, or -1
+  EnergyShift energy_shift = {};  ///< of the rows that are not
+  int style = -1;                 ///< index of a style, or -1
   /// The middle of the floor that the dancer keeps to, or unknown; unread where a key or a path
   /// says where the root goes.
   std::optional<Eigen::Vector3d> stage = {};

@@ -30,6 +30,12 @@ std::optional<BodyPart> FindBodyPart(std::string_view name);
 inline constexpr float kMaxVelocityFactor = 10;  ///< a multiplier of a reference
 inline constexpr float kMaxVelocity = 0.5F;      ///< metres a frame
 
+/// What is added to the energy of body parts that nobody asks anything of: to EnergyLevel
+/// (flow/motion_prior.h), of the frames before and of those to come.
+struct EnergyShift {
+  double before = 0, now = 0;
+};
+
 /// What paper C calls done as told (Section 4.3).
 inline constexpr double kVelocityTolerance = 0.01;  ///< delta_v: 1 cm a frame
 inline constexpr double kRootTolerance = 0.07;      ///< delta_r: the root off its path, 7 cm

@@ -21,7 +21,7 @@ std::vector<float> Onsets(std::span<const float> wave, size_t chunk) {
   for (size_t at = 0; at < wave.size(); at += chunk)
     stream.Push(wave.subspan(at, std::min(chunk, wave.size() - at)));
   std::vector<float> onsets;
-  for (int64_t row = 0; row < stream.final_rows(); ++row) onsets.push_back(stream.Onset(row));
+  for (int64_t row = 0; row < stream.final_rows(); ++row) onsets.push_back(stream.Sound(row).onset);
   return onsets;
 }
 
@@ -186,7 +186,8 @@ TEST(PulseTest, AStreamThatStartsLaterHearsTheSame) {
   FeatureStream later(kRate, 1, first);
   later.Push(std::span(wave).subspan(static_cast<size_t>(first)));
   std::vector<float> onsets;
-  for (int64_t row = kRow - kPulseMemory; row < kRow; ++row) onsets.push_back(later.Onset(row));
+  for (int64_t row = kRow - kPulseMemory; row < kRow; ++row)
+    onsets.push_back(later.Sound(row).onset);
   EXPECT_TRUE(std::equal(onsets.begin(), onsets.end(), whole.begin() + kRow - kPulseMemory));
   const Pulse all = HearPulse(std::span(whole).first(kRow)), part = HearPulse(onsets);
   EXPECT_EQ(part.next, all.next);

@@ -11,8 +11,6 @@
 /// Live dances of messages in random order, taken up again wherever they can be.
 namespace choreo::random_resume_test {
 
-constexpr int64_t kFrames = 420;
-
 using Message = std::function<void(DanceStream&)>;
 
 /// What clients say that make mistakes.
@@ -25,7 +23,7 @@ Message Tried(Message message) {
   };
 }
 
-Message RandomMessage(int64_t granted, std::mt19937& random) {
+Message RandomMessage(int64_t granted, int64_t frames, std::mt19937& random) {
   const auto ahead = [&](int64_t least, int64_t most) {
     const auto range = static_cast<uint32_t>(most - least + 1);
     return std::max<int64_t>(0, granted + least + static_cast<int64_t>(random() % range));
@@ -34,7 +32,7 @@ Message RandomMessage(int64_t granted, std::mt19937& random) {
   switch (random() % 8) {
     case 0:
     case 1: {
-      const Key key{id, std::min(ahead(-10, 120), kFrames - 1), RandomPose(random), {}};
+      const Key key{id, std::min(ahead(-10, 120), frames - 1), RandomPose(random), {}};
       return [key](DanceStream& stream) { SendKey(stream, key); };
     }
     case 2:
@@ -53,13 +51,13 @@ Message RandomMessage(int64_t granted, std::mt19937& random) {
   }
 }
 
-std::vector<Message> RandomMessages(std::mt19937& random) {
+std::vector<Message> RandomMessages(int64_t frames, std::mt19937& random) {
   constexpr std::array<int64_t, 6> kStrides{1, 2, 5, 9, 20, 60};
   std::vector<Message> messages;
-  for (int64_t granted = 0; granted < kFrames;) {
+  for (int64_t granted = 0; granted < frames;) {
     for (auto more = random() % 3; more > 0; --more)
-      messages.push_back(Tried(RandomMessage(granted, random)));
-    granted = std::min(kFrames, granted + kStrides[random() % kStrides.size()]);
+      messages.push_back(Tried(RandomMessage(granted, frames, random)));
+    granted = std::min(frames, granted + kStrides[random() % kStrides.size()]);
     messages.push_back([granted](DanceStream& stream) { stream.GenerateUntil(granted); });
   }
   return messages;
@@ -94,38 +92,63 @@ void ExpectTheRestOf(const Recording& whole, size_t place, const Recording& rest
   }
 }
 
-TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
-  const auto samplers = QueueOf<ControlledSampler>();
-  SampleQueue& queue = *samplers;
-  size_t resumes = 0, heard = 0, given = 0;
-  for (uint32_t seed = 1; seed <= 30; ++seed) {
-    std::mt19937 random(seed);
-    Dance dance = LiveDance(seed, 15);
-    dance.config.generate_until = 0;
-    dance.config.end_frame = kFrames;
-    const std::vector<Message> messages = RandomMessages(random);
-    const Recording whole = Play(queue, dance, dance.config, messages);
-    ASSERT_TRUE(whole.summary) << whole.error->what();
-    EXPECT_EQ(std::ranges::adjacent_find(whole.beats, std::greater_equal(), &MusicBeat::seconds),
-              whole.beats.end())
-        << "told twice, seed " << seed;
-    for (const MusicBeat& beat : whole.beats)
-      ++(beat.source == MusicBeat::Source::kGiven ? given : heard);
-    for (size_t place = 0; place + 1 < whole.continuations.size(); ++place) {
-      const Continuation& continuation = whole.continuations[place];
-      SCOPED_TRACE("seed " + std::to_string(seed) + " from " + std::to_string(continuation.frame));
-      DanceConfig config = dance.config;
-      config.continuation = continuation;
-      config.audio->first_sample = *continuation.audio_from_sample;
-      ExpectTheRestOf(whole, place, Play(queue, dance, config, messages));
-      ++resumes;
-    }
+struct Counts {
+  size_t resumes = 0, heard = 0, given = 0,
+         later = 0;  // later: that need not hear all of the music
+};
+
+void ResumeEverywhere(SampleQueue& queue, uint32_t seed, Dance dance, int64_t frames,
+                      Counts* counts) {
+  std::mt19937 random(seed);
+  dance.config.generate_until = 0;
+  dance.config.end_frame = frames;
+  const std::vector<Message> messages = RandomMessages(frames, random);
+  const Recording whole = Play(queue, dance, dance.config, messages);
+  ASSERT_TRUE(whole.summary) << whole.error->what();
+  EXPECT_EQ(std::ranges::adjacent_find(whole.beats, std::greater_equal(), &MusicBeat::seconds),
+            whole.beats.end())
+      << "told twice, seed " << seed;
+  for (const MusicBeat& beat : whole.beats)
+    ++(beat.source == MusicBeat::Source::kGiven ? counts->given : counts->heard);
+  for (size_t place = 0; place + 1 < whole.continuations.size(); ++place) {
+    const Continuation& continuation = whole.continuations[place];
+    SCOPED_TRACE("seed " + std::to_string(seed) + " from " + std::to_string(continuation.frame));
+    DanceConfig config = dance.config;
+    config.continuation = continuation;
+    config.audio->first_sample = *continuation.audio_from_sample;
+    ExpectTheRestOf(whole, place, Play(queue, dance, config, messages));
+    ++counts->resumes;
+    counts->later += *continuation.audio_from_sample > 0;
   }
-  std::cout << resumes << " resumes of 30 dances with " << heard << " beats heard and " << given
-            << " given\n";
-  EXPECT_GT(resumes, 300U);
-  EXPECT_GT(heard, 200U);
-  EXPECT_GT(given, 300U);
+}
+
+TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
+  const auto queue = QueueOf<ControlledSampler>();
+  Counts counts;
+  for (uint32_t seed = 1; seed <= 30; ++seed)
+    ResumeEverywhere(*queue, seed, LiveDance(seed, 15), 420, &counts);
+  std::cout << counts.resumes << " resumes of 30 dances with " << counts.heard
+            << " beats heard and " << counts.given << " given\n";
+  EXPECT_GT(counts.resumes, 300U);
+  EXPECT_GT(counts.heard, 200U);
+  EXPECT_GT(counts.given, 300U);
+}
+
+// A minute that swells and falls silent: what is heard of its energy and its beats goes back half
+// of that, and no farther.
+TEST(RandomResume, HearsAsMuchOfLongMusicAsBefore) {
+  const auto queue = QueueOf<ControlledSampler>();
+  Counts counts;
+  for (uint32_t seed = 101; seed <= 104; ++seed) {
+    Dance dance = LiveDance(seed, 62);
+    for (size_t i = 0; i < dance.samples.size(); ++i) {
+      const double swell = std::sin(0.5 * static_cast<double>(i) / 22050 + seed);
+      dance.samples[i] *= static_cast<float>(std::max(0.0, 0.6 + swell));
+    }
+    ResumeEverywhere(*scheduler, seed, std::move(dance), 1800, &counts);
+  }
+  EXPECT_GT(counts.later, 40U);
+  EXPECT_GT(counts.heard, 40U);
 }
 
 }  // namespace choreo::random_resume_test

@@ -92,7 +92,7 @@ TEST(Resume, GoesOnBitForBitWithMusicAlone) {
 TEST(Resume, GoesOnBitForBitListeningForBeats) {
   const auto queue = FakeQueue();
   for (const bool keyed : {false, true}) {
-    Dance dance = LiveDance(31, 23);
+    Dance dance = LiveDance(31, 40);
     if (!keyed) dance.keys.clear();
     const Recording whole = Perform(*queue, dance);
     EXPECT_GT(whole.beats.size(), 20U);
@@ -183,6 +183,7 @@ TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
 TEST(Resume, AudioMustBeginEarlyEnough) {
   const auto queue = FakeQueue();
   Dance dance = RandomDance(9, 5);
+  dance.config.music_dynamics = 0;
   const Recording whole = Perform(*queue, dance);
   DanceConfig config = dance.config;
   config.continuation = whole.continuations.back();

@@ -78,6 +78,10 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
             "config.temperature: -0.1 is not in [0, 2]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = std::nanf(""); }),
             "config.temperature: nan is not in [0, 2]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.music_dynamics = 1.5; }),
+            "config.music_dynamics: 1.5 is not in [0, 1]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.music_dynamics = std::nan(""); }),
+            "config.music_dynamics: nan is not in [0, 1]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "calm"; }), "accepted");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "Calm"; }),
             "config.style: \"Calm\" is no style of the model fake; it has calm, wild");

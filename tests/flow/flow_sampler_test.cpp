@@ -125,6 +125,39 @@ TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
   EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
 }
 
+TEST(FlowSampler, TheMusicsEnergyIsAddedOnceToWhatNobodyAsksFor) {
+  const Scene scene = MakeScene(30);
+  FlowModelParts parts = Parts();
+  parts.config.median_factors.fill(0.01);
+  const Listening network;
+  const auto told = [&](const WindowRequest& request) {
+    SampleWindow(parts, network, request, {.temperature = 1});
+    return network.told;
+  };
+  WindowRequest arm = scene.request;
+  arm.energy = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
+  arm.asked = {false, true, false, false, false};
+  const Eigen::VectorXf calm = told(arm);
+  arm.energy_shift.now = 0.5;
+  const Eigen::VectorXf shifted = told(arm) - calm;
+  EXPECT_EQ((shifted.array() != 0).count(), kBodyParts - 1);
+  EXPECT_NEAR(shifted.maxCoeff(), 0.5, 1e-5);
+  // A history as lively as the music made it is followed as if that had made nothing of it.
+  for (int part = 0; part < kBodyParts; ++part)
+    parts.energy.keyed(part, EnergyPrior::kHistoryInput + part) = 0.5;
+  const Eigen::VectorXf follows = told(arm);
+  arm.energy_shift.before = 0.5;
+  EXPECT_NEAR((told(arm) - follows).minCoeff(), -0.25, 1e-5);
+}
+
+TEST(FlowSampler, LaterWindowsFollowWhatTheMusicMadeOfTheFirst) {
+  WindowRequest request = MakeScene(30).request;
+  request.energy_shift = {.before = 0.1, .now = 0.7};
+  const GroundFrame ground = GroundFrame::Of(request.history.back());
+  EXPECT_EQ(request.Part(0, 10, request.history, ground).energy_shift.before, 0.1);
+  EXPECT_EQ(request.Part(10, 10, request.history, ground).energy_shift.before, 0.7);
+}
+
 // Moves everything by `step` where it is told of beats, or of one of `styles`.
 class Hearing : public Silent {
  public:

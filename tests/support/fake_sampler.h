@@ -21,8 +21,8 @@ inline const std::array<std::string, kBodyParts> kTellingJoints = {
 
 /// A dance model without a network, for tests of what stands around one. Each degree of freedom
 /// walks towards the target (or towards its last history value, where there is none or it is
-/// masked), damped, shaken by the counter noise, and nods on the beats; of those that hear music its
-/// rows shake them, too.
+/// masked), damped, shaken by the counter noise, nods on the beats, and turns its last joint as the
+/// music's energy says; of those that hear music its rows shake them, too.
 /// Whose place nobody says goes to the middle of the stage. Deterministic. Like a real model it
 /// misses its target by a little. Controls it obeys to the letter: its root stands on the path, and
 /// the first number of a telling joint's rotation is the velocity factor asked of the joint's part.
@@ -80,6 +80,7 @@ class FakeSampling : public Sampling {
     for (const double beat : spec_.beats)
       next[Width() - 1] += 0.01 * std::max(0.0, 1 - std::abs(beat - frame));
     if (spec_.style == "wild") next[Width() - 2] += 0.01;
+    next[Width() - 3] += 0.01 * spec_.energy.now + 0.003 * spec_.energy.before;
     Obey(frame, &next);
 
     Pose pose;

@@ -1,0 +1,77 @@
+#include "model/audio/music_dynamics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace choreo {
+namespace {
+
+constexpr size_t kStep = 15;  // rows from one second that is looked at to the next: half of it
+
+enum Measure : size_t { kLoud, kBusy, kDeep, kMeasures };
+using Second = std::array<double, kMeasures>;
+
+// The last one first; each overlaps the next by half.
+std::vector<Second> SecondsOf(std::span<const RowSound> rows) {
+  std::vector<Second> seconds;
+  for (size_t end = rows.size(); end >= 2 * kStep; end -= kStep) {
+    double power = 0, bass = 0, onsets = 0;
+    for (const RowSound& row : rows.subspan(end - 2 * kStep, 2 * kStep)) {
+      power += row.power;
+      bass += row.bass;
+      onsets += row.onset;
+    }
+    constexpr double kRows = 2 * kStep;
+    seconds.push_back({Loudness(power / kRows), onsets / kRows, Loudness(bass / kRows)});
+  }
+  return seconds;
+}
+
+// A measure's mean and deviation over what sounded; `usual` is taken for `usual_weight` more.
+struct Spread {
+  double mean = 0, deviation = 0;
+
+  Spread(const std::vector<Second>& seconds, const std::vector<double>& sounding, size_t measure,
+         double usual, double usual_weight) {
+    double weight = usual_weight, sum = usual_weight * usual, squares = 0;
+    for (size_t i = 0; i < seconds.size(); ++i) {
+      weight += sounding[i];
+      sum += sounding[i] * seconds[i][measure];
+    }
+    if (weight <= 0) return;
+    mean = sum / weight;
+    for (size_t i = 0; i < seconds.size(); ++i)
+      squares += sounding[i] * std::pow(seconds[i][measure] - mean, 2);
+    deviation = std::sqrt(squares / weight);
+  }
+};
+
+}  // namespace
+
+double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& options) {
+  const std::vector<Second> seconds =
+      SecondsOf(rows.last(std::min<size_t>(rows.size(), kDynamicsMemory)));
+  if (seconds.empty()) return 0;
+  double loudest = seconds.front()[kLoud];
+  for (const Second& second : seconds) loudest = std::max(loudest, second[kLoud]);
+  const double floor = std::max(options.silence, loudest - options.far_below);
+  std::vector<double> sounding;
+  for (const Second& second : seconds)
+    sounding.push_back(std::clamp((second[kLoud] - floor) / options.fade, 0.0, 1.0));
+
+  constexpr double kSecondsAStep = 0.5;
+  const auto above = [&](Measure measure, double least, double usual, double usual_seconds) {
+    const Spread of(seconds, sounding, measure, usual, usual_seconds / kSecondsAStep);
+    const double far = std::max(options.range * of.deviation, least);
+    return std::clamp((seconds.front()[measure] - of.mean) / far, -1.0, 1.0);
+  };
+  const double energy =
+      options.loud * above(kLoud, options.least_loud, 0, 0) +
+      options.busy * above(kBusy, options.least_busy, options.usual_onsets, options.usual_seconds) +
+      options.deep * above(kDeep, options.least_deep, 0, 0);
+  return std::lerp(options.silent, energy, sounding.front());
+}
+
+}  // namespace choreo

@@ -1,0 +1,111 @@
+#include "model/audio/music_dynamics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/audio/feature_stream.h"
+#include "model/audio/made_song.h"
+#include "tests/audio/signals.h"
+
+namespace choreo::music_dynamics_test {
+
+constexpr int kRate = kModelSampleRate;
+
+std::vector<RowSound> RowsOf(std::span<const float> wave, size_t chunk) {
+  FeatureStream stream(kRate, 1);
+  for (size_t at = 0; at < wave.size(); at += chunk)
+    stream.Push(wave.subspan(at, std::min(chunk, wave.size() - at)));
+  std::vector<RowSound> rows;
+  for (int64_t row = 0; row < stream.final_rows(); ++row) rows.push_back(stream.Sound(row));
+  return rows;
+}
+std::vector<RowSound> RowsOf(std::span<const float> wave) { return RowsOf(wave, wave.size()); }
+
+/// At the end of each second from the third on.
+std::vector<double> EnergiesOf(const std::vector<RowSound>& rows) {
+  std::vector<double> energies;
+  for (size_t row = 90; row <= rows.size(); row += 30)
+    energies.push_back(HearEnergy(std::span(rows).first(row)));
+  return energies;
+}
+
+double Mean(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value / static_cast<double>(values.size());
+  return sum;
+}
+
+std::vector<float> Joined(std::initializer_list<std::vector<float>> parts) {
+  std::vector<float> song;
+  for (const auto& part : parts) song.insert(song.end(), part.begin(), part.end());
+  return song;
+}
+
+std::vector<float> Drums(double seconds) { return MakeSong({.seed = 7, .seconds = seconds}).mono; }
+std::vector<float> Pad(double seconds) {
+  return MakeSong({.seed = 7, .seconds = seconds, .only_pad = true}).mono;
+}
+
+// BS.1770: a sine of 997 Hz and full scale in one channel has -3.01 LUFS.
+TEST(RowSoundTest, ASineIsAsLoudAsTheStandardSays) {
+  for (const double amplitude : {1.0, 0.1}) {
+    const auto rows = RowsOf(Sine(997, kRate, kRate, amplitude));
+    EXPECT_NEAR(Loudness(rows[15].power), -3.01 + 20 * std::log10(amplitude), 0.05);
+  }
+  // What is low is less loud, and bass; what is high is louder, by 4 dB, and none.
+  const RowSound low = RowsOf(Sine(60, kRate, kRate))[15];
+  const RowSound high = RowsOf(Sine(4000, kRate, kRate))[15];
+  EXPECT_NEAR(low.bass, 0.5, 0.05);
+  EXPECT_LT(Loudness(low.power), -4.5);
+  EXPECT_LT(high.bass, 1e-6);
+  EXPECT_NEAR(Loudness(high.power), -3.01 + 3.3, 0.5);
+}
+
+TEST(MusicDynamicsTest, ADropIsMoreThanThePadBeforeItAndSilenceIsTheLeast) {
+  const auto energies =
+      EnergiesOf(RowsOf(Joined({Pad(20), Drums(20), std::vector<float>(10 * kRate)})));
+  const std::span all(energies);
+  const double pad = Mean(all.subspan(8, 8)), drop = Mean(all.subspan(19, 6));
+  EXPECT_LT(pad, -0.1);
+  EXPECT_GT(drop, pad + 0.3);
+  EXPECT_NEAR(all.back(), MusicDynamicsOptions().silent, 0.01);
+  EXPECT_NEAR(HearEnergy(std::vector<RowSound>(300)), MusicDynamicsOptions().silent, 1e-12);
+}
+
+TEST(MusicDynamicsTest, SteadyMusicHoversAroundTheMiddleOfItsOwnHoweverLoudItIs) {
+  std::vector<float> song = Drums(60);
+  const std::vector<double> energies = EnergiesOf(RowsOf(song));
+  EXPECT_NEAR(Mean(energies), 0, 0.2);
+  for (float& sample : song) sample *= 0.25F;
+  const std::vector<double> softer = EnergiesOf(RowsOf(song));
+  for (size_t i = 0; i < energies.size(); ++i) EXPECT_NEAR(softer[i], energies[i], 0.05) << i;
+}
+
+TEST(MusicDynamicsTest, NothingIsKnownBeforeTheFirstSecond) {
+  EXPECT_EQ(HearEnergy({}), 0);
+  const auto rows = RowsOf(Drums(2));
+  EXPECT_EQ(HearEnergy(std::span(rows).first(29)), 0);
+  EXPECT_NE(HearEnergy(std::span(rows).first(60)), 0);
+}
+
+TEST(MusicDynamicsTest, IsTheSameHoweverSamplesAreCutAndWhereverTheyBegin) {
+  const std::vector<float> song = Joined({Pad(8), Drums(40)});
+  const auto rows = RowsOf(song);
+  const double expected = HearEnergy(rows);
+  for (const size_t chunk : {size_t{7}, size_t{735}, size_t{50'000}})
+    EXPECT_EQ(HearEnergy(RowsOf(song, chunk)), expected) << chunk;
+  constexpr int64_t kRow = 1200;
+  const int64_t first =
+      FeatureStream::FirstSampleFor(kRow - kDynamicsMemory - RowOnset::kMemory, kRate);
+  ASSERT_GT(first, 0);
+  FeatureStream later(kRate, 1, first);
+  later.Push(std::span(song).subspan(static_cast<size_t>(first)));
+  std::vector<RowSound> part;
+  for (int64_t row = kRow - kDynamicsMemory; row < kRow; ++row) part.push_back(later.Sound(row));
+  EXPECT_EQ(HearEnergy(part), HearEnergy(std::span(rows).first(kRow)));
+}
+
+}  // namespace choreo::music_dynamics_test
