@@ -7,11 +7,13 @@
 #include "client/cli/control_options.h"
 #include "client/cli/json_fields.h"
 #include "client/cli/motion_input.h"
+#include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/core/error.h"
 #include "model/draw/plot.h"
 #include "model/formats/motion_file.h"
+#include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
 
@@ -23,6 +25,7 @@ constexpr double kSmoothing_s = 0.5;  // over which speeds are means
 
 struct PlotOptions {
   std::string of;
+  std::string song;
   std::vector<std::string> motions, labels, paths;
   std::vector<double> speeds;
   Plot plot;
@@ -97,6 +100,47 @@ PlotSeries AskedOf(const std::string& path, double fps, bool height) {
   return line;
 }
 
+// Dashed from bottom to top at each second.
+PlotSeries MarksAt(const std::vector<double>& seconds, double top) {
+  PlotSeries marks{.label = {}, .x = {}, .y = {}, .asked = true};
+  for (const double second : seconds) {
+    for (const double height : {0.0, top / 3, 2 * top / 3, top, std::nan("")}) {
+      marks.x.push_back(second);
+      marks.y.push_back(height);
+    }
+  }
+  return marks;
+}
+
+// The song's beats, the curve of the mean joint speed, and its maxima, the kinematic beats (paper
+// F, Figure 4).
+std::vector<PlotSeries> BeatsOf(const SkeletonMotion& dance, const std::string& song) {
+  const auto& [skeleton, motion] = dance;
+  std::vector<float> speeds;
+  Eigen::Matrix3Xd before;
+  for (const Pose& pose : motion.frames) {
+    Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+    if (before.cols() > 0) {
+      const double step = (now - before).colwise().norm().mean();
+      speeds.push_back(static_cast<float>(motion.fps * step));
+    }
+    before = std::move(now);
+  }
+  PlotSeries line{.label = "mean joint speed", .x = {}, .y = SmoothSpeeds(speeds, motion.fps)};
+  for (size_t i = 0; i < speeds.size(); ++i)
+    line.x.push_back(static_cast<double>(i + 1) / motion.fps);
+  const double top = line.y.empty() ? 1 : *std::ranges::max_element(line.y);
+  const double seconds = static_cast<double>(speeds.size()) / motion.fps;
+  std::vector<double> kinematic;
+  for (const int64_t frame : KinematicBeats(speeds, motion.fps))
+    kinematic.push_back(static_cast<double>(frame) / motion.fps);
+  std::vector<PlotSeries> series = {MarksAt(BeatsBefore(ReadMusic(song, seconds), seconds), top),
+                                    std::move(line), MarksAt(kinematic, top)};
+  series.front().label = "beats of the song";
+  series.back().label = "kinematic beats, its maxima";
+  return series;
+}
+
 PlotSeries LevelOf(double speed, const PlotSeries& danced) {
   PlotSeries line{.label = "asked", .x = {}, .y = {}, .asked = true};
   if (!danced.x.empty()) line.x = {danced.x.front(), danced.x.back()};
@@ -115,11 +159,25 @@ void Run(PlotOptions& options) {
   std::vector<NamedFile> inputs;
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
   for (const std::string& path : options.paths) inputs.push_back({"--path", path});
-  RequireOutputs({{"--out", options.out}}, inputs);
+  if (!options.song.empty()) inputs.push_back({"--song", options.song});
   const std::optional<BodyPart> part = FindBodyPart(options.of);
+  const bool beats = options.of == "beats";
   const bool height = options.of == "height";
-  if (part && !options.paths.empty())
-    throw InvalidArgument("--path", "says nothing of the speed of a " + options.of);
+  RequireOutputs({{"--out", options.out}}, inputs);
+  if (beats != !options.song.empty()) {
+    throw InvalidArgument("--song", beats ? "beats want the song that was danced to"
+                                          : "goes with beats, not with " + options.of);
+  }
+  if (beats && options.motions.size() > 1) {
+    throw InvalidArgument("motions", std::to_string(options.motions.size()) +
+                                         ", but beats are plotted of one");
+  }
+  if (beats && !options.labels.empty())
+    throw InvalidArgument("--label", "lines of beats have names of their own");
+  if ((part || beats) && !options.paths.empty()) {
+    throw InvalidArgument("--path",
+                          "says nothing of " + (beats ? "beats" : "the speed of a " + options.of));
+  }
   if (!part && !options.speeds.empty())
     throw InvalidArgument("--asked", "goes with a part of the body, not with " + options.of);
   const size_t motions = options.motions.size(),
@@ -128,6 +186,14 @@ void Run(PlotOptions& options) {
   RequireOneEach(part ? "--asked" : "--path", asked, motions);
 
   Plot& plot = options.plot;
+  if (beats) {
+    plot.x_label = "s";
+    plot.y_label = "m/s";
+    plot.from_zero = true;
+    plot.series = BeatsOf(ReadMotionNoting(options.motions.front()), options.song);
+    DrawPlot(plot, options.out);
+    return;
+  }
   plot.map = !part && !height;
   plot.x_label = plot.map ? "towards the audience, m" : "s";
   plot.y_label = plot.map ? "to the dancer's left, m"
@@ -157,14 +223,16 @@ void Run(PlotOptions& options) {
 void AddPlotCommand(CLI::App& program) {
   auto options = std::make_shared<PlotOptions>();
   CLI::App* command = program.add_subcommand(
-      "plot", "Compare motions in a line chart: ways over the floor, heights, speeds of parts.");
+      "plot",
+      "Compare motions in a line chart: ways over the floor, heights, speeds of parts; or one "
+      "with the beats of its song.");
   command
       ->add_option("of", options->of,
-                   "path (from above), height (of the root), or the speed of trunk, left_arm, "
-                   "right_arm, left_leg, right_leg.")
+                   "path (from above), height (of the root), the speed of trunk, left_arm, "
+                   "right_arm, left_leg, right_leg, or beats (of the body and of --song).")
       ->required()
       ->check(CLI::IsMember(
-          {"path", "height", "trunk", "left_arm", "right_arm", "left_leg", "right_leg"}));
+          {"path", "height", "trunk", "left_arm", "right_arm", "left_leg", "right_leg", "beats"}));
   command->add_option("motions", options->motions, MotionFileExtensions() + " files.")
       ->required()
       ->check(CLI::ExistingFile);
@@ -176,6 +244,8 @@ void AddPlotCommand(CLI::App& program) {
   AddRepeated(*command, "--asked", options->speeds,
               "Speed that was asked for, cm a frame: one for all motions, or one each.")
       ->check(NumberFrom(0, 1000));
+  command->add_option("--song", options->song, "Of beats: the song that was danced to.")
+      ->check(CLI::ExistingFile);
   command->add_option("--title", options->plot.title, "Heading.");
   command->add_option("--width", options->plot.width, "Pixels.")
       ->check(WholeNumberFrom(kLeastPlotPixels, kMostPlotPixels))

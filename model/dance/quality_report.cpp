@@ -7,30 +7,16 @@
 
 #include "model/audio/beats.h"
 #include "model/core/error.h"
-#include "model/core/gaussian_mean.h"
 #include "model/core/quantile.h"
+#include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
 namespace {
 
-constexpr double kToeHeight = 0.05;          // metres
-constexpr double kSkateSpeed = 0.2;          // metres a second
-constexpr double kBeatDeviation = 1.0 / 12;  // seconds, of the Gaussian over speeds
+constexpr double kToeHeight = 0.05;  // metres
+constexpr double kSkateSpeed = 0.2;  // metres a second
 constexpr int64_t kFramesAroundKey = 2;
-
-// `curve` under a Gaussian of that standard deviation, in samples.
-std::vector<double> Smooth(std::span<const float> curve, double deviation) {
-  const auto reach = static_cast<int64_t>(std::ceil(4 * deviation));
-  const auto last = static_cast<int64_t>(curve.size()) - 1;
-  std::vector<double> smooth(curve.size());
-  for (int64_t i = 0; i <= last; ++i) {
-    smooth[static_cast<size_t>(i)] =
-        GaussianMean(std::max<int64_t>(0, i - reach), std::min(last, i + reach), i, deviation, 0.0,
-                     [&](int64_t k) { return curve[static_cast<size_t>(k)]; });
-  }
-  return smooth;
-}
 
 }  // namespace
 
@@ -135,19 +121,6 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   });
   report.beat_hit_rate = static_cast<double>(hits) / static_cast<double>(kinematic.size());
   return report;
-}
-
-std::vector<int64_t> KinematicBeats(std::span<const float> curve, double fps) {
-  const std::vector<double> speed = Smooth(curve, kBeatDeviation * fps);
-  std::vector<int64_t> beats;
-  size_t start = 0;  // of the plateau that position i belongs to
-  for (size_t i = 1; i < speed.size(); ++i) {
-    if (speed[i] == speed[i - 1]) continue;
-    const bool rose = start > 0 && speed[start - 1] < speed[start];
-    if (rose && speed[i] < speed[start]) beats.push_back(static_cast<int64_t>(start) + 1);
-    start = i;
-  }
-  return beats;
 }
 
 QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion) {

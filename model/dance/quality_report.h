@@ -91,12 +91,6 @@ class QualityMeter {
   int64_t speed_frames_ = 0;
 };
 
-/// Frames of the kinematic beats of a curve of mean joint speeds: the local maxima (a plateau
-/// counts once, at its start) of the curve smoothed by a Gaussian of 1/12 s, as the field's
-/// evaluation of AIST++ has it (Siyao et al. 2022: 5 frames at 60 fps): shaking is not dancing on
-/// beats. `speed[i]` belongs to frame i + 1; `fps` > 0.
-std::vector<int64_t> KinematicBeats(std::span<const float> speed, double fps);
-
 /// Shorthand for whole motions (evaluation). Contacts, likelihood and beats are not judged.
 QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion);
 

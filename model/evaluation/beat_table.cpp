@@ -5,8 +5,8 @@
 #include <map>
 
 #include "model/audio/beats.h"
-#include "model/dance/quality_report.h"
 #include "model/metrics/song_beats.h"
+#include "model/motion/kinematic_beats.h"
 
 namespace choreo {
 

@@ -5,6 +5,7 @@
 #include "model/dance/quality_report.h"
 #include "model/evaluation/beat_table.h"
 #include "model/metrics/contrast.h"
+#include "model/motion/kinematic_beats.h"
 
 namespace choreo {
 

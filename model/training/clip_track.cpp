@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "model/dance/quality_report.h"
+#include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/resample.h"
 #include "model/motion/velocity_factors.h"

@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"
+#include "tests/client/test_music.h"
 #include "tests/draw/decoded_png.h"
+#include "tests/support/music_files.h"
 
 namespace choreo::plot_command_test {
 
@@ -65,6 +68,26 @@ TEST_F(PlotCommandTest, DrawsWhatWasAskedBesideThem) {
   EXPECT_LT(ink("trunk " + both + " --asked 0.5 --asked 0.6"), ink("trunk " + both) + 100);
 }
 
+// Paper F's Figure 4: the speed, its maxima in its colour, the song's beats in ink.
+TEST_F(PlotCommandTest, DrawsBeatsOfTheBodyAndOfTheSong) {
+  Motion motion;
+  for (int frame = 0; frame < 180; ++frame) {
+    Pose pose = RestPose(Skeleton::Smpl24());
+    pose.root_position.z() = 0.2 * std::sin(frame * 0.21);
+    motion.frames.push_back(pose);
+  }
+  WriteMotion(folder_ / "sway.npz", Skeleton::Smpl24(), motion);
+  WriteClicks(folder_ / "song.wav", 8);
+  const Outcome outcome = Plot("beats " + At("sway.npz") + " --song " + At("song.wav"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const int line = Drawn(kFirstLine), ink = Drawn(kInk);
+  EXPECT_GT(line, 2000) << "the curve and its maxima";
+  WriteWav(folder_ / "song.wav", std::vector<float>(8 * 22050));
+  ASSERT_EQ(Plot("beats " + At("sway.npz") + " --song " + At("song.wav")).code, 0);
+  EXPECT_LT(Drawn(kInk), ink - 500) << "silence has no beats";
+  EXPECT_EQ(Drawn(kFirstLine), line);
+}
+
 TEST_F(PlotCommandTest, SaysWhatDoesNotFit) {
   const std::string both = At("slow.npz") + " " + At("fast.npz");
   const auto refused = [&](const std::string& arguments, const std::string& message) {
@@ -76,6 +99,10 @@ TEST_F(PlotCommandTest, SaysWhatDoesNotFit) {
   refused("path " + both + " --label one", "--label: 1 of them for 2 motions");
   refused("trunk " + both + " --path " + At("path.json"), "--path: says nothing of the speed");
   refused("path " + both + " --asked 1", "--asked: goes with a part of the body, not with path");
+  refused("beats " + At("slow.npz"), "--song: beats want the song");
+  refused("path " + At("slow.npz") + " --song " + At("path.json"), "--song: goes with beats");
+  refused("beats " + both + " --song " + At("path.json"),
+          "motions: 2, but beats are plotted of one");
   refused("height " + At("slow.npz") + " --path " + At("path.json"), "has no heights");
   EXPECT_EQ(Plot("elbow " + both).code, 2);
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/dance/quality_report.h"
+#include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace choreo {
+
+/// A curve of mean joint speeds (paper F, 4.5.1) under a Gaussian of 1/12 s, as the field's
+/// evaluation of AIST++ has it (Siyao et al. 2022: 5 frames at 60 fps): shaking is not dancing on
+/// beats. `fps` > 0.
+std::vector<double> SmoothSpeeds(std::span<const float> speed, double fps);
+
+/// Frames of the kinematic beats: the local maxima of that smooth curve (a plateau counts once, at
+/// its start). `speed[i]` belongs to frame i + 1.
+std::vector<int64_t> KinematicBeats(std::span<const float> speed, double fps);
+
+}  // namespace choreo
