@@ -79,7 +79,8 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
                                         .features = Row(features, row)};
     }
     tile.Run(rows);
-    for (size_t row = 0; row < kRows; ++row) log_likelihood.data[row] = rows[row].log_likelihood;
+    for (size_t row = 0; row < kRows; ++row)
+      log_likelihood.data[row] = rows[row].log_likelihood.value();
   }
   WriteSafetensors(out, probe);
 }

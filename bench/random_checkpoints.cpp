@@ -8,6 +8,7 @@
 #include "model/controllers/checkpoint.h"
 #include "model/flow/checkpoint.h"
 #include "model/flow/continuous_flow.h"
+#include "model/flow/inbetweener.h"
 
 namespace choreo {
 namespace {
@@ -39,6 +40,16 @@ void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& 
                          torch::full({width}, 0.01));
   }
   SaveCheckpoint(path, model, kCard);
+}
+
+void WriteRandomInbetweener(const std::filesystem::path& path, const FlowConfig& config,
+                            const Skeleton& skeleton, uint64_t seed) {
+  torch::manual_seed(seed);
+  Inbetweener model(config, skeleton);
+  FillZeros(model.get());
+  const int64_t width = model->feature_width();
+  model->SetNormalisation(torch::zeros({width}), torch::full({width}, 0.1));
+  SaveInbetweener(path, model, kCard);
 }
 
 void WriteRandomContinuousFlow(const std::filesystem::path& path,

@@ -14,6 +14,8 @@ namespace choreo {
 
 void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,
                            const Skeleton& skeleton, uint64_t seed);
+void WriteRandomInbetweener(const std::filesystem::path& path, const FlowConfig& config,
+                            const Skeleton& skeleton, uint64_t seed);
 void WriteRandomContinuousFlow(const std::filesystem::path& path,
                                const ContinuousFlowConfig& config, const Skeleton& skeleton,
                                uint64_t seed);

@@ -141,7 +141,7 @@ class FlowSampling : public Sampling {
     Contacts& contacts = plan_.contacts.emplace_back();
     for (size_t foot = 0; foot < contacts.size(); ++foot)
       contacts[foot] = std::clamp(drawn.contacts[foot], 0.0F, 1.0F);
-    plan_.log_likelihoods.push_back(row_.log_likelihood);
+    if (row_.log_likelihood) plan_.log_likelihoods.push_back(*row_.log_likelihood);
     plan_.poses.push_back(drawn.pose);
     steered_ = arrival_ ? arrival_->Apply(drawn.pose) : drawn.pose;
     return plan_.poses.size() < frames_;

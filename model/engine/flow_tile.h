@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "model/core/random.h"
@@ -36,7 +37,8 @@ struct FlowRow {
   bool has_audio = false;        ///< false: `audio` is ignored
   FrameNoise noise;
   std::span<float> features;  ///< [width], written: physical units
-  float log_likelihood = 0;   ///< written: nats, standardised space
+  /// Written where there is an exact one: nats, standardised space.
+  std::optional<float> log_likelihood = {};
 };
 
 /// The flow on one device, with recurrent state and condition of as many transitions as it has

@@ -24,9 +24,11 @@
 #include "model/engine/packed/flow.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/torch/controllers_sampler.h"
+#include "model/engine/torch/inbetweener_tile.h"
 #include "model/engine/torch/tile.h"
 #include "model/flow/checkpoint.h"
 #include "model/flow/continuous_flow.h"
+#include "model/flow/inbetweener.h"
 
 namespace choreo {
 namespace {
@@ -207,6 +209,20 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
   };
 }
 
+// As small, and run likewise.
+Factory LoadInbetweener(const Safetensors& content, const std::filesystem::path& path) {
+  const InbetweenerCheckpoint checkpoint = ParseInbetweener(content, path.string());
+  ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
+  info.audio_features = 0;  // it hears no music
+  info.hears_music = false;
+  info.default_temperature = 0;
+  info.deterministic = true;
+  return [info, model = checkpoint.model] {
+    return std::make_unique<AutoregressiveFlowSampler>(
+        info, model->config(), "cpu", [model] { return std::make_unique<InbetweenerTile>(model, 1); });
+  };
+}
+
 constexpr uintmax_t kMostBytes = uintmax_t{1} << 30;  // of a checkpoint
 
 void CheckName(const std::string& name, const std::filesystem::path& path) {
@@ -232,6 +248,7 @@ Factory Load(const std::filesystem::path& path, const Device& device, EngineKind
   }
   const Safetensors content = ReadSafetensors(path);
   if (HoldsControllers(content)) return LoadControllers(content, path);
+  if (HoldsInbetweener(content)) return LoadInbetweener(content, path);
   if (HoldsContinuousFlow(content))
     return LoadContinuousFlow(content, path, device, kind, kernel_name);
   return LoadFlow(content, path, device, kind, kernel_name);
@@ -269,7 +286,8 @@ std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& 
 }
 
 Heeded HeededBy(const Sampler& sampler) {
-  return {.kind = dynamic_cast<const ControllersSampler*>(&sampler) == nullptr,
+  // Who draws nothing is no flow.
+  return {.kind = !sampler.model().deterministic,
           .kernels = sampler.model().fingerprint.find(kPackedPrefix) != std::string::npos};
 }
 

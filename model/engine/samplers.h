@@ -41,7 +41,7 @@ std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& 
                                                    const std::string& kernels = "");
 /// Which of the two a sampler heeds that was made with them; the others change nothing of it.
 struct Heeded {
-  bool kind = false;     ///< flows do; paper C's network LibTorch runs
+  bool kind = false;     ///< flows do; LibTorch runs paper C's network and the baseline
   bool kernels = false;  ///< packed flows do
 };
 Heeded HeededBy(const Sampler& sampler);

@@ -215,10 +215,10 @@ void AddEvalCommand(CLI::App& app) {
       ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
   command->add_option("--name", arguments->contest.name, "What the rows of --model are called");
   command
-      ->add_option(
-          "--engine", arguments->contest.engine,
-          EngineKindNames() +
-              "; packed is float32 on any CPU; paper C's model is run by torch all the same")
+      ->add_option("--engine", arguments->contest.engine,
+                   EngineKindNames() +
+                       "; packed is float32 on any CPU; networks that draw nothing are run by "
+                       "torch all the same")
       ->check(CLI::IsMember(
           std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
   command

@@ -26,7 +26,14 @@ FlowConfig FlowConfig::Preset(const std::string& name) {
     config.history_noise = 0.1;
     return config;
   }
-  throw InvalidArgument("preset", "'" + name + "' is none of paper, paper-f, ablation");
+  if (name == kInbetweenerPreset) {
+    config.hidden = 256;
+    config.hears_music = false;
+    config.temperature = 0;
+    return config;
+  }
+  throw InvalidArgument(
+      "preset", "'" + name + "' is none of paper, paper-f, ablation, " + kInbetweenerPreset);
 }
 
 }  // namespace choreo

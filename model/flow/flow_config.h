@@ -17,6 +17,8 @@ inline constexpr double kFeatureClamp = 6.0;
 /// Sampled frames beyond this many standard deviations bend softly towards one more: what they feed
 /// back can't run away, and a roll-out that tries to still has a gradient.
 inline constexpr double kSampleBound = 3.0;
+/// The preset of the baseline without a flow (inbetweener.h).
+inline constexpr const char* kInbetweenerPreset = "harvey";
 
 /// Shape and training-time switches of the flow model (paper F, Section 3.2). Stored in every
 /// checkpoint.
@@ -51,8 +53,8 @@ struct FlowConfig {
   int HeardWidth() const { return (history_frames + 1) * audio_features; }
 
   /// `paper` as printed, 99 M weights | `paper-f`, its twentieth: one shared encoding of the
-  /// condition, narrower LSTMs | `ablation`, smaller still. Throws Error(kInvalidArgument) for
-  /// another name.
+  /// condition, narrower LSTMs | `ablation`, smaller still | `harvey`. Throws
+  /// Error(kInvalidArgument) for another name.
   static FlowConfig Preset(const std::string& name);
 };
 

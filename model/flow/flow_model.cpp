@@ -7,9 +7,7 @@
 
 #include "model/core/error.h"
 #include "model/flow/key_condition.h"
-#include "model/flow/torch_kinematics.h"
 #include "model/motion/pose_codec.h"
-#include "model/motion/rotation.h"
 
 namespace choreo {
 
@@ -71,28 +69,7 @@ int FlowModelImpl::static_width() const {
 }
 
 Tensor FlowModelImpl::Begin(const TransitionTensors& transition) {
-  const auto here = [](const Tensor& tensor) {
-    return tensor.detach().to(torch::kCPU, torch::kFloat64).contiguous();
-  };
-  const Tensor places = here(transition.target_position), turns = here(transition.target_rotation),
-               masks = here(transition.target_mask);
-  const int joints = skeleton_.joints();
-  const Tensor conditions = torch::empty({places.size(0), transition.frames, key_width()});
-  for (int64_t row = 0; row < places.size(0); ++row) {
-    const double* turn = turns.data_ptr<double>() + row * 9 * joints;
-    const double* asked = masks.data_ptr<double>() + row * (joints + 1);
-    Pose key{Eigen::Vector3d(places.data_ptr<double>() + row * 3), Eigen::Matrix3Xd(3, joints)};
-    PoseMask mask{.root_position = asked[joints] > 0, .joints = {}};
-    for (int j = 0; j < joints; ++j) {
-      using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-      key.rotations.col(j) = LogMap(Eigen::Map<const Matrix>(turn + 9L * j));
-      mask.joints.push_back(asked[j] > 0);
-    }
-    const int frames = static_cast<int>(transition.frames);
-    Eigen::Map<Eigen::MatrixXf>(conditions[row].data_ptr<float>(), key_width(), frames) =
-        KeyConditions(config_, joints, width_, frames, &key, mask);
-  }
-  return Encode(conditions.to(transition.target_position.device()));
+  return Encode(KeyConditionTensors(config_, skeleton_, transition));
 }
 
 Tensor FlowModelImpl::Encode(const Tensor& conditions) {
@@ -220,13 +197,6 @@ void FlowModelImpl::InitialiseActNorm(const Tensor& features, const Tensor& audi
   torch::NoGradGuard no_grad;
   const auto [x, condition] = Windows(features, audio, has_audio, static_condition);
   flow_->InitialiseActNorm(x, condition);
-}
-
-TrajectoryTensors FlowModelImpl::Decode(const Tensor& features) const {
-  const int64_t joints = skeleton_.joints();
-  return {features.narrow(-1, 0, 3),
-          ExpMapBatch(features.narrow(-1, 3, 3 * joints)
-                          .reshape({features.size(0), features.size(1), joints, 3}))};
 }
 
 Tensor FlowModelImpl::Rollout(const Tensor& history, const Tensor& audio, const Tensor& has_audio,

@@ -55,9 +55,6 @@ class FlowModelImpl : public torch::nn::Module {
   void InitialiseActNorm(const torch::Tensor& features, const torch::Tensor& audio,
                          const torch::Tensor& has_audio, const torch::Tensor& static_condition);
 
-  /// Poses of the N frames from their features, [batch, N, width] → canonical trajectory.
-  /// Differentiable.
-  TrajectoryTensors Decode(const torch::Tensor& features) const;
   /// Samples N frames on the model's own history, without arrival: [batch, N, width]. `history`
   /// [batch, tau, width], `audio` [batch, tau + N, audio_features],
   /// `noise` [batch, N, width]. Differentiable.

@@ -4,8 +4,11 @@
 
 #include <vector>
 
+#include "model/flow/key_condition.h"
 #include "model/flow/time_embedding.h"
 #include "model/flow/torch_kinematics.h"
+#include "model/motion/pose_codec.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 
@@ -26,6 +29,40 @@ TrajectoryTensors Interpolate(const TransitionTensors& transition) {
   return {from_position.unsqueeze(1) + u.view({1, -1, 1}) * move.unsqueeze(1),
           torch::matmul(from_rotation.unsqueeze(1),
                         ExpMapBatch(u.view({1, -1, 1, 1}) * turn.unsqueeze(1)))};
+}
+
+TrajectoryTensors DecodePoses(const Skeleton& skeleton, const Tensor& features) {
+  const int64_t joints = skeleton.joints();
+  return {features.narrow(-1, PoseCodec::position_at(), 3),
+          ExpMapBatch(features.narrow(-1, PoseCodec::rotations_at(), 3 * joints)
+                          .reshape({features.size(0), features.size(1), joints, 3}))};
+}
+
+Tensor KeyConditionTensors(const FlowConfig& config, const Skeleton& skeleton,
+                           const TransitionTensors& transition) {
+  const auto here = [](const Tensor& tensor) {
+    return tensor.detach().to(torch::kCPU, torch::kFloat64).contiguous();
+  };
+  const Tensor places = here(transition.target_position), turns = here(transition.target_rotation),
+               masks = here(transition.target_mask);
+  const int joints = skeleton.joints(), features = PoseCodec(skeleton).width();
+  const int width = KeyConditionWidth(config, joints, features);
+  const Tensor conditions = torch::empty({places.size(0), transition.frames, width});
+  for (int64_t row = 0; row < places.size(0); ++row) {
+    const double* turn = turns.data_ptr<double>() + row * 9 * joints;
+    const double* asked = masks.data_ptr<double>() + row * (joints + 1);
+    Pose key{Eigen::Vector3d(places.data_ptr<double>() + row * 3), Eigen::Matrix3Xd(3, joints)};
+    PoseMask mask{.root_position = asked[joints] > 0, .joints = {}};
+    for (int j = 0; j < joints; ++j) {
+      using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+      key.rotations.col(j) = LogMap(Eigen::Map<const Matrix>(turn + 9L * j));
+      mask.joints.push_back(asked[j] > 0);
+    }
+    const int frames = static_cast<int>(transition.frames);
+    Eigen::Map<Eigen::MatrixXf>(conditions[row].data_ptr<float>(), width, frames) =
+        KeyConditions(config, joints, features, frames, &key, mask);
+  }
+  return conditions.to(transition.target_position.device());
 }
 
 Tensor TimeEmbedding(const Tensor& counts, int64_t width) {

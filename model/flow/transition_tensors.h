@@ -2,6 +2,9 @@
 
 #include <torch/types.h>
 
+#include "model/flow/flow_config.h"
+#include "model/motion/skeleton.h"
+
 namespace choreo {
 
 /// A batch of transitions of equal length as a network sees them; canonical frame, metres, radians,
@@ -24,6 +27,15 @@ struct TrajectoryTensors {
 /// Interpolation from the last history pose to the key (lerp and slerp, the field's first
 /// baseline); what the key does not name stays as it is. Frame N-1 is the key.
 TrajectoryTensors Interpolate(const TransitionTensors& transition);
+
+/// Poses of features [batch, N, width], which may be a network's own (motion/pose_codec.h).
+/// Differentiable.
+TrajectoryTensors DecodePoses(const Skeleton& skeleton, const torch::Tensor& features);
+
+/// KeyConditions of each transition (key_condition.h), [batch, N, KeyConditionWidth], where the
+/// transition is.
+torch::Tensor KeyConditionTensors(const FlowConfig& config, const Skeleton& skeleton,
+                                  const TransitionTensors& transition);
 
 /// EmbedCountAt of each, all places: `counts` [...] → [..., width].
 torch::Tensor TimeEmbedding(const torch::Tensor& counts, int64_t width);

@@ -118,13 +118,7 @@ class FlowRun : public TrainingRun {
   void TrainStep() override {
     Random random = RandomOf(step());
     model_->train();
-    // Short transitions are common in use and cheap: half of the draws are quadratic towards the
-    // short end.
-    const double u = random.Uniform();
-    const double place = random.Uniform() < 0.5 ? u * u : u;
-    const MotionBatch batch =
-        Draw(&random, options().shortest +
-                          static_cast<int>(place * (options().longest - options().shortest + 1)));
+    const MotionBatch batch = Draw(&random, DrawnLength(options(), &random));
     Descend(
         LikelihoodLoss(model_, batch, model_->Begin(batch.transition), options().flow.dequantise));
     if (step() < options().flow.rollout_from) return;
@@ -159,8 +153,9 @@ class FlowRun : public TrainingRun {
       random.FillNormal(values);
       const torch::Tensor noise =
           torch::from_blob(values.data(), {truth.size(0), frames, truth.size(2)}).to(device_);
-      const TrajectoryTensors danced = model_->Decode(model_->Rollout(
-          truth.narrow(1, 0, history), batch.audio, batch.has_audio, condition, noise));
+      const TrajectoryTensors danced =
+          DecodePoses(model_->skeleton(), model_->Rollout(truth.narrow(1, 0, history), batch.audio,
+                                                          batch.has_audio, condition, noise));
       const std::string n = std::to_string(frames);
       figures.insert(figures.end(),
                      {{"flow_ratio_" + n, distance(danced, batch.truth) /
@@ -190,15 +185,8 @@ class FlowRun : public TrainingRun {
  private:
   MotionBatch Draw(Random* random, int frames) const {
     const int windows = WindowsOf(options().batch, frames);
-    const bool keys = model_->config().keys;
-    const MotionVariation variation{.mirror = true,
-                                    .drop_key = keys ? 0.1 : 1.0,
-                                    .drop_audio = 0.15,
-                                    .partial_key = keys ? 0.1 : 0.0,
-                                    .tempo = options().tempo,
-                                    .hold_history = 0.05};
-    return DrawMotion(clips_.train, windows, model_->config().history_frames, frames, variation,
-                      device_, random);
+    return DrawMotion(clips_.train, windows, model_->config().history_frames, frames,
+                      VariationOf(options(), model_->config().keys), device_, random);
   }
 
   const TrainingClips& clips_;

@@ -44,7 +44,7 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
       temperature * torch::randn({truth.size(0), frames, truth.size(2)}, truth.options());
   const Tensor sampled = model->Rollout(truth.narrow(1, 0, history), batch.audio, batch.has_audio,
                                         static_condition, noise);
-  const TrajectoryTensors poses = model->Decode(sampled);
+  const TrajectoryTensors poses = DecodePoses(model->skeleton(), sampled);
   LossTerms terms;
   if (weights.key > 0) {
     // Windows without a whole key have nothing to arrive at.

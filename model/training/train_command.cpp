@@ -14,15 +14,16 @@
 namespace choreo {
 namespace {
 
-constexpr std::string_view kPresets[] = {"default", "paper", "paper-f", "ablation",
-                                         ControllersConfig::kPreset};
-constexpr const char* kPresetNames = "default, paper, paper-f, ablation, controllers-paper";
+constexpr std::string_view kPresets[] = {
+    "default", "paper", "paper-f", "ablation", ControllersConfig::kPreset, kInbetweenerPreset};
+constexpr const char* kPresetNames = "default, paper, paper-f, ablation, controllers-paper, harvey";
 
 // Calls `visit(option, value, is_used, what)` of each option, --preset and --from aside, that a
 // run must keep; `is_used`: the preset's network has a use for it.
 void VisitFixed(auto& options, const auto& visit) {
   const bool controllers = options.IsControllers(), continuous = options.IsContinuousFlow();
-  const bool flow = !controllers && !continuous;
+  const bool inbetweener = options.IsInbetweener();
+  const bool flow = !controllers && !continuous && !inbetweener;
   visit("--steps", options.steps, true, "Steps of the run");
   visit("--batch", options.batch, true, "Windows a step");
   visit("--rate", options.rate, true, "Peak learning rate");
@@ -30,7 +31,8 @@ void VisitFixed(auto& options, const auto& visit) {
   visit("--longest", options.longest, !continuous, "Longest training transition, frames");
   visit("--clip", options.clip, true, "Norm that gradients are clipped to; 0: never");
   visit("--flow-steps", options.flow.flow_steps, flow, "Steps K of a flow; 0: the preset's");
-  visit("--hidden", options.flow.hidden, flow, "Width of a flow's LSTMs; 0: the preset's");
+  visit("--hidden", options.flow.hidden, flow || inbetweener,
+        "Width of the LSTMs of a flow or the baseline; 0: the preset's");
   visit("--condition-width", options.flow.condition_width, flow,
         "Width of the encoding that all couplings share, 0: none; -1: the preset's");
   visit("--no-innovations", options.flow.no_innovations, flow,
@@ -49,7 +51,7 @@ void VisitFixed(auto& options, const auto& visit) {
   visit("--keep-statistics", options.keep_statistics, continuous,
         "With --from: what that measured of its data stays, and what it does not know is measured");
   visit("--no-keys", options.flow.no_keys, flow, "Ablation: music alone");
-  visit("--no-key-loss", options.no_key_loss, !continuous, "Ablation: no key pose loss");
+  visit("--no-key-loss", options.no_key_loss, flow || controllers, "Ablation: no key pose loss");
   visit("--no-time-embedding", options.flow.no_time_embedding, flow, "Ablation: no time embedding");
   visit("--forward-embedding", options.flow.forward_embedding, flow,
         "Ablation: count frames from the start, not frames left");
@@ -142,7 +144,7 @@ void AddTrainCommand(CLI::App& app,
   command
       ->add_option("--preset", options->preset,
                    "default | paper | paper-f (the same, of a twentieth) | ablation (smaller "
-                   "still) | controllers-paper")
+                   "still) | controllers-paper | harvey (the baseline of both papers)")
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& name) {
@@ -169,7 +171,7 @@ void AddTrainCommand(CLI::App& app,
       ->required();
   command->option_defaults()->always_capture_default();
   command->add_option("--device", options->device,
-                      "auto | cpu | cuda:N; controllers train on the CPU");
+                      "auto | cpu | cuda:N; controllers and the baseline train on the CPU");
   command->add_option("--report-every", options->report_every, "Steps between reports");
   command->add_option("--stop-after", options->stop_after,
                       "Leave after this many steps of the run, to be resumed; 0: to the end");
@@ -191,13 +193,17 @@ void AddTrainCommand(CLI::App& app,
       throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
                                         " of the preset " + options->preset);
     });
-    const bool controllers = options->IsControllers();
-    if (controllers && options->device == "auto") options->device = "cpu";
+    const bool small = options->IsControllers() || options->IsInbetweener();
+    if (small && options->device == "auto") options->device = "cpu";
     options->device = read_device(options->device);
-    if (controllers) {
-      if (options->device != "cpu")
-        throw InvalidArgument("--device", options->device + ", but controllers train on the CPU");
+    if (small && options->device != "cpu") {
+      throw InvalidArgument("--device", options->device + ", but the preset " + options->preset +
+                                            " trains on the CPU");
+    }
+    if (options->IsControllers()) {
       TrainControllers(*options);
+    } else if (options->IsInbetweener()) {
+      TrainInbetweener(*options);
     } else if (options->IsContinuousFlow()) {
       TrainContinuousFlow(*options);
     } else {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/controllers/controllers_config.h"
+#include "model/flow/flow_config.h"
 
 namespace CLI {
 class App;
@@ -63,12 +64,13 @@ struct TrainOptions {
   double clip = 1;     ///< most that a step's gradient may measure; 0: it is never clipped
   double tempo = 0.5;  ///< share of the windows danced faster or slower
   uint64_t seed = 1;
-  int shortest = 5, longest = 100;  ///< N of the windows, frames; of both papers' networks
+  int shortest = 5, longest = 100;  ///< N of the windows, frames; of all but the continuous flow
   bool no_key_loss = false;         ///< of both, too
   FlowOptions flow;
   ControllersOptions controllers;
 
   bool IsControllers() const { return preset == ControllersConfig::kPreset; }
+  bool IsInbetweener() const { return preset == kInbetweenerPreset; }
   bool IsContinuousFlow() const { return preset == "default"; }
   /// What a stranger types to train the same: folders by their names alone.
   std::string Command() const;
@@ -83,6 +85,8 @@ struct TrainOptions {
 /// and checkpoint.safetensors with its card, at each report and at the end. Throws
 /// Error(kInvalidArgument) naming the option that can't be used.
 void TrainFlow(const TrainOptions& options);
+/// The same of the baseline of both papers, on the windows of TrainFlow and on the CPU.
+void TrainInbetweener(const TrainOptions& options);
 /// The same of paper C's network, on a curriculum of lengths.
 void TrainControllers(const TrainOptions& options);
 /// The same of the continuous flow. Its checkpoint has the moving average of the weights.

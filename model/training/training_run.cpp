@@ -32,6 +32,21 @@ int WindowsOf(int batch, int frames) {
   return std::max(8, batch * kUsualFrames / std::max(frames, kUsualFrames / 3));
 }
 
+int DrawnLength(const TrainOptions& options, Random* random) {
+  const double u = random->Uniform();
+  const double place = random->Uniform() < 0.5 ? u * u : u;
+  return options.shortest + static_cast<int>(place * (options.longest - options.shortest + 1));
+}
+
+MotionVariation VariationOf(const TrainOptions& options, bool keys) {
+  return {.mirror = true,
+          .drop_key = keys ? 0.1 : 1.0,
+          .drop_audio = 0.15,
+          .partial_key = keys ? 0.1 : 0.0,
+          .tempo = options.tempo,
+          .hold_history = 0.05};
+}
+
 TrainingRun::TrainingRun(const TrainOptions& options, const TrainingClips& clips)
     : options_(options), train_(clips.train), data_hash_(HashOfClips(clips.train)) {
   torch::manual_seed(options.seed);

@@ -16,6 +16,7 @@
 #include "model/training/clip_split.h"
 #include "model/training/curves.h"
 #include "model/training/losses.h"
+#include "model/training/motion_batch.h"
 #include "model/training/trainer.h"
 
 namespace choreo {
@@ -119,5 +120,10 @@ inline constexpr uint64_t kValidationSeed = 20240607;
 /// How many windows of so many frames make up a step: `batch` of 60 frames or as many frames of
 /// longer ones, at most three times as many short ones, at least 8.
 int WindowsOf(int batch, int frames);
+/// How many frames a step's windows have, from shortest to longest. Short transitions are common in
+/// use and cheap: half of the draws are quadratic towards the short end.
+int DrawnLength(const TrainOptions& options, Random* random);
+/// What is varied where paper F's flows learn, and who is compared with them.
+MotionVariation VariationOf(const TrainOptions& options, bool keys);
 
 }  // namespace choreo

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
@@ -215,6 +216,41 @@ TEST_F(TrainerTest, ARunIsResumedWithTheCheckpointThatItBeganWith) {
   TrainFlow(further);
   EXPECT_THAT(LoadCheckpoint(further.run / "checkpoint.safetensors").card,
               testing::HasSubstr(HashOf(base.run)));
+}
+
+TEST_F(TrainerTest, TheBaselineLearnsAndResumesAsIfUndisturbed) {
+  TrainOptions options = Options("baseline", 40);
+  options.preset = kInbetweenerPreset;
+  options.flow.hidden = 32;
+  options.rate = 0.01;
+  options.report_every = 1;
+  TrainInbetweener(options);
+  const auto checkpoint = [&] { return ReadSafetensors(options.run / "checkpoint.safetensors"); };
+  const std::string whole = checkpoint().metadata.at("hash");
+  EXPECT_THAT(checkpoint().metadata.at("config"), testing::HasSubstr("\"hidden\":32"));
+  std::ifstream file(options.run / "curves.csv");
+  std::string header, line;
+  std::getline(file, header);
+  const auto column = [&](const std::string& name) {
+    std::istringstream names(header), values(line);
+    std::string of, value;
+    while (std::getline(names, of, ',') && std::getline(values, value, ',') && of != name) {
+    }
+    return std::stod(value);
+  };
+  std::getline(file, line);
+  const double first = column("way_dm");
+  while (std::getline(file, line) && file.peek() != EOF) {
+  }
+  EXPECT_LT(column("way_dm"), 0.9 * first);
+
+  options.run = folder_.path() / "parts";
+  for (const int64_t stop : {3, 0}) {
+    options.stop_after = stop;
+    TrainInbetweener(options);
+    options.resume = true;
+  }
+  EXPECT_EQ(checkpoint().metadata.at("hash"), whole);
 }
 
 TEST_F(TrainerTest, ControllersResumeAsIfUndisturbed) {

@@ -277,7 +277,7 @@ void PackedTile::Couple(std::span<FlowRow> rows, int step) {
                                                  .width = flow.high(),
                                                  .delta_bias = kDeltaBias,
                                                  .delta_floor = kDeltaFloor});
-    rows[static_cast<size_t>(i)].log_likelihood += static_cast<float>(std::log(deltas));
+    *rows[static_cast<size_t>(i)].log_likelihood += static_cast<float>(std::log(deltas));
   }
   coupling.unmix.Run(z_, &mixed_, count);
   std::swap(z_, mixed_);
@@ -324,7 +324,7 @@ void PackedTile::Run(std::span<FlowRow> rows) {
   for (size_t i = 0; i < rows.size(); ++i) {
     float* x = z_.Row(static_cast<long>(i));
     if (flow.config.innovations) AddPrediction(rows[i].past, x);
-    rows[i].log_likelihood += BendSurprise({x, static_cast<size_t>(flow.width)});
+    *rows[i].log_likelihood += BendSurprise({x, static_cast<size_t>(flow.width)});
     flow.kernels.bend(x, flow.feature_mean.data(), flow.feature_std.data(), flow.width,
                       kSampleBound, rows[i].features.data());
   }
