@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Trains the papers' own networks and their ablations, and measures them.
+# Trains the papers' own networks, their ablations and their baseline, and measures them.
 #   scripts/train_papers.sh BIN_DIRECTORY RECORDINGS RUN [prepare | train [NAME...] | eval]
 # RECORDINGS holds dancedb/, tang61/ and splits.json (docs/training.md). RUN gets data/ and a folder for each network. All three things are
 # done where none is named. `train` alone makes paper-f and paper-c; NAME is any of
-#   paper-f f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
-#   paper-c c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
+#   paper-f f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
+#   paper-c c-full c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
+#   harvey, and c-harvey, which knows paper C's data alone
 # or `all` for every one. Killed, it goes on from where it was when it is started again; what is finished is not trained again.
-# $F_FIRST, $F_STEPS, $C_FIRST, $C_SECOND and $C_STEPS are the steps of each part, $F_ABLATION_STEPS and $C_ABLATION_STEPS those of the others'
-# last one, beside which `eval` wants f-full and c-full of as many. $DEVICE says where flows train: cpu, cuda:0, auto.
+# $F_STEPS, $C_STEPS and $HARVEY_STEPS are the steps of the networks, $F_ABLATION_STEPS and $C_ABLATION_STEPS those of all that are compared with
+# f-full and c-full, which are paper-f and paper-c of as few. $DEVICE says where flows train: cpu, cuda:0, auto.
 set -euo pipefail
 (($# >= 3)) || { echo "train_papers.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -37,12 +38,11 @@ json.dump({"dancedb": groups}, sys.stdout)
 PYTHON
 }
 
-# The papers train for some 40 hours on a GPU at 1e-4; so few steps want a higher rate, and networks learn in parts. Paper F's by likelihood
-# alone first (of a schedule of 4,500 steps the first 2,500), then with roll-outs, a step of which takes three times as long. Paper C's on
-# transitions of up to 22 frames first (of a curriculum of 20,000 steps the first 5,000), then of 20 to 70 (of 4,500 steps the first 1,500), then
-# the same until its rate has fallen; the real frames' share falls in each part.
-f_first=${F_FIRST:-2500} f_steps=${F_STEPS:-1000} f_batch=${F_BATCH:-16}
-c_first=${C_FIRST:-5000} c_second=${C_SECOND:-1500} c_steps=${C_STEPS:-800} c_batch=${C_BATCH:-32}
+# The papers train for some 40 hours on a GPU at 1e-4; so few steps want a higher rate. A step of paper F's with roll-outs takes three times as
+# long as one of likelihood alone, and samples are noise at first: the last third has them. Paper C's transitions grow from 5 to 70 frames.
+f_steps=${F_STEPS:-3500} f_batch=${F_BATCH:-16}
+c_steps=${C_STEPS:-7500} c_batch=${C_BATCH:-32}
+harvey_steps=${HARVEY_STEPS:-6000} harvey_batch=${HARVEY_BATCH:-32}
 
 train() {  # train NAME STEPS OPTION...
   local folder=$run/$1 name=$1 steps=$2
@@ -51,24 +51,19 @@ train() {  # train NAME STEPS OPTION...
     echo "$folder is finished"
     return
   fi
-  "$lab" train --name "$name" --run "$folder" --steps "$steps" --resume "$@"
+  "$lab" train --name "$name" --run "$folder" --steps "$steps" --rate 0.001 --resume "$@"
   touch "$folder/finished"
 }
+both=(--data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --shortest 10 --longest 90)
+dancedb=(--data "$run/data/dancedb" --splits "$run/random_splits.json")
 flow() {  # flow NAME STEPS OPTION...
-  local all=(--preset paper-f --data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --batch "$f_batch"
-    --rate 0.001 --shortest 10 --longest 90 --device "${DEVICE:-cpu}" "${@:3}")
-  train "$1-first" $((f_first * 9 / 5)) --stop-after "$f_first" --rollout-from "$f_first" "${all[@]}"
-  train "$1" "$2" --from "$run/$1-first/checkpoint.safetensors" "${all[@]}"
+  train "$1" "$2" --preset paper-f "${both[@]}" --batch "$f_batch" --rollout-from $(($2 * 2 / 3)) --device "${DEVICE:-cpu}" "${@:3}"
 }
 controllers() {  # controllers NAME STEPS OPTION...
-  local all=(--preset controllers-paper --data "$run/data/dancedb" --splits "$run/random_splits.json" --batch "$c_batch" --rate 0.001
-    --longest 70 "${@:3}")
-  # From 1 to a hundredth, as after 92,000 steps of the paper's 0.99995.
-  decay() { awk -v n="$1" 'BEGIN { printf "%.6f", exp(log(0.01) / n) }'; }
-  train "$1-first" $((4 * c_first)) --stop-after "$c_first" --truth-decay "$(decay $((4 * c_first)))" "${all[@]}"
-  train "$1-second" $((3 * c_second)) --stop-after "$c_second" --from "$run/$1-first/checkpoint.safetensors" --shortest 20 \
-    --truth-decay "$(decay $((3 * c_second)))" "${all[@]}"
-  train "$1" "$2" --from "$run/$1-second/checkpoint.safetensors" --shortest 20 --truth-decay "$(decay "$2")" "${all[@]}"
+  # The real frames' share falls from 1 to a hundredth, as after 92,000 steps of the paper's 0.99995.
+  local decay
+  decay=$(awk -v n="$2" 'BEGIN { printf "%.6f", exp(log(0.01) / n) }')
+  train "$1" "$2" --preset controllers-paper "${dancedb[@]}" --batch "$c_batch" --longest 70 --truth-decay "$decay" "${@:3}"
 }
 one() {
   local f=${F_ABLATION_STEPS:-$f_steps} c=${C_ABLATION_STEPS:-$c_steps}
@@ -89,38 +84,47 @@ one() {
     c-one-decoder) controllers "$1" "$c" --one-decoder ;;
     c-no-velocity-factors) controllers "$1" "$c" --no-velocity-factors ;;
     c-no-key-loss) controllers "$1" "$c" --no-key-loss ;;
+    harvey) train harvey "$harvey_steps" --preset harvey "${both[@]}" --batch "$harvey_batch" ;;
+    c-harvey) train c-harvey "$harvey_steps" --preset harvey "${dancedb[@]}" --shortest 10 --longest 90 --batch "$harvey_batch" ;;
     *) echo "train_papers.sh: there is no network '$1'; see the head of this file" >&2; exit 2 ;;
   esac
 }
 
 # Rows beside the judged network: the others that there are.
 others=()
-beside() {  # beside NAME FOLDER...
-  local folder
-  for folder in "${@:2}"; do
-    [[ $folder == "$1" || ! -f $run/$folder/finished ]] || others+=(--other "$folder=$run/$folder/checkpoint.safetensors")
+beside() {  # beside NAME...
+  local name
+  others=()
+  for name in "$@"; do
+    [[ ! -f $run/$name/finished ]] || others+=(--other "$name=$run/$name/checkpoint.safetensors")
   done
 }
-measure() {  # measure NAME JSON OPTION...
+measure() {  # measure NAME JSON OPTION...: nothing of one that is not trained
+  if [[ ! -f $run/$1/finished ]]; then
+    echo "train_papers.sh: $2 is not measured: $1 is not trained"
+    return
+  fi
   "$lab" eval --model "$run/$1/checkpoint.safetensors" --name "$1" --json "$run/$2.json" "${@:3}"
 }
 evaluate() {
-  local shipped=(--other "default=$root/model/checkpoints/default.safetensors")
-  others=()
-  beside paper-f f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
-  measure paper-f paper_f --paper --data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --split test \
-    --lengths 30 60 90 --windows 6 --best-of 10 --long-dances 14 --long-frames 600 --baseline real interpolation \
-    "${shipped[@]}" "${others[@]}"
-  others=()
-  beside paper-c c-full c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
-  local c=(--controls paper --data "$run/data/dancedb" --splits "$run/random_splits.json" --windows 4 --no-encoder
-    --baseline real interpolation "${others[@]}")
+  local shipped=(--other "default=$root/model/checkpoints/default.safetensors") baselines=(--baseline real interpolation)
+  local f=(--paper --data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --split test --lengths 30 60 90
+    --windows 6 --long-dances 14 --long-frames 600)
+  measure paper-f paper_f "${f[@]}" --best-of 10 "${baselines[@]}" "${shipped[@]}"
+  measure harvey harvey_f "${f[@]}" --best-of 1 --baseline interpolation  # it draws nothing
+  measure paper-f paper_f_calm "${f[@]}" --best-of 3 --long-dances 6 --temperature 0.6 --no-encoder --baseline interpolation
+  beside f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
+  measure f-full f_ablations "${f[@]}" --best-of 3 --long-dances 6 --baseline interpolation "${others[@]}"
+  local c=(--controls paper --splits "$run/random_splits.json" --data "$run/data/dancedb" --windows 4 --no-encoder "${baselines[@]}")
   # `default` learnt from the clips of the random fifth.
   measure paper-c paper_c_random "${c[@]}" --split test_random
-  measure paper-c paper_c_unseen "${c[@]}" --split test "${shipped[@]}"
+  beside harvey
+  measure paper-c paper_c_unseen "${c[@]}" --split test "${shipped[@]}" "${others[@]}"
+  beside c-harvey c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
+  measure c-full c_ablations "${c[@]}" --split test_random "${others[@]}"
 }
 
-all=(paper-f paper-c f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys c-full c-residual c-absolute c-relative
+all=(paper-f paper-c harvey c-harvey f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys c-full c-residual c-absolute c-relative
   c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss)
 names=("$@")
 ((${#names[@]})) || names=(paper-f paper-c)
