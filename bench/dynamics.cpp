@@ -17,7 +17,7 @@
 #include "model/audio/decode.h"
 #include "model/audio/made_song.h"
 #include "model/dance/dance_stream.h"
-#include "model/engine/engines.h"
+#include "model/engine/samplers.h"
 #include "model/metrics/joint_track.h"
 
 namespace choreo::bench {
@@ -61,17 +61,17 @@ class Listener : public DanceSink {
 };
 
 /// Mean joint speed of each step, m/s.
-std::vector<float> Dance(Scheduler& scheduler, const std::vector<float>& mono, uint64_t seed,
+std::vector<float> Dance(SampleQueue& queue, const std::vector<float>& mono, uint64_t seed,
                          double dynamics) {
   DanceConfig config;
   config.seed = seed;
   config.music_dynamics = dynamics;
   config.audio = DanceConfig::Audio{kModelSampleRate, 1, 0};
   const auto listener = std::make_shared<Listener>();
-  DanceStream stream(scheduler, config, listener);
+  DanceStream stream(queue, config, listener);
   stream.PushAudio(mono, 0);
   stream.HalfClose();
-  return MeanSpeeds(TrackJoints(scheduler.model().skeleton, listener->Wait()), kModelFps);
+  return MeanSpeeds(TrackJoints(queue.model().skeleton, listener->Wait()), kModelFps);
 }
 
 double Mean(std::span<const float> values) {
@@ -140,21 +140,21 @@ std::vector<float> MakePart(uint64_t seed, bool only_pad) {
       .mono;
 }
 
-void JudgeParts(Scheduler& scheduler, uint64_t first_seed, double dynamics) {
+void JudgeParts(SampleQueue& queue, uint64_t first_seed, double dynamics) {
   Parts apart, within;
   for (uint64_t i = 0; i < kSeeds; ++i) {
     const std::vector<float> drums = MakePart(first_seed + i, false);
     const std::vector<float> pad = MakePart(first_seed + i, true);
     const std::vector<float> silence(drums.size());
     const auto alone = [&](const std::vector<float>& mono) {
-      const std::vector<float> speeds = Dance(scheduler, mono, i, dynamics);
+      const std::vector<float> speeds = Dance(queue, mono, i, dynamics);
       return Mean(std::span(speeds).subspan(kSettles));
     };
     apart.Add({alone(drums), alone(pad), alone(silence)});
     std::vector<float> song;
     for (const auto* part : {&drums, &pad, &drums, &silence, &drums})
       song.insert(song.end(), part->begin(), part->end());
-    const std::vector<float> speeds = Dance(scheduler, song, i, dynamics);
+    const std::vector<float> speeds = Dance(queue, song, i, dynamics);
     constexpr size_t kPart = kPartSeconds * size_t{30};
     const auto part = [&](size_t at) {
       const size_t from = at * kPart + kSettles, to = std::min((at + 1) * kPart, speeds.size());
@@ -166,11 +166,11 @@ void JudgeParts(Scheduler& scheduler, uint64_t first_seed, double dynamics) {
   within.Print("  one song");
 }
 
-void JudgeSong(Scheduler& scheduler, const std::string& name, const std::vector<float>& mono,
+void JudgeSong(SampleQueue& queue, const std::string& name, const std::vector<float>& mono,
                double dynamics) {
   double speed = 0, correlation = 0;
   for (uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const std::vector<float> speeds = Dance(scheduler, mono, seed, dynamics);
+    const std::vector<float> speeds = Dance(queue, mono, seed, dynamics);
     speed += Mean(speeds) / kSeeds;
     correlation += CorrelationOf(mono, speeds) / kSeeds;
   }
@@ -196,20 +196,20 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   program.add_option("--made", first_seed, "First seed of the made songs")->capture_default_str();
   CLI11_PARSE(program, argc, argv);
-  std::vector<std::unique_ptr<StepEngine>> engines;
-  engines.push_back(MakeEngine(model, Device{}, 1));
-  Scheduler scheduler(std::move(engines), Scheduler::Options{});
+  std::vector<std::unique_ptr<Sampler>> samplers;
+  samplers.push_back(MakeSampler(model, Device{}));
+  SampleQueue queue(std::move(samplers), {});
   for (const double share : dynamics) {
     std::printf("--music-dynamics %.2f\n", share);
-    bench::JudgeParts(scheduler, first_seed, share);
+    bench::JudgeParts(queue, first_seed, share);
     for (uint64_t i = 0; i < 3; ++i) {
       const std::vector<SongPlan::Span> quiet{{0, 12}, {40, 56}};
       const MadeSong made =
           MakeSong({.seed = first_seed + 10 + i, .seconds = 80, .without_drums = quiet});
-      bench::JudgeSong(scheduler, "made, an intro and a break", made.mono, share);
+      bench::JudgeSong(queue, "made, an intro and a break", made.mono, share);
     }
     for (const std::string& path : songs) {
-      bench::JudgeSong(scheduler, std::filesystem::path(path).stem(),
+      bench::JudgeSong(queue, std::filesystem::path(path).stem(),
                        ToModelRate(DecodeAudioFile(path)), share);
     }
   }
